@@ -1,0 +1,33 @@
+# Errors and warnings that say which specimen, at which stage, and what to do.
+
+#' Stop with a condition that names specimen, stage and remedy
+#'
+#' @param problem What is wrong, one sentence, plain text.
+#' @param remedy What the user can do about it, one sentence.
+#' @param stage Where it happened: "reading", "landmarks", "curvature", ...
+#' @param id Identifier of the specimen, where there is one.
+#' @param class Further class in front of `crestline_error`.
+#' @param call The call to blame.
+#' @return Never returns; the condition carries `id`, `stage`, `problem`, `remedy`.
+#' @noRd
+crestline_abort <- function(problem, remedy, stage, id = NULL, class = NULL,
+                            call = rlang::caller_env()) {
+  rlang::abort(
+    condition_text(problem, remedy, stage, id), class = c(class, "crestline_error"),
+    id = id, stage = stage, problem = problem, remedy = remedy, call = call
+  )
+}
+
+#' Warn with the same parts as [crestline_abort()]
+#' @noRd
+crestline_warn <- function(problem, remedy, stage, id = NULL, class = NULL) {
+  rlang::warn(
+    condition_text(problem, remedy, stage, id), class = c(class, "crestline_warning"),
+    id = id, stage = stage, problem = problem, remedy = remedy
+  )
+}
+
+condition_text <- function(problem, remedy, stage, id) {
+  where <- if (is.null(id)) stage else paste0("specimen ", id, ", ", stage)
+  c(paste0(where, ": ", problem), i = remedy)
+}

@@ -1,0 +1,4 @@
+library(testthat)
+library(crestline)
+
+test_check("crestline")
