@@ -2,6 +2,7 @@
 #include <Rcpp.h>
 
 #include "mesh_topology.h"
+#include "plot_render.h"
 
 using namespace Rcpp;
 
@@ -31,4 +32,15 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
   return List::create(_["twin"] = twin, _["piece"] = from_one(t.piece), _["pieces"] = t.pieces,
                       _["border_edges"] = t.border_edges,
                       _["nonmanifold_edges"] = t.nonmanifold_edges);
+}
+
+// [[Rcpp::export]]
+List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int width, int height,
+                     int samples) {
+  std::vector<int> corners = from_zero(it);
+  crestline::Picture p = crestline::render_mesh(xyz.begin(), rgb.begin(), corners.data(), it.ncol(),
+                                                width, height, samples);
+  NumericVector rgba(p.rgba.begin(), p.rgba.end());
+  rgba.attr("dim") = IntegerVector::create(height, width, 4);
+  return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
 }
