@@ -14,7 +14,9 @@
 #' @param points Whether to draw the curve's points.
 #' @param width Line width.
 #' @param landmarks Whether to draw the specimen's landmarks.
-#' @param engine,... As in [plot.specimen()], which the rest is passed to: `view`, `curvature`, `radius`, `legend`, `main`.
+#' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
+#' @param engine,... As in [plot.specimen()], which the rest is passed to: `view`, `curvature`, `radius`, `main`, and the
+#'   settings of the picture: `around = x$path` shows the curve from near.
 #' @return The scene of [draw_surface()], invisibly.
 #' @examples
 #' \donttest{
@@ -28,15 +30,29 @@ plot.curve <- function(x, specimen, ...) plot_curves(list(x), specimen, ...)
 #' @export
 plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL, band = TRUE,
                         points = TRUE, width = 2.5, landmarks = FALSE,
-                        engine = if (interactive()) "rgl" else "picture", ...) {
+                        engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
   curves <- check_curves(curves)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, ...)
-  colour <- if (is.null(colour)) curve_colours(curves) else rep_len(colour, length(curves))
+  scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
+  key <- curve_key(curves, colour)
   for (i in seq_along(curves)) {
-    scene <- draw_curve(scene, curves[[i]], specimen$mesh, colour[i], band, points, width)
+    scene <- draw_curve(scene, curves[[i]], specimen$mesh, key$colours[i], band, points, width)
+  }
+  if (legend && engine == "picture" && length(key$names)) {
+    on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8))
   }
   invisible(scene)
+}
+
+# The colour of each curve, and what the legend says of them: colours named by type, or by curve where the user chose them.
+curve_key <- function(curves, colour, ridge = "#A0002A", valley = "#16218C", plane = "#202020") {
+  if (!is.null(colour)) {
+    colours <- rep_len(colour, length(curves))
+    return(list(colours = colours, names = stats::setNames(colours, names(curves))[!is.null(names(curves))]))
+  }
+  of_type <- c(ridge = ridge, valley = valley, plane = plane)
+  type <- vapply(curves, function(curve) curve$type, "", USE.NAMES = FALSE)
+  list(colours = unname(of_type[type]), names = of_type[names(of_type) %in% type])
 }
 
 draw_curve <- function(scene, curve, mesh, colour, band, points, width) {
@@ -45,7 +61,7 @@ draw_curve <- function(scene, curve, mesh, colour, band, points, width) {
     if (nrow(sides$left) > 1) scene <- draw_band(scene, sides$left, sides$right, colour)
   }
   scene <- draw_lines(scene, curve$path, colour, width, halo = "white")
-  if (points) scene <- draw_points(scene, curve$points, colour, size = 0.35 * width, halo = "white")
+  if (points) scene <- draw_points(scene, curve$points, colour, size = 0.28 * width, halo = "white")
   scene
 }
 
@@ -86,11 +102,6 @@ point_normals <- function(mesh, points) {
 
 cross_rows <- function(a, b) {
   cbind(a[, 2] * b[, 3] - a[, 3] * b[, 2], a[, 3] * b[, 1] - a[, 1] * b[, 3], a[, 1] * b[, 2] - a[, 2] * b[, 1])
-}
-
-curve_colours <- function(curves) {
-  of_type <- c(ridge = "#A0002A", valley = "#16218C", plane = "#202020")
-  unname(of_type[vapply(curves, function(curve) curve$type, "")])
 }
 
 check_curves <- function(curves, call = rlang::caller_env()) {

@@ -17,13 +17,15 @@
 #' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
 #' @references The paper, Fig. 3; see [crestline-package].
 #' @export
-plot_panel <- function(x, points = TRUE, grid = c(150, 100), palette = grDevices::hcl.colors(60, "YlOrBr", rev = TRUE),
-                       contours = 8, colour = "black", main = NULL, ...) {
+plot_panel <- function(x, points = TRUE, grid = c(150, 100), palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
+                       contours = 8, colour = "#16218C", main = NULL, ...) {
   check_class(x, "curve", "x", "ridge_curve()")
   panel <- panel_grid(x, grid)
   if (is.null(main)) main <- paste0(x$type, ", ", x$from, " to ", x$to)
-  graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, main = main, las = 1, bty = "n",
+  graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE, main = main,
                   xlab = "s, along the reference path", ylab = "d, distance from it", ...)
+  graphics::axis(1, pretty(panel$s))
+  graphics::axis(2, pretty(panel$d), pos = min(panel$s), las = 1)
   if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = ".", col = "#00000060")
   graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE, drawlabels = FALSE, col = "#8B5A2B")
   graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
@@ -58,7 +60,7 @@ draw_panel_ridge <- function(x, colour, multiple = 2, opacity = 0.25) {
   if (sum(known) > 1) {
     se <- stats::approx(share(x$points$s)[known], x$points$se[known], share(x$line$s), rule = 2, ties = mean)$y
     graphics::polygon(c(x$line$s, rev(x$line$s)), c(x$line$alpha + multiple * se, rev(x$line$alpha - multiple * se)),
-                      col = grDevices::adjustcolor(colour, opacity), border = NA)
+                      col = grDevices::adjustcolor(colour, opacity), border = colour, lwd = 0.7)
   }
   graphics::lines(x$line$s, x$line$alpha, col = colour, lwd = 2.5)
 }

@@ -9,7 +9,8 @@
 #' @param sharpness Exponent of the highlights (Blinn-Phong): greater is smaller.
 #' @param resolution Pixels per inch of the surface's raster: that of the device, at least 150.
 #' @param samples The samples in a pixel are this number squared.
-#' @param margin Room about the surface, a share of its size.
+#' @param margin Room about what is shown, a share of its size.
+#' @param around Points (as `x` of [draw_lines()]) that the picture is to hold, NULL for the whole mesh.
 #' @param tolerance How far behind the surface a point may lie and still be seen, a share of the diagonal of the mesh's box.
 #' @return A list of these settings.
 #' @examples
@@ -18,7 +19,7 @@
 picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.4, gloss = 0.1,
                              sharpness = 20,
                              resolution = max(150, grDevices::dev.size("px") / grDevices::dev.size("in")),
-                             samples = 3, margin = 0.02, tolerance = 0.005) {
+                             samples = 3, margin = 0.02, around = NULL, tolerance = 0.005) {
   if (!is.numeric(light) || length(light) != 3 || any(!is.finite(light)) || all(light == 0)) {
     crestline_abort("`light` is not a direction.", "Give three finite numbers, not all 0.", stage = "picture")
   }
@@ -27,12 +28,14 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
        gloss = check_number(gloss, "gloss", 0, 1),
        sharpness = check_number(sharpness, "sharpness", 0),
        resolution = check_number(resolution, "resolution", 1), samples = check_count(samples, "samples"),
-       margin = check_number(margin, "margin", 0), tolerance = check_number(tolerance, "tolerance", 0))
+       margin = check_number(margin, "margin", 0),
+       around = if (!is.null(around)) point_matrix(around), tolerance = check_number(tolerance, "tolerance", 0))
 }
 
 picture_surface <- function(mesh, colour, rotation, settings) {
   turned <- rotation %*% mesh$vb[1:3, , drop = FALSE]
-  frame <- picture_frame(turned, settings)
+  shown <- if (is.null(settings$around)) turned else rotation %*% t(settings$around)
+  frame <- picture_frame(shown, settings)
   xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel, (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
   rgb <- shade_vertices(colour, rotation %*% mesh$normals[1:3, , drop = FALSE], settings)
   seen <- cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
@@ -44,7 +47,7 @@ picture_surface <- function(mesh, colour, rotation, settings) {
             class = "picture_scene")
 }
 
-# A new plot, equal in scale, that just holds the turned vertices; its limits, and the size of a pixel in their unit.
+# A new plot, equal in scale, that just holds the turned points (3 x n); its limits, and the size of a pixel in their unit.
 picture_frame <- function(turned, settings) {
   limits <- apply(turned[1:2, , drop = FALSE], 1, range)
   room <- settings$margin * max(limits[2, ] - limits[1, ])

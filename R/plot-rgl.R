@@ -2,9 +2,9 @@
 
 rgl_surface <- function(mesh, colour, rotation, ...) {
   if (rgl::cur3d() == 0) rgl::open3d()
-  mesh$material <- NULL
   look <- utils::modifyList(list(specular = "#202020", polygon_offset = 1), list(...))
-  id <- do.call(rgl::shade3d, c(list(mesh, color = colour, meshColor = "vertices"), look))
+  corners <- list(t(mesh$vb[1:3, , drop = FALSE]), normals = t(mesh$normals[1:3, , drop = FALSE]), indices = mesh$it)
+  id <- do.call(rgl::triangles3d, c(corners, list(color = colour), look))
   rgl::par3d(userMatrix = rbind(cbind(rotation, 0), c(0, 0, 0, 1)), FOV = 15)
   rgl::aspect3d("iso")
   structure(list(ids = unclass(id)), class = "rgl_scene")
