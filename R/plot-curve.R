@@ -21,7 +21,10 @@
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
-#' corners <- Rvcg::humface.lm[c("chR", "chL"), , drop = FALSE][0, ]
+#' corners <- rbind(chR = Rvcg::humface.lm[6, ], chL = Rvcg::humface.lm[7, ])
+#' face <- specimen(humface, corners, id = "humface")
+#' curve <- ridge_curve(face, "chR", "chL", "valley", radius = 5, width = 15, n = 11)
+#' plot(curve, face, "plain", engine = "picture")
 #' }
 #' @export
 plot.curve <- function(x, specimen, ...) plot_curves(list(x), specimen, ...)
@@ -35,8 +38,11 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
-  for (i in seq_along(curves)) {
-    scene <- draw_curve(scene, curves[[i]], specimen$mesh, key$colours[i], band, points, width)
+  for (i in seq_along(curves)[band]) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+  if (engine == "picture") for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
+  for (i in seq_along(curves)) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
+  for (i in seq_along(curves)[points]) {
+    scene <- draw_points(scene, curves[[i]]$points, key$colours[i], size = 0.28 * width, halo = "white")
   }
   if (legend && engine == "picture" && length(key$names)) {
     on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8))
@@ -55,14 +61,10 @@ curve_key <- function(curves, colour, ridge = "#A0002A", valley = "#16218C", pla
   list(colours = unname(of_type[type]), names = of_type[names(of_type) %in% type])
 }
 
-draw_curve <- function(scene, curve, mesh, colour, band, points, width) {
-  if (band) {
-    sides <- band_sides(curve, mesh)
-    if (nrow(sides$left) > 1) scene <- draw_band(scene, sides$left, sides$right, colour)
-  }
-  scene <- draw_lines(scene, curve$path, colour, width, halo = "white")
-  if (points) scene <- draw_points(scene, curve$points, colour, size = 0.28 * width, halo = "white")
-  scene
+draw_curve_band <- function(scene, curve, mesh, colour) {
+  sides <- band_sides(curve, mesh)
+  if (nrow(sides$left) < 2) return(scene)
+  draw_band(scene, sides$left, sides$right, colour)
 }
 
 # The two sides of the band along the path: `multiple` standard errors across it, along the surface.

@@ -23,9 +23,11 @@ plot_panel <- function(x, points = TRUE, grid = c(150, 100), palette = grDevices
   panel <- panel_grid(x, grid)
   if (is.null(main)) main <- paste0(x$type, ", ", x$from, " to ", x$to)
   graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE, main = main,
-                  xlab = "s, along the reference path", ylab = "d, distance from it", ...)
+                  xlab = "s, along the reference path", ylab = "", ...)
   graphics::axis(1, pretty(panel$s))
   graphics::axis(2, pretty(panel$d), pos = min(panel$s), las = 1)
+  graphics::text(min(panel$s) - 3 * diff(graphics::grconvertX(0:1, "lines", "user")), mean(range(panel$d)),
+                 "d, distance from it", srt = 90, xpd = NA)
   if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = ".", col = "#00000060")
   graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE, drawlabels = FALSE, col = "#8B5A2B")
   graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")

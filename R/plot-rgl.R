@@ -1,17 +1,17 @@
 # The same drawing in an rgl scene, which can be turned.
 
-rgl_surface <- function(mesh, colour, rotation, ...) {
+rgl_surface <- function(mesh, colour, rotation, ..., zoom = 0.7) {
   if (rgl::cur3d() == 0) rgl::open3d()
   look <- utils::modifyList(list(specular = "#202020", polygon_offset = 1), list(...))
   corners <- list(t(mesh$vb[1:3, , drop = FALSE]), normals = t(mesh$normals[1:3, , drop = FALSE]), indices = mesh$it)
   id <- do.call(rgl::triangles3d, c(corners, list(color = colour), look))
-  rgl::par3d(userMatrix = rbind(cbind(rotation, 0), c(0, 0, 0, 1)), FOV = 15)
+  rgl::par3d(userMatrix = rbind(cbind(rotation, 0), c(0, 0, 0, 1)), FOV = 15, zoom = zoom)
   rgl::aspect3d("iso")
-  structure(list(ids = unclass(id)), class = "rgl_scene")
+  structure(list(ids = as.vector(unclass(id)), diagonal = mesh_diagonal(mesh)), class = "rgl_scene")
 }
 
 add_ids <- function(scene, ids) {
-  scene$ids <- c(scene$ids, unclass(ids))
+  scene$ids <- c(scene$ids, as.vector(unclass(ids)))
   invisible(scene)
 }
 
@@ -23,9 +23,9 @@ draw_lines.rgl_scene <- function(scene, x, colour = "black", width = 2, halo = N
 #' @export
 draw_points.rgl_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
   x <- point_matrix(x)
-  scene <- add_ids(scene, rgl::points3d(x, color = colour, size = 6 * size, lit = FALSE))
+  scene <- add_ids(scene, rgl::spheres3d(x, radius = size * scene$diagonal / 250, color = colour))
   if (is.null(labels)) return(invisible(scene))
-  add_ids(scene, rgl::text3d(x, texts = labels, color = colour, cex = 0.7 * size, adj = c(-0.2, 0.5)))
+  add_ids(scene, rgl::text3d(x, texts = labels, color = colour, cex = 0.7 * size, adj = c(-0.5, 0.5), lit = FALSE, depth_test = "always"))
 }
 
 #' @export

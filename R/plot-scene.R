@@ -15,9 +15,9 @@
 #'   turns the mesh so that x points right, y up and z to the viewer.
 #' @param engine "picture" or "rgl".
 #' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
-#'   [rgl::material3d()].
+#'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].
 #' @return `draw_surface()`: a scene, of class "picture_scene" (a list: `rotation` 3 x 3, `pixel`, the size of a pixel in the mesh's unit, `depth`, a matrix of
-#'   what the pixels see, and how they map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects). `draw_lines()`,
+#'   what the pixels see, and how they map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects, `diagonal` of the mesh's box). `draw_lines()`,
 #'   `draw_points()`, `draw_band()`: the scene, with the rgl `ids` added, invisibly. `visible_points()`: logical, which points of `x` are seen.
 #' @examples
 #' ball <- Rvcg::vcgSphere(3)
@@ -45,7 +45,7 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) UseMethod("draw_lines")
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()] ("rgl": times 6 pixels).
+#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/125 of the diagonal of the mesh's box wide at size 1.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
