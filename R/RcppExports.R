@@ -13,3 +13,7 @@ cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }
 
+cpp_render_mesh <- function(xyz, rgb, it, width, height, samples) {
+    .Call(`_crestline_cpp_render_mesh`, xyz, rgb, it, width, height, samples)
+}
+
