@@ -44,7 +44,7 @@ test_that("categories are a quarter wide, half of that at the ends", {
 test_that("colours are the categories' own at their centres", {
   expect_equal(shape_colours(c(-1, -0.5, 0, 0.5, 1)), c("#00C800", "#3C50FF", "#FFFFFF", "#FFE600", "#E60000"))
   expect_equal(shape_colours(c(NA, 0), missing = "#123456"), c("#123456", "#FFFFFF"))
-  expect_equal(shape_colours(0.125), "#FFFBD4")
+  expect_equal(shape_colours(0.125), "#FFFBD3")
 })
 
 test_that("what is no shape index is refused", {
