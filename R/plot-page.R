@@ -106,7 +106,7 @@ curve_table <- function(curves) {
   name <- if (is.null(names(curves))) character(length(curves)) else names(curves)
   table <- data.frame(curve = name, kind = pick("type", as.character), from = pick("from", as.character),
                       to = pick("to", as.character), length = pick("length", as.numeric), strength = pick("strength", as.numeric))
-  table$se <- vapply(curves, function(curve) stats::median(curve$points$se, na.rm = TRUE), numeric(1), USE.NAMES = FALSE)
+  table$se <- pick("se", as.numeric)
   table$converged <- pick("converged", as.logical)
   table[if (all(name == "")) -1 else TRUE]
 }

@@ -107,8 +107,3 @@ point_matrix <- function(x, call = rlang::caller_env()) {
 with_normals <- function(mesh) {
   if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
 }
-
-# Length of the diagonal of the box that holds the mesh.
-mesh_diagonal <- function(mesh) {
-  sqrt(sum(apply(mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))^2))
-}
