@@ -45,7 +45,7 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) UseMethod("draw_lines")
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/125 of the diagonal of the mesh's box wide at size 1.
+#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the diagonal of the mesh's box wide at size 1.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
