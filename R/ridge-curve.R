@@ -77,7 +77,7 @@ curvature_for <- function(curvature, specimen, from, to, radius, width, reach, s
     surface <- walkable(specimen)
     ends <- path_ends(specimen, surface, from, to)
     span <- cut_axis(surface, ends)$span
-    near_segment(surface, ends, reach * span + min(width, settings$window * radius))
+    near_segment(surface, ends, reach * span + radius + min(width, settings$window * radius))
   }
   known_curvature(curvature, specimen, radius, vertices(), threads, order = settings$order)
 }
@@ -114,7 +114,7 @@ window_strength <- function(specimen, coordinates, curvature, type, keep_away, s
   value <- strength_at(curvature, type, at, if (!principal) across)
   value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, at, drop = FALSE]))] <- 0
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
-  cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
+  cap <- settings$cap * stats::quantile(value[coordinates$inside], settings$cap_quantile, na.rm = TRUE, names = FALSE)
   own <- if (type == "ridge") curvature$direction2 else curvature$direction1
   list(value = pmin(value, cap), cap = cap, direction = if (principal) own[at, , drop = FALSE] else across)
 }
