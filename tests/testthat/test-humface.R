@@ -61,3 +61,14 @@ test_that("left and right landmarks mirror each other: face to 1 mm, ear to 2 mm
   expect_lt(max(asymmetry[!ear]), 1)
   expect_lt(max(asymmetry[ear]), 2)
 })
+
+test_that("landmarks of valleys stand in valleys, those of ridges on ridges", {
+  points <- humface_points()
+  mesh <- Rvcg::vcgUpdateNormals(humface_mesh()$humface)
+  nearest <- apply(points, 1, function(p) which.min(colSums((mesh$vb[1:3, ] - p)^2)))
+  bend <- curvature(mesh, radius = 5, vertices = unname(nearest))
+  mean_curvature <- stats::setNames((bend$k1 + bend$k2)[nearest] / 2, rownames(points))
+  valleys <- c("acL", "acR", "exL", "exR", "enL", "enR", "chL", "chR", "st", "sl")
+  expect_true(all(mean_curvature[valleys] > 0))
+  expect_true(all(mean_curvature[c("pn", "ls", "cphL", "cphR", "li", "gn")] < 0))
+})
