@@ -1,6 +1,7 @@
 # The main job of `make demo`: ridges and valleys of one real face, from landmarks to table, CSV, picture and page.
 # Run from anywhere, crestline being installed: Rscript tools/demo.R [folder for the output, default demo-output]
 
+options(rgl.useNULL = TRUE) # no display is needed
 library(crestline)
 
 demo_file <- function(name) system.file("extdata", name, package = "crestline", mustWork = TRUE)
@@ -23,17 +24,17 @@ demo_curve <- function(row, face) {
 
 # All curves, with seconds and warnings, and a line for each as it is done.
 estimate_curves <- function(rows, face) {
-  cat(sprintf("%-24s %-7s %7s %9s %7s %10s %8s\n", "curve", "kind", "length", "strength", "error",
-              "converged", "seconds"))
+  cat(sprintf("%-24s %-7s %7s %9s %7s %10s %11s %8s\n", "curve", "kind", "length", "strength", "error",
+              "converged", "determined", "seconds"))
   warned <- character()
   curves <- lapply(split(rows, seq_len(nrow(rows))), function(row) {
     seconds <- system.time(curve <- withCallingHandlers(demo_curve(row, face), warning = function(w) {
-      warned <<- c(warned, paste0(row$curve, ": ", conditionMessage(w)))
+      warned <<- c(warned, paste0(row$curve, ": ", gsub("\n", " ", conditionMessage(w))))
       invokeRestart("muffleWarning")
     }))[["elapsed"]]
     line <- curve_row(row$curve, curve, seconds)
-    cat(sprintf("%-24s %-7s %7.1f %9.3f %7.2f %10s %8.2f\n", line$curve, line$kind, line$length, line$strength,
-                line$standard_error, line$converged, line$seconds))
+    cat(sprintf("%-24s %-7s %7.1f %9.3f %7.2f %10s %11s %8.2f\n", line$curve, line$kind, line$length, line$strength,
+                line$standard_error, line$converged, line$determined, line$seconds))
     list(curve = curve, row = line)
   })
   list(curves = stats::setNames(lapply(curves, `[[`, "curve"), rows$curve),
@@ -44,7 +45,7 @@ estimate_curves <- function(rows, face) {
 curve_row <- function(name, curve, seconds) {
   data.frame(curve = name, kind = curve$type, length = curve$length, strength = curve$strength,
              standard_error = stats::median(as.data.frame(curve)$se, na.rm = TRUE),
-             converged = curve$converged, seconds = seconds)
+             converged = curve$converged, determined = curve$determined, seconds = seconds)
 }
 
 # Every curve's points in one table.

@@ -54,11 +54,11 @@ test_that("L is the subject's own left: across x up points out of the face", {
   expect_gt(sum(out * mesh$normals[1:3, tip]), 0)
 })
 
-test_that("left and right landmarks mirror each other: face to 1 mm, ear to 2 mm", {
+test_that("left and right landmarks mirror each other: face to 1.2 mm, ear to 2 mm", {
   points <- humface_points()
   asymmetry <- row_distance(points, mirrored(points))
   ear <- grepl("^(t|oi)[LR]$", names(asymmetry))
-  expect_lt(max(asymmetry[!ear]), 1)
+  expect_lt(max(asymmetry[!ear]), 1.2)
   expect_lt(max(asymmetry[ear]), 2)
 })
 
