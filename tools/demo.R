@@ -75,7 +75,8 @@ write_picture <- function(file, curves, face, bending) {
   }
 }
 
-run_demo <- function(folder) {
+# The pictures show the shape index at `picture_radius`, in mm: between the radii of lips and of brows.
+run_demo <- function(folder, picture_radius = 7) {
   dir.create(folder, showWarnings = FALSE, recursive = TRUE)
   cat("crestline", format(utils::packageVersion("crestline")), "on Rvcg's humface\n\n")
   face <- demo_specimen()
@@ -87,7 +88,7 @@ run_demo <- function(folder) {
   files <- file.path(folder, c("curves.csv", "points.csv", "face.png", "face.html"))
   utils::write.csv(estimates$table, files[1], row.names = FALSE)
   utils::write.csv(curve_points(estimates$curves), files[2], row.names = FALSE)
-  bending <- curvature(face$mesh, radius = min(rows$radius))
+  bending <- curvature(face$mesh, radius = picture_radius)
   write_picture(files[3], estimates$curves, face, bending)
   write_page(files[4], face, estimates$curves, table = estimates$table, curvature = bending,
              view = face_view(face$landmarks), title = "Ridges and valleys of Rvcg's humface")
