@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Runs a command on current R (4.5), in a copy of the project inside a Debian trixie chroot:
 #   tools/chroot.sh make test
+#   CRESTLINE_SUITE=bookworm tools/chroot.sh make test     (R 4.2 on a bare machine)
 # The chroot is made once and kept in $CRESTLINE_CACHE. It starts with make and git only: the project's own
 # set-up does the rest. Everything is mounted in a private namespace, which dies with this script: nothing to unmount.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/steps.sh
 
-SUITE=trixie
+SUITE=${CRESTLINE_SUITE:-trixie}
 CACHE=${CRESTLINE_CACHE:-/var/tmp/crestline}
 ROOT=$CACHE/$SUITE
 
@@ -72,7 +73,7 @@ if [ -z "${CRESTLINE_NAMESPACE:-}" ]; then
   exec unshare --mount --propagation private --pid --fork --kill-child env CRESTLINE_NAMESPACE=yes tools/chroot.sh "$@"
 fi
 mkdir -p "$CACHE"
-exec 9> "$CACHE/lock"
+exec 9> "$CACHE/$SUITE.lock"
 flock --nonblock 9 || { say "==> waiting for another run in $CACHE"; flock 9; }
 [ -d "$ROOT" ] || make_chroot
 mount_all

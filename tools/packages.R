@@ -6,8 +6,8 @@
 # Suggested packages whose current versions ask for a newer R than crestline does.
 needs_r <- c(geomorph = "4.4.0", RRPP = "4.4.0")
 
-read_requirements <- function(file = "DESCRIPTION") {
-  fields <- read.dcf(file, c("Imports", "LinkingTo", "Suggests"))
+read_requirements <- function(kinds = c("Imports", "LinkingTo", "Suggests")) {
+  fields <- read.dcf("DESCRIPTION", kinds)
   entry <- trimws(unlist(strsplit(fields[!is.na(fields)], ",")))
   entry <- unique(entry[nzchar(entry)])
   version <- ifelse(grepl(">=", entry), sub(".*>=\\s*([0-9.-]+).*", "\\1", entry), "0")
@@ -56,17 +56,15 @@ writable_library <- function() {
   library_path
 }
 
+# Fails where a package that crestline imports cannot be had, or one that CRAN offers cannot be installed.
 install_missing <- function(package) {
-  index <- with_cran()
-  absent <- setdiff(package, rownames(index))
-  if (length(absent)) {
-    stop(R.version.string, " is not offered by CRAN: ", paste(absent, collapse = ", "))
-  }
+  offered <- intersect(package, rownames(with_cran()))
   lib <- writable_library()
   .libPaths(c(lib, .libPaths()))
-  utils::install.packages(package, lib = lib, INSTALL_opts = "--strip")
-  still <- missing_packages()
-  if (length(still)) stop("could not be installed: ", paste(still, collapse = ", "))
+  utils::install.packages(offered, lib = lib, INSTALL_opts = "--strip")
+  needed <- c(offered, read_requirements(c("Imports", "LinkingTo"))$package)
+  failed <- intersect(missing_packages(), needed)
+  if (length(failed)) stop("could not be installed: ", paste(failed, collapse = ", "))
 }
 
 mode <- commandArgs(TRUE)[1]

@@ -60,7 +60,8 @@ install_from_cran() {
   local flags
   flags=$(mktemp)
   printf '%s = -g0 -O2\n' CFLAGS CXXFLAGS CXX11FLAGS CXX14FLAGS CXX17FLAGS > "$flags"
-  step "from CRAN, $(cores) cores: $* (Rvcg alone takes 4 to 8 minutes)" \
+  case " $* " in *" Rvcg "*) say "    Rvcg has to be compiled: about 5 minutes on two free cores" ;; esac
+  step "from CRAN, on $(cores) cores: $*" \
     env -u MAKELEVEL -u MFLAGS MAKEFLAGS="-j$(cores)" R_MAKEVARS_USER="$flags" Rscript tools/packages.R install
   rm -f "$flags"
 }
@@ -73,5 +74,9 @@ if [ -n "$missing" ] && [ "$has_apt" = yes ]; then
   install_from_debian
   missing=$(Rscript tools/packages.R missing)
 fi
-[ -z "$missing" ] || install_from_cran $missing
-say "    all there: $(Rscript -e 'cat(R.version.string)'), $((SECONDS - begun)) s"
+if [ -n "$missing" ]; then
+  install_from_cran $missing
+  missing=$(Rscript tools/packages.R missing)
+  [ -z "$missing" ] || say "    note: suggested, but not offered for this R: $missing"
+fi
+say "    ready: $(Rscript -e 'cat(R.version.string)'), $((SECONDS - begun)) s"

@@ -8,13 +8,21 @@ die() { printf 'crestline: %s\n' "$*" >&2; exit 1; }
 
 cores() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1; }
 
-# The last line of a log that says something, cut to the width of a screen.
-last_line() { tr '\r' '\n' < "$1" | grep -v '^[[:space:]]*$' | tail -n 1 | cut -c 1-90; }
+# Where a command has got to, from its log: the file it compiles, or the last line that is not a compiler's remark.
+sign_of_life() {
+  local line
+  line=$(tr '\r' '\n' < "$1" | grep -E '^(g\+\+|gcc|\*|[A-Z]| {2,4}[^ ])' |
+    grep -vE '^ *[0-9]* *\||^In |^ .*(warning|note|required)' | tail -n 1)
+  case $line in
+    *" -c "*) echo "compiling $(sed -E 's/.* -c ([^ ]+).*/\1/' <<<"$line"), $(grep -c -- ' -c ' "$1") files so far" ;;
+    *) cut -c 1-90 <<<"$line" ;;
+  esac
+}
 
 heartbeat() {
   local log=$1 begun=$SECONDS
   while sleep "$HEARTBEAT_SECONDS" </dev/null >/dev/null 2>&1; do
-    printf '      %4d s  %s\n' $((SECONDS - begun)) "$(last_line "$log")"
+    printf '      %4d s  %s\n' $((SECONDS - begun)) "$(sign_of_life "$log")"
   done
 }
 
