@@ -10,6 +10,38 @@ Rcpp::Rostream<true>&  Rcpp::Rcout = Rcpp::Rcpp_cout_get();
 Rcpp::Rostream<false>& Rcpp::Rcerr = Rcpp::Rcpp_cerr_get();
 #endif
 
+// cpp_curvature
+List cpp_curvature(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, List settings, int threads);
+RcppExport SEXP _crestline_cpp_curvature(SEXP xyzSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    Rcpp::traits::input_parameter< int >::type threads(threadsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature(xyz, it, targets, settings, threads));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_curvature_variance
+NumericVector cpp_curvature_variance(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix jacobian, NumericVector sigma, List settings);
+RcppExport SEXP _crestline_cpp_curvature_variance(SEXP xyzSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP jacobianSEXP, SEXP sigmaSEXP, SEXP settingsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type jacobian(jacobianSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type sigma(sigmaSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_variance(xyz, it, targets, directions, jacobian, sigma, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -24,6 +56,8 @@ END_RCPP
 }
 
 static const R_CallMethodDef CallEntries[] = {
+    {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
+    {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
     {NULL, NULL, 0}
 };
