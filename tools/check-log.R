@@ -11,6 +11,7 @@ known <- list(
 )
 
 read_remarks <- function(log) {
+  log <- grep("^Status: ", log, value = TRUE, invert = TRUE)
   starts <- grep("^\\* ", log)
   blocks <- split(log, cumsum(seq_along(log) %in% starts))
   spoken <- blocks[vapply(blocks, function(block) any(grepl("(^| )(NOTE|WARNING|ERROR)$", block)), NA)]

@@ -41,9 +41,10 @@ carry_over() {
   chmod +x "$target/usr/sbin/policy-rc.d"
 }
 
+# One whose set-up was cut short is made anew: it may hold half-installed packages.
 make_chroot() {
   local fresh=$ROOT.fresh
-  rm -rf --one-file-system "$fresh"
+  rm -rf --one-file-system "$fresh" "$ROOT"
   step "debootstrap" install_debootstrap
   step "Debian $SUITE from $(mirror)" debootstrap --variant=minbase --include=make,git "$SUITE" "$fresh" "$(mirror)"
   mv "$fresh" "$ROOT"
@@ -67,6 +68,12 @@ copy_project() {
   fi
 }
 
+inside() {
+  chroot "$ROOT" env -u R_LIBS -u R_LIBS_USER -u CRESTLINE_LIB -u CRESTLINE_SHARED -u MAKEFLAGS -u MAKELEVEL \
+    PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TMPDIR=/tmp LC_ALL=C.UTF-8 \
+    sh -c 'cd /build/crestline && exec "$@"' sh "$@" 9>&-
+}
+
 [ $# -gt 0 ] || die "usage: tools/chroot.sh COMMAND..."
 if [ -z "${CRESTLINE_NAMESPACE:-}" ]; then
   require_root
@@ -75,11 +82,10 @@ fi
 mkdir -p "$CACHE"
 exec 9> "$CACHE/$SUITE.lock"
 flock --nonblock 9 || { say "==> waiting for another run in $CACHE"; flock 9; }
-[ -d "$ROOT" ] || make_chroot
+[ -e "$ROOT/ready" ] || make_chroot
 mount_all
 carry_over "$ROOT"
 copy_project
+[ -e "$ROOT/ready" ] || { inside tools/setup.sh; touch "$ROOT/ready"; }
 say "==> in Debian $SUITE: $*"
-chroot "$ROOT" env -u R_LIBS -u R_LIBS_USER -u CRESTLINE_LIB -u CRESTLINE_SHARED -u MAKEFLAGS -u MAKELEVEL \
-  PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TMPDIR=/tmp LC_ALL=C.UTF-8 \
-  sh -c 'cd /build/crestline && exec "$@"' sh "$@" 9>&-
+inside "$@"
