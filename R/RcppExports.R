@@ -13,3 +13,15 @@ cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }
 
+cpp_plane_cuts <- function(xyz, it, twin, from, to, normals, sides, reach, strength) {
+    .Call(`_crestline_cpp_plane_cuts`, xyz, it, twin, from, to, normals, sides, reach, strength)
+}
+
+cpp_plane_path <- function(xyz, it, twin, from, to, normal, side, reach) {
+    .Call(`_crestline_cpp_plane_path`, xyz, it, twin, from, to, normal, side, reach)
+}
+
+cpp_level_path <- function(xyz, it, twin, from_face, to_face, level, towards) {
+    .Call(`_crestline_cpp_level_path`, xyz, it, twin, from_face, to_face, level, towards)
+}
+

@@ -1,0 +1,53 @@
+# Natural colour of the vertices: kept from the mesh, or taken from an image.
+
+# One "#RRGGBB" a vertex, or NULL. rgl and Rvcg keep one colour a vertex, a corner, or for the whole mesh.
+vertex_colours <- function(mesh) {
+  colour <- as.vector(mesh$material$color)
+  n <- ncol(mesh$vb)
+  if (length(colour) == n) return(colour)
+  if (length(mesh$it) && length(colour) == length(mesh$it)) {
+    by_vertex <- rep(NA_character_, n)
+    by_vertex[mesh$it[length(colour):1]] <- rev(colour)
+    return(ifelse(is.na(by_vertex), "#BFBFBF", by_vertex))
+  }
+  if (length(colour) == 1) rep(colour, n)
+}
+
+# n x 3 numbers, 0 to 255, or 0 to 1 where none is greater, as hex colours; not numbers give grey.
+colour_hex <- function(rgb, top = if (max(rgb, 0, na.rm = TRUE) > 1) 255 else 1) {
+  rgb <- pmin(pmax(rgb / top, 0), 1)
+  rgb[!is.finite(rgb)] <- 0.75
+  grDevices::rgb(rgb[, 1], rgb[, 2], rgb[, 3])
+}
+
+#' Colours of an image at texture co-ordinates
+#'
+#' @param image h x w x channels array of numbers in 0 to 1 (1 or 2 channels: grey), first row on top.
+#' @param uv n x 2 matrix; (0, 0) is the lower left corner, (1, 1) the upper right; the image repeats beyond.
+#' @return n hex colours, those of the nearest pixels.
+#' @noRd
+sample_image <- function(image, uv) {
+  if (length(dim(image)) == 2) dim(image) <- c(dim(image), 1)
+  wrapped <- ifelse(uv >= 0 & uv <= 1, uv, uv - floor(uv))
+  column <- pmin(floor(wrapped[, 1] * dim(image)[2]) + 1, dim(image)[2])
+  row <- pmin(floor((1 - wrapped[, 2]) * dim(image)[1]) + 1, dim(image)[1])
+  channel <- if (dim(image)[3] >= 3) 1:3 else c(1, 1, 1)
+  colour_hex(vapply(channel, function(i) image[cbind(row, column, i)], numeric(nrow(uv))) |> matrix(ncol = 3), top = 1)
+}
+
+# A jpg or png as an array, or NULL with a warning: a picture is never worth a specimen.
+read_image <- function(file, id) {
+  reader <- switch(tolower(tools::file_ext(file)), jpg = , jpeg = "jpeg", png = "png", "none")
+  problem <- if (!file.exists(file)) "the texture image %s is not there" else
+    if (reader == "none") "the texture image %s is neither jpg nor png" else
+      if (!requireNamespace(reader, quietly = TRUE)) paste0("the texture image %s needs the package ", reader)
+  image <- if (is.null(problem)) tryCatch(
+    if (reader == "jpeg") jpeg::readJPEG(file) else png::readPNG(file), error = function(e) NULL
+  )
+  if (is.null(image)) {
+    if (is.null(problem)) problem <- "the texture image %s cannot be read"
+    crestline_warn(paste0(sprintf(problem, basename(file)), "; the specimen has no natural colour."),
+                   "Put it beside the .mtl file, convert it, or install what is missing.", stage = "reading", id = id)
+  }
+  image
+}
