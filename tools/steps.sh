@@ -12,7 +12,7 @@ cores() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1; 
 sign_of_life() {
   local line
   line=$(tr '\r' '\n' < "$1" | grep -E '^(g\+\+|gcc|\*|[A-Z]| {2,4}[^ ])' |
-    grep -vE '^ *[0-9]* *\||^In |^ .*(warning|note|required)' | tail -n 1)
+    grep -vE '^ *[0-9]* *\||^In |:[0-9]+:|^ .*(warning|note|required)' | tail -n 1)
   case $line in
     *" -c "*) echo "compiling $(sed -E 's/.* -c ([^ ]+).*/\1/' <<<"$line"), $(grep -c -- ' -c ' "$1") files so far" ;;
     *) cut -c 1-90 <<<"$line" ;;
