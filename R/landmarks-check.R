@@ -74,11 +74,11 @@ check_landmarks <- function(landmarks, mesh, id, tolerance, midline) {
 refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
   off <- which(away > tolerance)
   off <- off[order(-away[off])]
-  fit <- fitting_change(landmarks, mesh, tolerance)
+  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh, tolerance)
   named <- paste0(rownames(landmarks)[off], " (by ", signif(away[off], 3), ")")
   if (!is.null(fit)) {
-    refuse_landmarks(sprintf("the landmarks do not fit the surface: %s off it; they would fit %s.", shorten(named), fit),
-                     sprintf("Change the landmarks so: they would lie on the mesh %s.", fit), id)
+    refuse_landmarks(sprintf("the landmarks are in another unit or frame than the mesh: off it are %s.", shorten(named)),
+                     sprintf("They would lie on it %s: change them so.", fit), id)
   }
   refuse_landmarks(
     sprintf("off the surface by more than %s: %s.", signif(tolerance, 3), shorten(named)),
@@ -92,13 +92,14 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
   changes <- c(lapply(c(factors, 1 / factors), rep, 3), list(c(-1, -1, 1)))
   words <- c(paste("multiplied by", factors), paste("divided by", factors), "with x and y negated (LPS and RAS)")
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
+  if (nrow(given) < 2) return(NULL)
   misfit <- vapply(changes, function(change) {
     moved <- sweep(given, 2, change, "*")
     away <- sqrt(rowSums((as.matrix(surface_points(mesh, moved)[1:3]) - moved)^2))
     spread <- sqrt(sum(apply(moved, 2, stats::var)))
     if (stats::median(away) <= min(tolerance, spread / 2)) stats::median(away) / spread else Inf
   }, 0)
-  if (nrow(given) > 1 && any(is.finite(misfit))) words[which.min(misfit)]
+  if (any(is.finite(misfit))) words[which.min(misfit)]
 }
 
 # Positive where (left, up, front) is right-handed, as in life; negative where mirrored; 0 where it

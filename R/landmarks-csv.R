@@ -37,7 +37,7 @@ refuse_csv <- function(file, reason) {
 }
 
 write_landmarks_csv <- function(x, file) {
-  table <- data.frame(name = rownames(x), x = x[, 1], y = x[, 2], z = x[, 3])
+  table <- data.frame(name = as.character(rownames(x)), x = x[, 1], y = x[, 2], z = x[, 3])
   number <- function(v) ifelse(is.na(v), "NA", format(v, digits = 15, trim = TRUE))
   table[2:4] <- lapply(table[2:4], function(v) vapply(v, number, ""))
   utils::write.csv(table, file, row.names = FALSE, quote = 1)
