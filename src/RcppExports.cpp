@@ -10,6 +10,38 @@ Rcpp::Rostream<true>&  Rcpp::Rcout = Rcpp::Rcpp_cout_get();
 Rcpp::Rostream<false>& Rcpp::Rcerr = Rcpp::Rcpp_cerr_get();
 #endif
 
+// cpp_curvature
+List cpp_curvature(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, List settings, int threads);
+RcppExport SEXP _crestline_cpp_curvature(SEXP xyzSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    Rcpp::traits::input_parameter< int >::type threads(threadsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature(xyz, it, targets, settings, threads));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_curvature_variance
+NumericVector cpp_curvature_variance(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix jacobian, NumericVector sigma, List settings);
+RcppExport SEXP _crestline_cpp_curvature_variance(SEXP xyzSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP jacobianSEXP, SEXP sigmaSEXP, SEXP settingsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type jacobian(jacobianSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type sigma(sigmaSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_variance(xyz, it, targets, directions, jacobian, sigma, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -22,9 +54,68 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_plane_cuts
+DataFrame cpp_plane_cuts(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, NumericVector strength);
+RcppExport SEXP _crestline_cpp_plane_cuts(SEXP xyzSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP strengthSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type to(toSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type strength(strengthSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_plane_cuts(xyz, it, twin, from, to, normals, sides, reach, strength));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_plane_path
+List cpp_plane_path(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericVector normal, int side, double reach);
+RcppExport SEXP _crestline_cpp_plane_path(SEXP xyzSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalSEXP, SEXP sideSEXP, SEXP reachSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type to(toSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< int >::type side(sideSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_plane_path(xyz, it, twin, from, to, normal, side, reach));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_level_path
+List cpp_level_path(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, int from_face, int to_face, NumericVector level, NumericVector towards);
+RcppExport SEXP _crestline_cpp_level_path(SEXP xyzSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP from_faceSEXP, SEXP to_faceSEXP, SEXP levelSEXP, SEXP towardsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< int >::type from_face(from_faceSEXP);
+    Rcpp::traits::input_parameter< int >::type to_face(to_faceSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type level(levelSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type towards(towardsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_level_path(xyz, it, twin, from_face, to_face, level, towards));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
+    {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
+    {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 9},
+    {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
+    {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
     {NULL, NULL, 0}
 };
 

@@ -1,0 +1,166 @@
+#' Principal curvatures by local polynomial fits
+#'
+#' At every vertex a polynomial surface is fitted to the vertices within `radius`
+#' that are connected to it over edges inside that ball, in the frame of a normal
+#' that a first fit has refined. The principal curvatures and directions are those
+#' of the fitted surface at the vertex's foot (its Weingarten map).
+#'
+#' Constant and linear terms are kept, so that the surface need not pass through
+#' the noisy vertex. With `order = "adaptive"` nested fits of order 2, 3 and 4 are
+#' combined: the Hessian of the higher order is taken up as far as its difference
+#' from the lower one exceeds what noise makes,
+#' \eqn{H = H_{lo} + w (H_{hi} - H_{lo})} with
+#' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}.
+#'
+#' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
+#' @param radius Radius of the ball, in the unit of the mesh; 10 mm for broad
+#'   features of a face, 5 mm for lips, nose and eyes.
+#' @param order `"adaptive"`, or a plain polynomial: `"quadratic"`, `"cubic"`,
+#'   `"quartic"`; or `"forced"`, the paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2}
+#'   through the vertex, level along the average of the triangles' normals.
+#' @param threads Number of threads.
+#' @param vertices Vertices to work at (indices or logical); all when `NULL`.
+#' @param shrinkage The factor c above, without unit; tuned on seven closed-form
+#'   surfaces (bench/curvature.R).
+#' @param points_per_term Fewest neighbours for each coefficient of a fit: with
+#'   fewer, the order steps down.
+#' @param one_sided A neighbourhood whose centroid lies further from the vertex
+#'   than this share of the radius, as on a border, is fitted with order 3 at most.
+#' @param widen Where even a quadratic has too few points the ball grows, step by
+#'   step by half, to at most this multiple of `radius`.
+#'
+#' @return An object of class `curvature`, a list with
+#'   * `k1`, `k2`: numeric n, principal curvatures, `k1 >= k2`, in 1 / unit;
+#'     positive where the surface bends towards its normal (a valley has `k1 > 0`,
+#'     a ridge `k2 < 0`);
+#'   * `direction1`, `direction2`, `normal`: n x 3, unit vectors;
+#'   * `order`: integer n, the highest order that has weight in the fit;
+#'   * `sigma`: numeric n, residual standard deviation of the fit, in the unit;
+#'   * `neighbours`: integer n, vertices in the ball;
+#'   * `reason`: character n, `NA` where fitted, else why not.
+#'
+#'   All are `NA` at vertices that were not asked for.
+#' @section Errors: of class `crestline_error`, when `radius` is not a positive
+#'   number, or so small that no vertex can be fitted.
+#' @references The paper, section 2.
+#' @examples
+#' data(humface, package = "Rvcg")
+#' curved <- curvature(humface, radius = 10, vertices = 1:100)
+#' curved
+#' @export
+curvature <- function(mesh, radius, order = "adaptive",
+                      threads = getOption("crestline.threads", 1L), vertices = NULL,
+                      shrinkage = 3, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
+  mesh <- as_mesh(mesh)
+  settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
+  threads <- check_count(threads, "threads")
+  check_number(widen, "widen", lower = 1)
+  targets <- vertex_indices(vertices, ncol(mesh$vb))
+  out <- empty_curvature(ncol(mesh$vb))
+  xyz <- mesh$vb[1:3, , drop = FALSE]
+  todo <- targets
+  while (length(todo) > 0 && settings$radius <= widen * radius) {
+    found <- cpp_curvature(xyz, mesh$it, todo, settings, threads)
+    out <- fill_curvature(out, found, todo)
+    todo <- todo[is.na(found$k1)]
+    settings$radius <- settings$radius * 1.5
+  }
+  out$reason[todo] <- ifelse(out$neighbours[todo] < points_per_term * 6,
+                             "too few connected points within the radius",
+                             "points nearly in a line, or no normal")
+  if (length(todo) == length(targets) && length(targets) > 0) abort_radius(out, targets, radius)
+  structure(out, radius = radius, order = order, class = "curvature")
+}
+
+empty_curvature <- function(n) {
+  blank <- rep(NA_real_, n)
+  vectors <- matrix(NA_real_, n, 3)
+  list(k1 = blank, k2 = blank, direction1 = vectors, direction2 = vectors, normal = vectors,
+       order = rep(NA_integer_, n), sigma = blank, neighbours = rep(NA_integer_, n),
+       reason = rep("not asked for", n))
+}
+
+fill_curvature <- function(out, found, at) {
+  fitted <- !is.na(found$k1)
+  found$order[!fitted] <- NA_integer_
+  for (name in names(found)) {
+    if (is.matrix(found[[name]])) out[[name]][at, ] <- found[[name]] else out[[name]][at] <- found[[name]]
+  }
+  out$reason[at[fitted]] <- NA_character_
+  out
+}
+
+#' Settings of the local fit in the form of the kernel
+#' @noRd
+fit_settings <- function(radius, order = "adaptive", shrinkage = 3, points_per_term = 1.5,
+                         one_sided = 0.2) {
+  orders <- list(adaptive = c(2L, 4L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
+                 quartic = c(4L, 4L), forced = c(2L, 2L))
+  order <- check_choice(order, names(orders), "order")
+  list(radius = check_number(radius, "radius", lower = 0, open = TRUE),
+       lowest = orders[[order]][1], highest = orders[[order]][2], forced = order == "forced",
+       shrinkage = check_number(shrinkage, "shrinkage", lower = 0),
+       points_per_term = check_number(points_per_term, "points_per_term", lower = 1),
+       one_sided = check_number(one_sided, "one_sided", lower = 0))
+}
+
+as_mesh <- function(mesh) {
+  if (inherits(mesh, "specimen")) mesh <- mesh$mesh
+  check_class(mesh, "mesh3d", "mesh", "`read_specimen()` or `Rvcg::vcgImport()`")
+  if (length(mesh$it) == 0) {
+    crestline_abort("the mesh has no triangles.", "Pass it through specimen(), which mends what it can.",
+                    stage = "mesh")
+  }
+  storage.mode(mesh$it) <- "integer"
+  mesh
+}
+
+vertex_indices <- function(vertices, n) {
+  if (is.null(vertices)) return(seq_len(n))
+  if (is.logical(vertices)) vertices <- which(vertices)
+  if (!is.numeric(vertices) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
+    crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
+                    sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
+  }
+  as.integer(vertices)
+}
+
+abort_radius <- function(curved, targets, radius) {
+  crestline_abort(
+    sprintf("no vertex could be fitted within %.3g of it: the balls hold %.0f vertices in the median.",
+            radius, stats::median(curved$neighbours[targets])),
+    "Give a larger `radius`, in the unit of the mesh: several times the spacing of its vertices.",
+    stage = "curvature"
+  )
+}
+
+#' @export
+print.curvature <- function(x, ...) {
+  fitted <- !is.na(x$k1)
+  cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
+              length(fitted), attr(x, "radius")))
+  if (any(fitted)) {
+    shares <- stats::quantile(x$neighbours[fitted], c(0, 0.5, 1), names = FALSE)
+    cat(sprintf("  k1 %s\n  k2 %s\n", spread(x$k1), spread(x$k2)))
+    cat(sprintf("  neighbours %.0f to %.0f, median %.0f; residual sd %.3g in the median\n",
+                shares[1], shares[3], shares[2], stats::median(x$sigma, na.rm = TRUE)))
+  }
+  missed <- table(x$reason[!fitted])
+  for (why in names(missed)) cat(sprintf("  %d without: %s\n", missed[[why]], why))
+  invisible(x)
+}
+
+spread <- function(x) {
+  q <- stats::quantile(x, c(0.05, 0.5, 0.95), na.rm = TRUE, names = FALSE)
+  sprintf("%.3g [%.3g, %.3g] (median, 5 and 95 %%)", q[2], q[1], q[3])
+}
+
+#' @export
+as.data.frame.curvature <- function(x, ...) {
+  vectors <- c("direction1", "direction2", "normal")
+  wide <- lapply(vectors, function(name) {
+    stats::setNames(as.data.frame(x[[name]]), paste0(name, c("_x", "_y", "_z")))
+  })
+  data.frame(vertex = seq_along(x$k1), k1 = x$k1, k2 = x$k2, wide, order = x$order,
+             sigma = x$sigma, neighbours = x$neighbours, reason = x$reason)
+}

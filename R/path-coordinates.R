@@ -1,0 +1,53 @@
+#' Arc length and signed distance of the surface near a path
+#'
+#' Unrolls the surface near a path: each vertex gets the arc length `s` of the
+#' nearest place of the path and its signed distance `d` from there, positive to the left of
+#' the path seen from outside (the side of normal x tangent).
+#'
+#' Only vertices connected to the path within the window are kept. Past its ends
+#' the path is taken to go on straight; vertices there have `s < 0` or `s` above
+#' the length, are needed to lift a curve to its ends, and take no part in fits.
+#'
+#' @param specimen A [specimen()] or `mesh3d`.
+#' @param path A `mesh_path` on it.
+#' @param width Half width of the window, in the unit of the mesh.
+#' @param margin How far past the ends vertices are kept, in the unit of the mesh.
+#' @return Object of class `path_coordinates`: data frame with a row a vertex and columns
+#'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (`s` between 0 and the
+#'   length), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
+#'   attributes `length` (of the path) and `width`.
+#' @references The paper, section 3.2.
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
+#' head(path_coordinates(ball, path, width = 0.2))
+#' @export
+path_coordinates <- function(specimen, path, width, margin = width) {
+  check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
+  check_number(width, "width", lower = 0, open = TRUE)
+  mesh <- as_mesh(specimen)
+  track <- t(as.matrix(path[c("x", "y", "z")]))
+  box <- apply(track, 1, range) + c(-1, 1) * max(width, margin)
+  xyz <- mesh$vb[1:3, , drop = FALSE]
+  near <- which(colSums(xyz >= box[1, ] & xyz <= box[2, ]) == 3)
+  found <- cpp_path_coordinates(xyz[, near, drop = FALSE], track, path_normals(mesh, path))
+  kept <- abs(found$d) <= width & found$s >= -margin & found$s <= attr(path, "length") + margin
+  member <- logical(ncol(xyz))
+  member[near[kept]] <- TRUE
+  joined <- cpp_joined_to(mesh$it, member, as.vector(mesh$it[, path$face]))[near]
+  rows <- data.frame(vertex = near, s = found$s, d = found$d,
+                     inside = found$s >= 0 & found$s <= attr(path, "length"), found$tangent)[joined, ]
+  names(rows)[5:7] <- c("tx", "ty", "tz")
+  rownames(rows) <- NULL
+  structure(rows, length = attr(path, "length"), width = width,
+            class = c("path_coordinates", "data.frame"))
+}
+
+#' Surface normals along a path: the vertices' normals weighted as the points are, 3 x k
+#' @noRd
+path_normals <- function(mesh, path) {
+  normals <- mesh$normals
+  if (is.null(normals)) normals <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals
+  corner <- function(i, w) normals[1:3, mesh$it[i, path$face], drop = FALSE] * rep(w, each = 3)
+  corner(1, path$w1) + corner(2, path$w2) + corner(3, path$w3)
+}

@@ -1,0 +1,164 @@
+#' Plane cut of a surface between two points
+#'
+#' The plane contains both points and is turned about the axis through them by
+#' `angle`; at angle 0 it also contains the mean of the surface normals at the two
+#' points, so that it cuts straight into the surface. The cut is walked from
+#' triangle to triangle, from the first point until the second is reached.
+#'
+#' @param mesh A `specimen` or a `mesh3d`.
+#' @param from,to Name of a landmark (with a `specimen`), or a position: three
+#'   co-ordinates, put on the surface.
+#' @param angle Angle of the plane in radians, in (-pi/2, pi/2]; positive turns
+#'   right-handed about the axis from `from` to `to`.
+#' @param side 0 when the path leaves `from` on the side of `to`, 1 for the way
+#'   round the other side of the object.
+#' @param reach A cut that gets further from the straight line between the points
+#'   than this share of its length is given up; `Inf` for no limit.
+#' @return A `mesh_path`: data frame of the points where the plane crosses the edges of
+#'   the mesh, from `from` to `to`, with columns `s` (arc length, in the unit of the
+#'   mesh), `x`, `y`, `z`, `face` (the triangle in which the segment that ends at the
+#'   point lies) and barycentric weights `w1`, `w2`, `w3` there; attributes `length`,
+#'   `angle`, `side`.
+#' @section Errors: of class `crestline_path_error`, when the cut ends at a border
+#'   of the mesh (a hole between the points) or comes round without meeting `to`.
+#' @references The paper, section 3.1.
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' quarter <- plane_path(ball, c(1, 0, 0), c(0, 1, 0), angle = 0)
+#' attr(quarter, "length") # about pi / 2
+#' @export
+plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
+  surface <- walkable(mesh)
+  ends <- path_ends(mesh, surface, from, to)
+  check_number(angle, "angle")
+  axis <- cut_axis(surface, ends)
+  cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
+                        plane_normal(axis, angle), side, axis$span * reach)
+  if (cut$end != "arrived") abort_cut(cut$end, ends, surface$id)
+  new_path(cut$points, ends, angle = angle, side = side)
+}
+
+#' The arrays that walks need, from a specimen (kept) or a mesh (worked out)
+#' @noRd
+walkable <- function(mesh) {
+  whole <- as_mesh(mesh)
+  geometry <- if (inherits(mesh, "specimen")) mesh$geometry else mesh_topology(whole)[c("twin", "piece")]
+  list(xyz = whole$vb[1:3, , drop = FALSE], it = whole$it, twin = geometry$twin,
+       piece = geometry$piece, id = if (inherits(mesh, "specimen")) mesh$id)
+}
+
+#' Both ends of a path: located, in different places, on one piece of the mesh
+#'
+#' @param inside Barycentric weight by which ends are kept off edges and corners, so
+#'   that a plane through an end always crosses its triangle. The path begins and
+#'   stops at the exact places.
+#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact` (data frame of two rows),
+#'   `names`.
+#' @noRd
+path_ends <- function(mesh, surface, from, to, inside = 1e-6) {
+  exact <- rbind(end_point(mesh, from, "from"), end_point(mesh, to, "to"))
+  names <- c(end_name(from), end_name(to))
+  apart <- sqrt(sum((exact[1, c("x", "y", "z")] - exact[2, c("x", "y", "z")])^2))
+  if (apart == 0) {
+    crestline_abort(sprintf("%s and %s are the same point.", names[1], names[2]),
+                    "Choose two different landmarks, or correct the one that was misplaced.",
+                    stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
+  }
+  if (surface$piece[exact$face[1]] != surface$piece[exact$face[2]]) {
+    crestline_abort(sprintf("%s and %s lie on different pieces of the mesh.", names[1], names[2]),
+                    "Join the pieces (fill the gap), or move the landmark to the main piece.",
+                    stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
+  }
+  moved <- function(i) {
+    w <- unlist(exact[i, c("w1", "w2", "w3")], use.names = FALSE)
+    c(exact$face[i], (w + inside) / sum(w + inside))
+  }
+  list(from = moved(1), to = moved(2), exact = exact, names = names)
+}
+
+end_point <- function(mesh, at, name) {
+  if (is.character(at) && inherits(mesh, "specimen")) return(landmark_point(mesh, at))
+  if (is.data.frame(at) && all(c("face", "w1", "w2", "w3") %in% names(at)) && nrow(at) == 1) {
+    return(at[c("x", "y", "z", "face", "w1", "w2", "w3")])
+  }
+  if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
+    crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
+                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
+                    stage = "path", class = "crestline_path_error", call = NULL)
+  }
+  surface_points(as_mesh(mesh), matrix(at, 1))
+}
+
+end_name <- function(at) {
+  if (is.character(at)) return(at)
+  if (is.data.frame(at)) at <- unlist(at[c("x", "y", "z")])
+  sprintf("(%s)", paste(signif(at, 4), collapse = ", "))
+}
+
+#' Axis between the ends (moved inside their triangles), and the plane normal at angle 0
+#' @noRd
+cut_axis <- function(surface, ends) {
+  place <- function(p) as.vector(surface$xyz[, surface$it[, p[1]]] %*% p[2:4])
+  axis <- place(ends$to) - place(ends$from)
+  span <- sqrt(sum(axis^2))
+  axis <- axis / span
+  out <- end_normal(surface, ends$from) + end_normal(surface, ends$to)
+  out <- out - sum(out * axis) * axis
+  if (sum(out^2) < .Machine$double.eps) out <- replace(numeric(3), which.min(abs(axis)), 1)
+  across <- cross_product(axis, out - sum(out * axis) * axis)
+  list(axis = axis, span = span, across = across / sqrt(sum(across^2)))
+}
+
+#' Unit normal of the triangle about an end
+#' @noRd
+end_normal <- function(surface, end) {
+  corners <- surface$xyz[, surface$it[, end[1]]]
+  normal <- cross_product(corners[, 2] - corners[, 1], corners[, 3] - corners[, 1])
+  normal / sqrt(sum(normal^2))
+}
+
+#' Normals of the planes at given angles, 3 x k
+#' @noRd
+plane_normal <- function(axis, angle) {
+  turned <- cross_product(axis$axis, axis$across)
+  outer(axis$across, cos(angle)) + outer(turned, sin(angle))
+}
+
+cross_product <- function(a, b) {
+  c(a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1])
+}
+
+#' A path from the crossings of a walk
+#' @noRd
+new_path <- function(crossings, ends, ...) {
+  columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
+  points <- rbind(as.matrix(ends$exact[1, columns]), crossings, as.matrix(ends$exact[2, columns]))
+  points <- as.data.frame(points)
+  names(points) <- columns
+  step <- sqrt(rowSums(diff(as.matrix(points[1:3]))^2))
+  kept <- c(TRUE, step[-length(step)] > 0, TRUE)
+  points <- cbind(s = c(0, cumsum(step)), points)[kept, ]
+  rownames(points) <- NULL
+  structure(points, length = sum(step), ..., class = c("mesh_path", "data.frame"))
+}
+
+abort_cut <- function(end, ends, id) {
+  why <- switch(end, border = "meets a border of the mesh", round = "does not come to the second point",
+                "too far" = "strays too far from the axis")
+  crestline_abort(sprintf("the plane cut from %s to %s %s.", ends$names[1], ends$names[2], why),
+                  "Fill the hole between them, try another angle, or check the two landmarks.",
+                  stage = "path", id = id, class = "crestline_path_error", call = NULL)
+}
+
+#' @export
+print.mesh_path <- function(x, ...) {
+  cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
+  if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
+  cat("\n")
+  optima <- attr(x, "optima")
+  if (!is.null(optima)) {
+    cat("Local optima:\n")
+    print(utils::head(optima, 6), digits = 3, row.names = FALSE)
+  }
+  invisible(x)
+}

@@ -1,0 +1,169 @@
+#' Reference path: the plane cut that gathers most curvature
+#'
+#' Of all plane cuts between two points, at every angle and both ways round, the
+#' one with the greatest length-weighted mean strength of the sought curvature,
+#' among those not much longer than the shortest; or, for `type = "plane"`, the
+#' shortest cut. A coarse grid of angles is followed by a finer one about each
+#' local optimum.
+#'
+#' The strength here is that of the principal curvature: a valley's positive
+#' `k1` where the shape index is negative, a ridge's `-k2` where it is positive, 0 elsewhere.
+#'
+#' @param specimen A [specimen()] (or a `mesh3d` with positions for `from` and `to`).
+#' @inheritParams plane_path
+#' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for `"plane"`.
+#' @param keep_away `NULL`, or region(s) of [keep_away()] where strength counts as 0.
+#' @param curvature A `curvature` of the mesh at this radius, where it is already
+#'   known; otherwise it is estimated where the cuts may pass.
+#' @param reach Cuts stay within this share of the distance between the landmarks
+#'   from the straight line between them (the paper: 1/2).
+#' @param longest Cuts may be this many times as long as the shortest.
+#' @param angles Number of angles of the coarse grid over a half turn.
+#' @param refined Number of angles between the neighbours of each local optimum.
+#' @param rival Share within which a second optimum is a rival that is warned of.
+#' @param distinct Angle in radians by which a rival differs at least.
+#' @inheritParams curvature
+#' @param ... Further arguments of [curvature()].
+#' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
+#'   (mean strength in 1 / unit, or length), and `optima`: data frame with a row for every local
+#'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`.
+#' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
+#' @section Warnings: of class `crestline_rival_path`, when another optimum is
+#'   nearly as good; the warning names both angles.
+#' @references The paper, section 3.1.
+#' @examples
+#' data(humface, package = "Rvcg")
+#' face <- specimen(humface, humface.lm, id = "humface")
+#' @export
+reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
+                           keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
+                           angles = 60, refined = 21, rival = 0.05, distinct = pi / 12,
+                           threads = getOption("crestline.threads", 1L), ...) {
+  type <- check_choice(type, c("ridge", "valley", "plane"), "type")
+  surface <- walkable(specimen)
+  ends <- path_ends(specimen, surface, from, to)
+  axis <- cut_axis(surface, ends)
+  strength <- numeric()
+  if (type != "plane") {
+    near <- near_segment(surface, ends, reach * axis$span + radius)
+    curvature <- known_curvature(curvature, specimen, radius, near, threads, ...)
+    strength <- path_strength(curvature, type, keep_away, specimen, surface)
+  }
+  cuts <- function(angle, side) {
+    found <- cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
+                            plane_normal(axis, angle), side, reach * axis$span, strength)
+    data.frame(angle = angle, side = side, length = found$length,
+               criterion = if (type == "plane") -found$length else found$strength, end = found$end)
+  }
+  optima <- cut_optima(cuts, angles, refined, longest)
+  if (nrow(optima) == 0) abort_no_cut(cuts(0, 0L)$end, ends, surface$id)
+  best <- optima[1, ]
+  cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
+                        plane_normal(axis, best$angle), best$side, reach * axis$span)
+  warn_rival(optima, rival, distinct, ends, surface$id)
+  if (type == "plane") optima$criterion <- optima$length
+  new_path(cut$points, ends, angle = best$angle, side = best$side, type = type,
+           criterion = optima$criterion[1], optima = optima)
+}
+
+#' Local optima of the criterion over angle and side, refined, best first
+#' @noRd
+cut_optima <- function(cuts, angles, refined, longest) {
+  step <- pi / angles
+  grid <- -pi / 2 + step * seq_len(angles)
+  coarse <- rbind(cuts(grid, rep(0L, angles)), cuts(grid, rep(1L, angles)))
+  shortest <- suppressWarnings(min(coarse$length, na.rm = TRUE))
+  admit <- function(found) {
+    found$criterion[is.na(found$length) | found$length > longest * shortest] <- -Inf
+    found$criterion[is.na(found$criterion)] <- -Inf
+    found
+  }
+  coarse <- admit(coarse)
+  peaks <- unlist(lapply(split(seq_len(2 * angles), coarse$side), function(rows) {
+    rows[is_circular_peak(coarse$criterion[rows])]
+  }), use.names = FALSE)
+  best <- lapply(peaks, function(i) {
+    fine <- coarse$angle[i] + step * seq(-1, 1, length.out = refined)
+    found <- admit(rbind(coarse[i, ], cuts(fine, rep(coarse$side[i], refined))))
+    found[which.max(found$criterion), ]
+  })
+  best <- do.call(rbind, best)
+  if (is.null(best)) return(data.frame())
+  best$angle <- wrap_angle(best$angle)
+  best <- best[order(-best$criterion), c("angle", "side", "criterion", "length")]
+  best <- best[!duplicated(round(best[c("angle", "side")], 6)), ]
+  rownames(best) <- NULL
+  best
+}
+
+is_circular_peak <- function(x) {
+  before <- c(x[length(x)], x[-length(x)])
+  after <- c(x[-1], x[1])
+  is.finite(x) & x >= before & x > after
+}
+
+# Into (-pi/2, pi/2].
+wrap_angle <- function(angle) angle - pi * ceiling(angle / pi - 0.5)
+
+#' Strength of the principal curvature at the vertices, 0 where it is not known or not wanted
+#' @noRd
+path_strength <- function(curvature, type, keep_away, specimen, surface) {
+  strength <- strength_at(curvature, type)
+  strength[is.na(strength)] <- 0
+  some <- which(strength > 0)
+  strength[some][is_kept_away(keep_away, specimen, t(surface$xyz[, some, drop = FALSE]))] <- 0
+  strength
+}
+
+#' Vertices within a distance of the straight segment between the ends, on their piece
+#' @noRd
+near_segment <- function(surface, ends, distance) {
+  a <- unlist(ends$exact[1, c("x", "y", "z")])
+  axis <- unlist(ends$exact[2, c("x", "y", "z")]) - a
+  relative <- surface$xyz - a
+  along <- pmin(pmax(as.vector(axis %*% relative) / sum(axis^2), 0), 1)
+  near <- colSums((relative - outer(axis, along))^2) <= distance^2
+  own <- logical(length(near))
+  own[surface$it[, surface$piece == surface$piece[ends$exact$face[1]]]] <- TRUE
+  which(near & own)
+}
+
+#' The curvature that was given, after a check, or estimated at the vertices that need it
+#' @noRd
+known_curvature <- function(curvature, specimen, radius, vertices, threads, ...) {
+  if (is.null(curvature)) {
+    return(crestline::curvature(specimen, radius, threads = threads, vertices = vertices, ...))
+  }
+  check_class(curvature, "curvature", "curvature", "curvature()")
+  n <- ncol(as_mesh(specimen)$vb)
+  if (length(curvature$k1) != n) {
+    crestline_abort(sprintf("`curvature` has %d vertices, the mesh %d.", length(curvature$k1), n),
+                    "Give the curvature of this specimen's own mesh: curvature(specimen, radius).",
+                    stage = "curvature", id = specimen$id)
+  }
+  curvature
+}
+
+abort_no_cut <- function(end, ends, id) {
+  crestline_abort(
+    sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1], ends$names[2], end),
+    "Look for a hole between the landmarks, or raise `reach` if the feature bends far out.",
+    stage = "reference path", id = id, class = "crestline_path_error"
+  )
+}
+
+warn_rival <- function(optima, rival, distinct, ends, id) {
+  best <- optima[1, ]
+  apart <- abs(wrap_angle(optima$angle - best$angle)) >= distinct | optima$side != best$side
+  near <- which(apart & optima$criterion >= best$criterion - rival * abs(best$criterion))
+  if (length(near) == 0) return(invisible())
+  other <- optima[near[1], ]
+  crestline_warn(
+    sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
+            ends$names[1], ends$names[2], best$angle * 180 / pi, other$angle * 180 / pi,
+            abs(best$criterion), abs(other$criterion)),
+    "Look at both with plane_path(); keep_away() rules one out.",
+    stage = "reference path", id = id, class = "crestline_rival_path"
+  )
+}

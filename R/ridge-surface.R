@@ -1,0 +1,119 @@
+#' Smooth surface of curvature strength over arc length and distance
+#'
+#' A tensor product of cubic B-splines with second-order difference penalties,
+#' fitted to the strength at the vertices of a window, with a fixed number of
+#' equivalent degrees of freedom.
+#'
+#' @param coordinates [path_coordinates()] of the window.
+#' @param strength Strength at each of its rows (1 / unit), `NA` to leave a vertex out.
+#' @param settings [ridge_settings()]: `basis`, `anisotropy`, `df`.
+#' @return Object of class `curvature_surface`, a list: `coefficients` (basis across x basis along),
+#'   `length`, `width`, `rows` (rows of `coordinates` in the fit), `strength` there,
+#'   `penalty` (the smoothing parameter), `df` (reached), `converged`, and the spline
+#'   margins. `predict(x, s, d, derivative)` gives the strength, or its
+#'   derivative of the given order by `d`, at places (s, d).
+#' @section Errors: of class `crestline_error`, when fewer vertices are left than the fit has degrees of freedom.
+#' @references The paper, section 3.2; Eilers & Marx (1996); bases and penalties are mgcv's.
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
+#' window <- path_coordinates(ball, path, width = 0.3)
+#' smooth <- curvature_surface(window, 1 - window$d^2)
+#' predict(smooth, s = 0.7, d = c(0, 0.1))
+#' @export
+curvature_surface <- function(coordinates, strength, settings = ridge_settings()) {
+  check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  length <- attr(coordinates, "length")
+  width <- attr(coordinates, "width")
+  rows <- which(coordinates$inside & !is.na(strength))
+  if (length(rows) < settings$df) abort_few_vertices(length(rows), settings$df)
+  margins <- list(along = spline_margin(settings$basis[1], 0, 1),
+                  across = spline_margin(settings$basis[2], -1, 1))
+  design <- tensor_design(margins, coordinates$s[rows] / length, coordinates$d[rows] / width)
+  penalty <- tensor_penalty(margins, settings$anisotropy)
+  moments <- as.matrix(Matrix::tcrossprod(design))
+  chosen <- penalty_for_df(moments, penalty, settings$df)
+  factor <- chol(moments + chosen$value * penalty)
+  right <- as.vector(design %*% strength[rows])
+  beta <- backsolve(factor, backsolve(factor, right, transpose = TRUE))
+  structure(
+    list(coefficients = matrix(beta, settings$basis[2]), length = length, width = width, rows = rows,
+         strength = strength[rows], penalty = chosen$value, df = chosen$df, converged = chosen$converged,
+         margins = margins, design = design, factor = factor),
+    class = "curvature_surface"
+  )
+}
+
+abort_few_vertices <- function(count, df) {
+  crestline_abort(
+    sprintf("only %d vertices of the window have a curvature, fewer than %g degrees of freedom.", count, df),
+    "Give a larger `width` or `radius`, or fewer degrees of freedom: ridge_settings(df = ).",
+    stage = "curvature surface"
+  )
+}
+
+#' One margin: mgcv's p-spline smooth on equally spaced knots over an interval
+#' @noRd
+spline_margin <- function(k, lower, upper) {
+  term <- mgcv::s(x, bs = "ps", k = k, m = c(2, 2))
+  mgcv::smoothCon(term, data.frame(x = seq(lower, upper, length.out = 2 * k)),
+                  knots = list(x = c(lower, upper)))[[1]]
+}
+
+#' B-splines of a margin, or their derivatives, at places: k x n, sparse
+#' @noRd
+margin_design <- function(margin, x, derivative = 0) {
+  order <- margin$m[1] + 2
+  range <- margin$knots[c(order, length(margin$knots) - order + 1)]
+  splines::splineDesign(margin$knots, pmin(pmax(x, range[1]), range[2]), order,
+                        rep(derivative, length(x)), sparse = TRUE) |> Matrix::t()
+}
+
+#' Columns of the tensor product, across running fastest: (k across * k along) x n
+#' @noRd
+tensor_design <- function(margins, u, v) {
+  Matrix::KhatriRao(margin_design(margins$along, u), margin_design(margins$across, v))
+}
+
+tensor_penalty <- function(margins, anisotropy) {
+  along <- margins$along$S[[1]]
+  across <- margins$across$S[[1]]
+  kronecker(along, diag(ncol(across))) + anisotropy * kronecker(diag(ncol(along)), across)
+}
+
+#' The smoothing parameter with given equivalent degrees of freedom
+#'
+#' With A the moment matrix and c making A and c S of one size, the eigenvalues m of
+#' (A + c S)^-1 A give the degrees of freedom sum(m / (m + (1 - m) penalty / c)) for any penalty.
+#' @noRd
+penalty_for_df <- function(moments, penalty, df) {
+  scale <- sum(diag(moments)) / sum(diag(penalty))
+  factor <- chol(moments + scale * penalty)
+  half <- backsolve(factor, moments, transpose = TRUE)
+  inner <- backsolve(factor, t(half), transpose = TRUE)
+  m <- pmin(pmax(eigen((inner + t(inner)) / 2, symmetric = TRUE, only.values = TRUE)$values, 0), 1)
+  reached <- function(t) sum(m / (m + (1 - m) * exp(t)))
+  found <- tryCatch(stats::uniroot(function(t) reached(t) - df, c(-25, 25), tol = 1e-10),
+                    error = function(e) NULL)
+  t <- if (is.null(found)) (if (reached(-25) < df) -25 else 25) else found$root
+  list(value = scale * exp(t), df = reached(t), converged = !is.null(found))
+}
+
+#' @rdname curvature_surface
+#' @param object A `curvature_surface`.
+#' @param s,d Arc lengths and distances, in the unit of the mesh.
+#' @param derivative Order of the derivative by `d`: 0, 1 or 2.
+#' @param ... Not used.
+#' @export
+predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
+  along <- margin_design(object$margins$along, rep_len(s, max(length(s), length(d))) / object$length)
+  across <- margin_design(object$margins$across, rep_len(d, ncol(along)) / object$width, derivative)
+  Matrix::colSums(across * (object$coefficients %*% along)) / object$width^derivative
+}
+
+#' @export
+print.curvature_surface <- function(x, ...) {
+  cat(sprintf("Curvature surface over %.4g x %.4g (s, d): %d vertices, %.1f df%s\n", x$length,
+              2 * x$width, length(x$rows), x$df, if (x$converged) "" else ", df not reached"))
+  invisible(x)
+}

@@ -1,0 +1,22 @@
+// Arc length along a path and signed distance from it, of points near the path.
+#pragma once
+#include <vector>
+
+namespace crestline {
+
+struct PathCoordinates {       // one entry (tangent: three) a point
+  std::vector<double> s, d;    // s < 0 or > length where the point lies past an end
+  std::vector<double> tangent; // of the path at the nearest place, unit
+};
+
+// points: 3 x n; path: 3 x k, k >= 2, no repeated neighbours; normals: 3 x k, the surface's normals
+// along the path. d > 0 on the side of normal x tangent. Past the ends the path goes on straight.
+PathCoordinates path_coordinates(const double* points, int n, const double* path,
+                                 const double* normals, int k);
+
+// Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
+// it: 3 x m, from 0.
+std::vector<char> joined_to(const int* it, int m, const std::vector<char>& member,
+                            const std::vector<int>& seeds);
+
+}  // namespace crestline
