@@ -48,6 +48,7 @@ test_that("degenerate faces do not disturb", {
   mesh <- grid_mesh(3)
   mesh$it <- cbind(c(1L, 1L, 1L), c(1L, 2L, 3L), mesh$it)
   expect_equal(surface_points(mesh, cbind(0.3, 0.4, 5))[1:3], data.frame(x = 0.3, y = 0.4, z = 0))
+  expect_gt(surface_points(mesh, cbind(0.5, 0, 0))$face, 2)
 })
 
 test_that("the place does not depend on unit, position or scale", {
