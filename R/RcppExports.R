@@ -25,3 +25,15 @@ cpp_level_path <- function(xyz, it, twin, from_face, to_face, level, towards) {
     .Call(`_crestline_cpp_level_path`, xyz, it, twin, from_face, to_face, level, towards)
 }
 
+cpp_path_coordinates <- function(points, path, normals) {
+    .Call(`_crestline_cpp_path_coordinates`, points, path, normals)
+}
+
+cpp_joined_to <- function(it, member, seeds) {
+    .Call(`_crestline_cpp_joined_to`, it, member, seeds)
+}
+
+cpp_render_mesh <- function(xyz, rgb, it, width, height, samples) {
+    .Call(`_crestline_cpp_render_mesh`, xyz, rgb, it, width, height, samples)
+}
+

@@ -108,6 +108,48 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_path_coordinates
+List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals);
+RcppExport SEXP _crestline_cpp_path_coordinates(SEXP pointsSEXP, SEXP pathSEXP, SEXP normalsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type points(pointsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type path(pathSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_path_coordinates(points, path, normals));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_joined_to
+LogicalVector cpp_joined_to(IntegerMatrix it, LogicalVector member, IntegerVector seeds);
+RcppExport SEXP _crestline_cpp_joined_to(SEXP itSEXP, SEXP memberSEXP, SEXP seedsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< LogicalVector >::type member(memberSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type seeds(seedsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_joined_to(it, member, seeds));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_render_mesh
+List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int width, int height, int samples);
+RcppExport SEXP _crestline_cpp_render_mesh(SEXP xyzSEXP, SEXP rgbSEXP, SEXP itSEXP, SEXP widthSEXP, SEXP heightSEXP, SEXP samplesSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type rgb(rgbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< int >::type width(widthSEXP);
+    Rcpp::traits::input_parameter< int >::type height(heightSEXP);
+    Rcpp::traits::input_parameter< int >::type samples(samplesSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_render_mesh(xyz, rgb, it, width, height, samples));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
@@ -116,6 +158,9 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 9},
     {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
     {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
+    {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
+    {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
+    {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {NULL, NULL, 0}
 };
 

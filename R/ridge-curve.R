@@ -1,0 +1,200 @@
+#' Ridge or valley curve between two landmarks
+#'
+#' Reference path, (s, d) co-ordinates, curvature surface, ridge line and lift in
+#' one: see [reference_path()], [path_coordinates()], [curvature_surface()],
+#' [ridge_line()] and [lift()] for the stages, which are all kept in the value.
+#'
+#' @inheritParams reference_path
+#' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh (faces: 10 mm for broad
+#'   features, 5 mm for lips, nose and eyes).
+#' @param width How far the curve may wander from the reference path, in the unit
+#'   of the mesh; the window is no wider than `settings$window` radii.
+#' @param n Number of points, both ends counted, at equal chords.
+#' @param settings [ridge_settings()].
+#' @param passes With 2, the curve serves as reference path of a second fit: better on
+#'   clean data, no better on noisy data.
+#' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), where it is
+#'   known; otherwise it is estimated where the curve may lie.
+#' @return Object of class `curve`, a list:
+#'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance from the reference path),
+#'     `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`; lengths in the unit of the mesh; `as.data.frame()` gives it;
+#'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
+#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane curve but the first);
+#'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the reference path;
+#'   * `se`: median standard error; `converged`: whether every iteration did;
+#'   * `determined`: whether curvature determines the curve: `FALSE` when the median
+#'     standard error exceeds `settings$undetermined` radii or there is no such curvature by the path (`reason` says why); then the
+#'     plane path (`reference`, or `type = "plane"`) is the safer choice; `NA` for plane curves and without standard errors;
+#'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`.
+#' @section Standard error: the standard deviation of the curve's position across
+#'   itself if the mesh had been scanned again with independent noise at each
+#'   vertex. Coverage of the band of two standard errors is nominal where the
+#'   radius is at most the feature's radius of curvature; noise that is correlated along the
+#'   mesh makes it too small, which cannot be seen from one mesh.
+#' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
+#' @section Warnings: of class `crestline_undetermined`, when the curve is not
+#'   determined by curvature; and that of [reference_path()].
+#' @references The paper, section 3.
+#' @examples
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
+#' lip
+#' as.data.frame(lip)
+#' @export
+ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
+                        keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
+                        reach = 0.5, threads = getOption("crestline.threads", 1L)) {
+  type <- check_choice(type, c("ridge", "valley", "plane"), "type")
+  n <- check_count(n, "n", lower = 2)
+  passes <- check_count(passes, "passes")
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from), to = end_name(to),
+                type = type, settings = settings, passes = passes)
+  if (type == "plane") {
+    path <- reference_path(specimen, from, to, "plane", reach = reach)
+    return(new_curve(specimen, path, path, n, about))
+  }
+  radius <- check_number(radius, "radius", lower = 0, open = TRUE)
+  width <- check_number(width, "width", lower = 0, open = TRUE)
+  about[c("radius", "width")] <- list(radius, width)
+  curvature <- curvature_for(curvature, specimen, from, to, radius, width, reach, settings, threads)
+  path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
+                         longest = settings$longest)
+  for (pass in seq_len(passes)) {
+    fit <- fit_ridge(specimen, path, curvature, radius, width, type, keep_away, settings)
+    if (pass < passes && fit$found) path <- fit$path
+  }
+  new_curve(specimen, fit$path, path, n, about, fit)
+}
+
+#' Curvature where the curve and its window may lie, unless it is given
+#' @noRd
+curvature_for <- function(curvature, specimen, from, to, radius, width, reach, settings, threads) {
+  vertices <- function() {
+    surface <- walkable(specimen)
+    ends <- path_ends(specimen, surface, from, to)
+    span <- cut_axis(surface, ends)$span
+    near_segment(surface, ends, reach * span + min(width, settings$window * radius))
+  }
+  known_curvature(curvature, specimen, radius, vertices(), threads, order = settings$order)
+}
+
+#' One pass from reference path to lifted curve
+#' @noRd
+fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away, settings) {
+  half <- min(width, settings$window * radius)
+  coordinates <- path_coordinates(specimen, path, half, margin = radius)
+  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings)
+  scale <- core_strength(coordinates, strength, settings$core * radius)
+  stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE, path = path)
+  if (!is.finite(scale) || scale <= 0) return(stages)
+  stages$surface <- curvature_surface(coordinates, strength$value, settings)
+  stages$line <- ridge_line(stages$surface, scale, radius, settings)
+  if (settings$error) {
+    stages$line$se <- ridge_error(specimen, curvature, coordinates, stages$surface, stages$line, strength,
+                                  scale, radius, type, settings)
+  }
+  stages$path <- lift(specimen, coordinates, path, stages$line$s, stages$line$alpha)
+  stages$found <- TRUE
+  stages
+}
+
+#' Strength at the vertices of a window as the settings define it
+#'
+#' @return List: `value` (NA where left out), `cap`, `direction` (n x 3, across the path or principal).
+#' @noRd
+window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings) {
+  at <- coordinates$vertex
+  across <- cross_rows(curvature$normal[at, , drop = FALSE], as.matrix(coordinates[c("tx", "ty", "tz")]))
+  across <- across / sqrt(rowSums(across^2))
+  principal <- settings$strength == "principal"
+  value <- strength_at(curvature, type, at, if (!principal) across)
+  value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, at, drop = FALSE]))] <- 0
+  if (settings$wrong_sign == "drop") value[value == 0] <- NA
+  cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
+  own <- if (type == "ridge") curvature$direction2 else curvature$direction1
+  list(value = pmin(value, cap), cap = cap, direction = if (principal) own[at, , drop = FALSE] else across)
+}
+
+core_strength <- function(coordinates, strength, distance) {
+  core <- coordinates$inside & abs(coordinates$d) <= distance
+  value <- strength$value[core]
+  value[is.na(value)] <- 0
+  if (length(value)) mean(value) else NA_real_
+}
+
+cross_rows <- function(a, b) {
+  cbind(a[, 2] * b[, 3] - a[, 3] * b[, 2], a[, 3] * b[, 1] - a[, 1] * b[, 3],
+        a[, 1] * b[, 2] - a[, 2] * b[, 1])
+}
+
+new_curve <- function(specimen, path, reference, n, about, fit = NULL) {
+  placed <- resample_path(as_mesh(specimen), path, n)
+  along <- placed$s / attr(path, "length") * attr(reference, "length")
+  on_line <- function(values) {
+    if (is.null(values)) rep(NA_real_, n) else stats::approx(fit$line$s, values, along, rule = 2)$y
+  }
+  points <- data.frame(point = seq_len(n), placed[c("s", "x", "y", "z")], d = on_line(fit$line$alpha),
+                       se = on_line(fit$line$se), placed[c("face", "w1", "w2", "w3")])
+  if (about$type == "plane") points$d <- 0
+  verdict <- judge_curve(about, fit)
+  curve <- c(list(points = points, path = path, length = attr(path, "length"), reference = reference,
+                  coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
+                  strength = mean_strength(specimen, path, fit), scale = fit$scale),
+             verdict, about)
+  curve$converged <- attr(placed, "converged") && !isFALSE(fit$line$converged)
+  structure(curve, class = "curve")
+}
+
+#' Whether curvature determines the curve, with the reason where not
+#' @noRd
+judge_curve <- function(about, fit) {
+  if (about$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
+  se <- if (is.null(fit$line$se)) NA_real_ else stats::median(fit$line$se[-c(1, length(fit$line$se))])
+  limit <- about$settings$undetermined * about$radius
+  reason <- if (!fit$found) {
+    sprintf("there is no %s curvature by the reference path", about$type)
+  } else if (!is.na(se) && se > limit) {
+    sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
+  } else {
+    NA_character_
+  }
+  if (!is.na(reason)) {
+    crestline_warn(
+      sprintf("the %s from %s to %s is not determined by curvature: %s.", about$type, about$from, about$to, reason),
+      "Use the shortest plane cut (type = \"plane\"), or another radius.",
+      stage = "ridge curve", id = about$id, class = "crestline_undetermined"
+    )
+  }
+  list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE, reason = reason)
+}
+
+#' Length-weighted mean along a path of the strength that the curve was fitted to
+#' @noRd
+mean_strength <- function(specimen, path, fit) {
+  if (is.null(fit)) return(NA_real_)
+  mesh <- as_mesh(specimen)
+  strength <- rep(NA_real_, ncol(mesh$vb))
+  strength[fit$coordinates$vertex] <- ifelse(is.na(fit$strengths$value), 0, fit$strengths$value)
+  at <- path$w1 * strength[mesh$it[1, path$face]] + path$w2 * strength[mesh$it[2, path$face]] +
+    path$w3 * strength[mesh$it[3, path$face]]
+  middle <- (at[-1] + at[-length(at)]) / 2
+  stats::weighted.mean(middle, diff(path$s), na.rm = TRUE)
+}
+
+#' @export
+as.data.frame.curve <- function(x, ...) x$points
+
+#' @export
+print.curve <- function(x, ...) {
+  cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
+              x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
+  cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
+  if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
+  cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
+              if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
+  invisible(x)
+}

@@ -1,0 +1,58 @@
+# Standard error of the ridge line by the delta method, from the heights of the mesh's vertices on.
+
+#' Standard error of a ridge line
+#'
+#' The offset depends on the smooth strength, that on the strength at the vertices of the
+#' window, that on the local fits, and those on the heights of the vertices, which
+#' neighbouring fits share. The chain of derivatives is followed through all of them; the
+#' heights' errors are independent with the residual standard deviation of each local fit. The
+#' result is inflated by `settings$inflation`, and the change of the line when lambda is
+#' divided by ten stands for its bias.
+#'
+#' @param specimen,curvature The mesh and its curvature.
+#' @param coordinates,surface,line The stages of the fit.
+#' @param strength List of `value`, `cap`, `direction` (n x 3) at the rows of `coordinates`.
+#' @param scale,radius,type,settings As in [ridge_line()] and [ridge_curve()].
+#' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
+#' @noRd
+ridge_error <- function(specimen, curvature, coordinates, surface, line, strength, scale, radius, type,
+                        settings) {
+  problem <- ridge_problem(surface, scale, radius, settings)
+  alpha <- line$alpha[-c(1, length(line$alpha))]
+  slope <- strength_jacobian(problem, surface, alpha)
+  live <- which(strength$value[surface$rows] > 0 & strength$value[surface$rows] < strength$cap)
+  rows <- surface$rows[live]
+  sigma <- curvature$sigma
+  sigma[is.na(sigma)] <- stats::median(sigma, na.rm = TRUE)
+  turn <- if (type == "ridge") -1 else 1
+  variance <- cpp_curvature_variance(
+    as_mesh(specimen)$vb[1:3, , drop = FALSE], as_mesh(specimen)$it, coordinates$vertex[rows],
+    t(strength$direction[rows, , drop = FALSE]), turn * slope[, live, drop = FALSE], sigma,
+    fit_settings(radius, settings$order)
+  )
+  loose <- ridge_line(surface, scale, radius, loosen(settings))
+  bias <- line$alpha - loose$alpha
+  c(0, sqrt(settings$inflation^2 * variance + bias[-c(1, length(bias))]^2), 0)
+}
+
+#' Settings with a tenth of the roughness penalty
+#' @noRd
+loosen <- function(settings, by = 10) {
+  settings$lambda <- settings$lambda / by
+  settings
+}
+
+#' Derivative of the line's offsets by the strength at the vertices of the fit
+#'
+#' J = (-H)^-1 (dg / d beta) (X'X + S)^-1 X', interior grid points x vertices.
+#' @noRd
+strength_jacobian <- function(problem, surface, alpha) {
+  interior <- seq_along(alpha) + 1
+  along <- margin_design(surface$margins$along, problem$u[interior])
+  across <- margin_design(problem$across, alpha / problem$width, 1) / problem$width
+  by_beta <- mgcv::tensor.prod.model.matrix(list(along, across)) * problem$weight
+  factor <- ascent_factor(problem, alpha)
+  by_beta <- backsolve(factor, backsolve(factor, by_beta, transpose = TRUE))
+  smooth <- backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE))
+  as.matrix(Matrix::crossprod(smooth, surface$design))
+}

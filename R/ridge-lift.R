@@ -1,0 +1,100 @@
+#' Lift a curve given in arc length and distance onto the mesh
+#'
+#' The curve d = alpha(s) is followed through the triangles of the mesh: at every
+#' vertex of the window d - alpha(s) is taken, and its zero line is walked from the
+#' triangle of the first end to that of the second, edge by edge. So the curve is a
+#' connected path on the mesh, and where (s, d) folds over it stays on the sheet
+#' that is joined to the reference path.
+#'
+#' @param specimen A [specimen()] or `mesh3d`.
+#' @param coordinates [path_coordinates()] of the window.
+#' @param path The reference path.
+#' @param s,alpha The curve: offsets at increasing arc lengths from 0 to the length of the path.
+#' @return A `mesh_path` from the first to the last point of `path`. Attribute `lifted` is `FALSE`
+#'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
+#'   the places of the curve.
+#' @section Errors: of class `crestline_path_error`, when neither way gives a path.
+#' @references The paper, section 3.3; the walk takes the place of its Delaunay triangulation of (s, d).
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
+#' window <- path_coordinates(ball, path, width = 0.4)
+#' s <- seq(0, attr(path, "length"), length.out = 21)
+#' lift(ball, window, path, s, alpha = 0.1 * sin(2 * s))
+#' @export
+lift <- function(specimen, coordinates, path, s, alpha) {
+  surface <- walkable(specimen)
+  ends <- lift_ends(path, surface)
+  level <- level_at_vertices(surface, coordinates, s, alpha, ends)
+  towards <- unlist(path[2, c("x", "y", "z")] - path[1, c("x", "y", "z")])
+  walked <- cpp_level_path(surface$xyz, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
+  if (walked$end == "arrived") return(new_path(walked$points, ends, lifted = TRUE))
+  piece_together(specimen, surface, coordinates, path, s, alpha)
+}
+
+#' The ends of a path as path_ends() gives them
+#' @noRd
+lift_ends <- function(path, surface) {
+  path_ends(list(), surface, as.data.frame(path[1, ]), as.data.frame(path[nrow(path), ]))
+}
+
+#' d - alpha(s) at all vertices, NaN outside the window, shifted to vanish at both ends
+#' @noRd
+level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
+  offset <- stats::splinefun(s, alpha, method = "natural")
+  level <- rep(NaN, ncol(surface$xyz))
+  level[coordinates$vertex] <- coordinates$d - offset(coordinates$s)
+  at_end <- function(end) sum(end[2:4] * level[surface$it[, end[1]]])
+  share <- pmin(pmax(coordinates$s / max(s), 0), 1)
+  level[coordinates$vertex] <- level[coordinates$vertex] -
+    (1 - share) * at_end(ends$from) - share * at_end(ends$to)
+  level
+}
+
+#' A path through the places of the curve, joined by shortest plane cuts
+#'
+#' The place of each (s, alpha) is in a triangle that holds it in (s, d); of several, the one
+#' nearest to the reference path.
+#' @noRd
+piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
+  places <- places_in_plane(surface, coordinates, path, s, alpha)
+  knots <- rbind(path[1, names(places)], places, path[nrow(path), names(places)])
+  knots <- knots[c(TRUE, rowSums(diff(as.matrix(knots[1:3]))^2) > 0), ]
+  pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
+    reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = 2)
+  })
+  joined <- do.call(rbind, lapply(pieces, function(p) as.data.frame(p)[-1, -1]))
+  ends <- list(exact = knots[c(1, nrow(knots)), ])
+  new_path(as.matrix(joined[-nrow(joined), ]), ends, lifted = FALSE)
+}
+
+places_in_plane <- function(surface, coordinates, path, s, alpha) {
+  row_of <- match(seq_len(ncol(surface$xyz)), coordinates$vertex)
+  corners <- matrix(row_of[surface$it], 3)
+  faces <- which(colSums(is.na(corners)) == 0)
+  flat <- list(vb = rbind(coordinates$s, coordinates$d, 0), it = corners[, faces, drop = FALSE])
+  found <- lapply(seq_along(s)[-c(1, length(s))], function(i) {
+    holds <- triangles_about(flat, s[i], alpha[i])
+    if (length(holds$face) == 0) return(NULL)
+    xyz <- place_on_faces(list(vb = surface$xyz, it = surface$it), faces[holds$face], holds$weight)
+    at <- points_along(path, s[i])
+    best <- which.min(rowSums(sweep(xyz, 2, at)^2))
+    data.frame(x = xyz[best, 1], y = xyz[best, 2], z = xyz[best, 3], face = faces[holds$face[best]],
+               w1 = holds$weight[best, 1], w2 = holds$weight[best, 2], w3 = holds$weight[best, 3])
+  })
+  do.call(rbind, found)
+}
+
+#' Triangles of a flat mesh that hold a point, with its weights
+#' @noRd
+triangles_about <- function(flat, x, y) {
+  corner <- function(i, row) flat$vb[row, flat$it[i, ]]
+  near <- which(pmin(corner(1, 1), corner(2, 1), corner(3, 1)) <= x &
+                  pmax(corner(1, 1), corner(2, 1), corner(3, 1)) >= x)
+  near_flat <- list(vb = flat$vb, it = flat$it[, near, drop = FALSE])
+  corners <- lapply(1:3, function(i) t(near_flat$vb[, near_flat$it[i, ], drop = FALSE]))
+  point <- matrix(c(x, y, 0), length(near), 3, byrow = TRUE)
+  weight <- foot_in_triangles(point, corners[[1]], corners[[2]], corners[[3]])
+  inside <- which(!is.na(weight[, 1]))
+  list(face = near[inside], weight = weight[inside, , drop = FALSE])
+}

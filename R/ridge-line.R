@@ -1,0 +1,131 @@
+#' Penalised ridge of a curvature surface
+#'
+#' The offset alpha(u) from the reference path, u = s / length, that maximises
+#' \deqn{\int \nu(u, \alpha) / \nu_0 \, du - \lambda \int (d^2 (\alpha / r) / du^2)^2 du}
+#' with alpha = 0 at both ends: nu the smooth strength, nu0 its mean near the path,
+#' r the radius of the curvature estimates. The criterion has no unit. Newton's
+#' method from alpha = 0; the criterion is not concave, so where the negative
+#' Hessian is not positive definite the second derivatives of nu enter by their absolute
+#' value, steps are bounded, and halved until the criterion rises. The local optimum
+#' by the reference path is wanted: the global one is usually a competing feature.
+#'
+#' @param surface A [curvature_surface()].
+#' @param scale Mean strength nu0 near the path, in 1 / unit.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh.
+#' @param settings [ridge_settings()]: `lambda`, `lambda_scale`, `grid`, `bound`, `step`,
+#'   `iterations`, `tolerance`.
+#' @return Object of class `ridge_line`, a list: `s` and `alpha` (unit of the mesh) at the grid;
+#'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the
+#'   interior of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the window).
+#' @references The paper, section 3.3.
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
+#' window <- path_coordinates(ball, path, width = 0.3)
+#' smooth <- curvature_surface(window, 1 - (window$d - 0.1 * sin(2 * window$s))^2)
+#' ridge_line(smooth, scale = 1, radius = 0.2)
+#' @export
+ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
+  check_class(surface, "curvature_surface", "surface", "curvature_surface()")
+  check_number(scale, "scale", lower = 0, open = TRUE)
+  problem <- ridge_problem(surface, scale, radius, settings)
+  found <- climb(problem, settings)
+  structure(
+    list(s = problem$u * surface$length, alpha = c(0, found$alpha, 0), lambda = problem$lambda,
+         criterion = found$value, gradient = found$gradient, iterations = found$iterations,
+         converged = found$converged, at_bound = found$at_bound),
+    class = "ridge_line"
+  )
+}
+
+#' The criterion with everything that does not change with alpha worked out
+#'
+#' `alpha` in these functions is the interior part, in the unit of the mesh.
+#' @noRd
+ridge_problem <- function(surface, scale, radius, settings) {
+  grid <- settings$grid
+  u <- seq(0, 1, length.out = grid)
+  profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
+  at_ends <- margin_design(surface$margins$across, c(0, 0)) * profile[c(1, grid), ]
+  second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * (grid - 1)^2 / radius
+  lambda <- switch(settings$lambda_scale, feature = settings$lambda / (scale * radius),
+                   grid = settings$lambda * radius^2 / (scale * (grid - 1)^3))
+  list(u = u, lambda = lambda, roughness = crossprod(second) / (grid - 1),
+       across = surface$margins$across, width = surface$width, limit = settings$bound * surface$width,
+       interior = profile[-c(1, grid), ], weight = rep(1 / (grid - 1), grid - 2) / scale,
+       ends = sum(at_ends) / (2 * (grid - 1) * scale))
+}
+
+#' Smooth strength, or a derivative by the offset, at the interior grid points
+#' @noRd
+profile_at <- function(problem, alpha, derivative) {
+  basis <- margin_design(problem$across, alpha / problem$width, derivative)
+  rowSums(basis * problem$interior) / problem$width^derivative
+}
+
+ridge_criterion <- function(problem, alpha) {
+  sum(problem$weight * profile_at(problem, alpha, 0)) + problem$ends -
+    problem$lambda * sum(alpha * (problem$roughness %*% alpha))
+}
+
+ridge_gradient <- function(problem, alpha) {
+  problem$weight * profile_at(problem, alpha, 1) - 2 * problem$lambda * as.vector(problem$roughness %*% alpha)
+}
+
+#' Hessian, or with `convex` its negative-definite stand-in
+#' @noRd
+ridge_hessian <- function(problem, alpha, convex = FALSE) {
+  bend <- problem$weight * profile_at(problem, alpha, 2)
+  diag(if (convex) -abs(bend) else bend) - 2 * problem$lambda * problem$roughness
+}
+
+#' Cholesky factor of the negative Hessian, of its stand-in where that is not positive definite
+#' @noRd
+ascent_factor <- function(problem, alpha) {
+  exact <- tryCatch(chol(-ridge_hessian(problem, alpha)), error = function(e) NULL)
+  if (!is.null(exact)) return(exact)
+  stand_in <- -ridge_hessian(problem, alpha, convex = TRUE)
+  chol(stand_in + diag(1e-12 * max(diag(stand_in)), nrow(stand_in)))
+}
+
+climb <- function(problem, settings) {
+  alpha <- numeric(length(problem$u) - 2)
+  value <- ridge_criterion(problem, alpha)
+  small <- settings$tolerance * problem$width
+  converged <- FALSE
+  round <- 0
+  while (!converged && round < settings$iterations) {
+    round <- round + 1
+    factor <- ascent_factor(problem, alpha)
+    gradient <- ridge_gradient(problem, alpha)
+    step <- backsolve(factor, backsolve(factor, gradient, transpose = TRUE))
+    step <- step * min(1, settings$step * problem$width / max(abs(step)), na.rm = TRUE)
+    risen <- rise(problem, alpha, value, step, small)
+    converged <- max(abs(risen$alpha - alpha)) <= small
+    alpha <- risen$alpha
+    value <- risen$value
+  }
+  free <- abs(alpha) < problem$limit
+  list(alpha = alpha, value = value, iterations = round, converged = converged, at_bound = any(!free),
+       gradient = max(0, abs(ridge_gradient(problem, alpha)[free])))
+}
+
+#' Longest of the halved steps with which the criterion rises, within the bounds
+#' @noRd
+rise <- function(problem, alpha, value, step, small) {
+  while (max(abs(step)) > small) {
+    trial <- pmin(pmax(alpha + step, -problem$limit), problem$limit)
+    next_value <- ridge_criterion(problem, trial)
+    if (next_value > value) return(list(alpha = trial, value = next_value))
+    step <- step / 2
+  }
+  list(alpha = alpha, value = value)
+}
+
+#' @export
+print.ridge_line <- function(x, ...) {
+  cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s), min(x$alpha),
+              max(x$alpha), if (x$converged) "converged" else "NOT converged", x$iterations,
+              if (x$at_bound) ", along the edge of the window" else ""))
+  invisible(x)
+}
