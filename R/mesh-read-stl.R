@@ -27,7 +27,9 @@ stl_ascii <- function(file, id) {
 # The lines of a text file, whatever bytes are in it; tabs and carriage returns become blanks.
 text_lines <- function(file) {
   raw <- readBin(file, "raw", file.size(file))
-  raw[raw == 0 | raw == 9 | raw == 13] <- as.raw(32)
+  for (blank in as.raw(c(0, 9, 13))) {
+    if (length(grepRaw(blank, raw, fixed = TRUE))) raw[raw == blank] <- as.raw(32)
+  }
   line <- strsplit(rawToChar(raw), "\n", fixed = TRUE, useBytes = TRUE)[[1]]
   indented <- startsWith(line, " ")
   line[indented] <- sub("^ +", "", line[indented], useBytes = TRUE)
