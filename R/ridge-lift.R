@@ -67,6 +67,11 @@ level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
 #' @noRd
 piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
   places <- places_in_plane(surface, coordinates, path, s, alpha)
+  if (is.null(places)) {
+    crestline_abort("no triangle near the reference path holds the ridge line.",
+                    "Give a smaller `width`, or use the plane cut.", stage = "lift", id = surface$id,
+                    class = "crestline_path_error", call = NULL)
+  }
   knots <- rbind(path[1, names(places)], places, path[nrow(path), names(places)])
   knots <- knots[c(TRUE, rowSums(diff(as.matrix(knots[1:3]))^2) > 0), ]
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
