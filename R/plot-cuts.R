@@ -15,6 +15,13 @@
 #' @return The paths, invisibly: a list with a `mesh_path` for each angle at which there is one.
 #' @section Warnings: of class `crestline_warning`, when a cut comes to a border of the mesh and is left out; when all do, that is an error.
 #' @references The paper, Fig. 2; see [crestline-package].
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' plot_cuts(face, "chL", "chR", around = face$landmarks[c("chL", "chR", "sn"), ], engine = "picture")
+#' }
 #' @export
 plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surface = "plain",
                       colour = grDevices::hcl.colors(length(angles), "Dark 3"), width = 2.5,

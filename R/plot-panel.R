@@ -17,6 +17,12 @@
 #' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
 #' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they have no panel.
 #' @references The paper, Fig. 3; see [crestline-package].
+#' @examples
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
+#' plot_panel(lip)
 #' @export
 plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
                        contours = 8, colour = "#16218C", main = NULL, ...) {
