@@ -65,8 +65,9 @@ panel_grid <- function(x, grid) {
   list(s = s, d = d, strength = strength)
 }
 
-# Least and greatest d of the data about each s, from as many equal stretches of s.
-data_reach <- function(coordinates, s, stretches = 30) {
+# Least and greatest d of the data about each s, from equal stretches of s that hold `each` vertices in the mean, at most `most`.
+data_reach <- function(coordinates, s, each = 15, most = 30) {
+  stretches <- min(max(nrow(coordinates) %/% each, 2), most)
   breaks <- seq(min(s), max(s), length.out = stretches + 1)
   stretch <- findInterval(coordinates$s, breaks, all.inside = TRUE)
   ends <- vapply(split(coordinates$d, factor(stretch, seq_len(stretches))),
