@@ -16,7 +16,7 @@
 #' @param ... Passed to [graphics::image()].
 #' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
 #' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they have no panel.
-#' @references The paper, Fig. 3; see [crestline-package].
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 3.
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
