@@ -18,6 +18,13 @@ bent_ridge <- function(...) {
 }
 straight_ridge <- function(...) graph_specimen(quote(6 * exp(-v^2 / 50)), two_ends(), ...)
 
+# Two ridges that part at landmark a, swing out to v = 5 and v = -5 and meet again at b, of heights `left` and `right`.
+arched_ridges <- function(left, right, ...) {
+  z <- substitute(v^2 / 10 + left * exp(-(v - 5 * cos(pi * u / 27))^2 / 3) + right * exp(-(v + 5 * cos(pi * u / 27))^2 / 3),
+                  list(left = left, right = right))
+  graph_specimen(z, two_ends(c(-13.5, 13.5), c(0, 0)), half = c(18, 14), ...)
+}
+
 xyz_of <- function(points) as.matrix(as.data.frame(points)[c("x", "y", "z")])
 
 # Unit sphere of about 2,500 vertices, its poles at no vertex.
@@ -33,11 +40,11 @@ expect_path_on_mesh <- function(path, mesh, tolerance = 1e-6) {
   testthat::expect_lte(max(abs(placed - begin)), tolerance * size)
   testthat::expect_true(all(diff(path$s) >= 0))
   testthat::expect_equal(path$s[nrow(path)], attr(path, "length"))
-  testthat::expect_equal(diff(path$s), sqrt(rowSums(diff(xyz_of(path))^2)), tolerance = 1e-9)
+  testthat::expect_equal(diff(path$s), chords(path), tolerance = 1e-9)
 }
 
 # Straight distances between neighbours.
-chords <- function(points) sqrt(rowSums(diff(xyz_of(points))^2))
+chords <- function(points) unname(sqrt(rowSums(diff(xyz_of(points))^2)))
 
 # Distance of each point from a polyline, n.
 distance_from_line <- function(xyz, line) {
