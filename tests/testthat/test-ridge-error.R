@@ -58,7 +58,7 @@ test_that("shared vertices are counted as shared: the difference of one curvatur
   direction <- rbind(c(1, 1), c(0, 0), c(0, 0))
   sigma <- rep(1, ncol(mesh$vb))
   variance <- function(targets, jacobian) {
-    cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, fit_settings(5))
+    cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, fit_settings(5, "quadratic"))
   }
   expect_lt(variance(c(1800L, 1800L), matrix(c(1, -1), 1)), 1e-20)
   single <- variance(at, rbind(c(1, 0), c(0, 1)))
