@@ -37,7 +37,8 @@ describe_shape <- function(x) {
 }
 
 shorten <- function(x, most = 5) {
-  paste0(paste(utils::head(x, most), collapse = ", "), if (length(x) > most) sprintf(" and %d more", length(x) - most))
+  more <- if (length(x) > most) sprintf(" and %d more", length(x) - most)
+  paste0(paste(utils::head(x, most), collapse = ", "), more)
 }
 
 refuse_landmarks <- function(problem, remedy, id) {
@@ -77,8 +78,10 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
   fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh, tolerance)
   named <- paste0(rownames(landmarks)[off], " (by ", signif(away[off], 3), ")")
   if (!is.null(fit)) {
-    refuse_landmarks(sprintf("the landmarks are in another unit or frame than the mesh: off it are %s.", shorten(named)),
-                     sprintf("They would lie on it %s: change them so.", fit), id)
+    refuse_landmarks(
+      sprintf("the landmarks are in another unit or frame than the mesh: off it are %s.", shorten(named)),
+      sprintf("They would lie on it %s: change them so.", fit), id
+    )
   }
   refuse_landmarks(
     sprintf("off the surface by more than %s: %s.", signif(tolerance, 3), shorten(named)),
@@ -119,8 +122,10 @@ handedness <- function(landmarks, located, mesh, midline) {
 
 warn_mirrored <- function(id) {
   crestline_warn(
-    "left and right look mirrored: with the head upright and facing you, the landmarks ending in L should be on your right.",
-    "Swap the endings L and R of the names, or, if the scan itself is mirrored, change the sign of x of mesh and landmarks.",
+    paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
+          "should be on the viewer's right (the subject's own left)."),
+    paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
+          "change the sign of x of mesh and landmarks."),
     stage = "landmarks", id = id, class = "crestline_mirrored"
   )
 }

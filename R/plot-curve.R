@@ -21,7 +21,7 @@
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
-#' corners <- rbind(chR = Rvcg::humface.lm[6, ], chL = Rvcg::humface.lm[7, ])
+#' corners <- rbind(chR = humface.lm[6, ], chL = humface.lm[7, ])
 #' face <- specimen(humface, corners, id = "humface")
 #' curve <- ridge_curve(face, "chR", "chL", "valley", radius = 5, width = 15, n = 11)
 #' plot(curve, face, "plain", engine = "picture")
@@ -38,12 +38,11 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
-  for (i in seq_along(curves)[band]) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+  each <- seq_along(curves)
+  if (band) for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
   if (engine == "picture") for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
-  for (i in seq_along(curves)) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
-  for (i in seq_along(curves)[points]) {
-    scene <- draw_points(scene, curves[[i]]$points, key$colours[i], size = 0.28 * width, halo = "white")
-  }
+  for (i in each) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
+  if (points) for (i in each) scene <- draw_points(scene, curves[[i]]$points, key$colours[i], 0.28 * width, "white")
   if (legend && engine == "picture" && length(key$names)) {
     on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8))
   }

@@ -7,7 +7,7 @@
 #' graphics device with base graphics (orthographic, smoothly shaded, no display needed), the engine
 #' "rgl" in the current rgl scene or a new one, on rgl's null device when `options(rgl.useNULL = TRUE)`.
 #'
-#' @param mesh A `mesh3d` with triangles.
+#' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
 #' @param view Where to look from: "front" (along -z at +z, y up), "left" and "right" (the subject's own),
 #'   "three-quarter" (from the subject's left and a little above), "below", "above", "back"; or two angles in radians, how far the
@@ -28,7 +28,7 @@
 draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
                          engine = c("picture", "rgl"), ...) {
   engine <- check_choice(engine, c("picture", "rgl"), "engine")
-  mesh <- with_normals(mesh)
+  mesh <- with_normals(as_mesh(mesh))
   colour <- check_colours(colour, ncol(mesh$vb))
   rotation <- view_rotation(view)
   switch(engine,

@@ -28,6 +28,17 @@ test_that("header words, order of columns and further columns are free", {
   }
 })
 
+test_that("names with accents come through, in UTF-8 and in Latin 1", {
+  text <- "name,x,y,z\nn\u00e9z,1,2,3\n"
+  file <- csv_file("")
+  for (encoding in c("UTF-8", "latin1")) {
+    writeBin(iconv(text, "UTF-8", encoding, toRaw = TRUE)[[1]], file)
+    expect_equal(rownames(read_landmarks(file)), "n\u00e9z")
+  }
+  writeBin(as.raw(c(0, 255, 128, 10, 200:255)), file)
+  expect_crestline_error(read_landmarks(file), "cannot be read")
+})
+
 test_that("what cannot be read is refused with file, line and remedy", {
   expect_crestline_error(read_landmarks("none.csv"), "none.csv")
   expect_crestline_error(read_landmarks(csv_file("name,x,y", "a,1,2")), c("no column z", "header line"))
