@@ -62,8 +62,8 @@ test_that("shared vertices are counted as shared: the difference of one curvatur
   }
   expect_lt(variance(c(1800L, 1800L), matrix(c(1, -1), 1)), 1e-20)
   single <- variance(at, rbind(c(1, 0), c(0, 1)))
-  expect_lt(variance(at, matrix(c(1, -1), 1)), 0.3 * sum(single)) # neighbours: nearly the same points
-  expect_gt(variance(at, matrix(c(1, 1), 1)), 1.7 * sum(single))
+  expect_lt(variance(at, matrix(c(1, -1), 1)), 0.5 * sum(single)) # neighbours: most points in common
+  expect_gt(variance(at, matrix(c(1, 1), 1)), 1.5 * sum(single))
   expect_equal(variance(at, rbind(c(2, 0))), 4 * single[1], tolerance = 1e-12)
 })
 
@@ -93,7 +93,8 @@ test_that("strength_jacobian() is the derivative of the ridge line by the streng
 test_that("the standard error is about the spread over meshes scanned again", {
   lines <- vapply(1:30, function(seed) {
     bent <- straight_ridge(noise = 0.1, seed = seed, half = c(17, 12), spacing = 1.25)
-    curve <- ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9)
+    curve <- suppressWarnings(ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9),
+                              classes = "crestline_rival_path")
     crest <- curve$points$y # of the curve; its truth is 0
     c(crest[5], curve$points$se[5])
   }, numeric(2))
