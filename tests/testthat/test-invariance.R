@@ -9,7 +9,7 @@ moved_specimen <- function(specimen, move, turn_faces = FALSE) {
 }
 remade <- function(mesh, landmarks) {
   mesh$normals <- NULL
-  specimen(mesh, landmarks, id = "moved", outward = "keep")
+  suppressWarnings(specimen(mesh, landmarks, id = "moved", outward = "keep"), classes = "crestline_mirrored")
 }
 
 turned <- function(x) {
