@@ -42,7 +42,7 @@
 #'
 #'   All are `NA` at vertices that were not asked for.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
-#'   number, or so small that no vertex can be fitted.
+#'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
 #' @references The paper, section 2.
 #' @examples
 #' data(humface, package = "Rvcg")
@@ -59,6 +59,7 @@ curvature <- function(mesh, radius, order = "adaptive",
   targets <- vertex_indices(vertices, ncol(mesh$vb))
   out <- empty_curvature(ncol(mesh$vb))
   xyz <- mesh$vb[1:3, , drop = FALSE]
+  check_radius(radius, xyz)
   todo <- targets
   while (length(todo) > 0 && settings$radius <= widen * radius) {
     found <- cpp_curvature(xyz, mesh$it, todo, settings, threads)
@@ -124,6 +125,16 @@ vertex_indices <- function(vertices, n) {
                     sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
   }
   as.integer(vertices)
+}
+
+#' A ball as large as the object holds no local shape: most likely another unit
+#' @noRd
+check_radius <- function(radius, xyz) {
+  size <- sqrt(sum(apply(xyz, 1, function(x) diff(range(x)))^2))
+  if (radius > size / 2) {
+    crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose diagonal is %.4g.", radius, size),
+                    "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
+  }
 }
 
 abort_radius <- function(curved, targets, radius) {

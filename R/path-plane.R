@@ -31,6 +31,7 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   surface <- walkable(mesh)
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
+  check_number(side, "side", lower = 0, upper = 1)
   axis <- cut_axis(surface, ends)
   cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
                         plane_normal(axis, angle), side, axis$span * reach)

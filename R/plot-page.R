@@ -17,6 +17,17 @@
 #' @param size Width and height of the picture in the browser's pixels.
 #' @param ... Passed to [plot_curves()]: `curvature`, `radius`, `view`, `band`.
 #' @return The path of the file, invisibly.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
+#' page <- tempfile(fileext = ".html")
+#' write_page(page, face, list("mid-line lip left" = lip), radius = 10)
+#' file.size(page)
+#' unlink(page)
+#' }
 #' @export
 write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
                        title = paste("Specimen", specimen$id), caption = NULL, surface = "shape index",
@@ -106,7 +117,7 @@ curve_table <- function(curves) {
   name <- if (is.null(names(curves))) character(length(curves)) else names(curves)
   table <- data.frame(curve = name, kind = pick("type", as.character), from = pick("from", as.character),
                       to = pick("to", as.character), length = pick("length", as.numeric), strength = pick("strength", as.numeric))
-  table$se <- vapply(curves, function(curve) stats::median(curve$points$se, na.rm = TRUE), numeric(1), USE.NAMES = FALSE)
+  table$se <- pick("se", as.numeric)
   table$converged <- pick("converged", as.logical)
   table[if (all(name == "")) -1 else TRUE]
 }

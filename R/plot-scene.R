@@ -45,7 +45,7 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) UseMethod("draw_lines")
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/125 of the diagonal of the mesh's box wide at size 1.
+#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the diagonal of the mesh's box wide at size 1.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
@@ -106,9 +106,4 @@ point_matrix <- function(x, call = rlang::caller_env()) {
 
 with_normals <- function(mesh) {
   if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
-}
-
-# Length of the diagonal of the box that holds the mesh.
-mesh_diagonal <- function(mesh) {
-  sqrt(sum(apply(mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))^2))
 }

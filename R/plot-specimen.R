@@ -39,8 +39,9 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
     on.exit(graphics::par(old))
   }
   scene <- draw_surface(x$mesh, scale$colours, view, engine, ...)
-  if (landmarks && nrow(x$landmarks) > 0) {
-    draw_points(scene, x$landmarks, "black", halo = "white", labels = if (labels) rownames(x$landmarks))
+  placed <- x$landmarks[stats::complete.cases(x$landmarks), , drop = FALSE]
+  if (landmarks && nrow(placed) > 0) {
+    scene <- draw_points(scene, placed, "black", halo = "white", labels = if (labels) rownames(placed))
   }
   if (engine == "picture") {
     graphics::title(main)

@@ -53,21 +53,32 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from), to = end_name(to),
                 type = type, settings = settings, passes = passes)
-  if (type == "plane") {
-    path <- reference_path(specimen, from, to, "plane", reach = reach)
-    return(new_curve(specimen, path, path, n, about))
+  in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to), code = {
+    if (type == "plane") {
+      path <- reference_path(specimen, from, to, "plane", reach = reach)
+      new_curve(specimen, path, path, n, about)
+    } else {
+      about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
+      about$width <- check_number(width, "width", lower = 0, open = TRUE)
+      curvature <- curvature_for(curvature, specimen, from, to, radius, width, reach, settings, threads)
+      path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
+                             longest = settings$longest)
+      fit <- fit_passes(specimen, path, curvature, keep_away, about)
+      new_curve(specimen, fit$path, fit$reference, n, about, fit)
+    }
+  })
+}
+
+#' The passes of a fit, each about the curve of the one before
+#' @noRd
+fit_passes <- function(specimen, path, curvature, keep_away, about) {
+  for (pass in seq_len(about$passes)) {
+    fit <- fit_ridge(specimen, path, curvature, about$radius, about$width, about$type, keep_away, about$settings)
+    fit$reference <- path
+    if (!fit$found) break
+    path <- fit$path
   }
-  radius <- check_number(radius, "radius", lower = 0, open = TRUE)
-  width <- check_number(width, "width", lower = 0, open = TRUE)
-  about[c("radius", "width")] <- list(radius, width)
-  curvature <- curvature_for(curvature, specimen, from, to, radius, width, reach, settings, threads)
-  path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
-                         longest = settings$longest)
-  for (pass in seq_len(passes)) {
-    fit <- fit_ridge(specimen, path, curvature, radius, width, type, keep_away, settings)
-    if (pass < passes && fit$found) path <- fit$path
-  }
-  new_curve(specimen, fit$path, path, n, about, fit)
+  fit
 }
 
 #' Curvature where the curve and its window may lie, unless it is given

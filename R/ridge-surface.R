@@ -65,7 +65,7 @@ abort_few_vertices <- function(count, df) {
 #' One margin: mgcv's p-spline smooth on equally spaced knots over an interval
 #' @noRd
 spline_margin <- function(k, lower, upper) {
-  term <- mgcv::s(x, bs = "ps", k = k, m = c(2, 2))
+  term <- eval(substitute(mgcv::s(x, bs = "ps", k = k, m = c(2, 2)), list(x = quote(x), k = k)))
   mgcv::smoothCon(term, data.frame(x = seq(lower, upper, length.out = 2 * k)),
                   knots = list(x = c(lower, upper)))[[1]]
 }

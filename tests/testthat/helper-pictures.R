@@ -59,11 +59,12 @@ equator_curve <- function(type = "ridge") {
   path <- quarter(101)
   points <- cbind(point = 1:11, quarter(11), d = 0, se = 0.05)
   window <- expand.grid(s = seq(0, pi / 2, length.out = 40), d = seq(-0.3, 0.3, length.out = 20))
+  window$inside <- TRUE
   coordinates <- structure(data.frame(vertex = seq_len(nrow(window)), window), length = pi / 2, width = 0.3)
   surface <- structure(list(), class = "test_surface")
-  line <- list(s = seq(0, pi / 2, length.out = 41), alpha = rep(0, 41))
+  line <- list(s = seq(0, pi / 2, length.out = 41), alpha = rep(0, 41), se = rep(0.05, 41))
   structure(list(points = points, path = path, reference = path, coordinates = coordinates, surface = surface,
-                 line = line, strength = 1, length = pi / 2, converged = TRUE, determined = TRUE, type = type,
+                 line = line, strength = 1, se = 0.05, length = pi / 2, converged = TRUE, determined = TRUE, type = type,
                  from = "east", to = "front", id = "ball"), class = "curve")
 }
 registerS3method("predict", "test_surface", function(object, s, d, ...) exp(-d^2), envir = asNamespace("stats"))

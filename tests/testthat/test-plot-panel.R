@@ -16,7 +16,9 @@ test_that("it is empty beyond the data", {
 
 test_that("a curve without standard errors has a panel too, anything else has none", {
   curve <- equator_curve()
-  curve$points$se <- NA
+  curve$line$se <- NULL
   expect_type(draw_quietly(plot_panel(curve, points = FALSE, main = "bare")), "list")
+  curve$line <- NULL
+  expect_error(plot_panel(curve), "east to front", class = "crestline_error")
   expect_error(plot_panel(list()), class = "crestline_error")
 })
