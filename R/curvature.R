@@ -120,7 +120,7 @@ as_mesh <- function(mesh) {
 
 vertex_indices <- function(vertices, n) {
   if (is.null(vertices)) return(seq_len(n))
-  if (is.logical(vertices)) vertices <- which(vertices)
+  if (is.logical(vertices) && length(vertices) == n && !anyNA(vertices)) vertices <- which(vertices)
   if (!is.numeric(vertices) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
     crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
                     sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
