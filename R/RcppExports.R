@@ -33,3 +33,7 @@ cpp_joined_to <- function(it, member, seeds) {
     .Call(`_crestline_cpp_joined_to`, it, member, seeds)
 }
 
+cpp_render_mesh <- function(xyz, rgb, it, width, height, samples) {
+    .Call(`_crestline_cpp_render_mesh`, xyz, rgb, it, width, height, samples)
+}
+

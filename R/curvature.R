@@ -111,7 +111,7 @@ as_mesh <- function(mesh) {
     crestline_abort("the mesh has no triangles.", "Pass it through specimen(), which mends what it can.",
                     stage = "mesh")
   }
-  storage.mode(mesh$it) <- "integer"
+  if (!is.integer(mesh$it)) storage.mode(mesh$it) <- "integer"
   mesh
 }
 

@@ -46,8 +46,8 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   axis <- cut_axis(surface, ends)
   strength <- numeric()
   if (type != "plane") {
-    near <- near_segment(surface, ends, reach * axis$span + radius)
-    curvature <- known_curvature(curvature, specimen, radius, near, threads, ...)
+    curvature <- known_curvature(curvature, specimen, radius,
+                                 near_segment(surface, ends, reach * axis$span + radius), threads, ...)
     strength <- path_strength(curvature, type, keep_away, specimen, surface)
   }
   cuts <- function(angle, side) {
@@ -130,6 +130,8 @@ near_segment <- function(surface, ends, distance) {
 }
 
 #' The curvature that was given, after a check, or estimated at the vertices that need it
+#'
+#' `vertices` is a promise: it costs nothing where the curvature is given.
 #' @noRd
 known_curvature <- function(curvature, specimen, radius, vertices, threads, ...) {
   if (is.null(curvature)) {

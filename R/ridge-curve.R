@@ -73,11 +73,13 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 #' Curvature where the curve and its window may lie, unless it is given
 #' @noRd
 curvature_for <- function(curvature, specimen, from, to, radius, width, reach, settings, threads) {
-  surface <- walkable(specimen)
-  ends <- path_ends(specimen, surface, from, to)
-  span <- cut_axis(surface, ends)$span
-  near <- near_segment(surface, ends, reach * span + min(width, settings$window * radius))
-  known_curvature(curvature, specimen, radius, near, threads, order = settings$order)
+  vertices <- function() {
+    surface <- walkable(specimen)
+    ends <- path_ends(specimen, surface, from, to)
+    span <- cut_axis(surface, ends)$span
+    near_segment(surface, ends, reach * span + min(width, settings$window * radius))
+  }
+  known_curvature(curvature, specimen, radius, vertices(), threads, order = settings$order)
 }
 
 #' One pass from reference path to lifted curve

@@ -50,9 +50,9 @@ strength_jacobian <- function(problem, surface, alpha) {
   interior <- seq_along(alpha) + 1
   along <- margin_design(surface$margins$along, problem$u[interior])
   across <- margin_design(problem$across, alpha / problem$width, 1) / problem$width
-  by_beta <- Matrix::t(Matrix::KhatriRao(along, across)) * problem$weight
+  by_beta <- mgcv::tensor.prod.model.matrix(list(along, across)) * problem$weight
   factor <- ascent_factor(problem, alpha)
-  by_beta <- backsolve(factor, backsolve(factor, as.matrix(by_beta), transpose = TRUE))
+  by_beta <- backsolve(factor, backsolve(factor, by_beta, transpose = TRUE))
   smooth <- backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE))
   as.matrix(Matrix::crossprod(smooth, surface$design))
 }

@@ -45,28 +45,26 @@ ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
 ridge_problem <- function(surface, scale, radius, settings) {
   grid <- settings$grid
   u <- seq(0, 1, length.out = grid)
-  along <- margin_design(surface$margins$along, u)
+  profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
+  at_ends <- margin_design(surface$margins$across, c(0, 0)) * profile[c(1, grid), ]
   second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * (grid - 1)^2 / radius
   lambda <- switch(settings$lambda_scale, feature = settings$lambda / (scale * radius),
                    grid = settings$lambda * radius^2 / (scale * (grid - 1)^3))
   list(u = u, lambda = lambda, roughness = crossprod(second) / (grid - 1),
        across = surface$margins$across, width = surface$width, limit = settings$bound * surface$width,
-       profile = as.matrix(surface$coefficients %*% along), weight = rep(1 / (grid - 1), grid - 2) / scale,
-       end_weight = 0.5 / ((grid - 1) * scale))
+       interior = profile[-c(1, grid), ], weight = rep(1 / (grid - 1), grid - 2) / scale,
+       ends = sum(at_ends) / (2 * (grid - 1) * scale))
 }
 
 #' Smooth strength, or a derivative by the offset, at the interior grid points
 #' @noRd
 profile_at <- function(problem, alpha, derivative) {
   basis <- margin_design(problem$across, alpha / problem$width, derivative)
-  interior <- problem$profile[, -c(1, ncol(problem$profile)), drop = FALSE]
-  Matrix::colSums(basis * interior) / problem$width^derivative
+  rowSums(basis * problem$interior) / problem$width^derivative
 }
 
 ridge_criterion <- function(problem, alpha) {
-  ends <- margin_design(problem$across, c(0, 0))
-  outer <- problem$profile[, c(1, ncol(problem$profile))]
-  sum(problem$weight * profile_at(problem, alpha, 0)) + problem$end_weight * sum(ends * outer) -
+  sum(problem$weight * profile_at(problem, alpha, 0)) + problem$ends -
     problem$lambda * sum(alpha * (problem$roughness %*% alpha))
 }
 
@@ -93,6 +91,7 @@ ascent_factor <- function(problem, alpha) {
 climb <- function(problem, settings) {
   alpha <- numeric(length(problem$u) - 2)
   value <- ridge_criterion(problem, alpha)
+  small <- settings$tolerance * problem$width
   converged <- FALSE
   round <- 0
   while (!converged && round < settings$iterations) {
@@ -101,8 +100,8 @@ climb <- function(problem, settings) {
     gradient <- ridge_gradient(problem, alpha)
     step <- backsolve(factor, backsolve(factor, gradient, transpose = TRUE))
     step <- step * min(1, settings$step * problem$width / max(abs(step)), na.rm = TRUE)
-    risen <- rise(problem, alpha, value, step)
-    converged <- max(abs(risen$alpha - alpha)) <= settings$tolerance * problem$width
+    risen <- rise(problem, alpha, value, step, small)
+    converged <- max(abs(risen$alpha - alpha)) <= small
     alpha <- risen$alpha
     value <- risen$value
   }
@@ -113,8 +112,8 @@ climb <- function(problem, settings) {
 
 #' Longest of the halved steps with which the criterion rises, within the bounds
 #' @noRd
-rise <- function(problem, alpha, value, step, halvings = 40) {
-  for (k in seq_len(halvings)) {
+rise <- function(problem, alpha, value, step, small) {
+  while (max(abs(step)) > small) {
     trial <- pmin(pmax(alpha + step, -problem$limit), problem$limit)
     next_value <- ridge_criterion(problem, trial)
     if (next_value > value) return(list(alpha = trial, value = next_value))

@@ -60,19 +60,20 @@ spline_margin <- function(k, lower, upper) {
                   knots = list(x = c(lower, upper)))[[1]]
 }
 
-#' B-splines of a margin, or their derivatives, at places: k x n, sparse
+#' B-splines of a margin, or their derivatives, at places: n x k
 #' @noRd
-margin_design <- function(margin, x, derivative = 0) {
+margin_design <- function(margin, x, derivative = 0, sparse = FALSE) {
   order <- margin$m[1] + 2
   range <- margin$knots[c(order, length(margin$knots) - order + 1)]
   splines::splineDesign(margin$knots, pmin(pmax(x, range[1]), range[2]), order,
-                        rep(derivative, length(x)), sparse = TRUE) |> Matrix::t()
+                        rep(derivative, length(x)), sparse = sparse)
 }
 
 #' Columns of the tensor product, across running fastest: (k across * k along) x n
 #' @noRd
 tensor_design <- function(margins, u, v) {
-  Matrix::KhatriRao(margin_design(margins$along, u), margin_design(margins$across, v))
+  Matrix::KhatriRao(Matrix::t(margin_design(margins$along, u, sparse = TRUE)),
+                    Matrix::t(margin_design(margins$across, v, sparse = TRUE)))
 }
 
 tensor_penalty <- function(margins, anisotropy) {
@@ -107,8 +108,8 @@ penalty_for_df <- function(moments, penalty, df) {
 #' @export
 predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
   along <- margin_design(object$margins$along, rep_len(s, max(length(s), length(d))) / object$length)
-  across <- margin_design(object$margins$across, rep_len(d, ncol(along)) / object$width, derivative)
-  Matrix::colSums(across * (object$coefficients %*% along)) / object$width^derivative
+  across <- margin_design(object$margins$across, rep_len(d, nrow(along)) / object$width, derivative)
+  rowSums(across * tcrossprod(along, object$coefficients)) / object$width^derivative
 }
 
 #' @export

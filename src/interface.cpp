@@ -5,6 +5,7 @@
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
+#include "plot_render.h"
 
 using namespace Rcpp;
 
@@ -178,4 +179,15 @@ LogicalVector cpp_joined_to(IntegerMatrix it, LogicalVector member, IntegerVecto
   std::vector<char> joined =
       crestline::joined_to(corners.data(), it.ncol(), marked, from_zero(seeds));
   return LogicalVector(joined.begin(), joined.end());
+}
+
+// [[Rcpp::export]]
+List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int width, int height,
+                     int samples) {
+  std::vector<int> corners = from_zero(it);
+  crestline::Picture p = crestline::render_mesh(xyz.begin(), rgb.begin(), corners.data(), it.ncol(),
+                                                width, height, samples);
+  NumericVector rgba(p.rgba.begin(), p.rgba.end());
+  rgba.attr("dim") = IntegerVector::create(height, width, 4);
+  return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
 }

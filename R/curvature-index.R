@@ -1,0 +1,104 @@
+# From two principal curvatures to one number for the kind of shape and one for its amount.
+
+#' Shape index and curvedness
+#'
+#' The shape index says what kind of shape a place has, whatever its size, on a scale from
+#' -1 (a cup) over -0.5 (a rut, or valley), 0 (a symmetric saddle) and 0.5 (a ridge) to 1 (a cap):
+#' \deqn{S = \frac{2}{\pi} \arctan \frac{k_1 + k_2}{k_2 - k_1}, \quad k_1 \ge k_2.}{S = (2/pi) atan((k1 + k2)/(k2 - k1)), k1 >= k2.}
+#' The curvedness \eqn{\sqrt{(k_1^2 + k_2^2)/2}}{sqrt((k1^2 + k2^2)/2)} says how much of it there is.
+#'
+#' The formula as printed in the paper runs over \[0, 1\], where its text has cups at -1 and caps
+#' at 1; this is the text's.
+#'
+#' @param x A `curvature`, as [curvature()] returns it, or a numeric vector of principal
+#'   curvatures, in 1 / the unit of length; positive where the surface bends towards its normal.
+#' @param k2 The other principal curvatures, as many as in `x`, when `x` is numeric. The greater of
+#'   the two at each place is taken as k1.
+#' @return A numeric vector, one value a place. `shape_index()`: in \[-1, 1\], without unit, NA where the
+#'   surface is plane (both curvatures 0) or a curvature is NA. `curvedness()`: in 1 / the unit of length.
+#' @references Koenderink, J. J. and van Doorn, A. J. (1992) Surface shape and curvature scales.
+#'   *Image and Vision Computing* 10(8), 557-564.
+#' @seealso [shape_category()] for the names of the shapes, [plot_shape_scale()] for their colours.
+#' @examples
+#' shape_index(c(1, 1, 1, 0), c(1, 0, -1, -1))
+#' curvedness(c(1, 1, 1, 0), c(1, 0, -1, -1))
+#' @export
+shape_index <- function(x, k2 = NULL) {
+  k <- principal_pair(x, k2)
+  index <- -2 / pi * atan2(k$k1 + k$k2, k$k1 - k$k2)
+  index[k$k1 == 0 & k$k2 == 0] <- NA
+  index
+}
+
+#' @rdname shape_index
+#' @export
+curvedness <- function(x, k2 = NULL) {
+  k <- principal_pair(x, k2)
+  sqrt((k$k1^2 + k$k2^2) / 2)
+}
+
+principal_pair <- function(x, k2, call = rlang::caller_env()) {
+  if (inherits(x, "curvature")) return(x[c("k1", "k2")])
+  if (!is.numeric(x) || !is.numeric(k2) || length(x) != length(k2)) {
+    crestline_abort("`x` and `k2` are not two numeric vectors of one length.",
+                    "Give a `curvature` as `x`, or k1 as `x` and k2 as `k2`.",
+                    stage = "curvature", call = call)
+  }
+  list(k1 = pmax(x, k2), k2 = pmin(x, k2))
+}
+
+# Koenderink and van Doorn (1992), their figure of the scale: from cup to cap in steps of 1/4.
+shape_scale <- function() {
+  data.frame(
+    category = c("spherical cup", "trough", "rut", "saddle rut", "saddle", "saddle ridge", "ridge",
+                 "dome", "spherical cap"),
+    index = seq(-1, 1, by = 0.25),
+    colour = c("#00C800", "#00E6E6", "#3C50FF", "#A9C4FF", "#FFFFFF", "#FFF7A8", "#FFE600",
+               "#FF9100", "#E60000")
+  )
+}
+
+#' Names and colours of shapes
+#'
+#' Koenderink and van Doorn's nine named categories of the shape index, each 1/4 wide about
+#' -1, -0.75, ..., 1 (the two at the ends half of that), and their colours: cup green, trough cyan,
+#' rut blue, saddle rut pale blue, saddle white, saddle ridge pale yellow, ridge yellow, dome orange, cap red.
+#'
+#' @param index Numeric vector of shape indices, in \[-1, 1\] or NA.
+#' @param missing The colour where the index is NA.
+#' @return `shape_category()`: a factor with nine levels, from "spherical cup" to "spherical cap"; a
+#'   value on a limit belongs to the category above it. `shape_colours()`: colours `#RRGGBB`, the category's own at its
+#'   centre and in between (linear in red, green and blue) elsewhere.
+#' @inherit shape_index references
+#' @examples
+#' shape_category(c(-1, -0.5, 0, 0.5, 1))
+#' shape_colours(c(-1, -0.5, 0, 0.5, 1, NA))
+#' @export
+shape_category <- function(index) {
+  check_index(index)
+  scale <- shape_scale()
+  limits <- c(-1, scale$index[-1] - 1 / 8, 1)
+  factor(scale$category[findInterval(index, limits, rightmost.closed = TRUE)], scale$category)
+}
+
+#' @rdname shape_category
+#' @export
+shape_colours <- function(index, missing = "#BEBEBE") {
+  check_index(index)
+  ramp_colours((index + 1) / 2, shape_scale()$colour, missing)
+}
+
+check_index <- function(index, call = rlang::caller_env()) {
+  if (!(is.numeric(index) || all(is.na(index))) || any(abs(index) > 1, na.rm = TRUE)) {
+    crestline_abort("`index` is not a vector of numbers in [-1, 1].",
+                    "Compute it with shape_index().", stage = "curvature", call = call)
+  }
+}
+
+# Colours at shares x of the way through `anchors`.
+ramp_colours <- function(x, anchors, missing) {
+  out <- rep(missing, length(x))
+  known <- !is.na(x)
+  out[known] <- grDevices::rgb(grDevices::colorRamp(anchors)(x[known]), maxColorValue = 255)
+  out
+}

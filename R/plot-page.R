@@ -1,0 +1,92 @@
+# A page for the browser: the specimen that turns, its curves, and a table of them.
+
+#' Write a page with the turning specimen and its curves
+#'
+#' One HTML file that needs no other, or a file and a folder: the surface coloured by shape index, the
+#' curves with their bands, buttons that hide the colours or the curves, the colour scale, and a table.
+#'
+#' @param file Where to write, ending in ".html".
+#' @param specimen A `specimen`.
+#' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in the table.
+#' @param table A data frame to show below, NULL for none.
+#' @param title Heading of the page.
+#' @param caption A sentence below the picture.
+#' @param surface,colour,width As in [plot_curves()].
+#' @param selfcontained Whether to put all into one file, for which pandoc is needed; else a folder
+#'   named after the file, ending in `_files`, stands beside it.
+#' @param size Width and height of the picture in the browser's pixels.
+#' @param ... Passed to [plot_curves()]: `curvature`, `radius`, `view`, `band`.
+#' @return The path of the file, invisibly.
+#' @export
+write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
+                       title = paste("Specimen", specimen$id), caption = NULL, surface = "shape index",
+                       colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
+  rlang::check_installed(c("htmlwidgets", "htmltools"), "to write a page.")
+  file <- check_page_file(file, selfcontained)
+  curves <- check_curves(curves)
+  rgl::open3d(useNULL = TRUE)
+  device <- rgl::cur3d()
+  on.exit(rgl::close3d(device))
+  plain <- plot(specimen, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
+  scene <- plot_curves(curves, specimen, surface, colour, width = width, engine = "rgl", ...)
+  page <- page_widget(scene$ids, surface, size)
+  page <- htmlwidgets::prependContent(page, htmltools::tags$h2(title))
+  page <- htmlwidgets::appendContent(page, page_legend(surface), htmltools::tags$p(caption), html_table(table))
+  page$sizingPolicy$padding <- 20
+  htmlwidgets::saveWidget(page, file, selfcontained = selfcontained, title = title,
+                          libdir = paste0(tools::file_path_sans_ext(basename(file)), "_files"))
+  invisible(file)
+}
+
+check_page_file <- function(file, selfcontained, call = rlang::caller_env()) {
+  if (!is.character(file) || length(file) != 1 || !grepl("[.]html?$", file) || !dir.exists(dirname(file))) {
+    crestline_abort(sprintf("`file` is %s, not an HTML file in a folder that exists.", describe_value(file)),
+                    "Give a path that ends in .html, and create its folder.", stage = "page", call = call)
+  }
+  if (selfcontained && !nzchar(Sys.which("pandoc")) && !nzchar(Sys.getenv("RSTUDIO_PANDOC"))) {
+    crestline_abort("pandoc, which puts all into one file, was not found.",
+                    "Install pandoc (Debian: apt install pandoc), or set `selfcontained = FALSE`.", stage = "page", call = call)
+  }
+  file.path(normalizePath(dirname(file)), basename(file))
+}
+
+# The scene's widget; the first of the ids is the coloured surface, the others are curves: a button hides each.
+page_widget <- function(ids, surface, size) {
+  widget <- rgl::rglwidget(width = size[1], height = size[2], elementId = "crestline")
+  buttons <- rgl::toggleWidget("crestline", ids = ids[1], label = surface)
+  if (length(ids) > 1) buttons <- htmltools::tagList(buttons, rgl::toggleWidget("crestline", ids = ids[-1], label = "curves"))
+  htmlwidgets::appendContent(widget, htmltools::tags$div(buttons))
+}
+
+page_legend <- function(surface) {
+  if (surface != "shape index") return(NULL)
+  scale <- shape_scale()
+  cells <- Map(function(category, colour) {
+    style <- paste0("background:", colour, ";color:", if (category == "rut") "white" else "black",
+                    ";padding:4px 8px;display:inline-block;font:12px sans-serif")
+    htmltools::tags$span(style = style, category)
+  }, scale$category, scale$colour)
+  htmltools::tags$div(style = "margin:10px 0", unname(cells))
+}
+
+html_table <- function(table, digits = 3) {
+  if (is.null(table) || nrow(table) == 0) return(NULL)
+  cell <- "padding:3px 12px;border-bottom:1px solid #ddd;text-align:left"
+  shown <- vapply(table, function(column) format(column, digits = digits), character(nrow(table)))
+  shown <- matrix(shown, nrow(table))
+  rows <- apply(shown, 1, function(row) htmltools::tags$tr(lapply(row, htmltools::tags$td, style = cell)), simplify = FALSE)
+  htmltools::tags$table(style = "border-collapse:collapse;font:13px sans-serif",
+                        htmltools::tags$tr(lapply(names(table), htmltools::tags$th, style = cell)), rows)
+}
+
+# One row a curve: what it is, how long, how strong, how sure.
+curve_table <- function(curves) {
+  curves <- check_curves(curves)
+  pick <- function(name, type) vapply(curves, function(curve) type(curve[[name]]), type(NA), USE.NAMES = FALSE)
+  name <- if (is.null(names(curves))) character(length(curves)) else names(curves)
+  table <- data.frame(curve = name, kind = pick("type", as.character), from = pick("from", as.character),
+                      to = pick("to", as.character), length = pick("length", as.numeric), strength = pick("strength", as.numeric))
+  table$se <- vapply(curves, function(curve) stats::median(curve$points$se, na.rm = TRUE), numeric(1), USE.NAMES = FALSE)
+  table$converged <- pick("converged", as.logical)
+  table[if (all(name == "")) -1 else TRUE]
+}

@@ -1,0 +1,114 @@
+# One way to draw on two engines: a surface makes a scene, lines, points and bands are added to it.
+
+#' Draw a surface, and lines, points and bands on it
+#'
+#' `draw_surface()` draws a mesh and returns a scene; the other functions add to the scene what
+#' can be seen of lines, points and bands that lie on the surface. The engine "picture" draws on the current
+#' graphics device with base graphics (orthographic, smoothly shaded, no display needed), the engine
+#' "rgl" in the current rgl scene or a new one, on rgl's null device when `options(rgl.useNULL = TRUE)`.
+#'
+#' @param mesh A `mesh3d` with triangles.
+#' @param colour One colour, or one for each vertex.
+#' @param view Where to look from: "front" (along -z at +z, y up), "left" and "right" (the subject's own),
+#'   "three-quarter" (from the subject's left and a little above), "below", "above", "back"; or two angles in radians, how far the
+#'   viewer goes round to the subject's left and how far up; or a 3 x 3 rotation that
+#'   turns the mesh so that x points right, y up and z to the viewer.
+#' @param engine "picture" or "rgl".
+#' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
+#'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].
+#' @return `draw_surface()`: a scene, of class "picture_scene" (a list: `rotation` 3 x 3, `pixel`, the size of a pixel in the mesh's unit, `depth`, a matrix of
+#'   what the pixels see, and how they map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects, `diagonal` of the mesh's box). `draw_lines()`,
+#'   `draw_points()`, `draw_band()`: the scene, with the rgl `ids` added, invisibly. `visible_points()`: logical, which points of `x` are seen.
+#' @examples
+#' ball <- Rvcg::vcgSphere(3)
+#' scene <- draw_surface(ball, "wheat", view = c(0.4, 0.3), engine = "picture")
+#' turn <- seq(0, 2 * pi, length.out = 200)
+#' draw_lines(scene, cbind(cos(turn), 0, sin(turn)), "navy", width = 3)
+#' @export
+draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
+                         engine = c("picture", "rgl"), ...) {
+  engine <- check_choice(engine, c("picture", "rgl"), "engine")
+  mesh <- with_normals(mesh)
+  colour <- check_colours(colour, ncol(mesh$vb))
+  rotation <- view_rotation(view)
+  switch(engine,
+         picture = picture_surface(mesh, colour, rotation, picture_settings(...)),
+         rgl = rgl_surface(mesh, colour, rotation, ...))
+}
+
+#' @rdname draw_surface
+#' @param scene What `draw_surface()` returned.
+#' @param x Points: a matrix with three columns or a data frame with columns x, y and z, as a `path` has. For lines a row of NA makes a gap.
+#' @param width Line width, as `lwd` of [graphics::par()].
+#' @param halo Colour of a wider line below the line, or of a ring about the points, NA for none ("picture" only).
+#' @export
+draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) UseMethod("draw_lines")
+
+#' @rdname draw_surface
+#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/125 of the diagonal of the mesh's box wide at size 1.
+#' @param labels Names to write beside the points, or NULL.
+#' @export
+draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
+  UseMethod("draw_points")
+}
+
+#' @rdname draw_surface
+#' @param left,right The two sides of a band: points, as many on one side as on the other.
+#' @param opacity Opacity of the band, 0 to 1.
+#' @export
+draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) UseMethod("draw_band")
+
+view_rotation <- function(view, call = rlang::caller_env()) {
+  if (is.matrix(view) && is.numeric(view)) return(check_rotation(view, call))
+  angles <- list("front" = c(0, 0), "left" = c(pi / 2, 0), "right" = c(-pi / 2, 0),
+                 "three-quarter" = c(pi / 5, pi / 18), "below" = c(0, -pi / 2),
+                 "above" = c(0, pi / 2), "back" = c(pi, 0))
+  if (is.character(view)) view <- angles[[check_choice(view, names(angles), "view", call)]]
+  if (!is.numeric(view) || length(view) != 2 || any(!is.finite(view))) {
+    crestline_abort("`view` is neither a name, nor two angles, nor a 3 x 3 rotation.",
+                    "Give \"front\", or c(round, up) in radians.", stage = "picture", call = call)
+  }
+  round <- view[[1]]
+  up <- view[[2]]
+  rbind(c(cos(round), 0, -sin(round)),
+        c(-sin(round) * sin(up), cos(up), -cos(round) * sin(up)),
+        c(sin(round) * cos(up), sin(up), cos(round) * cos(up)))
+}
+
+check_rotation <- function(view, call) {
+  proper <- identical(dim(view), c(3L, 3L)) && all(is.finite(view)) &&
+    max(abs(crossprod(view) - diag(3))) < 1e-6 && det(view) > 0
+  if (!proper) {
+    crestline_abort("`view` is a matrix but not a 3 x 3 rotation.",
+                    "Its rows must be orthonormal and its determinant 1.", stage = "picture", call = call)
+  }
+  unname(view)
+}
+
+check_colours <- function(colour, n, call = rlang::caller_env()) {
+  if (!length(colour) %in% c(1L, n)) {
+    crestline_abort(sprintf("`colour` has %d values for %d vertices.", length(colour), n),
+                    "Give one colour, or one for each vertex.", stage = "picture", call = call)
+  }
+  rep_len(colour, n)
+}
+
+# n x 3 co-ordinates from a matrix or from columns x, y, z.
+point_matrix <- function(x, call = rlang::caller_env()) {
+  if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
+  if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
+    crestline_abort(sprintf("The points are %s.", describe_value(x)),
+                    "Give a matrix with three columns or a data frame with x, y and z.",
+                    stage = "picture", call = call)
+  }
+  x
+}
+
+with_normals <- function(mesh) {
+  if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
+}
+
+# Length of the diagonal of the box that holds the mesh.
+mesh_diagonal <- function(mesh) {
+  sqrt(sum(apply(mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))^2))
+}

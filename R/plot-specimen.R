@@ -1,0 +1,93 @@
+# A specimen in its own colours, plain, or by curvature.
+
+#' Plot a specimen
+#'
+#' @param x A `specimen`.
+#' @param colour What the colours show: "natural" (the colours of the scan, plain where it has none), "shape index" (see
+#'   [plot_shape_scale()]), "curvature" (the principal curvature greater in size: valleys blue, ridges red, in full at the 98 % quantile of its size) or "plain".
+#' @param curvature The `curvature` of the specimen's mesh, for "shape index" and "curvature"; NULL to compute it.
+#' @param radius Where curvature is computed: the radius of its neighbourhood, in the mesh's unit. The default, 1/25 of the diagonal of
+#'   the mesh's box, is about 10 mm on a face.
+#' @param engine "rgl" to turn it by hand, "picture" for base graphics on the current device. See [draw_surface()].
+#' @param view Where to look from, see [draw_surface()].
+#' @param landmarks Whether to draw the landmarks.
+#' @param labels Whether to write their names too.
+#' @param legend Whether to draw the scale of colours ("picture" only).
+#' @param main Title.
+#' @param ... Passed to [draw_surface()].
+#' @return The scene of [draw_surface()], invisibly, for [draw_lines()] and its like.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' face <- specimen(humface, id = "humface")
+#' plot(face, "shape index", radius = 10, engine = "picture")
+#' }
+#' @export
+plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "plain"),
+                          curvature = NULL, radius = mesh_diagonal(x$mesh) / 25,
+                          engine = if (interactive()) "rgl" else "picture", view = "front",
+                          landmarks = TRUE, labels = FALSE, legend = TRUE, main = NULL, ...) {
+  colour <- check_choice(colour, c("natural", "shape index", "curvature", "plain"), "colour")
+  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  if (colour %in% c("shape index", "curvature") && is.null(curvature)) {
+    curvature <- curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE))
+  }
+  scale <- specimen_scale(x, colour, curvature)
+  legend <- legend && !is.null(scale$ramp)
+  if (engine == "picture") {
+    old <- graphics::par(mar = c(0.5, 0.5, if (is.null(main)) 0.5 else 2, if (legend) 7 else 0.5))
+    on.exit(graphics::par(old))
+  }
+  scene <- draw_surface(x$mesh, scale$colours, view, engine, ...)
+  if (landmarks && nrow(x$landmarks) > 0) {
+    draw_points(scene, x$landmarks, "black", halo = "white", labels = if (labels) rownames(x$landmarks))
+  }
+  if (engine == "picture") {
+    graphics::title(main)
+    if (legend) colour_bar(scale$ramp, scale$at, scale$labels)
+  }
+  invisible(scene)
+}
+
+# The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of the way.
+specimen_scale <- function(x, colour, curvature, call = rlang::caller_env()) {
+  if (!is.null(curvature) && length(curvature$k1) != ncol(x$mesh$vb)) {
+    crestline_abort(sprintf("The curvature has %d values for %d vertices.", length(curvature$k1), ncol(x$mesh$vb)),
+                    "Give the curvature of this specimen's mesh.", stage = "picture", id = x$id, call = call)
+  }
+  natural <- x$mesh$material$color
+  switch(colour,
+         "shape index" = shape_legend(shape_index(curvature)),
+         "curvature" = curvature_legend(curvature),
+         list(colours = if (colour == "natural" && length(natural) == ncol(x$mesh$vb)) natural else "#E3CDB8"))
+}
+
+shape_legend <- function(index) {
+  scale <- shape_scale()
+  list(colours = shape_colours(index), ramp = shape_colours(seq(-1, 1, length.out = 200)),
+       at = (scale$index + 1) / 2, labels = scale$category)
+}
+
+curvature_legend <- function(curvature, quantile = 0.98, palette = grDevices::hcl.colors(11, "Blue-Red"),
+                             missing = "#BEBEBE") {
+  greater <- ifelse(abs(curvature$k1) > abs(curvature$k2), -curvature$k1, -curvature$k2)
+  limit <- stats::quantile(abs(greater), quantile, na.rm = TRUE)
+  share <- (pmin(pmax(greater / limit, -1), 1) + 1) / 2
+  at <- seq(-1, 1, by = 0.5)
+  list(colours = ramp_colours(share, palette, missing), ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing),
+       at = (at + 1) / 2, labels = paste(signif(abs(at) * limit, 2), c("valley", "", "", "", "ridge")))
+}
+
+# An upright bar of colours in the right margin, from the first at the bottom; labels at shares `at` of its height.
+colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8) {
+  line <- diff(graphics::grconvertX(0:1, "lines", "user"))
+  usr <- graphics::par("usr")
+  left <- usr[2] + 0.3 * line
+  middle <- mean(usr[3:4])
+  half <- share * (usr[4] - usr[3]) / 2
+  old <- graphics::par(xpd = NA)
+  on.exit(graphics::par(old))
+  graphics::rasterImage(as.matrix(rev(ramp)), left, middle - half, left + width * line, middle + half)
+  graphics::rect(left, middle - half, left + width * line, middle + half, border = "grey40", lwd = 0.5)
+  graphics::text(left + width * line, middle - half + 2 * half * at, labels, pos = 4, offset = 0.3, cex = 0.75)
+}
