@@ -15,7 +15,8 @@
 #' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
 #' @param radius Radius of the ball, in the unit of the mesh; 10 mm for broad
 #'   features of a face, 5 mm for lips, nose and eyes.
-#' @param order `"adaptive"`, or a plain polynomial: `"quadratic"`, `"cubic"`,
+#' @param order `"adaptive"` (nested fits up to order 4: most accurate), `"adaptive cubic"` (up to order 3:
+#'   smoother, the default of [ridge_curve()]), or a plain polynomial: `"quadratic"`, `"cubic"`,
 #'   `"quartic"`; or `"forced"`, the paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2}
 #'   through the vertex, level along the average of the triangles' normals.
 #' @param threads Number of threads.
@@ -94,7 +95,7 @@ fill_curvature <- function(out, found, at) {
 #' @noRd
 fit_settings <- function(radius, order = "adaptive", shrinkage = 3, points_per_term = 1.5,
                          one_sided = 0.2) {
-  orders <- list(adaptive = c(2L, 4L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
+  orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
                  quartic = c(4L, 4L), forced = c(2L, 2L))
   order <- check_choice(order, names(orders), "order")
   list(radius = check_number(radius, "radius", lower = 0, open = TRUE),

@@ -37,7 +37,8 @@ describe_shape <- function(x) {
 }
 
 shorten <- function(x, most = 5) {
-  paste0(paste(utils::head(x, most), collapse = ", "), if (length(x) > most) sprintf(" and %d more", length(x) - most))
+  more <- if (length(x) > most) sprintf(" and %d more", length(x) - most)
+  paste0(paste(utils::head(x, most), collapse = ", "), more)
 }
 
 refuse_landmarks <- function(problem, remedy, id) {
@@ -74,11 +75,13 @@ check_landmarks <- function(landmarks, mesh, id, tolerance, midline) {
 refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
   off <- which(away > tolerance)
   off <- off[order(-away[off])]
-  fit <- fitting_change(landmarks, mesh, tolerance)
+  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh, tolerance)
   named <- paste0(rownames(landmarks)[off], " (by ", signif(away[off], 3), ")")
   if (!is.null(fit)) {
-    refuse_landmarks(sprintf("the landmarks do not fit the surface: %s off it; they would fit %s.", shorten(named), fit),
-                     sprintf("Change the landmarks so: they would lie on the mesh %s.", fit), id)
+    refuse_landmarks(
+      sprintf("the landmarks are in another unit or frame than the mesh: off it are %s.", shorten(named)),
+      sprintf("They would lie on it %s: change them so.", fit), id
+    )
   }
   refuse_landmarks(
     sprintf("off the surface by more than %s: %s.", signif(tolerance, 3), shorten(named)),
@@ -92,13 +95,14 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
   changes <- c(lapply(c(factors, 1 / factors), rep, 3), list(c(-1, -1, 1)))
   words <- c(paste("multiplied by", factors), paste("divided by", factors), "with x and y negated (LPS and RAS)")
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
+  if (nrow(given) < 2) return(NULL)
   misfit <- vapply(changes, function(change) {
     moved <- sweep(given, 2, change, "*")
     away <- sqrt(rowSums((as.matrix(surface_points(mesh, moved)[1:3]) - moved)^2))
     spread <- sqrt(sum(apply(moved, 2, stats::var)))
     if (stats::median(away) <= min(tolerance, spread / 2)) stats::median(away) / spread else Inf
   }, 0)
-  if (nrow(given) > 1 && any(is.finite(misfit))) words[which.min(misfit)]
+  if (any(is.finite(misfit))) words[which.min(misfit)]
 }
 
 # Positive where (left, up, front) is right-handed, as in life; negative where mirrored; 0 where it
@@ -118,8 +122,10 @@ handedness <- function(landmarks, located, mesh, midline) {
 
 warn_mirrored <- function(id) {
   crestline_warn(
-    "left and right look mirrored: with the head upright and facing you, the landmarks ending in L should be on your right.",
-    "Swap the endings L and R of the names, or, if the scan itself is mirrored, change the sign of x of mesh and landmarks.",
+    paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
+          "should be on the viewer's right (the subject's own left)."),
+    paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
+          "change the sign of x of mesh and landmarks."),
     stage = "landmarks", id = id, class = "crestline_mirrored"
   )
 }

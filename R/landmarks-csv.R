@@ -2,8 +2,8 @@
 
 read_landmarks_csv <- function(file) {
   table <- tryCatch(
-    suppressWarnings(utils::read.csv(file, colClasses = "character", strip.white = TRUE, na.strings = character(),
-                                     check.names = FALSE, fileEncoding = "UTF-8-BOM")),
+    suppressWarnings(utils::read.csv(text = csv_lines(file), colClasses = "character", strip.white = TRUE,
+                                     na.strings = character(), check.names = FALSE)),
     error = function(e) refuse_csv(file, conditionMessage(e))
   )
   names(table) <- tolower(trimws(names(table)))
@@ -18,6 +18,14 @@ read_landmarks_csv <- function(file) {
   x
 }
 
+# UTF-8, with or without a mark of it; else taken for Latin 1, as Windows writes names with accents.
+csv_lines <- function(file) {
+  line <- readLines(file, warn = FALSE, skipNul = TRUE)
+  line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
+  line[1] <- sub("^\ufeff", "", line[1])
+  line
+}
+
 csv_numbers <- function(text, column, file) {
   missing <- text %in% c("", "NA", "NaN", "na", "nan")
   number <- suppressWarnings(as.numeric(ifelse(missing, NA, text)))
@@ -29,15 +37,13 @@ csv_numbers <- function(text, column, file) {
 }
 
 refuse_csv <- function(file, reason) {
-  # A damaged file may hold bytes that are no text at all.
-  reason <- iconv(reason, "UTF-8", "UTF-8", sub = "byte")
   crestline_abort(sprintf("%s cannot be read: %s.", basename(file), reason),
                   "Give a header line with name, x, y, z, commas between, points in numbers.",
                   stage = "landmarks", call = NULL)
 }
 
 write_landmarks_csv <- function(x, file) {
-  table <- data.frame(name = rownames(x), x = x[, 1], y = x[, 2], z = x[, 3])
+  table <- data.frame(name = as.character(rownames(x)), x = x[, 1], y = x[, 2], z = x[, 3])
   number <- function(v) ifelse(is.na(v), "NA", format(v, digits = 15, trim = TRUE))
   table[2:4] <- lapply(table[2:4], function(v) vapply(v, number, ""))
   utils::write.csv(table, file, row.names = FALSE, quote = 1)

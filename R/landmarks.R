@@ -34,7 +34,7 @@ write_landmarks <- function(x, file) {
 landmark_formats <- function() list(csv = list(read = read_landmarks_csv, write = write_landmarks_csv))
 
 landmark_format <- function(file) {
-  format <- landmark_formats()[[tolower(tools::file_ext(file))]]
+  format <- landmark_formats()[[file_extension(file)]]
   if (is.null(format)) {
     crestline_abort(
       sprintf("no landmark format has the extension of %s.", basename(file)),
@@ -44,6 +44,8 @@ landmark_format <- function(file) {
   }
   format
 }
+
+file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
 
 check_file <- function(file, stage) {
   if (!is.character(file) || length(file) != 1 || is.na(file)) {

@@ -95,8 +95,9 @@ refuse_bad_indices <- function(mesh, id) {
   mended(mesh, "faces naming missing vertices", 0, "refused")
 }
 
+# Finite to the fourth power, so that squared areas are too.
 drop_non_finite <- function(mesh, id) {
-  finite <- is.finite(colSums(mesh$vb[1:3, , drop = FALSE]))
+  finite <- is.finite(colSums(mesh$vb[1:3, , drop = FALSE]^4))
   mended(keep_vertices(mesh, finite), "non-finite co-ordinates", sum(!finite),
          "vertices and their faces left out")
 }

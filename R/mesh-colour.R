@@ -37,7 +37,7 @@ sample_image <- function(image, uv) {
 
 # A jpg or png as an array, or NULL with a warning: a picture is never worth a specimen.
 read_image <- function(file, id) {
-  reader <- switch(tolower(tools::file_ext(file)), jpg = , jpeg = "jpeg", png = "png", "none")
+  reader <- switch(file_extension(file), jpg = , jpeg = "jpeg", png = "png", "none")
   problem <- if (!file.exists(file)) "the texture image %s is not there" else
     if (reader == "none") "the texture image %s is neither jpg nor png" else
       if (!requireNamespace(reader, quietly = TRUE)) paste0("the texture image %s needs the package ", reader)

@@ -34,7 +34,15 @@ place_on_faces <- function(mesh, face, weight) {
   weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
 }
 
+# Faces without area have no plane to go on from; what lies on them lies on their neighbours' edges.
 nearest_faces <- function(mesh, xyz, candidates) {
+  solid <- which(row_lengths(face_normals(mesh)) > 0)
+  if (length(solid) < ncol(mesh$it)) {
+    mesh$it <- mesh$it[, solid, drop = FALSE]
+    nearest <- nearest_faces(mesh, xyz, candidates)
+    nearest$face <- solid[nearest$face]
+    return(nearest)
+  }
   corners <- face_corners(mesh)
   centre <- (corners[[1]] + corners[[2]] + corners[[3]]) / 3
   reach <- do.call(pmax, lapply(corners, function(a) row_lengths(a - centre)))

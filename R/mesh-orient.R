@@ -87,7 +87,7 @@ outwardness <- function(mesh, piece) {
   middle <- (corner[[1]] + corner[[2]] + corner[[3]]) / 3
   normal <- face_normals(mesh, corner)
   area <- row_lengths(normal)
-  away <- middle - rep(colSums(middle * area) / sum(area), each = nrow(middle))
+  away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin), each = nrow(middle))
   cosine <- row_products(normal, away) / pmax(row_lengths(away), .Machine$double.xmin)
   total <- pmax(rowsum(area, piece), .Machine$double.xmin)
   as.vector(rowsum(cosine, piece) / total)

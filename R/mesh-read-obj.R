@@ -15,18 +15,16 @@ read_obj <- function(file, id) {
 # x, y, z and, where all vertices have them, three colours.
 obj_vertices <- function(line) {
   if (!length(line)) return(matrix(0, 0, 3))
-  body <- substring(line, 2)
-  coloured <- length(strsplit(trimws(body[1]), " +", useBytes = TRUE)[[1]]) >= 6
-  vertex <- if (coloured) tryCatch(number_rows(body, 6), error = function(e) NULL)
-  if (is.null(vertex)) number_rows(body, 3) else vertex
+  coloured <- length(strsplit(line[1], " +", useBytes = TRUE)[[1]]) >= 7
+  vertex <- if (coloured) tryCatch(number_rows(line, 6), error = function(e) NULL)
+  if (is.null(vertex)) number_rows(line, 3) else vertex
 }
 
 # All corners in turn: `vertex` and `texture` numbers (1-based; texture NA where none), and the
 # `sides` of each polygon. A negative number counts back from the last read before the face.
 obj_corners <- function(line, vertices_before, textures_before) {
-  body <- substring(line, 2)
-  triangles <- tryCatch(scan_rows(body, rep(list(""), 3)), error = function(e) NULL)
-  token <- if (is.null(triangles)) strsplit(trimws(body), " +", useBytes = TRUE)
+  triangles <- tryCatch(scan_rows(line, rep(list(""), 3)), error = function(e) NULL)
+  token <- if (is.null(triangles)) strsplit(sub("^f +", "", line, useBytes = TRUE), " +", useBytes = TRUE)
   sides <- if (is.null(triangles)) lengths(token) else rep(3L, length(line))
   token <- if (is.null(triangles)) unlist(token) else as.vector(do.call(rbind, triangles))
   slash <- grepl("/", token, fixed = TRUE, useBytes = TRUE)
@@ -35,8 +33,8 @@ obj_corners <- function(line, vertices_before, textures_before) {
     text <- sub("^[^/]*/([^/]*).*$", "\\1", token[slash], useBytes = TRUE)
     texture[slash] <- obj_index(text, rep(textures_before, sides)[slash])
   }
-  list(vertex = obj_index(replace(token, slash, sub("/.*", "", token[slash], useBytes = TRUE)), rep(vertices_before, sides)),
-       texture = texture, sides = sides)
+  token[slash] <- sub("/.*", "", token[slash], useBytes = TRUE)
+  list(vertex = obj_index(token, rep(vertices_before, sides)), texture = texture, sides = sides)
 }
 
 obj_index <- function(text, before) {
@@ -50,7 +48,7 @@ obj_index <- function(text, before) {
 obj_texture <- function(file, line, is, corner, n, id) {
   library <- line[startsWith(line, "mtllib ")]
   if (!length(library) || all(is.na(corner$texture))) return(NULL)
-  uv <- number_rows(substring(line[is$vt], 3), 2)
+  uv <- number_rows(line[is$vt], 2)
   use <- which(startsWith(line, "usemtl "))
   material <- c("", obj_argument(line[use]))[findInterval(which(is$f), use) + 1]
   material <- rep(material, corner$sides)

@@ -14,11 +14,13 @@ read_ply <- function(file, id) {
 }
 
 ply_colours <- function(vertex, header) {
-  name <- if (!is.null(vertex$red)) c("red", "green", "blue") else c("diffuse_red", "diffuse_green", "diffuse_blue")
+  name <- c("red", "green", "blue")
+  if (is.null(vertex$red)) name <- paste0("diffuse_", name)
   if (!all(name %in% names(vertex)) || !length(vertex$x)) return(NULL)
   colour <- do.call(cbind, vertex[name])
   property <- header$elements$vertex$properties
-  if (property$type[match(name[1], property$name)] %in% c("uchar", "uint8")) colour_hex(colour, 255) else colour_hex(colour)
+  bytes <- property$type[match(name[1], property$name)] %in% c("uchar", "uint8")
+  if (bytes) colour_hex(colour, 255) else colour_hex(colour)
 }
 
 # list(format, lines, bytes, elements): an element has `count` and `properties` (data frame: name,
@@ -56,8 +58,8 @@ ply_elements <- function(token, file, id) {
   }
   properties <- lapply(seq_along(count), function(g) ply_properties(token[group == g & !is_element], file, id))
   names(properties) <- vapply(token[is_element], `[`, "", 2)
-  Map(function(count, properties) list(count = count, properties = properties), count, properties) |>
-    stats::setNames(names(properties))
+  elements <- Map(function(count, properties) list(count = count, properties = properties), count, properties)
+  stats::setNames(elements, names(properties))
 }
 
 ply_properties <- function(token, file, id) {
@@ -65,7 +67,9 @@ ply_properties <- function(token, file, id) {
   pick <- function(one, many) unlist(Map(function(x, l) if (l) x[many] else x[one], token, is_list))
   type <- as.character(pick(2, 4))
   count_type <- as.character(unlist(Map(function(x, l) if (l) x[3] else "", token, is_list)))
-  if (!all(c(type, count_type[is_list]) %in% names(ply_types()))) refuse_file(file, "its header names types that are not known", id)
+  if (!all(c(type, count_type[is_list]) %in% names(ply_types()))) {
+    refuse_file(file, "its header names types that are not known", id)
+  }
   data.frame(name = as.character(pick(3, 5)), type = type, count_type = count_type)
 }
 

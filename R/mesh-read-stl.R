@@ -18,31 +18,35 @@ stl_binary <- function(file, faces) {
 }
 
 stl_ascii <- function(file, id) {
-  line <- grep("^[[:space:]]*vertex[[:space:]]", text_lines(file), value = TRUE, useBytes = TRUE)
+  line <- text_lines(file)
+  line <- line[startsWith(line, "vertex ")]
   if (!length(line) || length(line) %% 3 != 0) refuse_file(file, "its vertices are not in threes", id)
-  number_rows(sub("^[[:space:]]*vertex", "", line, useBytes = TRUE), 3)
+  number_rows(line, 3)
 }
 
 # The lines of a text file, whatever bytes are in it; tabs and carriage returns become blanks.
 text_lines <- function(file) {
   raw <- readBin(file, "raw", file.size(file))
-  raw[raw %in% as.raw(c(0, 9, 13))] <- as.raw(32)
+  for (blank in as.raw(c(0, 9, 13))) {
+    if (length(grepRaw(blank, raw, fixed = TRUE))) raw[raw == blank] <- as.raw(32)
+  }
   line <- strsplit(rawToChar(raw), "\n", fixed = TRUE, useBytes = TRUE)[[1]]
   indented <- startsWith(line, " ")
   line[indented] <- sub("^ +", "", line[indented], useBytes = TRUE)
   line
 }
 
-# Lines of at least `n` numbers as a matrix of their first n. By a file, since scanning text is slow.
+# Lines of a word and at least `n` numbers, as a matrix of these. By a file, since scanning text is slow.
 number_rows <- function(line, n) {
   rows <- scan_rows(line, rep(list(0), n), flush = TRUE)
   matrix(unlist(rows, use.names = FALSE), ncol = n)
 }
 
+# The fields after each line's first word, as a list of columns.
 scan_rows <- function(line, what, flush = FALSE) {
   file <- tempfile()
   on.exit(unlink(file))
   writeLines(line, file, useBytes = TRUE)
-  scan(file, what, quiet = TRUE, flush = flush, multi.line = FALSE, quote = "", comment.char = "",
-       na.strings = c("NA", "nan", "-nan", "-nan(ind)"))
+  scan(file, c(list(NULL), what), quiet = TRUE, flush = flush, multi.line = FALSE, quote = "", comment.char = "",
+       na.strings = c("NA", "nan", "-nan", "-nan(ind)"))[-1]
 }

@@ -4,17 +4,18 @@
 #' nearest place of the path and its signed distance `d` from there, positive to the left of
 #' the path seen from outside (the side of normal x tangent).
 #'
-#' Only vertices connected to the path within the window are kept. Past its ends
+#' Only vertices connected to the path within the window and its margin are kept. Past its ends
 #' the path is taken to go on straight; vertices there have `s < 0` or `s` above
-#' the length, are needed to lift a curve to its ends, and take no part in fits.
+#' the length. Those in the margin are needed to lift a curve that comes near the edge or the ends, and
+#' take no part in fits.
 #'
 #' @param specimen A [specimen()] or `mesh3d`.
 #' @param path A `mesh_path` on it.
 #' @param width Half width of the window, in the unit of the mesh.
-#' @param margin How far past the ends vertices are kept, in the unit of the mesh.
+#' @param margin How far outside the window vertices are kept, in the unit of the mesh.
 #' @return Object of class `path_coordinates`: data frame with a row a vertex and columns
-#'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (`s` between 0 and the
-#'   length), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
+#'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (in the
+#'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
 #'   attributes `length` (of the path) and `width`.
 #' @references The paper, section 3.2.
 #' @examples
@@ -27,16 +28,16 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   check_number(width, "width", lower = 0, open = TRUE)
   mesh <- as_mesh(specimen)
   track <- t(as.matrix(path[c("x", "y", "z")]))
-  box <- apply(track, 1, range) + c(-1, 1) * max(width, margin)
+  box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   xyz <- mesh$vb[1:3, , drop = FALSE]
   near <- which(colSums(xyz >= box[1, ] & xyz <= box[2, ]) == 3)
   found <- cpp_path_coordinates(xyz[, near, drop = FALSE], track, path_normals(mesh, path))
-  kept <- abs(found$d) <= width & found$s >= -margin & found$s <= attr(path, "length") + margin
+  kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") + margin
   member <- logical(ncol(xyz))
   member[near[kept]] <- TRUE
   joined <- cpp_joined_to(mesh$it, member, as.vector(mesh$it[, path$face]))[near]
-  rows <- data.frame(vertex = near, s = found$s, d = found$d,
-                     inside = found$s >= 0 & found$s <= attr(path, "length"), found$tangent)[joined, ]
+  inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width
+  rows <- data.frame(vertex = near, s = found$s, d = found$d, inside = inside, found$tangent)[joined, ]
   names(rows)[5:7] <- c("tx", "ty", "tz")
   rownames(rows) <- NULL
   structure(rows, length = attr(path, "length"), width = width,

@@ -101,6 +101,12 @@ cut_axis <- function(surface, ends) {
   place <- function(p) as.vector(surface$xyz[, surface$it[, p[1]]] %*% p[2:4])
   axis <- place(ends$to) - place(ends$from)
   span <- sqrt(sum(axis^2))
+  if (!is.finite(span) || span == 0) {
+    crestline_abort(sprintf("%s and %s are too near to each other for the size of their triangle.",
+                            ends$names[1], ends$names[2]),
+                    "Check the mesh for huge triangles, and the two landmarks.",
+                    stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
+  }
   axis <- axis / span
   out <- end_normal(surface, ends$from) + end_normal(surface, ends$to)
   out <- out - sum(out * axis) * axis

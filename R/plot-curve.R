@@ -21,10 +21,10 @@
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
-#' corners <- rbind(chR = Rvcg::humface.lm[6, ], chL = Rvcg::humface.lm[7, ])
-#' face <- specimen(humface, corners, id = "humface")
-#' curve <- ridge_curve(face, "chR", "chL", "valley", radius = 5, width = 15, n = 11)
-#' plot(curve, face, "plain", engine = "picture")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
+#' plot(lip, face, "plain", engine = "picture", around = face$landmarks[c("chL", "chR", "sn"), ])
 #' }
 #' @export
 plot.curve <- function(x, specimen, ...) plot_curves(list(x), specimen, ...)
@@ -38,12 +38,11 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
-  for (i in seq_along(curves)[band]) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+  each <- seq_along(curves)
+  if (band) for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
   if (engine == "picture") for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
-  for (i in seq_along(curves)) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
-  for (i in seq_along(curves)[points]) {
-    scene <- draw_points(scene, curves[[i]]$points, key$colours[i], size = 0.28 * width, halo = "white")
-  }
+  for (i in each) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
+  if (points) for (i in each) scene <- draw_points(scene, curves[[i]]$points, key$colours[i], 0.28 * width, "white")
   if (legend && engine == "picture" && length(key$names)) {
     on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8))
   }
@@ -72,38 +71,23 @@ band_sides <- function(curve, mesh, multiple = 2) {
   xyz <- point_matrix(curve$path)
   se <- se_along_path(curve)
   keep <- is.finite(se)
-  across <- cross_rows(point_normals(mesh, curve$path), path_tangents(xyz))
+  across <- cross_rows(t(path_normals(mesh, curve$path)), path_tangents(xyz))
   shift <- multiple * se * across / sqrt(rowSums(across^2))
   keep <- keep & is.finite(rowSums(shift))
   list(left = (xyz + shift)[keep, , drop = FALSE], right = (xyz - shift)[keep, , drop = FALSE])
 }
 
-# The standard error at every place of the path, linear between the curve's points: each stands at its nearest place of the path.
+# The standard error at every place of the path, linear between the curve's points.
 se_along_path <- function(curve) {
-  xyz <- t(point_matrix(curve$path))
-  at <- apply(point_matrix(curve$points), 1, function(p) which.min(colSums((xyz - p)^2)))
   known <- is.finite(curve$points$se)
-  if (sum(known) < 2) return(rep(NA_real_, ncol(xyz)))
-  stats::approx(curve$path$s[at][known], curve$points$se[known], curve$path$s, rule = 2, ties = mean)$y
+  if (sum(known) < 2) return(rep(NA_real_, nrow(curve$path)))
+  stats::approx(curve$points$s[known], curve$points$se[known], curve$path$s, rule = 2)$y
 }
 
 # Tangents by central differences, zero where neighbours coincide.
 path_tangents <- function(xyz) {
   n <- nrow(xyz)
   xyz[c(2:n, n), , drop = FALSE] - xyz[c(1, 1:(n - 1)), , drop = FALSE]
-}
-
-# Unit normals at points of the mesh, from its vertices' normals.
-point_normals <- function(mesh, points) {
-  normals <- with_normals(mesh)$normals[1:3, , drop = FALSE]
-  corners <- mesh$it[, points$face, drop = FALSE]
-  at <- t(normals[, corners[1, ], drop = FALSE]) * points$w1 + t(normals[, corners[2, ], drop = FALSE]) * points$w2 +
-    t(normals[, corners[3, ], drop = FALSE]) * points$w3
-  at / sqrt(rowSums(at^2))
-}
-
-cross_rows <- function(a, b) {
-  cbind(a[, 2] * b[, 3] - a[, 3] * b[, 2], a[, 3] * b[, 1] - a[, 1] * b[, 3], a[, 1] * b[, 2] - a[, 2] * b[, 1])
 }
 
 check_curves <- function(curves, call = rlang::caller_env()) {

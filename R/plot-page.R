@@ -12,50 +12,78 @@
 #' @param title Heading of the page.
 #' @param caption A sentence below the picture.
 #' @param surface,colour,width As in [plot_curves()].
-#' @param selfcontained Whether to put all into one file, for which pandoc is needed; else a folder
+#' @param selfcontained Whether to put all into one file; else a folder
 #'   named after the file, ending in `_files`, stands beside it.
 #' @param size Width and height of the picture in the browser's pixels.
 #' @param ... Passed to [plot_curves()]: `curvature`, `radius`, `view`, `band`.
 #' @return The path of the file, invisibly.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
+#' page <- tempfile(fileext = ".html")
+#' write_page(page, face, list("mid-line lip left" = lip), radius = 10)
+#' file.size(page)
+#' unlink(page)
+#' }
 #' @export
 write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
                        title = paste("Specimen", specimen$id), caption = NULL, surface = "shape index",
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
-  rlang::check_installed(c("htmlwidgets", "htmltools"), "to write a page.")
-  file <- check_page_file(file, selfcontained)
+  rlang::check_installed("htmltools", "to write a page.")
+  file <- check_page_file(file)
   curves <- check_curves(curves)
   rgl::open3d(useNULL = TRUE)
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
-  plain <- plot(specimen, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
+  plot(specimen, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
   scene <- plot_curves(curves, specimen, surface, colour, width = width, engine = "rgl", ...)
-  page <- page_widget(scene$ids, surface, size)
-  page <- htmlwidgets::prependContent(page, htmltools::tags$h2(title))
-  page <- htmlwidgets::appendContent(page, page_legend(surface), htmltools::tags$p(caption), html_table(table))
-  page$sizingPolicy$padding <- 20
-  htmlwidgets::saveWidget(page, file, selfcontained = selfcontained, title = title,
-                          libdir = paste0(tools::file_path_sans_ext(basename(file)), "_files"))
+  tags <- htmltools::tags
+  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
+                   page_scene(scene$ids, surface, size), page_legend(surface), tags$p(caption), html_table(table))
+  save_page(page, file, selfcontained)
   invisible(file)
 }
 
-check_page_file <- function(file, selfcontained, call = rlang::caller_env()) {
+save_page <- function(page, file, selfcontained) {
+  folder <- paste0(tools::file_path_sans_ext(basename(file)), "_files")
+  htmltools::save_html(page, file, libdir = folder)
+  if (!selfcontained) return(invisible(file))
+  html <- paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
+  html <- inline_files(html, dirname(file), '<script src="([^"]+)"></script>', "script", "</script")
+  html <- inline_files(html, dirname(file), '<link href="([^"]+)" rel="stylesheet" />', "style", "</style")
+  writeLines(html, file, useBytes = TRUE)
+  unlink(file.path(dirname(file), folder), recursive = TRUE)
+}
+
+# Every reference to a file, as `pattern` finds it in the page, replaced by an element that holds the file's text.
+inline_files <- function(html, folder, pattern, element, closing) {
+  for (reference in unique(regmatches(html, gregexpr(pattern, html))[[1]])) {
+    name <- utils::URLdecode(sub(pattern, "\\1", reference))
+    text <- paste(readLines(file.path(folder, name), encoding = "UTF-8", warn = FALSE), collapse = "\n")
+    text <- gsub(closing, sub("/", "\\/", closing, fixed = TRUE), text, fixed = TRUE)
+    parts <- strsplit(html, reference, fixed = TRUE)[[1]]
+    html <- paste(parts, collapse = paste0("<", element, ">\n", text, "\n</", element, ">"))
+  }
+  html
+}
+
+check_page_file <- function(file, call = rlang::caller_env()) {
   if (!is.character(file) || length(file) != 1 || !grepl("[.]html?$", file) || !dir.exists(dirname(file))) {
     crestline_abort(sprintf("`file` is %s, not an HTML file in a folder that exists.", describe_value(file)),
                     "Give a path that ends in .html, and create its folder.", stage = "page", call = call)
   }
-  if (selfcontained && !nzchar(Sys.which("pandoc")) && !nzchar(Sys.getenv("RSTUDIO_PANDOC"))) {
-    crestline_abort("pandoc, which puts all into one file, was not found.",
-                    "Install pandoc (Debian: apt install pandoc), or set `selfcontained = FALSE`.", stage = "page", call = call)
-  }
   file.path(normalizePath(dirname(file)), basename(file))
 }
 
-# The scene's widget; the first of the ids is the coloured surface, the others are curves: a button hides each.
-page_widget <- function(ids, surface, size) {
-  widget <- rgl::rglwidget(width = size[1], height = size[2], elementId = "crestline")
-  buttons <- rgl::toggleWidget("crestline", ids = ids[1], label = surface)
-  if (length(ids) > 1) buttons <- htmltools::tagList(buttons, rgl::toggleWidget("crestline", ids = ids[-1], label = "curves"))
-  htmlwidgets::appendContent(widget, htmltools::tags$div(buttons))
+# The turning scene; the first of the ids is the coloured surface, the others are curves: a button hides each.
+page_scene <- function(ids, surface, size) {
+  scene <- rgl::rglwidget(width = size[1], height = size[2], elementId = "crestline")
+  button <- function(ids, label) rgl::toggleWidget("crestline", ids = ids, label = label)
+  htmltools::tagList(scene, htmltools::tags$div(style = "display:flex;gap:8px", button(ids[1], surface),
+                                                if (length(ids) > 1) button(ids[-1], "curves")))
 }
 
 page_legend <- function(surface) {
@@ -72,7 +100,10 @@ page_legend <- function(surface) {
 html_table <- function(table, digits = 3) {
   if (is.null(table) || nrow(table) == 0) return(NULL)
   cell <- "padding:3px 12px;border-bottom:1px solid #ddd;text-align:left"
-  shown <- vapply(table, function(column) format(column, digits = digits), character(nrow(table)))
+  shown <- vapply(table, function(column) {
+    if (is.numeric(column)) column <- signif(column, digits)
+    vapply(column, format, "", USE.NAMES = FALSE)
+  }, character(nrow(table)))
   shown <- matrix(shown, nrow(table))
   rows <- apply(shown, 1, function(row) htmltools::tags$tr(lapply(row, htmltools::tags$td, style = cell)), simplify = FALSE)
   htmltools::tags$table(style = "border-collapse:collapse;font:13px sans-serif",
@@ -86,7 +117,7 @@ curve_table <- function(curves) {
   name <- if (is.null(names(curves))) character(length(curves)) else names(curves)
   table <- data.frame(curve = name, kind = pick("type", as.character), from = pick("from", as.character),
                       to = pick("to", as.character), length = pick("length", as.numeric), strength = pick("strength", as.numeric))
-  table$se <- vapply(curves, function(curve) stats::median(curve$points$se, na.rm = TRUE), numeric(1), USE.NAMES = FALSE)
+  table$se <- pick("se", as.numeric)
   table$converged <- pick("converged", as.logical)
   table[if (all(name == "")) -1 else TRUE]
 }

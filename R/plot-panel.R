@@ -15,32 +15,51 @@
 #' @param main Title; the ends of the curve where NULL.
 #' @param ... Passed to [graphics::image()].
 #' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
+#' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they have no panel.
 #' @references The paper, Fig. 3; see [crestline-package].
+#' @examples
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
+#' plot_panel(lip)
 #' @export
-plot_panel <- function(x, points = TRUE, grid = c(150, 100), palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
+plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
                        contours = 8, colour = "#16218C", main = NULL, ...) {
   check_class(x, "curve", "x", "ridge_curve()")
+  if (is.null(x$line)) {
+    crestline_abort(sprintf("the curve from %s to %s was not found by curvature, so it has no panel.", x$from, x$to),
+                    "Plot a ridge or valley that was found.", stage = "picture", id = x$id)
+  }
+  x$coordinates <- x$coordinates[x$coordinates$inside, ]
   panel <- panel_grid(x, grid)
   if (is.null(main)) main <- paste0(x$type, ", ", x$from, " to ", x$to)
-  graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE, main = main,
-                  xlab = "s, along the reference path", ylab = "", ...)
-  graphics::axis(1, pretty(panel$s))
-  graphics::axis(2, pretty(panel$d), pos = min(panel$s), las = 1)
-  graphics::text(min(panel$s) - 3 * diff(graphics::grconvertX(0:1, "lines", "user")), mean(range(panel$d)),
-                 "d, distance from it", srt = 90, xpd = NA)
-  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = ".", col = "#00000060")
+  graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE, main = main, xlab = "", ylab = "", ...)
+  panel_axes(panel)
+  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25, col = "#00000060")
   graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE, drawlabels = FALSE, col = "#8B5A2B")
   graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
   draw_panel_ridge(x, colour)
   invisible(panel)
 }
 
+# Axes that stand at the panel's edges, wherever equal scale leaves room in the plot.
+panel_axes <- function(panel) {
+  line <- c(diff(graphics::grconvertX(0:1, "lines", "user")), diff(graphics::grconvertY(0:1, "lines", "user")))
+  left <- min(panel$s)
+  bottom <- min(panel$d)
+  graphics::axis(1, pretty(panel$s), pos = bottom)
+  graphics::axis(2, pretty(panel$d), pos = left, las = 1)
+  graphics::text(mean(range(panel$s)), bottom - 3 * line[2], "s, along the reference path", xpd = NA)
+  graphics::text(left - 3 * line[1], mean(range(panel$d)), "d, distance from it", srt = 90, xpd = NA)
+}
+
 # The smoothed strength on a grid, NA where the data do not reach: beyond their least and greatest d near the same s.
 panel_grid <- function(x, grid) {
-  s <- seq(0, attr(x$coordinates, "length"), length.out = grid[1])
+  s <- seq(0, max(x$line$s), length.out = grid[1])
   d <- seq(min(x$coordinates$d), max(x$coordinates$d), length.out = grid[2])
   cells <- expand.grid(s = s, d = d)
-  strength <- matrix(predict(x$surface, cells$s, cells$d), length(s))
+  strength <- matrix(stats::predict(x$surface, cells$s, cells$d), length(s))
   reach <- data_reach(x$coordinates, s)
   strength[outer(reach$low, d, ">") | outer(reach$high, d, "<")] <- NA
   list(s = s, d = d, strength = strength)
@@ -57,12 +76,10 @@ data_reach <- function(coordinates, s, stretches = 30) {
 }
 
 draw_panel_ridge <- function(x, colour, multiple = 2, opacity = 0.25) {
-  share <- function(s) s / max(s)
-  known <- is.finite(x$points$se)
-  if (sum(known) > 1) {
-    se <- stats::approx(share(x$points$s)[known], x$points$se[known], share(x$line$s), rule = 2, ties = mean)$y
-    graphics::polygon(c(x$line$s, rev(x$line$s)), c(x$line$alpha + multiple * se, rev(x$line$alpha - multiple * se)),
+  line <- x$line
+  if (!is.null(line$se) && !anyNA(line$se)) {
+    graphics::polygon(c(line$s, rev(line$s)), c(line$alpha + multiple * line$se, rev(line$alpha - multiple * line$se)),
                       col = grDevices::adjustcolor(colour, opacity), border = colour, lwd = 0.7)
   }
-  graphics::lines(x$line$s, x$line$alpha, col = colour, lwd = 2.5)
+  graphics::lines(line$s, line$alpha, col = colour, lwd = 2.5)
 }

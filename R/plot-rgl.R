@@ -1,6 +1,6 @@
 # The same drawing in an rgl scene, which can be turned.
 
-rgl_surface <- function(mesh, colour, rotation, ..., zoom = 0.7) {
+rgl_surface <- function(mesh, colour, rotation, ..., zoom = 0.8) {
   if (rgl::cur3d() == 0) rgl::open3d()
   look <- utils::modifyList(list(specular = "#202020", polygon_offset = 1), list(...))
   corners <- list(t(mesh$vb[1:3, , drop = FALSE]), normals = t(mesh$normals[1:3, , drop = FALSE]), indices = mesh$it)
@@ -23,7 +23,7 @@ draw_lines.rgl_scene <- function(scene, x, colour = "black", width = 2, halo = N
 #' @export
 draw_points.rgl_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
   x <- point_matrix(x)
-  scene <- add_ids(scene, rgl::spheres3d(x, radius = size * scene$diagonal / 250, color = colour))
+  scene <- add_ids(scene, rgl::spheres3d(x, radius = size * scene$diagonal / 400, color = colour, specular = "black"))
   if (is.null(labels)) return(invisible(scene))
   add_ids(scene, rgl::text3d(x, texts = labels, color = colour, cex = 0.7 * size, adj = c(-0.5, 0.5), lit = FALSE, depth_test = "always"))
 }

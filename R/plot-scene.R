@@ -7,7 +7,7 @@
 #' graphics device with base graphics (orthographic, smoothly shaded, no display needed), the engine
 #' "rgl" in the current rgl scene or a new one, on rgl's null device when `options(rgl.useNULL = TRUE)`.
 #'
-#' @param mesh A `mesh3d` with triangles.
+#' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
 #' @param view Where to look from: "front" (along -z at +z, y up), "left" and "right" (the subject's own),
 #'   "three-quarter" (from the subject's left and a little above), "below", "above", "back"; or two angles in radians, how far the
@@ -28,7 +28,7 @@
 draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
                          engine = c("picture", "rgl"), ...) {
   engine <- check_choice(engine, c("picture", "rgl"), "engine")
-  mesh <- with_normals(mesh)
+  mesh <- with_normals(as_mesh(mesh))
   colour <- check_colours(colour, ncol(mesh$vb))
   rotation <- view_rotation(view)
   switch(engine,
@@ -45,7 +45,7 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) UseMethod("draw_lines")
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/125 of the diagonal of the mesh's box wide at size 1.
+#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the diagonal of the mesh's box wide at size 1.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
@@ -106,9 +106,4 @@ point_matrix <- function(x, call = rlang::caller_env()) {
 
 with_normals <- function(mesh) {
   if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
-}
-
-# Length of the diagonal of the box that holds the mesh.
-mesh_diagonal <- function(mesh) {
-  sqrt(sum(apply(mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))^2))
 }

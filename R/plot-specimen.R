@@ -4,7 +4,7 @@
 #'
 #' @param x A `specimen`.
 #' @param colour What the colours show: "natural" (the colours of the scan, plain where it has none), "shape index" (see
-#'   [plot_shape_scale()]), "curvature" (the principal curvature greater in size: valleys blue, ridges red, in full at the 98 % quantile of its size) or "plain".
+#'   [plot_shape_scale()]), "curvature" (the principal curvature greater in size: valleys blue, ridges red, in full at the 95 % quantile of its size) or "plain".
 #' @param curvature The `curvature` of the specimen's mesh, for "shape index" and "curvature"; NULL to compute it.
 #' @param radius Where curvature is computed: the radius of its neighbourhood, in the mesh's unit. The default, 1/25 of the diagonal of
 #'   the mesh's box, is about 10 mm on a face.
@@ -39,8 +39,9 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
     on.exit(graphics::par(old))
   }
   scene <- draw_surface(x$mesh, scale$colours, view, engine, ...)
-  if (landmarks && nrow(x$landmarks) > 0) {
-    draw_points(scene, x$landmarks, "black", halo = "white", labels = if (labels) rownames(x$landmarks))
+  placed <- x$landmarks[stats::complete.cases(x$landmarks), , drop = FALSE]
+  if (landmarks && nrow(placed) > 0) {
+    scene <- draw_points(scene, placed, "black", halo = "white", labels = if (labels) rownames(placed))
   }
   if (engine == "picture") {
     graphics::title(main)
@@ -68,7 +69,7 @@ shape_legend <- function(index) {
        at = (scale$index + 1) / 2, labels = scale$category)
 }
 
-curvature_legend <- function(curvature, quantile = 0.98, palette = grDevices::hcl.colors(11, "Blue-Red"),
+curvature_legend <- function(curvature, quantile = 0.95, palette = grDevices::hcl.colors(11, "Blue-Red"),
                              missing = "#BEBEBE") {
   greater <- ifelse(abs(curvature$k1) > abs(curvature$k2), -curvature$k1, -curvature$k2)
   limit <- stats::quantile(abs(greater), quantile, na.rm = TRUE)

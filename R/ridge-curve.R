@@ -24,7 +24,7 @@
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the reference path;
 #'   * `se`: median standard error; `converged`: whether every iteration did;
 #'   * `determined`: whether curvature determines the curve: `FALSE` when the median
-#'     standard error exceeds `settings$undetermined` radii or there is no such curvature by the path (`reason` says why); then the
+#'     standard error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, cannot be lifted onto the mesh, or there is no such curvature by the path (`reason` says why); then the
 #'     plane path (`reference`, or `type = "plane"`) is the safer choice; `NA` for plane curves and without standard errors;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`.
 #' @section Standard error: the standard deviation of the curve's position across
@@ -77,7 +77,7 @@ curvature_for <- function(curvature, specimen, from, to, radius, width, reach, s
     surface <- walkable(specimen)
     ends <- path_ends(specimen, surface, from, to)
     span <- cut_axis(surface, ends)$span
-    near_segment(surface, ends, reach * span + min(width, settings$window * radius))
+    near_segment(surface, ends, reach * span + radius + min(width, settings$window * radius))
   }
   known_curvature(curvature, specimen, radius, vertices(), threads, order = settings$order)
 }
@@ -90,14 +90,23 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
   strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings)
   scale <- core_strength(coordinates, strength, settings$core * radius)
   stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE, path = path)
-  if (!is.finite(scale) || scale <= 0) return(stages)
+  if (!is.finite(scale) || scale <= 0) {
+    stages$reason <- sprintf("there is no %s curvature by the reference path", type)
+    return(stages)
+  }
   stages$surface <- curvature_surface(coordinates, strength$value, settings)
   stages$line <- ridge_line(stages$surface, scale, radius, settings)
   if (settings$error) {
     stages$line$se <- ridge_error(specimen, curvature, coordinates, stages$surface, stages$line, strength,
                                   scale, radius, type, settings)
   }
-  stages$path <- lift(specimen, coordinates, path, stages$line$s, stages$line$alpha)
+  lifted <- tryCatch(lift(specimen, coordinates, path, stages$line$s, stages$line$alpha),
+                     crestline_path_error = function(e) NULL)
+  if (is.null(lifted)) {
+    stages$reason <- "the ridge line leaves the surface near the reference path"
+    return(stages)
+  }
+  stages$path <- lifted
   stages$found <- TRUE
   stages
 }
@@ -114,7 +123,7 @@ window_strength <- function(specimen, coordinates, curvature, type, keep_away, s
   value <- strength_at(curvature, type, at, if (!principal) across)
   value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, at, drop = FALSE]))] <- 0
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
-  cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
+  cap <- settings$cap * stats::quantile(value[coordinates$inside], settings$cap_quantile, na.rm = TRUE, names = FALSE)
   own <- if (type == "ridge") curvature$direction2 else curvature$direction1
   list(value = pmin(value, cap), cap = cap, direction = if (principal) own[at, , drop = FALSE] else across)
 }
@@ -156,7 +165,9 @@ judge_curve <- function(about, fit) {
   se <- if (is.null(fit$line$se)) NA_real_ else stats::median(fit$line$se[-c(1, length(fit$line$se))])
   limit <- about$settings$undetermined * about$radius
   reason <- if (!fit$found) {
-    sprintf("there is no %s curvature by the reference path", about$type)
+    fit$reason
+  } else if (fit$line$at_bound) {
+    "it runs along the edge of the window"
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
   } else {

@@ -26,10 +26,19 @@ lift <- function(specimen, coordinates, path, s, alpha) {
   surface <- walkable(specimen)
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)
-  towards <- unlist(path[2, c("x", "y", "z")] - path[1, c("x", "y", "z")])
+  towards <- first_direction(specimen, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
   walked <- cpp_level_path(surface$xyz, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
   if (walked$end == "arrived") return(new_path(walked$points, ends, lifted = TRUE))
   piece_together(specimen, surface, coordinates, path, s, alpha)
+}
+
+#' Direction in which the curve leaves the first point: along the path and, by the slope, across it
+#' @noRd
+first_direction <- function(specimen, path, slope) {
+  tangent <- unlist(path[2, c("x", "y", "z")] - path[1, c("x", "y", "z")])
+  tangent <- tangent / sqrt(sum(tangent^2))
+  across <- cross_product(path_normals(as_mesh(specimen), path[1, ])[, 1], tangent)
+  tangent + slope * across / sqrt(sum(across^2))
 }
 
 #' The ends of a path as path_ends() gives them
@@ -58,10 +67,15 @@ level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
 #' @noRd
 piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
   places <- places_in_plane(surface, coordinates, path, s, alpha)
+  if (is.null(places)) {
+    crestline_abort("no triangle near the reference path holds the ridge line.",
+                    "Give a smaller `width`, or use the plane cut.", stage = "lift", id = surface$id,
+                    class = "crestline_path_error", call = NULL)
+  }
   knots <- rbind(path[1, names(places)], places, path[nrow(path), names(places)])
   knots <- knots[c(TRUE, rowSums(diff(as.matrix(knots[1:3]))^2) > 0), ]
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
-    reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = 2)
+    reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf, rival = 0)
   })
   joined <- do.call(rbind, lapply(pieces, function(p) as.data.frame(p)[-1, -1]))
   ends <- list(exact = knots[c(1, nrow(knots)), ])

@@ -32,7 +32,7 @@
 #' @export
 ridge_settings <- function(preset = c("crestline", "paper"), ...) {
   preset <- check_choice(preset, c("crestline", "paper"), "preset")
-  settings <- list(order = "adaptive", strength = "across", wrong_sign = "zero", cap = 2,
+  settings <- list(order = "adaptive cubic", strength = "across", wrong_sign = "zero", cap = 2,
                    cap_quantile = 0.99, window = 1.5, basis = c(10, 10), anisotropy = 10, df = 20,
                    lambda = 1e-4, lambda_scale = "feature", grid = 41, core = 0.3, bound = 0.98,
                    step = 0.25, iterations = 100, tolerance = 1e-9, longest = 1.25, inflation = 1.5,

@@ -33,7 +33,7 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
   penalty <- tensor_penalty(margins, settings$anisotropy)
   moments <- as.matrix(Matrix::tcrossprod(design))
   chosen <- penalty_for_df(moments, penalty, settings$df)
-  factor <- chol(moments + chosen$value * penalty)
+  factor <- surface_factor(moments + chosen$value * penalty)
   right <- as.vector(design %*% strength[rows])
   beta <- backsolve(factor, backsolve(factor, right, transpose = TRUE))
   structure(
@@ -42,6 +42,16 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
          margins = margins, design = design, factor = factor),
     class = "curvature_surface"
   )
+}
+
+#' Cholesky factor, or an error when the vertices do not determine a surface
+#' @noRd
+surface_factor <- function(moments) {
+  tryCatch(chol(moments), error = function(e) {
+    crestline_abort("the vertices of the window lie on a line in (s, d), or far too unevenly for a smooth surface.",
+                    "Check the mesh by the landmarks for stretched triangles; give a larger `width`.",
+                    stage = "curvature surface", call = NULL)
+  })
 }
 
 abort_few_vertices <- function(count, df) {
@@ -55,7 +65,7 @@ abort_few_vertices <- function(count, df) {
 #' One margin: mgcv's p-spline smooth on equally spaced knots over an interval
 #' @noRd
 spline_margin <- function(k, lower, upper) {
-  term <- mgcv::s(x, bs = "ps", k = k, m = c(2, 2))
+  term <- eval(substitute(mgcv::s(x, bs = "ps", k = k, m = c(2, 2)), list(x = quote(x), k = k)))
   mgcv::smoothCon(term, data.frame(x = seq(lower, upper, length.out = 2 * k)),
                   knots = list(x = c(lower, upper)))[[1]]
 }
@@ -89,7 +99,7 @@ tensor_penalty <- function(margins, anisotropy) {
 #' @noRd
 penalty_for_df <- function(moments, penalty, df) {
   scale <- sum(diag(moments)) / sum(diag(penalty))
-  factor <- chol(moments + scale * penalty)
+  factor <- surface_factor(moments + scale * penalty)
   half <- backsolve(factor, moments, transpose = TRUE)
   inner <- backsolve(factor, t(half), transpose = TRUE)
   m <- pmin(pmax(eigen((inner + t(inner)) / 2, symmetric = TRUE, only.values = TRUE)$values, 0), 1)

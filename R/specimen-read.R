@@ -19,7 +19,7 @@
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_file(file, "reading")
-  if (is.null(id)) id <- tools::file_path_sans_ext(basename(file))
+  if (is.null(id)) id <- sub("[.][^.]*$", "", basename(file))
   id <- check_id(id)
   if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) {
     landmarks <- read_landmarks(landmarks)
@@ -31,7 +31,7 @@ mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)
 
 # A mesh3d as the file has it, unchecked.
 read_mesh <- function(file, id) {
-  reader <- mesh_readers()[[tolower(tools::file_ext(file))]]
+  reader <- mesh_readers()[[file_extension(file)]]
   if (is.null(reader)) {
     refuse_file(file, "the format is not known by its extension",
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))

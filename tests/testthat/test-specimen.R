@@ -1,0 +1,73 @@
+ball_landmarks <- rbind(top = c(0, 0, 1), front = c(1, 0, 0), gone = NA)
+
+test_that("a clean mesh passes unchanged, with landmarks exactly on it", {
+  ball <- ball_mesh()
+  s <- specimen(ball, ball_landmarks, id = "ball")
+  expect_s3_class(s, "specimen")
+  expect_identical(s$mesh$vb, ball$vb)
+  expect_equal(s$mesh$it, ball$it)
+  expect_equal(colSums(s$mesh$normals[1:3, ] * ball$vb[1:3, ]), rep(1, ncol(ball$vb)), tolerance = 0.01)
+  expect_on_mesh(s$geometry$located[1:2, ], s$mesh)
+  expect_identical(unname(s$landmarks[1:2, ]), unname(as.matrix(s$geometry$located[1:2, 1:3])))
+  expect_equal(dimnames(s$landmarks), list(c("top", "front", "gone"), c("x", "y", "z")))
+  expect_true(all(is.na(s$landmarks["gone", ])))
+  expect_equal(report_count(s, "landmarks missing"), 1)
+  expect_equal(s$geometry$twin, mesh_topology(s$mesh)$twin)
+  expect_equal(unique(s$geometry$piece), 1)
+})
+
+test_that("the report has a row for every check, also where nothing is found", {
+  report <- specimen(ball_mesh())$report
+  expect_named(report, c("check", "count", "action"))
+  expect_setequal(report$check, c(
+    "homogeneous co-ordinates", "quads", "faces naming missing vertices", "non-finite co-ordinates",
+    "duplicate vertices", "point cloud without triangles", "degenerate faces", "duplicate faces",
+    "faces wound against their neighbours", "debris", "unreferenced vertices", "faces looking inwards",
+    "faces without area", "non-manifold edges", "isolated pieces", "holes",
+    "landmarks missing", "landmarks beside the surface", "landmarks mirrored"
+  ))
+  expect_true(all(report$count == 0))
+  expect_true(all(report$action == "none"))
+})
+
+test_that("print fits a screen and tells what was mended", {
+  landmarks <- t(ball_mesh()$vb[1:3, 1:60])
+  rownames(landmarks) <- paste0("landmark", 1:60)
+  ball <- ball_mesh()
+  ball$vb <- cbind(ball$vb, c(9, 9, 9, 1))
+  text <- capture.output(print(specimen(ball, landmarks, id = "ball")))
+  expect_lte(length(text), 12)
+  expect_lte(max(nchar(text)), 80)
+  expect_match(text[1], "ball: 162 vertices, 320 triangles")
+  expect_match(text, "1 unreferenced vertices: left out", all = FALSE)
+})
+
+test_that("a landmark is found by its name, with its face and weights", {
+  s <- specimen(ball_mesh(), ball_landmarks, id = "ball")
+  point <- landmark_point(s, "front")
+  expect_equal(unlist(point[1:3]), s$landmarks["front", ])
+  expect_on_mesh(point, s$mesh)
+})
+
+test_that("a landmark that is unknown, missing or was moved off is refused by name", {
+  s <- specimen(ball_mesh(), ball_landmarks, id = "ball")
+  expect_crestline_error(landmark_point(s, "fron"), c("ball", "fron", "Near names: front"), id = "ball")
+  expect_crestline_error(landmark_point(s, NA), "Near names")
+  expect_crestline_error(landmark_point(specimen(ball_mesh()), "a"), "has no landmarks")
+  expect_crestline_error(landmark_point(s, "gone"), c("ball", "gone", "missing"), id = "ball")
+  s$landmarks["top", ] <- c(0, 0, 1.5)
+  expect_crestline_error(landmark_point(s, "top"), c("ball", "top", "off the surface"))
+})
+
+test_that("a landmark changed by the user is put on the mesh anew", {
+  s <- specimen(ball_mesh(), ball_landmarks)
+  s$landmarks["top", ] <- c(0, 1, 0)
+  expect_lt(max(abs(unlist(landmark_point(s, "top")[1:3]) - c(0, 1, 0))), 0.02)
+  s$landmarks <- rbind(s$landmarks, new = c(-1, 0, 0))
+  expect_on_mesh(landmark_point(s, "new"), s$mesh)
+})
+
+test_that("id must be one string", {
+  expect_crestline_error(specimen(ball_mesh(), id = c("a", "b")), "id")
+  expect_equal(specimen(ball_mesh(), id = 7)$id, "7")
+})
