@@ -116,12 +116,25 @@ cut_axis <- function(surface, ends) {
   list(axis = axis, span = span, across = across / sqrt(sum(across^2)))
 }
 
-#' Unit normal of the triangle about an end
+#' Unit normal of the surface at an end, 0 where its triangles have no area
+#'
+#' The normals of the triangle's corners, weighted as the end is, so that an end at a corner or on an
+#' edge has one normal, whichever of the triangles there it was put in.
 #' @noRd
 end_normal <- function(surface, end) {
-  corners <- surface$xyz[, surface$it[, end[1]]]
-  normal <- cross_product(corners[, 2] - corners[, 1], corners[, 3] - corners[, 1])
-  normal / sqrt(sum(normal^2))
+  corners <- vapply(surface$it[, end[1]], function(v) corner_normal(surface, v), numeric(3))
+  normal <- as.vector(corners %*% end[2:4])
+  normal / max(sqrt(sum(normal^2)), .Machine$double.xmin)
+}
+
+#' Unit normal at a vertex: of its triangles, weighted by area
+#' @noRd
+corner_normal <- function(surface, vertex) {
+  faces <- surface$it[, (which(surface$it == vertex) - 1) %/% 3 + 1, drop = FALSE]
+  a <- surface$xyz[, faces[1, ], drop = FALSE]
+  area <- cross_rows(t(surface$xyz[, faces[2, ], drop = FALSE] - a), t(surface$xyz[, faces[3, ], drop = FALSE] - a))
+  normal <- colSums(area)
+  normal / max(sqrt(sum(normal^2)), .Machine$double.xmin)
 }
 
 #' Normals of the planes at given angles, 3 x k
