@@ -160,7 +160,7 @@ test_that("an isolated triangle has no curvature, with the reason, and the rest 
 test_that("points on a line, and a vertex without triangles, have the other reason", {
   strip <- rbind(rep(seq_len(20), 1), 0, 0, 1)
   it <- rbind(1:18, 2:19, 3:20)
-  flat <- rgl::mesh3d(vertices = cbind(strip, ball_mesh(2)$vb + c(40, 0, 0, 0)), triangles = cbind(it, ball_mesh(2)$it + 20))
+  flat <- rgl::mesh3d(vertices = cbind(strip, ball_mesh(2)$vb + c(90, 0, 0, 0)), triangles = cbind(it, ball_mesh(2)$it + 20))
   curved <- curvature(flat, 30, vertices = 1:40)
   expect_match(curved$reason[1:20], "nearly in a line, or no normal")
   expect_false(anyNA(curved$k1[21:40]))
@@ -233,6 +233,7 @@ test_that("errors say what to do", {
   mesh <- ball()
   expect_crestline_error(curvature(mesh, 1e-3), c("no vertex could be fitted", "larger `radius`"))
   expect_crestline_error(curvature(mesh, -1), "`radius`")
+  expect_crestline_error(curvature(mesh, 1.8), c("as large as the mesh", "metres"))
   expect_crestline_error(curvature(mesh, c(1, 2)), "`radius`")
   expect_crestline_error(curvature(mesh, 0.3, order = "quintic"), c("quintic", "quartic"))
   expect_crestline_error(curvature(mesh, 0.3, threads = 0), "`threads`")

@@ -142,3 +142,15 @@ test_that("ends along the axis of their own normals still have a plane", {
 test_that("a path prints its length and angle", {
   expect_output(print(plane_path(grid_mesh(11), c(1, 5.1, 0), c(9, 5.1, 0), angle = pi / 6)), "length 8, angle 30.0 degrees")
 })
+
+test_that("ends that are one point to the precision of their triangle are refused", {
+  mesh <- grid_mesh(3)
+  end <- surface_points(mesh, rbind(c(0.3, 0.4, 0)))
+  near <- replace(end, "x", end$x + 1e-14)
+  error <- expect_crestline_error(plane_path(mesh, end, near), "too near to each other")
+  expect_s3_class(error, "crestline_path_error")
+})
+
+test_that("side is 0 or 1", {
+  expect_crestline_error(plane_path(ball(), c(1, 0, 0), c(0, 1, 0), side = 2), "`side`")
+})

@@ -205,3 +205,29 @@ test_that("a curve prints its length, strength, error and outcome", {
   curve$converged <- FALSE
   expect_output(print(curve), "NOT converged")
 })
+
+test_that("a ridge along the edge of the window is flagged", {
+  u <- c(-13.3, 13.6)
+  winding <- graph_specimen(quote(6 * exp(-(v - 3 * sin(u / 4))^2 / 50)), two_ends(u, 3 * sin(u / 4)))
+  expect_warning(curve <- curve_of(winding, "a", "b", "ridge", radius = 4, width = 1, n = 9, settings = ridge_settings(lambda = 1e-7)),
+                 "edge of the window", class = "crestline_undetermined")
+  expect_true(curve$line$at_bound)
+  expect_false(curve$determined)
+})
+
+test_that("a ridge line that cannot be lifted leaves the reference path, with the reason", {
+  bent <- bent_ridge()
+  path <- of_bent(bent)$reference
+  torn <- bent
+  torn$geometry$twin[] <- 0L # every edge a border
+  fit <- fit_ridge(torn, path, curvature(bent, 4), 4, 5, "ridge", NULL, ridge_settings())
+  expect_false(fit$found)
+  expect_match(fit$reason, "leaves the surface")
+  expect_identical(fit$path, path)
+})
+
+test_that("errors of any stage name the curve", {
+  bent <- bent_ridge()
+  expect_crestline_error(ridge_curve(bent, "a", "b", "ridge", radius = 400, width = 5, n = 9),
+                         c("specimen graph", "ridge from a to b", "as large as the mesh"), id = "graph")
+})

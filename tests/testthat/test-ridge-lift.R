@@ -83,3 +83,20 @@ test_that("of two sheets that hold a place the one by the reference path is take
   expect_equal(unlist(places[1:3]), c(x = 5, y = 6.2, z = 0))
   expect_gt(places$face, ncol(sheet$it)) # the lower sheet comes second
 })
+
+test_that("ends in one triangle are joined straight", {
+  mesh <- grid_mesh(6)
+  path <- plane_path(mesh, c(2.1, 2.1, 0), c(2.3, 2.2, 0))
+  window <- path_coordinates(mesh, path, 2)
+  s <- seq(0, attr(path, "length"), length.out = 5)
+  lifted <- lift(mesh, window, path, s, 0 * s)
+  expect_identical(nrow(lifted), 2L)
+  expect_true(attr(lifted, "lifted"))
+})
+
+test_that("a window without triangles by the curve is an error of the path", {
+  mesh <- grid_mesh(15)
+  u <- unrolled(mesh, c(2.2, 7.3, 0), c(12.1, 7.2, 0), 3)
+  error <- expect_crestline_error(lift(mesh, u$window[1:3, ], u$path, u$s, 0 * u$s), "no triangle near the reference path")
+  expect_s3_class(error, "crestline_path_error")
+})

@@ -107,3 +107,9 @@ test_that("too few vertices are an error, more df than there is room for are tol
 test_that("a surface prints its size and df", {
   expect_output(print(curvature_surface(window_of(), bumps(window_of()))), "10 x 6 .*400 vertices, 20.0 df")
 })
+
+test_that("vertices on a line determine no surface: an error, not a crash", {
+  window <- window_of()
+  window$d <- 0
+  expect_crestline_error(curvature_surface(window, bumps(window)), c("on a line", "`width`"))
+})
