@@ -122,20 +122,37 @@ cut_axis <- function(surface, ends) {
 #' edge has one normal, whichever of the triangles there it was put in.
 #' @noRd
 end_normal <- function(surface, end) {
-  corners <- vapply(surface$it[, end[1]], function(v) corner_normal(surface, v), numeric(3))
-  normal <- as.vector(corners %*% end[2:4])
-  normal / max(sqrt(sum(normal^2)), .Machine$double.xmin)
+  corners <- vapply(surface$it[, end[1]], function(v) corner_normal(surface, end[1], v), numeric(3))
+  unit_vector(as.vector(corners %*% end[2:4]))
 }
 
-#' Unit normal at a vertex: of its triangles, weighted by area
+#' Unit normal at a corner of a face: of the triangles about it, weighted by area
 #' @noRd
-corner_normal <- function(surface, vertex) {
-  faces <- surface$it[, (which(surface$it == vertex) - 1) %/% 3 + 1, drop = FALSE]
-  a <- surface$xyz[, faces[1, ], drop = FALSE]
-  area <- cross_rows(t(surface$xyz[, faces[2, ], drop = FALSE] - a), t(surface$xyz[, faces[3, ], drop = FALSE] - a))
-  normal <- colSums(area)
-  normal / max(sqrt(sum(normal^2)), .Machine$double.xmin)
+corner_normal <- function(surface, face, vertex) {
+  normals <- vapply(faces_about(surface, face, vertex), function(f) {
+    corners <- surface$xyz[, surface$it[, f]]
+    cross_product(corners[, 2] - corners[, 1], corners[, 3] - corners[, 1])
+  }, numeric(3))
+  unit_vector(rowSums(normals))
 }
+
+#' Faces about a corner of a face, walked over the edges there both ways round
+#' @noRd
+faces_about <- function(surface, face, vertex) {
+  found <- face
+  for (back in 0:1) {
+    at <- face
+    repeat {
+      side <- (match(vertex, surface$it[, at]) - 1 - back) %% 3 + 1
+      at <- (surface$twin[side, at] - 1) %/% 3 + 1
+      if (at == 0 || at %in% found) break
+      found <- c(found, at)
+    }
+  }
+  found
+}
+
+unit_vector <- function(x) x / max(sqrt(sum(x^2)), .Machine$double.xmin)
 
 #' Normals of the planes at given angles, 3 x k
 #' @noRd
