@@ -31,3 +31,13 @@ condition_text <- function(problem, remedy, stage, id) {
   where <- if (is.null(id)) stage else paste0("specimen ", id, ", ", stage)
   c(paste0(where, ": ", problem), i = remedy)
 }
+
+#' Run code; an error of ours that names no specimen is raised again with the specimen and what was being done
+#' @noRd
+in_context <- function(code, id, doing) {
+  rlang::try_fetch(code, crestline_error = function(e) {
+    if (!is.null(e$id)) rlang::cnd_signal(e)
+    own <- setdiff(class(e), c("crestline_error", "rlang_error", "error", "condition"))
+    crestline_abort(paste0(doing, ": ", e$problem), e$remedy, e$stage, id, class = own, call = NULL)
+  })
+}

@@ -17,7 +17,7 @@
 #'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (in the
 #'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
 #'   attributes `length` (of the path) and `width`.
-#' @references The paper, section 3.2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.2.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))

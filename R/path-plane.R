@@ -21,7 +21,7 @@
 #'   `angle`, `side`.
 #' @section Errors: of class `crestline_path_error`, when the cut ends at a border
 #'   of the mesh (a hole between the points) or comes round without meeting `to`.
-#' @references The paper, section 3.1.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.1.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' quarter <- plane_path(ball, c(1, 0, 0), c(0, 1, 0), angle = 0)
@@ -31,6 +31,7 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   surface <- walkable(mesh)
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
+  check_number(side, "side", lower = 0, upper = 1)
   axis <- cut_axis(surface, ends)
   cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
                         plane_normal(axis, angle), side, axis$span * reach)

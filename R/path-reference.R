@@ -24,17 +24,22 @@
 #' @param rival Share within which a second optimum is a rival that is warned of.
 #' @param distinct Angle in radians by which a rival differs at least.
 #' @inheritParams curvature
-#' @param ... Further arguments of [curvature()].
+#' @param ... Further arguments of [curvature()], where it is not given; [ridge_curve()] uses the `order` of its settings.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
 #'   (mean strength in 1 / unit, or length), and `optima`: data frame with a row for every local
 #'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`.
 #' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
 #' @section Warnings: of class `crestline_rival_path`, when another optimum is
 #'   nearly as good; the warning names both angles.
-#' @references The paper, section 3.1.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.1.
 #' @examples
 #' data(humface, package = "Rvcg")
-#' face <- specimen(humface, humface.lm, id = "humface")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' path <- reference_path(face, "chL", "st", "valley", radius = 5)
+#' path
+#' attr(path, "criterion")
+#' head(as.data.frame(path), 3)
 #' @export
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,

@@ -14,7 +14,8 @@
 #'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
 #'   the places of the curve.
 #' @section Errors: of class `crestline_path_error`, when neither way gives a path.
-#' @references The paper, section 3.3; the walk takes the place of its Delaunay triangulation of (s, d).
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.3;
+#'   the walk takes the place of its Delaunay triangulation of (s, d).
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
