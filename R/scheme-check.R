@@ -1,13 +1,5 @@
 # What the cells of a scheme's tables must be to one another. Each check takes its table and the scheme so far, and gives problems.
 
-row_names_of <- list(
-  landmarks = function(table) table$landmark,
-  curves = function(table) table$curve,
-  patches = function(table) ifelse(is.na(table$block), table$patch, paste(table$patch, "block", table$block)),
-  pairs = function(table) table$left,
-  strips = function(table) paste(table$strip, "rung", table$rung)
-)
-
 check_scheme_landmarks <- function(landmarks, scheme) named_once(landmarks$landmark, "landmark")
 
 check_scheme_curves <- function(curves, scheme) {
@@ -15,12 +7,12 @@ check_scheme_curves <- function(curves, scheme) {
   landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to")
   by_curvature <- curves$kind != "plane"
   empty <- function(column, where, why) problem(which(where & is.na(curves[[column]])), column, paste("is empty:", why))
-  same <- function(a, b, column) problem(which(curves[[a]] == curves[[b]]), column, sprintf("is the same landmark as %s", a))
+  one <- function(a, b) problem(which(curves[[a]] == curves[[b]]), b, sprintf("is the same landmark as %s", a))
   rbind(
     named_once(curves$curve, "curve"),
     problem(grep("[][+|]", curves$curve), "curve", "a name may not hold [ ] + or |"),
     do.call(rbind, lapply(landmark_columns, function(column) unknown_names(curves[[column]], known, column, "landmark"))),
-    same("from", "to", "to"), same("cut_from", "cut_to", "cut_to"), same("keep_away_from", "keep_away_to", "keep_away_to"),
+    one("from", "to"), one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
     empty("radius", by_curvature, "a ridge or valley needs it"), empty("width", by_curvature, "a ridge or valley needs it"),
     whole_group(curves, c("cut_share", "cut_from", "cut_to")), whole_group(curves, c("keep_away_from", "keep_away_to")),
     whole_group(curves, c("side_of", "side")),
@@ -51,7 +43,7 @@ check_side_of <- function(curves) {
 check_scheme_patches <- function(patches, scheme) {
   blocks <- ifelse(is.na(patches$block), patches$patch, paste0(patches$patch, "|", patches$block))
   both <- patches$patch %in% patches$patch[is.na(patches$block)] & duplicated(patches$patch) & !duplicated(blocks)
-  unreadable <- function(column) which(!is.na(patches[[column]]) & vapply(patches[[column]], function(text) !is.na(text) && is.null(number_list(text)), NA))
+  unreadable <- function(column) which(vapply(patches[[column]], function(text) is.null(number_list(text)), NA))
   problems <- rbind(
     named_once(blocks, "patch"),
     problem(which(both), "block", "is empty in one row of the patch and not in another"),
@@ -59,7 +51,8 @@ check_scheme_patches <- function(patches, scheme) {
     problem(unreadable("columns"), "columns", "cannot be read: write whole numbers as 1,3:8"),
     problem(unreadable("rows_kept"), "rows_kept", "cannot be read: write whole numbers as 2:6"),
     side_problems(patches, "curve_a", scheme$curves), side_problems(patches, "curve_b", scheme$curves),
-    needs(patches, "resample_b", "curve_b"),
+    side_problems(patches, "first_column", scheme$curves),
+    needs(patches, "resample_b", "curve_b"), needs(patches, "first_column", "curve_b"),
     problem(which(is.na(patches$curve_b) & patches$rows != 1), "rows", "is not 1, and there is no curve_b"),
     problem(which(!is.na(patches$curve_b) & patches$rows < 2), "rows", "is not 2 at least, and there is a curve_b")
   )
@@ -69,12 +62,16 @@ check_scheme_patches <- function(patches, scheme) {
 #' Ranges, counts and ends of blocks that can be read
 #' @noRd
 block_problems <- function(patches) {
-  length_of <- function(text, resample) ifelse(is.na(resample), vapply(text, function(x) if (is.na(x)) NA_integer_ else nrow(side_points(x)), 1L), resample)
+  own <- function(text) vapply(text, function(x) if (is.na(x)) NA_integer_ else nrow(side_points(x)), 1L)
+  length_of <- function(text, resample) ifelse(is.na(resample), own(text), resample)
   a <- length_of(patches$curve_a, patches$resample_a)
   b <- length_of(patches$curve_b, patches$resample_b)
   columns <- lapply(patches$columns, number_list)
   rows <- lapply(patches$rows_kept, number_list)
-  outside <- function(numbers, most) which(mapply(function(v, most) min(v) < 1 || max(v) > most || anyDuplicated(v) > 0, numbers, most))
+  outside <- function(numbers, most) {
+    wrong <- function(i) min(numbers[[i]]) < 1 || max(numbers[[i]]) > most[i] || anyDuplicated(numbers[[i]]) > 0
+    which(vapply(seq_along(numbers), wrong, NA))
+  }
   n <- lengths(columns) * lengths(rows)
   wrong <- which(n != patches$n)
   apart <- which(!is.na(b) & a != b)
@@ -84,7 +81,8 @@ block_problems <- function(patches) {
     problem(apart, "curve_b", sprintf("gives %d columns where curve_a gives %d", b[apart], a[apart])),
     problem(wide, "columns", sprintf("%s does not lie within 1 to %d, each once", patches$columns[wide], a[wide])),
     problem(high, "rows_kept", sprintf("%s does not lie within 1 to %d, each once", patches$rows_kept[high], patches$rows[high])),
-    problem(wrong, "n", sprintf("is %d, but %d columns times %d rows are kept", patches$n[wrong], lengths(columns)[wrong], lengths(rows)[wrong]))
+    problem(wrong, "n", sprintf("is %d, but %d columns times %d rows are kept", patches$n[wrong],
+                                lengths(columns)[wrong], lengths(rows)[wrong]))
   )
 }
 
@@ -97,24 +95,23 @@ side_problems <- function(patches, column, curves) {
     unknown <- unknown_names(parts$curve, curves$curve, column, "curve")
     n <- curves$n[match(parts$curve, curves$curve)]
     beyond <- which(!is.na(n) & (pmin(parts$from, parts$to) < 1 | pmax(parts$from, parts$to) > n))
-    text <- c(unknown$text, sprintf("%s has points 1 to %d, not %d:%d", parts$curve[beyond], n[beyond], parts$from[beyond], parts$to[beyond]))
+    text <- c(unknown$text, sprintf("%s has points 1 to %d, not %d:%d", parts$curve[beyond], n[beyond],
+                                    parts$from[beyond], parts$to[beyond]))
     problem(rep(row, length(text)), column, text)
   })
   do.call(rbind, c(list(problem(integer())), each))
 }
 
 check_scheme_strips <- function(strips, scheme) {
-  curves <- with_defaults(scheme$curves)
-  points <- scheme_points(scheme$landmarks, curves, scheme$patches)
+  points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
   surface <- points[points$level == "surface", ]
   known <- paste(surface$part, surface$point, sep = "|")
   first <- match(strips$strip, strips$strip)
-  expected <- stats::ave(seq_along(first), first, FUN = seq_along)
-  rungs <- stats::ave(strips$rung, first, FUN = function(rung) match(rung, sort(rung)))
+  rung <- stats::ave(seq_along(first), first, FUN = seq_along)
   differs <- function(column) which(strips[[column]] != strips[[column]][first])
   rbind(
     unknown_names(strips$a, known, "a", "surface point"), unknown_names(strips$b, known, "b", "surface point"),
-    problem(which(rungs != strips$rung | duplicated(strips[c("strip", "rung")])), "rung", "the rungs of a strip are not 1, 2, 3, ..."),
+    problem(which(strips$rung != rung), "rung", "the rungs of a strip are not 1, 2, 3, ... in order"),
     problem(differs("outward"), "outward", "differs from the strip's first row"),
     problem(differs("part"), "part", "differs from the strip's first row")
   )
@@ -127,7 +124,8 @@ named_once <- function(x, column) {
 
 unknown_names <- function(x, known, column, what) {
   wrong <- which(!is.na(x) & !x %in% known)
-  near <- vapply(x[wrong], function(name) if (length(known)) known[which.min(utils::adist(name, known, ignore.case = TRUE))] else "none", "")
+  nearest <- function(name) if (length(known)) known[which.min(utils::adist(name, known, ignore.case = TRUE))] else "none"
+  near <- vapply(x[wrong], nearest, "")
   problem(wrong, column, sprintf("there is no %s \"%s\" (nearest: %s)", what, x[wrong], near))
 }
 
@@ -144,8 +142,3 @@ whole_group <- function(table, columns) {
 needs <- function(table, column, other) {
   problem(which(!is.na(table[[column]]) & is.na(table[[other]])), column, sprintf("is given, but %s is not", other))
 }
-
-scheme_checks <- list(
-  landmarks = check_scheme_landmarks, curves = check_scheme_curves, patches = check_scheme_patches,
-  pairs = function(pairs, scheme) check_scheme_pairs(pairs, scheme), strips = check_scheme_strips
-)

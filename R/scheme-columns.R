@@ -35,7 +35,7 @@ scheme_columns <- list(
     columns = column("text", TRUE), rows = column("count", TRUE, lower = 1), rows_kept = column("text", TRUE),
     curve_a = column("text", TRUE), resample_a = column("count", lower = 2),
     curve_b = column("text"), resample_b = column("count", lower = 2),
-    outward = column("choice", choices = c("columns", "rows")), note = column("text")
+    first_column = column("text"), outward = column("choice", choices = c("columns", "rows")), note = column("text")
   ),
   pairs = list(
     level = column("choice", TRUE, choices = c("landmarks", "curves", "surface")),

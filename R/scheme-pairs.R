@@ -9,19 +9,19 @@ partner_of <- function(name, pairs, level) {
 }
 
 check_scheme_pairs <- function(pairs, scheme) {
-  known <- list(landmarks = scheme$landmarks$landmark, curves = scheme$curves$curve, surface = unique(scheme$patches$patch))
-  problems <- do.call(rbind, c(list(problem(integer())), lapply(names(known), function(level) {
-    rows <- which(pairs$level == level)
-    what <- c(landmarks = "landmark", curves = "curve", surface = "patch")[[level]]
-    found <- do.call(rbind, lapply(c("left", "right"), function(side) unknown_names(pairs[[side]][rows], known[[level]], side, what)))
-    found$row <- rows[found$row]
-    found
-  })))
-  key <- function(side) paste(pairs$level, pairs[[side]], sep = "|")
-  row <- rep(seq_len(nrow(pairs)), 2)
-  side <- rep(c("left", "right"), each = nrow(pairs))
-  twice <- which(duplicated(c(key("left"), key("right"))))
-  problems <- rbind(problems, problem(row[twice], side[twice], sprintf("\"%s\" has a partner already", unlist(pairs[c("left", "right")])[twice])))
+  sides <- data.frame(row = rep(seq_len(nrow(pairs)), 2), side = rep(c("left", "right"), each = nrow(pairs)),
+                      level = rep(pairs$level, 2), name = c(pairs$left, pairs$right))
+  sides <- sides[order(sides$row), ]
+  known <- list(landmark = scheme$landmarks$landmark, curve = scheme$curves$curve, patch = scheme$patches$patch)
+  level <- c(landmark = "landmarks", curve = "curves", patch = "surface")
+  problems <- lapply(names(known), function(what) {
+    here <- sides[sides$level == level[[what]], ]
+    found <- unknown_names(here$name, known[[what]], "name", what)
+    problem(here$row[found$row], here$side[found$row], found$text)
+  })
+  twice <- sides[duplicated(sides[c("level", "name")]), ]
+  problems <- rbind(do.call(rbind, problems),
+                    problem(twice$row, twice$side, sprintf("\"%s\" has a partner already", twice$name)))
   if (nrow(problems) || !nrow(pairs)) return(problems)
   rbind(unlike_curves(pairs, scheme$curves), unlike_patches(pairs, scheme$patches))
 }
@@ -31,18 +31,20 @@ check_scheme_pairs <- function(pairs, scheme) {
 unlike_curves <- function(pairs, curves) {
   swap <- function(x, level) partner_of(x, pairs, level)
   mirror <- curves
-  for (column in c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to")) mirror[[column]] <- swap(curves[[column]], "landmarks")
+  for (column in c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to")) {
+    mirror[[column]] <- swap(curves[[column]], "landmarks")
+  }
   mirror$side_of <- swap(curves$side_of, "curves")
   mirror$side <- unname(c(left = "right", right = "left")[curves$side])
-  columns <- c("from", "to", "kind", "radius", "width", "n", "cut_share", "keep_away_radius", "keep_away_extension", "side_of", "side",
-               "trust_from", "trust_to", "angle_limit")
+  columns <- c("from", "to", "kind", "radius", "width", "n", "cut_share", "keep_away_radius", "keep_away_extension",
+               "side_of", "side", "trust_from", "trust_to", "angle_limit")
   found <- unlike_pairs(pairs, "curves", curves$curve, curves, mirror, columns)
   for (axis in c("cut", "keep_away")) {
     ends <- paste0(axis, c("_from", "_to"))
-    rbind_axis <- unlike_pairs(pairs, "curves", curves$curve, unordered(curves, ends), unordered(mirror, ends), axis)
-    found <- rbind(found, rbind_axis)
+    found <- rbind(found, unlike_pairs(pairs, "curves", curves$curve, unordered(curves, ends), unordered(mirror, ends), axis))
   }
-  alone <- which(swap(curves$curve, "curves") == curves$curve & unordered(curves, c("from", "to"))[[1]] != unordered(mirror, c("from", "to"))[[1]])
+  ends <- c("from", "to")
+  alone <- which(swap(curves$curve, "curves") == curves$curve & unordered(curves, ends)[[1]] != unordered(mirror, ends)[[1]])
   rbind(found, problem(rep(NA, length(alone)), "left", sprintf("the curve \"%s\" has no partner, but its ends have", curves$curve[alone])))
 }
 
@@ -55,12 +57,14 @@ unordered <- function(table, ends) {
 
 unlike_patches <- function(pairs, patches) {
   mirror <- patches
-  for (column in c("curve_a", "curve_b")) mirror[[column]] <- mirrored_side(patches[[column]], pairs)
+  sides <- c("curve_a", "curve_b", "first_column")
+  mirror[sides] <- lapply(patches[sides], mirrored_side, pairs = pairs)
   mirror$outward <- unname(c(columns = "rows", rows = "columns")[patches$outward])
-  patches[c("curve_a", "curve_b")] <- lapply(patches[c("curve_a", "curve_b")], mirrored_side, pairs = pairs[0, ])
-  columns <- c("block", "n", "columns", "rows", "rows_kept", "curve_a", "resample_a", "curve_b", "resample_b", "outward")
-  alone <- which(partner_of(patches$patch, pairs, "surface") == patches$patch &
-                   (!same(patches$curve_a, mirror$curve_a) | !same(patches$curve_b, mirror$curve_b)))
+  patches[sides] <- lapply(patches[sides], mirrored_side, pairs = pairs[0, ])
+  columns <- c("block", "n", "columns", "rows", "rows_kept", "curve_a", "resample_a", "curve_b", "resample_b",
+               "first_column", "outward")
+  own <- partner_of(patches$patch, pairs, "surface") == patches$patch
+  alone <- which(own & !Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]]))))
   block <- ifelse(is.na(patches$block), "", paste0("|", patches$block))
   rbind(unlike_pairs(pairs, "surface", paste0(patches$patch, block), patches, mirror, columns),
         problem(rep(NA, length(alone)), "left", sprintf("the patch \"%s\" has no partner, but its curves have", patches$patch[alone])))

@@ -18,7 +18,6 @@ scheme_triangles <- function(patches, strips, points) {
   })
   name <- paste(points$part, points$point, sep = "|")
   ladders <- lapply(split(strips, factor(strips$strip, unique(strips$strip))), function(strip) {
-    strip <- strip[order(strip$rung), ]
     grid <- t(matrix(vertex[match(c(strip$a, strip$b), name)], ncol = 2))
     quad_triangles(grid, strip$outward[1], strip$part[1], paste("strip", strip$strip[1]))
   })

@@ -27,6 +27,8 @@
 #'     `rows_kept`, such as "2:6";
 #'   * `curve_a`, `curve_b`: such as "upper lip left\[1:8]+philtrum lip left\[2]" (14:1 runs backwards); `resample_a`, `resample_b`: the number of points at equal chords that replace the
 #'     curve's own; a block without `curve_b` is one row on A;
+#'   * `first_column`: the curve from A to B that column 1 follows in place of a cut, such as "nasolabial left\\[1:6]"; its own points where it has as
+#'     many as `rows`, else resampled to them;
 #'   * `outward`: the order of the corners of a quad seen from outside, "columns" ((c, r), (c + 1, r), (c + 1, r + 1)) or "rows"
 #'     ((c, r), (c, r + 1), (c + 1, r + 1)); empty: no triangles; `note`.
 #'
@@ -63,15 +65,29 @@ build_scheme <- function(tables, name, labels) {
   scheme <- list(name = name)
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]), scheme_columns[[table]])
-    rows <- do.call(row_names_of[[table]], list(typed$table))
+    rows <- scheme_rows(table, typed$table)
     refuse_table(typed$problems, labels[[table]], rows)
-    refuse_table(scheme_checks[[table]](typed$table, scheme), labels[[table]], rows)
+    refuse_table(scheme_problems(table, typed$table, scheme), labels[[table]], rows)
     scheme[[table]] <- typed$table
   }
   scheme$curves <- with_defaults(scheme$curves)
   scheme$points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
   scheme$triangles <- scheme_triangles(scheme$patches, scheme$strips, scheme$points)
   structure(scheme, class = "curve_scheme")
+}
+
+scheme_problems <- function(which, table, scheme) {
+  check <- switch(which, landmarks = check_scheme_landmarks, curves = check_scheme_curves,
+                  patches = check_scheme_patches, pairs = check_scheme_pairs, strips = check_scheme_strips)
+  check(table, scheme)
+}
+
+#' What the rows of a table are called
+#' @noRd
+scheme_rows <- function(which, table) {
+  switch(which, landmarks = table$landmark, curves = table$curve, pairs = table$left,
+         patches = ifelse(is.na(table$block), table$patch, paste(table$patch, "block", table$block)),
+         strips = paste(table$strip, "rung", table$rung))
 }
 
 present_table <- function(table, which, label) {

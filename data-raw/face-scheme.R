@@ -48,6 +48,13 @@ face_curves <- function() {
   )
 }
 
+# Patches whose first column lies along a curve: a published column is the same cut as the curve, and goes with it where it is no cut.
+first_column <- function(patch) {
+  side <- sub("^(philtrum|nose) ", "", patch)
+  ifelse(startsWith(patch, "philtrum"), paste0("nasolabial ", side, "[1:6]"),
+         ifelse(startsWith(patch, "nose"), paste0("nasal boundary ", side, "[20:1]"), NA))
+}
+
 winding <- c("c,r > c+1,r > c+1,r+1" = "columns", "c,r > c+1,r+1 > c+1,r" = "rows")
 
 face_patches <- function() {
@@ -55,7 +62,8 @@ face_patches <- function() {
   data.frame(
     patch = patches$patch, block = patches$sub, n = patches$n, columns = patches$columns_used,
     rows = patches$rows_made, rows_kept = patches$rows_kept, curve_a = patches$curve_a, resample_a = patches$resample_a,
-    curve_b = patches$curve_b, resample_b = patches$resample_b, outward = winding[patches$outward], note = patches$left_out
+    curve_b = patches$curve_b, resample_b = patches$resample_b,
+    first_column = first_column(patches$patch), outward = winding[patches$outward], note = patches$left_out
   )
 }
 
