@@ -154,3 +154,11 @@ test_that("ends that are one point to the precision of their triangle are refuse
 test_that("side is 0 or 1", {
   expect_crestline_error(plane_path(ball(), c(1, 0, 0), c(0, 1, 0), side = 2), "`side`")
 })
+
+test_that("the faces about a corner are all of them, inside and on the border, from whichever face", {
+  surface <- walkable(grid_mesh(5))
+  for (vertex in c(1, 3, 13, 25)) {
+    wanted <- which(colSums(surface$it == vertex) > 0)
+    for (face in wanted) expect_setequal(faces_about(surface, face, vertex), wanted)
+  }
+})
