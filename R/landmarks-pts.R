@@ -26,7 +26,7 @@ pts_parts <- function(text, file, line) {
   if (length(wrong)) {
     refuse_landmark_file(file, "not a name and three numbers", "Write: name x y z.", line[wrong[1]])
   }
-  matrix(unlist(part), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
+  matrix(as.character(unlist(part)), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
 }
 
 pts_curve_point <- function(name) grepl("^C[._-]?[0-9]+[._-][0-9]+$", name)
@@ -73,11 +73,12 @@ check_pts_names <- function(name, file) {
 
 # Curves have numbers only: those called C000 ... keep them, others get them, with a warning.
 pts_curve_names <- function(curves, file) {
+  if (!length(curves)) return(character())
   name <- names(curves)
   closed <- vapply(curves, attr, TRUE, "closed")
   number <- sprintf("C%03d", seq_along(curves) - 1L)
   if (all(grepl("^C[._-]?[0-9]+$", name))) number <- name
-  if (!identical(number, as.character(name)) || any(closed)) {
+  if (!identical(number, name) || any(closed)) {
     crestline_warn(
       sprintf("%s: .pts has curves by number and open only: %s.", basename(file), paste(
         number, "is", paste0(name, ifelse(closed, " (closed)", "")), collapse = ", ")),

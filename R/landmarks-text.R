@@ -42,9 +42,12 @@ landmark_rows <- function(text, width, file, line) {
 
 # 15 digits where they give the number back, else the 17 that always do.
 number_text <- function(x, missing = "NA") {
-  short <- sprintf("%.15g", x)
-  text <- ifelse(as.numeric(short) == x, short, sprintf("%.17g", x))
-  ifelse(is.na(x), missing, text)
+  text <- rep(missing, length(x))
+  given <- which(!is.na(x))
+  text[given] <- sprintf("%.15g", x[given])
+  longer <- given[as.numeric(text[given]) != x[given]]
+  text[longer] <- sprintf("%.17g", x[longer])
+  text
 }
 
 # One string a row.
