@@ -39,7 +39,7 @@ fcsv_frame <- function(comment) {
 # Matrix of strings, a row a line; columns after the named ones where there are any.
 fcsv_fields <- function(text, line, column, file) {
   field <- lapply(seq_along(text), function(i) {
-    value <- tryCatch(suppressWarnings(unquote_names(text[i])), error = function(e) character())
+    value <- tryCatch(unquote_names(text[i]), error = function(e) character())
     if (length(value) < max(match(c("x", "y", "z"), column))) {
       refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[i])
     }

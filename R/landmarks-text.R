@@ -60,8 +60,8 @@ row_text <- function(x, missing = "NA", sep = " ") {
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
 unquote_names <- function(text) {
-  scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE, na.strings = character(),
-       encoding = "UTF-8")
+  suppressWarnings(scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE,
+                        na.strings = character(), encoding = "UTF-8"))
 }
 
 # The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number is another.
