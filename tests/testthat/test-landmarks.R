@@ -33,6 +33,7 @@ test_that("several specimens are a named list where the format holds them", {
   expect_crestline_error(write_landmarks(list(), file), "must be one")
   expect_crestline_error(write_landmarks(unname(x)[c(1, 1)], file, curves = hard_curves()), "attribute `curves`")
   expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "a")), file), "two specimens have the same")
+  expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "b ")), file), "no blanks at the ends")
 })
 
 test_that("curves come from the argument or the attribute, and are refused where there is no place for them", {
@@ -48,6 +49,7 @@ test_that("curves come from the argument or the attribute, and are refused where
   expect_equal(attr(read_landmarks(file), "curves"), list(line = structure(xyz(1, 2, 3), closed = FALSE)))
   expect_crestline_error(write_landmarks(x, file, curves = list(xyz(1, 2, 3))), "a name of its own")
   expect_crestline_error(write_landmarks(x, file, curves = list(a = 1:3)), "curve a is 1, 2, 3")
+  expect_crestline_error(write_landmarks(x, file, curves = list(a = matrix(0, 0, 3))), "a row at least")
   expect_crestline_error(write_landmarks(x, file, curves = list("a\nb" = xyz(1, 2, 3))), "line break")
 })
 
