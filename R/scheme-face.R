@@ -1,0 +1,21 @@
+# The scheme of the human face.
+
+#' The facial model: 23 landmarks, 40 curves, 922 surface points
+#'
+#' The published model of the human face, as tables that [read_scheme()] reads from the package's
+#' folder `extdata/face_scheme`: 467 curve points, 29 patches with 922 points at 907 places,
+#' 1,602 triangles (36 more close the nose from below, 38 the eyes). Copy the folder to make a
+#' scheme of your own. Lengths in mm.
+#'
+#' Left is the subject's own left. The five curves on each side that start at the ear (`t`, `oi`) are cut off at a
+#' multiple of the distance between the inner corners of the eyes. Where this model finds a curve in another way than
+#' its authors do (`authors_kind`), `note` says why.
+#'
+#' @return A [curve_scheme()].
+#' @references The paper, section 4, and its authors' implementation.
+#' @examples
+#' face_scheme()
+#' @export
+face_scheme <- function() {
+  read_scheme(system.file("extdata", "face_scheme", package = "crestline", mustWork = TRUE), name = "face")
+}

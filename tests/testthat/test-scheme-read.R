@@ -1,0 +1,53 @@
+write_tables <- function(tables, encoding = "UTF-8") {
+  dir <- new_folder()
+  for (table in names(tables)) {
+    utils::write.csv(tables[[table]], file.path(dir, paste0(table, ".csv")), row.names = FALSE, na = "", fileEncoding = encoding)
+  }
+  dir
+}
+new_folder <- function() {
+  dir <- tempfile("leaf")
+  dir.create(dir)
+  dir
+}
+
+test_that("a folder of tables gives the scheme of the tables", {
+  dir <- write_tables(leaf_tables())
+  read <- read_scheme(dir)
+  expect_equal(read$name, basename(dir))
+  expect_equal(read[-1], unclass(leaf_scheme())[-1])
+  expect_equal(read_scheme(dir, name = "leaf")$name, "leaf")
+})
+
+test_that("only landmarks and curves need a file", {
+  dir <- write_tables(leaf_tables()[1:2])
+  expect_equal(nrow(read_scheme(dir)$patches), 0)
+  unlink(file.path(dir, "curves.csv"))
+  expect_crestline_error(read_scheme(dir), "curves.csv")
+})
+
+test_that("mistakes name the file, and folders that are none are refused", {
+  x <- leaf_tables()
+  x$curves$n[2] <- 1
+  expect_crestline_error(read_scheme(write_tables(x)), c("table curves.csv", "row 2 (edge left), column n: 1 is not"))
+  expect_crestline_error(read_scheme(file.path(tempdir(), "no such folder")), "no folder")
+  expect_crestline_error(read_scheme(3), "no folder 3")
+})
+
+test_that("semicolons in place of commas, and lines of different length, are explained", {
+  dir <- write_tables(leaf_tables())
+  file <- file.path(dir, "landmarks.csv")
+  writeLines(c("landmark;where", "base;below"), file)
+  expect_crestline_error(read_scheme(dir), c("landmarks.csv", "column landmark: missing", "landmark;where"))
+  writeLines(c("landmark,where", "base,a,b,c,d", "tip,a"), file)
+  expect_crestline_error(read_scheme(dir), "landmarks.csv")
+  writeLines(character(), file)
+  expect_crestline_error(read_scheme(dir), "landmarks.csv")
+})
+
+test_that("a mark of the encoding and Windows' line ends do no harm", {
+  dir <- write_tables(leaf_tables())
+  file <- file.path(dir, "landmarks.csv")
+  writeBin(charToRaw(paste0("\xef\xbb\xbf", paste(readLines(file), collapse = "\r\n"), "\r\n")), file)
+  expect_equal(read_scheme(dir)$landmarks$landmark, leaf_tables()$landmarks$landmark)
+})

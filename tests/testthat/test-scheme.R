@@ -1,0 +1,53 @@
+test_that("a scheme keeps its tables, typed, with every column and the defaults", {
+  away <- function(x) {
+    x$curves[2:3, c("keep_away_from", "keep_away_to")] <- data.frame("base", c("wideL", "wideR"))
+    x
+  }
+  leaf <- leaf_scheme(away)
+  expect_s3_class(leaf, "curve_scheme")
+  expect_named(leaf, c("name", "landmarks", "curves", "patches", "pairs", "strips", "points", "triangles"))
+  expect_equal(leaf$curves$keep_away_radius, c(NA, 0.7, 0.7))
+  expect_equal(leaf$curves$keep_away_extension, c(NA, 0.2, 0.2))
+  expect_equal(c(leaf$curves$trust_from[1], leaf$curves$trust_to[1]), c(0, 1))
+  expect_type(leaf$curves$n, "integer")
+  expect_type(leaf$curves$note, "character")
+})
+
+test_that("text cells are read as numbers, further columns are kept, spaces are not", {
+  text <- function(x) {
+    x$curves[] <- lapply(x$curves, as.character)
+    x$curves$kind <- paste0(" ", x$curves$kind, " ")
+    x$curves$colour <- c("red", "green", "blue")
+    x
+  }
+  leaf <- leaf_scheme(text)
+  expect_identical(leaf$curves[names(leaf_scheme()$curves)], leaf_scheme()$curves)
+  expect_equal(leaf$curves$colour, c("red", "green", "blue"))
+})
+
+test_that("patches, pairs and strips may be absent", {
+  x <- leaf_tables()
+  bare <- curve_scheme(x$landmarks, x$curves)
+  for (table in c("patches", "pairs", "strips", "triangles")) expect_equal(nrow(bare[[table]]), 0)
+  expect_equal(nrow(bare$points), 4 + 18)
+  expect_output(print(bare), "3 curves with 18 points")
+})
+
+test_that("as.data.frame gives any table", {
+  leaf <- leaf_scheme()
+  for (table in c("landmarks", "curves", "patches", "pairs", "strips", "points", "triangles")) {
+    expect_identical(as.data.frame(leaf, table), leaf[[table]])
+    expect_identical(as.data.frame(leaf, table = table), leaf[[table]])
+  }
+  expect_identical(as.data.frame(leaf), leaf$curves)
+  expect_crestline_error(as.data.frame(leaf, "curbs"), c("curbs", "curves"))
+})
+
+test_that("print fits a screen and counts what there is", {
+  text <- capture.output(print(leaf_scheme()))
+  expect_lte(length(text), 12)
+  expect_true(all(nchar(text) <= 80))
+  expect_match(text, "3 patches in 3 blocks, 28 points at 28 places", all = FALSE)
+  expect_match(text, "2 ridge, 1 valley, 0 plane", all = FALSE)
+  expect_match(text, "2 held to a side", all = FALSE)
+})
