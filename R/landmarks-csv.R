@@ -43,7 +43,7 @@ write_landmarks_csv <- function(sets, file, options) {
   if (!length(curves)) return(write_landmark_lines(c('"name","x","y","z"', single), file))
   point <- lapply(names(curves), function(name) {
     closed <- attr(curves[[name]], "closed")
-    if (nrow(curves[[name]])) paste('""', row_text(curves[[name]], sep = ","), quote_name(name), closed, sep = ",")
+    paste('""', row_text(curves[[name]], sep = ","), quote_name(name), closed, sep = ",")
   })
   if (nrow(x)) single <- paste0(single, ",,")
   write_landmark_lines(c('"name","x","y","z","curve","closed"', single, unlist(point)), file)

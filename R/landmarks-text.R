@@ -42,9 +42,12 @@ landmark_rows <- function(text, width, file, line) {
 
 # 15 digits where they give the number back, else the 17 that always do.
 number_text <- function(x, missing = "NA") {
-  short <- sprintf("%.15g", x)
-  text <- ifelse(as.numeric(short) == x, short, sprintf("%.17g", x))
-  ifelse(is.na(x), missing, text)
+  text <- rep(missing, length(x))
+  given <- which(!is.na(x))
+  text[given] <- sprintf("%.15g", x[given])
+  longer <- given[as.numeric(text[given]) != x[given]]
+  text[longer] <- sprintf("%.17g", x[longer])
+  text
 }
 
 # One string a row.
@@ -57,8 +60,8 @@ row_text <- function(x, missing = "NA", sep = " ") {
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
 unquote_names <- function(text) {
-  scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE, na.strings = character(),
-       encoding = "UTF-8")
+  suppressWarnings(scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE,
+                        na.strings = character(), encoding = "UTF-8"))
 }
 
 # The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number is another.
