@@ -7,8 +7,8 @@
 #' \deqn{S = \frac{2}{\pi} \arctan \frac{k_1 + k_2}{k_2 - k_1}, \quad k_1 \ge k_2.}{S = (2/pi) atan((k1 + k2)/(k2 - k1)), k1 >= k2.}
 #' The curvedness \eqn{\sqrt{(k_1^2 + k_2^2)/2}}{sqrt((k1^2 + k2^2)/2)} says how much of it there is.
 #'
-#' The formula as printed in the paper runs over \[0, 1\], where its text has cups at -1 and caps
-#' at 1; this is the text's.
+#' The formula as printed in the paper (see [crestline-package]) runs over \[0, 1\], where its text has cups
+#' at -1 and caps at 1; this is the text's.
 #'
 #' @param x A `curvature`, as [curvature()] returns it, or a numeric vector of principal
 #'   curvatures, in 1 / the unit of length; positive where the surface bends towards its normal.

@@ -9,8 +9,9 @@
 #' the noisy vertex. With `order = "adaptive"` nested fits of order 2, 3 and 4 are
 #' combined: the Hessian of the higher order is taken up as far as its difference
 #' from the lower one exceeds what noise makes,
-#' \eqn{H = H_{lo} + w (H_{hi} - H_{lo})} with
-#' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}.
+#' \eqn{H = H_{lo} + w (H_{hi} - H_{lo})}{H = H_lo + w (H_hi - H_lo)} with
+#' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}{w = max(0, 1 - c sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)},
+#' where \eqn{\sigma^2 V} is the covariance of a fit's Hessian.
 #'
 #' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
 #' @param radius Radius of the ball, in the unit of the mesh; 10 mm for broad
@@ -40,10 +41,10 @@
 #'   * `neighbours`: integer n, vertices in the ball;
 #'   * `reason`: character n, `NA` where fitted, else why not.
 #'
-#'   All are `NA` at vertices that were not asked for.
+#'   At vertices that were not asked for all are `NA`, and `reason` says so.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
 #'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
-#' @references The paper, section 2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 2.
 #' @examples
 #' data(humface, package = "Rvcg")
 #' curved <- curvature(humface, radius = 10, vertices = 1:100)
@@ -119,7 +120,7 @@ as_mesh <- function(mesh) {
 
 vertex_indices <- function(vertices, n) {
   if (is.null(vertices)) return(seq_len(n))
-  if (is.logical(vertices)) vertices <- which(vertices)
+  if (is.logical(vertices) && length(vertices) == n && !anyNA(vertices)) vertices <- which(vertices)
   if (!is.numeric(vertices) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
     crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
                     sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")

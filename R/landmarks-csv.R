@@ -1,50 +1,50 @@
-# Landmarks as comma-separated values: name, x, y, z.
+# Landmarks and curves as comma-separated values: name, x, y, z and, for points of curves, curve, closed.
 
-read_landmarks_csv <- function(file) {
+read_landmarks_csv <- function(file, options) {
   table <- tryCatch(
-    suppressWarnings(utils::read.csv(text = csv_lines(file), colClasses = "character", strip.white = TRUE,
+    suppressWarnings(utils::read.csv(text = landmark_lines(file), colClasses = "character", strip.white = TRUE,
                                      na.strings = character(), check.names = FALSE)),
     error = function(e) refuse_csv(file, conditionMessage(e))
   )
   names(table) <- tolower(trimws(names(table)))
   xyz <- match(c("x", "y", "z"), names(table))
   if (anyNA(xyz)) refuse_csv(file, sprintf("no column %s", paste(c("x", "y", "z")[is.na(xyz)], collapse = ", ")))
-  x <- vapply(xyz, function(i) csv_numbers(table[[i]], names(table)[i], file), numeric(nrow(table)))
-  x <- matrix(x, ncol = 3, dimnames = list(NULL, c("x", "y", "z")))
+  x <- vapply(xyz, function(i) landmark_numbers(table[[i]], file, seq_len(nrow(table)) + 1), numeric(nrow(table)))
+  x <- matrix(x, ncol = 3)
+  curve <- if ("curve" %in% names(table)) table$curve else character(nrow(table))
+  single <- !nzchar(curve)
+  landmark_set(x[single, , drop = FALSE], csv_labels(table, single, file), csv_curves(x, curve, table$closed))
+}
+
+csv_labels <- function(table, single, file) {
   label <- names(table) %in% c("name", "landmark", "label")
-  if (!any(label)) label <- !seq_along(table) %in% xyz
-  if (!any(label)) refuse_csv(file, "no column of names")
-  rownames(x) <- table[[which(label)[1]]]
-  x
+  if (!any(label)) label <- !names(table) %in% c("x", "y", "z", "curve", "closed")
+  if (!any(label) && (any(single) || !"curve" %in% names(table))) refuse_csv(file, "no column of names")
+  if (any(single) || any(label)) table[[which(label)[1]]][single] else character()
 }
 
-# UTF-8, with or without a mark of it; else taken for Latin 1, as Windows writes names with accents.
-csv_lines <- function(file) {
-  line <- readLines(file, warn = FALSE, skipNul = TRUE)
-  line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
-  line[1] <- sub("^\ufeff", "", line[1])
-  line
-}
-
-csv_numbers <- function(text, column, file) {
-  missing <- text %in% c("", "NA", "NaN", "na", "nan")
-  number <- suppressWarnings(as.numeric(ifelse(missing, NA, text)))
-  wrong <- which(is.na(number) & !missing)
-  if (length(wrong)) {
-    refuse_csv(file, sprintf('line %d, column %s: "%s" is not a number', wrong[1] + 1, column, text[wrong[1]]))
-  }
-  number
+csv_curves <- function(x, curve, closed) {
+  name <- unique(curve[nzchar(curve)])
+  is_closed <- tolower(closed) %in% c("true", "t", "yes", "1")
+  lapply(stats::setNames(name, name), function(one) {
+    landmark_curve(x[curve == one, , drop = FALSE], isTRUE(is_closed[match(one, curve)]))
+  })
 }
 
 refuse_csv <- function(file, reason) {
-  crestline_abort(sprintf("%s cannot be read: %s.", basename(file), reason),
-                  "Give a header line with name, x, y, z, commas between, points in numbers.",
-                  stage = "landmarks", call = NULL)
+  refuse_landmark_file(file, paste("cannot be read:", reason),
+                       "Give a header line with name, x, y, z, commas between, points in numbers.")
 }
 
-write_landmarks_csv <- function(x, file) {
-  table <- data.frame(name = as.character(rownames(x)), x = x[, 1], y = x[, 2], z = x[, 3])
-  number <- function(v) ifelse(is.na(v), "NA", format(v, digits = 15, trim = TRUE))
-  table[2:4] <- lapply(table[2:4], function(v) vapply(v, number, ""))
-  utils::write.csv(table, file, row.names = FALSE, quote = 1)
+write_landmarks_csv <- function(sets, file, options) {
+  x <- sets[[1]]
+  curves <- attr(x, "curves")
+  single <- if (nrow(x)) paste(quote_name(rownames(x)), row_text(x, sep = ","), sep = ",")
+  if (!length(curves)) return(write_landmark_lines(c('"name","x","y","z"', single), file))
+  point <- lapply(names(curves), function(name) {
+    closed <- attr(curves[[name]], "closed")
+    if (nrow(curves[[name]])) paste('""', row_text(curves[[name]], sep = ","), quote_name(name), closed, sep = ",")
+  })
+  if (nrow(x)) single <- paste0(single, ",,")
+  write_landmark_lines(c('"name","x","y","z","curve","closed"', single, unlist(point)), file)
 }

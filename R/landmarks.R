@@ -1,60 +1,180 @@
 # Landmarks in files: the format by the file's extension, one file of code a format.
 
-#' Read and write landmarks
+#' Read and write landmarks and curves of points
 #'
-#' The format goes by the file's extension. `.csv`: a header line; the name in a column `name`,
-#' `landmark` or `label` (any case, otherwise the first column that is not a number), the
-#' co-ordinates in `x`, `y`, `z`, in any order, other columns ignored. A missing landmark has NA or
-#' nothing in its co-ordinates.
+#' The format goes by the file's extension, in any case. Files are taken for UTF-8, else Latin 1, and
+#' written in UTF-8, numbers with as many digits as give them back to the last bit. What is written is
+#' read back identically, except where this table says otherwise.
+#'
+#' | extension | from | specimens | curves | what to know |
+#' |---|---|---|---|---|
+#' | `.csv` | tables | one | yes | A header line; the name in a column `name`, `landmark` or `label` (otherwise the first column that is not a number), the co-ordinates in `x`, `y`, `z`, in any order. Rows with something in a column `curve` are points of that curve, closed where a column `closed` says TRUE. Other columns are ignored; a missing landmark has NA or nothing |
+#' | `.pts` | IDAV Landmark, Checkpoint | one | open | Names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get numbers and closed ones are opened, with a warning |
+#' | `.tps` | tpsDig and kin | several | yes | `CURVES=` are open, `OUTLINES=` closed; names of landmarks and curves, which the format has not, stand in `COMMENT=`. Specimens are named by `ID=`, else by `IMAGE=`. Negative co-ordinates are numbers, not missing |
+#' | `.nts`, `.dta` | NTSYS, IDAV Landmark | several | no | The header's code is missing where the header says so, or where a point has it in all co-ordinates. Names of landmarks stand in a comment |
+#' | `.landmarkAscii` | Amira, Avizo | several | no | Sets of co-ordinates are specimens. Names stand among the parameters, missing landmarks are NaN: not every program reads these |
+#' | `.fcsv` | 3D Slicer | one | no | Points not in the state "defined" are missing; names are the labels, else the ids |
+#' | `.mrk.json` | 3D Slicer | one | yes | All lists of the file: Fiducial as landmarks (with the list's name before the label where two lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Other types are left out with a warning |
 #'
 #' @param file Path of the file.
-#' @param x k x 3 numeric matrix with row names (missing landmarks NA), or a [specimen()].
+#' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the
+#'   frame in which the co-ordinates are wanted. "LPS" (left, posterior, superior) is that of the
+#'   meshes Slicer saves unless told otherwise, "RAS" that of its scene, "file" leaves the numbers as
+#'   they stand. `write_landmarks()`: the frame that `x` is in, which the file will name.
+#' @param missing Number that stands for a missing co-ordinate in `.pts`: a point that has it three
+#'   times is missing.
+#' @param scale Whether the co-ordinates of a `.tps` file are multiplied by `SCALE=`. A file in which
+#'   only some specimens have one is refused.
+#' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z, a
+#'   [specimen()], NULL for no landmarks, or, where the format holds several specimens, a list of them.
+#' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of data
+#'   frames with columns x, y, z, or of values of [ridge_curve()]. NULL: the attribute `curves` of
+#'   `x`, if any; `list()`: none.
 #' @return `read_landmarks()`: k x 3 numeric matrix with row names and columns `x`, `y`, `z`, in the
-#'   file's unit and order. `write_landmarks()`: `file`, invisibly. Co-ordinates are written with 15
-#'   digits. Errors are of class `crestline_error` and name file and remedy.
+#'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA in all
+#'   three co-ordinates of a missing one. Where the file has curves, the attribute `curves`: named list of n x 3
+#'   matrices, each with the attribute `closed`. For a file of several specimens a named list of such
+#'   matrices. `write_landmarks()`: `file`, invisibly. Errors are of class
+#'   `crestline_landmark_error` and name file, line and remedy.
 #' @examples
 #' file <- tempfile(fileext = ".csv")
 #' write_landmarks(rbind(pn = c(0, 1, 2), sn = c(NA, NA, NA)), file)
 #' read_landmarks(file)
+#'
+#' slicer <- tempfile(fileext = ".mrk.json")
+#' rim <- structure(rbind(c(0, 0, 0), c(1, 0, 0), c(0, 1, 0)), closed = TRUE)
+#' write_landmarks(rbind(pn = c(0, 1, 2)), slicer, curves = list(rim = rim))
+#' read_landmarks(slicer)
 #' @export
-read_landmarks <- function(file) {
+read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
   check_file(file, "landmarks")
-  landmark_format(file)$read(file)
+  options <- list(frame = check_choice(frame, c("LPS", "RAS", "file"), "frame"),
+                  missing = check_number(missing, "missing"), scale = isTRUE(scale))
+  found <- landmark_format(file)$read(file, options)
+  if (is.list(found) && length(found) == 1) found[[1]] else found
 }
 
 #' @rdname read_landmarks
 #' @export
-write_landmarks <- function(x, file) {
-  if (inherits(x, "specimen")) x <- x$landmarks
-  landmark_format(file)$write(as_landmarks(x), file)
+write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
+  format <- landmark_format(file)
+  options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
+  sets <- written_sets(x, curves, file)
+  check_written(sets, format, file)
+  format$write(sets, file, options)
   invisible(file)
 }
 
-# Every format: list(read = function(file), write = function(x, file)).
-landmark_formats <- function() list(csv = list(read = read_landmarks_csv, write = write_landmarks_csv))
+# Every format: read = function(file, options), a matrix or a named list of them; write = function(sets, file,
+# options), sets such a list; whether it holds several specimens, and curves.
+landmark_formats <- function() {
+  nts <- list(read = read_landmarks_nts, write = write_landmarks_nts, several = TRUE, curves = FALSE)
+  list(
+    csv = list(read = read_landmarks_csv, write = write_landmarks_csv, several = FALSE, curves = TRUE),
+    pts = list(read = read_landmarks_pts, write = write_landmarks_pts, several = FALSE, curves = TRUE),
+    tps = list(read = read_landmarks_tps, write = write_landmarks_tps, several = TRUE, curves = TRUE),
+    nts = nts,
+    dta = nts,
+    landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE, curves = FALSE),
+    fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE, curves = FALSE),
+    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE, curves = TRUE)
+  )
+}
+
+# The specimens to be written: a named list of matrices, each with its list of checked curves.
+written_sets <- function(x, curves, file) {
+  if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, "specimen") || !is.list(x)) {
+    id <- if (inherits(x, "specimen")) x$id else "1"
+    return(stats::setNames(list(written_set(x, curves)), id))
+  }
+  if (!length(x) || !is.null(curves) && length(x) > 1) {
+    refuse_landmark_file(file, "curves go with one specimen, and there must be one",
+                         "Give each matrix of the list its curves as attribute `curves`.")
+  }
+  sets <- lapply(x, written_set, curves = curves)
+  if (is.null(names(x))) names(sets) <- specimen_names(x)
+  sets
+}
+
+specimen_names <- function(x) {
+  is_specimen <- vapply(x, inherits, TRUE, "specimen")
+  if (all(is_specimen)) vapply(x, `[[`, "", "id") else as.character(seq_along(x))
+}
+
+written_set <- function(x, curves) {
+  if (is.null(curves)) curves <- attr(x, "curves")
+  if (inherits(x, "specimen")) x <- x$landmarks
+  x <- as_landmarks(x)
+  curves <- as_curves(curves)
+  if (length(curves)) structure(x, curves = curves) else x
+}
+
+# A named list of n x 3 matrices, each with attribute `closed`.
+as_curves <- function(x) {
+  name <- names(x)
+  if (length(x) && (!is.list(x) || is.null(name) || anyNA(name) || any(!nzchar(name)) || anyDuplicated(name))) {
+    refuse_landmarks("the curves are not a list with a name of its own for each.",
+                     "Give list(name = n x 3 matrix, ...).", id = NULL)
+  }
+  Map(as_curve, as.list(x), as.character(name))
+}
+
+as_curve <- function(x, name) {
+  closed <- isTRUE(attr(x, "closed"))
+  if (inherits(x, "curve")) x <- as.data.frame(x)
+  if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
+  if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3) {
+    refuse_landmarks(sprintf("curve %s is %s, not an n x 3 numeric matrix.", name, describe_shape(x)),
+                     "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
+  }
+  x[!is.finite(x)] <- NA
+  landmark_curve(x, closed)
+}
+
+check_written <- function(sets, format, file) {
+  with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
+  if (length(sets) > 1 && !format$several) {
+    refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
+                         "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
+  }
+  if (any(with_curves) && !format$curves) {
+    refuse_landmark_file(file, "the format holds no curves",
+                         "Write a .mrk.json, .tps, .pts or .csv file, or leave them out with curves = list().")
+  }
+  name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
+  wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
+  if (wrong) {
+    refuse_landmark_file(file, "a name is empty or holds a line break, or two specimens have the same",
+                         "Give every specimen, landmark and curve a name of its own, in one line.")
+  }
+}
 
 landmark_format <- function(file) {
-  format <- landmark_formats()[[file_extension(file)]]
-  if (is.null(format)) {
+  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, "landmarks")
+  formats <- landmark_formats()
+  extension <- sub("^(mrk[.])?json$", "mrk.json", file_extension(file))
+  format <- match(extension, tolower(names(formats)))
+  if (is.na(format)) {
     crestline_abort(
       sprintf("no landmark format has the extension of %s.", basename(file)),
-      paste0("Known: ", paste0(".", names(landmark_formats()), collapse = ", "), "."),
-      stage = "landmarks", call = NULL
+      paste0("Known: ", paste0(".", names(formats), collapse = ", "), "."),
+      stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
   }
-  format
+  formats[[format]]
 }
 
 file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
 
 check_file <- function(file, stage) {
-  if (!is.character(file) || length(file) != 1 || is.na(file)) {
-    crestline_abort(sprintf("`file` is %s.", describe_value(file)), "Give the path of one file.",
-                    stage = stage, call = NULL)
-  }
+  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, stage)
   if (!file.exists(file) || dir.exists(file)) {
     crestline_abort(sprintf("there is no file %s.", file),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)
   }
+}
+
+refuse_no_path <- function(file, stage) {
+  crestline_abort(sprintf("`file` is %s.", describe_value(file)), "Give the path of one file.", stage = stage, call = NULL)
 }

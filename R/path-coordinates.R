@@ -17,7 +17,7 @@
 #'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (in the
 #'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
 #'   attributes `length` (of the path) and `width`.
-#' @references The paper, section 3.2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.2.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
@@ -27,11 +27,12 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
   check_number(width, "width", lower = 0, open = TRUE)
   mesh <- as_mesh(specimen)
-  track <- t(as.matrix(path[c("x", "y", "z")]))
+  clear <- without_stubs(path)
+  track <- t(as.matrix(clear[c("x", "y", "z")]))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   xyz <- mesh$vb[1:3, , drop = FALSE]
   near <- which(colSums(xyz >= box[1, ] & xyz <= box[2, ]) == 3)
-  found <- cpp_path_coordinates(xyz[, near, drop = FALSE], track, path_normals(mesh, path))
+  found <- cpp_path_coordinates(xyz[, near, drop = FALSE], track, path_normals(mesh, clear))
   kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") + margin
   member <- logical(ncol(xyz))
   member[near[kept]] <- TRUE
@@ -42,6 +43,19 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   rownames(rows) <- NULL
   structure(rows, length = attr(path, "length"), width = width,
             class = c("path_coordinates", "data.frame"))
+}
+
+#' A path without the crossings next to its ends
+#'
+#' An end at a corner or on an edge of the mesh is moved inside its triangle for the walk, so that the first
+#' crossing may be next to it, in any direction; the path's direction at its ends is that beyond.
+#'
+#' @param stub Arc length below which a crossing is next to an end, as a share of the path's length.
+#' @noRd
+without_stubs <- function(path, stub = 1e-5) {
+  least <- stub * attr(path, "length")
+  beyond <- path$s > least & path$s < attr(path, "length") - least
+  path[c(1, which(beyond), nrow(path)), ]
 }
 
 #' Surface normals along a path: the vertices' normals weighted as the points are, 3 x k

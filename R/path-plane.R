@@ -21,7 +21,7 @@
 #'   `angle`, `side`.
 #' @section Errors: of class `crestline_path_error`, when the cut ends at a border
 #'   of the mesh (a hole between the points) or comes round without meeting `to`.
-#' @references The paper, section 3.1.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.1.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' quarter <- plane_path(ball, c(1, 0, 0), c(0, 1, 0), angle = 0)
@@ -116,13 +116,43 @@ cut_axis <- function(surface, ends) {
   list(axis = axis, span = span, across = across / sqrt(sum(across^2)))
 }
 
-#' Unit normal of the triangle about an end
+#' Unit normal of the surface at an end, 0 where its triangles have no area
+#'
+#' The normals of the triangle's corners, weighted as the end is, so that an end at a corner or on an
+#' edge has one normal, whichever of the triangles there it was put in.
 #' @noRd
 end_normal <- function(surface, end) {
-  corners <- surface$xyz[, surface$it[, end[1]]]
-  normal <- cross_product(corners[, 2] - corners[, 1], corners[, 3] - corners[, 1])
-  normal / sqrt(sum(normal^2))
+  corners <- vapply(surface$it[, end[1]], function(v) corner_normal(surface, end[1], v), numeric(3))
+  unit_vector(as.vector(corners %*% end[2:4]))
 }
+
+#' Unit normal at a corner of a face: of the triangles about it, weighted by area
+#' @noRd
+corner_normal <- function(surface, face, vertex) {
+  normals <- vapply(faces_about(surface, face, vertex), function(f) {
+    corners <- surface$xyz[, surface$it[, f]]
+    cross_product(corners[, 2] - corners[, 1], corners[, 3] - corners[, 1])
+  }, numeric(3))
+  unit_vector(rowSums(normals))
+}
+
+#' Faces about a corner of a face, walked over the edges there both ways round
+#' @noRd
+faces_about <- function(surface, face, vertex) {
+  found <- face
+  for (back in 0:1) {
+    at <- face
+    repeat {
+      side <- (match(vertex, surface$it[, at]) - 1 - back) %% 3 + 1
+      at <- (surface$twin[side, at] - 1) %/% 3 + 1
+      if (at == 0 || at %in% found) break
+      found <- c(found, at)
+    }
+  }
+  found
+}
+
+unit_vector <- function(x) x / max(sqrt(sum(x^2)), .Machine$double.xmin)
 
 #' Normals of the planes at given angles, 3 x k
 #' @noRd

@@ -24,17 +24,22 @@
 #' @param rival Share within which a second optimum is a rival that is warned of.
 #' @param distinct Angle in radians by which a rival differs at least.
 #' @inheritParams curvature
-#' @param ... Further arguments of [curvature()].
+#' @param ... Further arguments of [curvature()], where it is not given; [ridge_curve()] uses the `order` of its settings.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
 #'   (mean strength in 1 / unit, or length), and `optima`: data frame with a row for every local
 #'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`.
 #' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
 #' @section Warnings: of class `crestline_rival_path`, when another optimum is
 #'   nearly as good; the warning names both angles.
-#' @references The paper, section 3.1.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.1.
 #' @examples
 #' data(humface, package = "Rvcg")
-#' face <- specimen(humface, humface.lm, id = "humface")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' path <- reference_path(face, "chL", "st", "valley", radius = 5)
+#' path
+#' attr(path, "criterion")
+#' head(as.data.frame(path), 3)
 #' @export
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
@@ -61,7 +66,7 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   best <- optima[1, ]
   cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
                         plane_normal(axis, best$angle), best$side, reach * axis$span)
-  warn_rival(optima, rival, distinct, ends, surface$id)
+  warn_rival(optima, rival, distinct, axis$span, ends, surface$id)
   if (type == "plane") optima$criterion <- optima$length
   new_path(cut$points, ends, angle = best$angle, side = best$side, type = type,
            criterion = optima$criterion[1], optima = optima)
@@ -83,6 +88,7 @@ cut_optima <- function(cuts, angles, refined, longest) {
   peaks <- unlist(lapply(split(seq_len(2 * angles), coarse$side), function(rows) {
     rows[is_circular_peak(coarse$criterion[rows])]
   }), use.names = FALSE)
+  if (length(unique(coarse$criterion[is.finite(coarse$criterion)])) == 1) peaks <- level_peak(coarse)
   best <- lapply(peaks, function(i) {
     fine <- coarse$angle[i] + step * seq(-1, 1, length.out = refined)
     found <- admit(rbind(coarse[i, ], cuts(fine, rep(coarse$side[i], refined))))
@@ -101,6 +107,12 @@ is_circular_peak <- function(x) {
   before <- c(x[length(x)], x[-length(x)])
   after <- c(x[-1], x[1])
   is.finite(x) & x >= before & x > after
+}
+
+# Where all cuts are as good (a flat piece, no such curvature): the shortest, of these the straightest in.
+level_peak <- function(coarse) {
+  finite <- which(is.finite(coarse$criterion))
+  finite[order(coarse$length[finite], abs(coarse$angle[finite]))[1]]
 }
 
 # Into (-pi/2, pi/2].
@@ -155,9 +167,14 @@ abort_no_cut <- function(end, ends, id) {
   )
 }
 
-warn_rival <- function(optima, rival, distinct, ends, id) {
+#' Warn of a second cut nearly as good
+#'
+#' @param straight Cuts longer than the straight line by no more than this share are one and the same.
+#' @noRd
+warn_rival <- function(optima, rival, distinct, span, ends, id, straight = 1e-4) {
   best <- optima[1, ]
   apart <- abs(wrap_angle(optima$angle - best$angle)) >= distinct | optima$side != best$side
+  if (best$length <= (1 + straight) * span) apart <- apart & optima$length > (1 + straight) * span
   near <- which(apart & optima$criterion >= best$criterion - rival * abs(best$criterion))
   if (length(near) == 0) return(invisible())
   other <- optima[near[1], ]

@@ -14,7 +14,7 @@
 #' @param engine,... As in [plot.specimen()], which the rest is passed to.
 #' @return The paths, invisibly: a list with a `mesh_path` for each angle at which there is one.
 #' @section Warnings: of class `crestline_warning`, when a cut comes to a border of the mesh and is left out; when all do, that is an error.
-#' @references The paper, Fig. 2; see [crestline-package].
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 2.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

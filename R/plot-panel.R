@@ -16,7 +16,7 @@
 #' @param ... Passed to [graphics::image()].
 #' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
 #' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they have no panel.
-#' @references The paper, Fig. 3; see [crestline-package].
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 3.
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
@@ -65,8 +65,9 @@ panel_grid <- function(x, grid) {
   list(s = s, d = d, strength = strength)
 }
 
-# Least and greatest d of the data about each s, from as many equal stretches of s.
-data_reach <- function(coordinates, s, stretches = 30) {
+# Least and greatest d of the data about each s, from equal stretches of s that hold `each` vertices in the mean, at most `most`.
+data_reach <- function(coordinates, s, each = 15, most = 30) {
+  stretches <- min(max(nrow(coordinates) %/% each, 2), most)
   breaks <- seq(min(s), max(s), length.out = stretches + 1)
   stretch <- findInterval(coordinates$s, breaks, all.inside = TRUE)
   ends <- vapply(split(coordinates$d, factor(stretch, seq_len(stretches))),

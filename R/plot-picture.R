@@ -2,6 +2,8 @@
 
 #' How pictures are lit and made
 #'
+#' Settings of the engine "picture". Every function that draws a surface takes them by name in its `...`.
+#'
 #' @param light Direction towards the light, as the viewer sees it: right, up, towards the viewer.
 #' @param ambient Share of the colour that needs no light, 0 to 1.
 #' @param wrap How far the light reaches round the edge into shade: 0 is Lambert's law, 1 leaves no place without some.

@@ -2,6 +2,8 @@
 
 #' Plot a specimen
 #'
+#' The surface in its natural colours, plain, or coloured by shape index or curvature, with its landmarks.
+#'
 #' @param x A `specimen`.
 #' @param colour What the colours show: "natural" (the colours of the scan, plain where it has none), "shape index" (see
 #'   [plot_shape_scale()]), "curvature" (the principal curvature greater in size: valleys blue, ridges red, in full at the 95 % quantile of its size) or "plain".

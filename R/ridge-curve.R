@@ -7,9 +7,9 @@
 #' @inheritParams reference_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh (faces: 10 mm for broad
-#'   features, 5 mm for lips, nose and eyes).
+#'   features, 5 mm for lips, nose and eyes); not needed for `"plane"`.
 #' @param width How far the curve may wander from the reference path, in the unit
-#'   of the mesh; the window is no wider than `settings$window` radii.
+#'   of the mesh; the window is no wider than `settings$window` radii. Not needed for `"plane"`.
 #' @param n Number of points, both ends counted, at equal chords.
 #' @param settings [ridge_settings()].
 #' @param passes With 2, the curve serves as reference path of a second fit: better on
@@ -22,7 +22,7 @@
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
 #'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane curve but the first);
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the reference path;
-#'   * `se`: median standard error; `converged`: whether every iteration did;
+#'   * `se`: median standard error; `converged`: whether all iterations converged;
 #'   * `determined`: whether curvature determines the curve: `FALSE` when the median
 #'     standard error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, cannot be lifted onto the mesh, or there is no such curvature by the path (`reason` says why); then the
 #'     plane path (`reference`, or `type = "plane"`) is the safer choice; `NA` for plane curves and without standard errors;
@@ -35,7 +35,7 @@
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
 #'   determined by curvature; and that of [reference_path()].
-#' @references The paper, section 3.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")

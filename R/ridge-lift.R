@@ -14,7 +14,8 @@
 #'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
 #'   the places of the curve.
 #' @section Errors: of class `crestline_path_error`, when neither way gives a path.
-#' @references The paper, section 3.3; the walk takes the place of its Delaunay triangulation of (s, d).
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.3;
+#'   the walk takes the place of its Delaunay triangulation of (s, d).
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
@@ -35,7 +36,7 @@ lift <- function(specimen, coordinates, path, s, alpha) {
 #' Direction in which the curve leaves the first point: along the path and, by the slope, across it
 #' @noRd
 first_direction <- function(specimen, path, slope) {
-  tangent <- unlist(path[2, c("x", "y", "z")] - path[1, c("x", "y", "z")])
+  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")] - path[1, c("x", "y", "z")])
   tangent <- tangent / sqrt(sum(tangent^2))
   across <- cross_product(path_normals(as_mesh(specimen), path[1, ])[, 1], tangent)
   tangent + slope * across / sqrt(sum(across^2))
@@ -107,7 +108,7 @@ triangles_about <- function(flat, x, y) {
                   pmax(corner(1, 1), corner(2, 1), corner(3, 1)) >= x)
   near_flat <- list(vb = flat$vb, it = flat$it[, near, drop = FALSE])
   corners <- lapply(1:3, function(i) t(near_flat$vb[, near_flat$it[i, ], drop = FALSE]))
-  point <- matrix(c(x, y, 0), length(near), 3, byrow = TRUE)
+  point <- matrix(rep(c(x, y, 0), each = length(near)), ncol = 3)
   weight <- foot_in_triangles(point, corners[[1]], corners[[2]], corners[[3]])
   inside <- which(!is.na(weight[, 1]))
   list(face = near[inside], weight = weight[inside, , drop = FALSE])

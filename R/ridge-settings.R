@@ -1,10 +1,10 @@
 #' Settings of the ridge estimate
 #'
-#' All tuning constants of [ridge_curve()] in one place. The preset `"crestline"`
-#' has no unit and no grid in it; `"paper"` reproduces the choices of the paper.
+#' All tuning constants of [ridge_curve()] in one place. With the preset `"crestline"` curves do not
+#' depend on the unit of the mesh or the number of grid points; `"paper"` reproduces the choices of the paper.
 #'
 #' @param preset `"crestline"` or `"paper"`.
-#' @param ... Settings to change, by name:
+#' @param ... Settings to change, by name; print a preset to see its values. Numbers have no unit (but see `lambda_scale`):
 #'   * `order`: polynomial of the curvature fit, as in [curvature()];
 #'   * `strength`: `"across"` the path (normal curvature normal to it) or `"principal"`;
 #'   * `wrong_sign`: vertices with the wrong sign of curvature count as `"zero"` or are left out, `"drop"`;
@@ -14,7 +14,7 @@
 #'   * `anisotropy`: penalty across over penalty along;
 #'   * `df`: equivalent degrees of freedom of the smooth surface;
 #'   * `lambda`: weight of the roughness of the ridge line, and `lambda_scale`: `"feature"`, divided by
-#'     the feature's strength times the radius, or `"grid"`, the paper's sum over second differences (mm);
+#'     the feature's strength times the radius, or `"grid"`, the paper's sum over second differences (for meshes in mm);
 #'   * `grid`: number of points of the ridge line, ends counted;
 #'   * `core`: the mean strength that scales the criterion is taken within this share of the radius from the path;
 #'   * `bound`: the ridge stays within this share of the half width;
@@ -25,7 +25,8 @@
 #'   * `error`: whether to work out standard errors at all.
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting.
-#' @references The paper, sections 3.2, 3.3 and 5.2 (12 degrees of freedom, lambda = 0.5).
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]),
+#'   sections 3.2, 3.3 and 5.2 (12 degrees of freedom, lambda = 0.5).
 #' @examples
 #' ridge_settings(df = 25)
 #' ridge_settings("paper")

@@ -1,0 +1,75 @@
+# .fcsv of 3D Slicer: comment lines with version, co-ordinate system and columns, then one point a line.
+# After the named columns Slicer writes the state of the point: 0 undefined, 1 preview, 2 defined, 3 missing.
+
+fcsv_columns <- function() {
+  c("id", "x", "y", "z", "ow", "ox", "oy", "oz", "vis", "sel", "lock", "label", "desc", "associatednodeid")
+}
+
+read_landmarks_fcsv <- function(file, options) {
+  line <- landmark_lines(file)
+  comment <- grepl("^#", line)
+  row <- which(!comment & grepl("[^[:space:]]", line))
+  column <- fcsv_header(line[comment], "columns")
+  column <- if (is.na(column)) fcsv_columns() else tolower(trimws(strsplit(column, ",", fixed = TRUE)[[1]]))
+  if (!all(c("x", "y", "z") %in% column)) {
+    refuse_landmark_file(file, "no columns x, y, z", "Give them in the line # columns = id,x,y,z,...")
+  }
+  field <- fcsv_fields(line[row], row, column, file)
+  x <- vapply(c("x", "y", "z"), function(axis) landmark_numbers(field[, match(axis, column)], file, row), numeric(length(row)))
+  x <- matrix(x, ncol = 3)
+  x[fcsv_absent(field, column), ] <- NA
+  frame <- slicer_frame(fcsv_frame(line[comment]), file)
+  landmark_set(change_frame(x, frame, options$frame), fcsv_labels(field, column))
+}
+
+# The value of a comment "# key = value", or NA.
+fcsv_header <- function(comment, key) {
+  pattern <- paste0("^#.*\\b", key, "[[:space:]]*=[[:space:]]*")
+  sub(pattern, "", grep(pattern, comment, ignore.case = TRUE, value = TRUE), ignore.case = TRUE)[1]
+}
+
+# Files before version 4.11 that do not say are RAS, later ones LPS.
+fcsv_frame <- function(comment) {
+  said <- fcsv_header(comment, "CoordinateSystem")
+  if (!is.na(said)) return(trimws(said))
+  version <- regmatches(comment, regexpr("version *= *[0-9]+([.][0-9]+)+", comment))[1]
+  if (is.na(version) || numeric_version(sub("^[^0-9]*", "", version)) < "4.11") "RAS" else "LPS"
+}
+
+# Matrix of strings, a row a line; columns after the named ones where there are any.
+fcsv_fields <- function(text, line, column, file) {
+  field <- lapply(seq_along(text), function(i) {
+    value <- tryCatch(suppressWarnings(unquote_names(text[i])), error = function(e) character())
+    if (length(value) < max(match(c("x", "y", "z"), column))) {
+      refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[i])
+    }
+    value
+  })
+  width <- max(length(column), lengths(field))
+  matrix(vapply(field, function(value) c(value, rep("", width - length(value))), character(width)), ncol = width, byrow = TRUE)
+}
+
+fcsv_absent <- function(field, column) {
+  state <- length(column) + 1
+  if (ncol(field) < state || !"associatednodeid" %in% column) return(logical(nrow(field)))
+  !trimws(field[, state]) %in% c("", "2")
+}
+
+# Labels; where there is none the id, else the number of the point.
+fcsv_labels <- function(field, column) {
+  label <- if ("label" %in% column) field[, match("label", column)] else character(nrow(field))
+  id <- if ("id" %in% column) field[, match("id", column)] else character(nrow(field))
+  label <- ifelse(nzchar(label), label, id)
+  ifelse(nzchar(label), label, as.character(seq_along(label)))
+}
+
+write_landmarks_fcsv <- function(sets, file, options) {
+  x <- sets[[1]]
+  quoted <- ifelse(grepl("[,\"#']|^[[:space:]]|[[:space:]]$", rownames(x)), quote_name(rownames(x)), rownames(x))
+  state <- ifelse(is.na(x[, 1]), 0L, 2L)
+  write_landmark_lines(c(
+    "# Markups fiducial file version = 4.11", paste("# CoordinateSystem =", options$frame),
+    "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",
+    if (nrow(x)) paste(seq_len(nrow(x)), row_text(x, missing = "0", sep = ","), "0,0,0,1,1,1,0", quoted, "", "", state, 0, sep = ",")
+  ), file)
+}

@@ -1,0 +1,88 @@
+# .pts of IDAV Landmark and Checkpoint: a version, the number of points, then name x y z.
+# C000-001 is point 1 of curve 0; its numbers may have gaps. A missing point has 9999 three times.
+
+read_landmarks_pts <- function(file, options) {
+  line <- landmark_lines(file)
+  count <- which(grepl("^[[:space:]]*[0-9]{1,9}[[:space:]]*$", line))[1]
+  if (is.na(count)) {
+    refuse_landmark_file(file, "no line with the number of points", 'Begin with the lines "Version 1.0" and the number of points.')
+  }
+  row <- setdiff(which(grepl("[^[:space:]]", line)), seq_len(count))
+  said <- as.integer(line[count])
+  if (length(row) != said) {
+    refuse_landmark_file(file, sprintf("%d points are announced, %d follow", said, length(row)),
+                         "Put the right number, or the whole file.", count)
+  }
+  part <- pts_parts(line[row], file, row)
+  x <- matrix(landmark_numbers(part[, 2:4], file, rep(row, 3)), ncol = 3)
+  x[which(rowSums(x == options$missing) == 3), ] <- NA
+  pts_set(x, part[, 1])
+}
+
+# The last three words are the co-ordinates; all before them is the name, blanks and all.
+pts_parts <- function(text, file, line) {
+  part <- regmatches(text, regexec("^[[:space:]]*(.*[^[:space:]])[[:space:]]+([^[:space:]]+)[[:space:]]+([^[:space:]]+)[[:space:]]+([^[:space:]]+)[[:space:]]*$", text))
+  wrong <- which(lengths(part) == 0)
+  if (length(wrong)) {
+    refuse_landmark_file(file, "not a name and three numbers", "Write: name x y z.", line[wrong[1]])
+  }
+  matrix(unlist(part), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
+}
+
+pts_curve_point <- function(name) grepl("^C[._-]?[0-9]+[._-][0-9]+$", name)
+
+pts_set <- function(x, name) {
+  on_curve <- pts_curve_point(name)
+  curve <- sub("[._-][0-9]+$", "", name[on_curve])
+  number <- as.numeric(sub("^.*[._-]", "", name[on_curve]))
+  point <- x[on_curve, , drop = FALSE]
+  curves <- lapply(stats::setNames(nm = unique(curve)), function(one) {
+    row <- which(curve == one)
+    landmark_curve(point[row[order(number[row])], , drop = FALSE])
+  })
+  landmark_set(x[!on_curve, , drop = FALSE], name[!on_curve], curves)
+}
+
+write_landmarks_pts <- function(sets, file, options) {
+  x <- sets[[1]]
+  curves <- attr(x, "curves")
+  check_pts_names(rownames(x), file)
+  number <- pts_curve_names(curves, file)
+  point <- unlist(lapply(seq_along(curves), function(i) {
+    if (nrow(curves[[i]])) sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1, pts_rows(curves[[i]], file, options))
+  }))
+  row <- c(if (nrow(x)) paste(rownames(x), pts_rows(x, file, options)), point)
+  write_landmark_lines(c("Version 1.0", length(row), row), file)
+}
+
+pts_rows <- function(x, file, options) {
+  if (any(rowSums(x == options$missing) == 3, na.rm = TRUE)) {
+    refuse_landmark_file(file, sprintf("a point at %s three times would be read as missing", options$missing),
+                         "Give another number as `missing`.")
+  }
+  row_text(x, missing = number_text(options$missing))
+}
+
+check_pts_names <- function(name, file) {
+  wrong <- name[pts_curve_point(name) | grepl("^[[:space:]]|[[:space:]]$", name)]
+  if (length(wrong)) {
+    refuse_landmark_file(file, sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
+                         "Name it otherwise: C, number, dash, number is a point of a curve; no blanks at the ends.")
+  }
+}
+
+# Curves have numbers only: those called C000 ... keep them, others get them, with a warning.
+pts_curve_names <- function(curves, file) {
+  name <- names(curves)
+  closed <- vapply(curves, attr, TRUE, "closed")
+  number <- sprintf("C%03d", seq_along(curves) - 1L)
+  if (all(grepl("^C[._-]?[0-9]+$", name))) number <- name
+  if (!identical(number, as.character(name)) || any(closed)) {
+    crestline_warn(
+      sprintf("%s: .pts has curves by number and open only: %s.", basename(file), paste(
+        number, "is", paste0(name, ifelse(closed, " (closed)", "")), collapse = ", ")),
+      "Keep a .mrk.json, .tps or .csv as well.", stage = "landmarks", class = "crestline_format_warning"
+    )
+  }
+  number
+}

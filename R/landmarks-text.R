@@ -1,0 +1,101 @@
+# What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets, errors.
+
+# UTF-8, with or without a mark of it; else taken for Latin 1, as Windows writes names with accents.
+landmark_lines <- function(file) {
+  line <- readLines(file, warn = FALSE, skipNul = TRUE)
+  line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
+  sub("^\ufeff", "", line)
+}
+
+write_landmark_lines <- function(line, file) {
+  connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
+    refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
+  })
+  on.exit(close(connection))
+  writeLines(enc2utf8(line), connection, useBytes = TRUE)
+}
+
+# Words to numbers, the words for a missing one to NA; `line`: the line of each word.
+landmark_numbers <- function(word, file, line) {
+  missing <- tolower(word) %in% c("", "na", "nan", "-nan", "nan(ind)", "-nan(ind)")
+  number <- suppressWarnings(as.numeric(ifelse(missing, NA, word)))
+  wrong <- which(!is.finite(number) & !missing)
+  if (length(wrong)) {
+    refuse_landmark_file(
+      file, sprintf('"%s" is not a %snumber', word[wrong[1]], if (is.na(number[wrong[1]])) "" else "finite "),
+      "Write numbers with a decimal point, NA for a missing one.", rep_len(line, length(word))[wrong[1]]
+    )
+  }
+  number
+}
+
+# The rows of numbers in the given lines, each of `width` words.
+landmark_rows <- function(text, width, file, line) {
+  word <- strsplit(trimws(text), "[[:space:],]+")
+  wrong <- which(lengths(word) != width)
+  if (length(wrong)) {
+    refuse_landmark_file(file, sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]], width),
+                         "Give every point its own line, blanks between the numbers.", line[wrong[1]])
+  }
+  matrix(landmark_numbers(unlist(word), file, rep(line, each = width)), ncol = width, byrow = TRUE)
+}
+
+# 15 digits where they give the number back, else the 17 that always do.
+number_text <- function(x, missing = "NA") {
+  short <- sprintf("%.15g", x)
+  text <- ifelse(as.numeric(short) == x, short, sprintf("%.17g", x))
+  ifelse(is.na(x), missing, text)
+}
+
+# One string a row.
+row_text <- function(x, missing = "NA", sep = " ") {
+  text <- matrix(number_text(x, missing), nrow(x))
+  do.call(paste, c(lapply(seq_len(ncol(text)), function(i) text[, i]), sep = sep))
+}
+
+# Names between double quotes, a quote in a name doubled, commas between; and back.
+quote_names <- function(name) paste(quote_name(name), collapse = ",")
+quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
+unquote_names <- function(text) {
+  scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE, na.strings = character(),
+       encoding = "UTF-8")
+}
+
+# The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number is another.
+commented_names <- function(comment, key, n, file) {
+  start <- paste0("^", key, ': "')
+  found <- comment[grepl(start, comment)]
+  if (!length(found)) return(NULL)
+  name <- unquote_names(sub(paste0("^", key, ": "), "", found[1]))
+  if (length(name) != n) {
+    refuse_landmark_file(file, sprintf("the comment of %s has %d names for %d", key, length(name), n),
+                         "Change the comment, or delete it: then they are numbered.")
+  }
+  name
+}
+
+name_comment <- function(name, key) {
+  if (!identical(name, as.character(seq_along(name)))) sprintf("%s: %s", key, quote_names(name))
+}
+
+# The landmarks of one specimen, with the curves where there are any. A point without one of its co-ordinates is missing.
+landmark_set <- function(x, name = NULL, curves = list()) {
+  x <- complete_rows(x)
+  rownames(x) <- if (is.null(name)) as.character(seq_len(nrow(x))) else name
+  if (length(curves)) attr(x, "curves") <- curves
+  x
+}
+
+landmark_curve <- function(x, closed = FALSE) structure(complete_rows(x), closed = closed)
+
+# Three columns (points of the plane get z = 0); NA in all where NA in one.
+complete_rows <- function(x) {
+  if (ncol(x) == 2) x <- cbind(x, rep(0, nrow(x)))
+  x[rowSums(is.na(x)) > 0, ] <- NA
+  matrix(as.numeric(x), ncol = 3, dimnames = list(NULL, c("x", "y", "z")))
+}
+
+refuse_landmark_file <- function(file, problem, remedy, line = NULL) {
+  where <- paste0(basename(file), if (!is.null(line)) sprintf(", line %d", as.integer(line)))
+  refuse_landmarks(sprintf("%s: %s.", where, problem), remedy, id = NULL)
+}

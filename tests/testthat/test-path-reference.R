@@ -1,0 +1,142 @@
+quietly <- function(code) suppressWarnings(code, classes = "crestline_rival_path")
+
+test_that("the shortest cut of a sphere is the great circle, of a cylinder it is between line and circle", {
+  path <- quietly(reference_path(ball(), c(1, 0, 0), c(0, 1, 0), "plane"))
+  expect_equal(attr(path, "length"), pi / 2, tolerance = 2e-3)
+  expect_equal(attr(path, "criterion"), attr(path, "length"), tolerance = 1e-6)
+  built <- closed_form_mesh(closed_forms()$cylinder)
+  point <- function(u, v) c(25 * sin(u / 25), v, 25 * cos(u / 25))
+  path <- quietly(reference_path(built$mesh, point(-15, -8), point(15, 8), "plane"))
+  geodesic <- sqrt(30^2 + 16^2)
+  expect_gte(attr(path, "length"), geodesic - 0.05)
+  expect_lte(attr(path, "length"), 1.005 * geodesic)
+  expect_path_on_mesh(path, built$mesh)
+})
+
+test_that("no angle of a fine grid does better", {
+  bent <- bent_ridge(noise = 0.02)
+  path <- quietly(reference_path(bent, "a", "b", "plane", reach = 1))
+  lengths <- vapply(seq(-1.5, 1.55, by = 0.05), function(angle) {
+    tryCatch(attr(plane_path(bent, "a", "b", angle), "length"), error = function(e) Inf)
+  }, 0)
+  expect_lte(attr(path, "length"), min(lengths) + 1e-9)
+})
+
+test_that("the ridge's cut gathers most strength: it goes out to the ridge beside the straight line", {
+  aside <- arched_ridges(4, 2)
+  curved <- curvature(aside, 3)
+  shortest <- quietly(reference_path(aside, "a", "b", "plane"))
+  path <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, longest = 1.5)
+  expect_gt(max(path$y), 2)
+  expect_identical(attr(path, "type"), "ridge")
+  expect_path_on_mesh(path, aside$mesh)
+  strength <- pmax(-curved$k2, 0) * (curved$k1 + curved$k2 < 0)
+  mean_along <- function(p) {
+    at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) * matrix(strength[t(aside$mesh$it[, p$face])], ncol = 3))
+    sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / attr(p, "length")
+  }
+  expect_equal(attr(path, "criterion"), mean_along(path), tolerance = 1e-6)
+  expect_gt(mean_along(path), 1.05 * mean_along(shortest))
+})
+
+test_that("`longest` holds a cut to the length of the shortest", {
+  aside <- arched_ridges(4, 2)
+  curved <- curvature(aside, 3)
+  shortest <- attr(quietly(reference_path(aside, "a", "b", "plane")), "length")
+  for (limit in c(1.01, 1.05)) {
+    path <- quietly(reference_path(aside, "a", "b", "ridge", 3, curvature = curved, longest = limit))
+    expect_lte(attr(path, "length"), limit * shortest * 1.001)
+  }
+})
+
+test_that("curvature that is given is used, and the same as estimated on the way", {
+  bent <- bent_ridge()
+  given <- reference_path(bent, "a", "b", "ridge", 4, curvature = curvature(bent, 4))
+  expect_equal(reference_path(bent, "a", "b", "ridge", 4), given, tolerance = 1e-6)
+})
+
+test_that("keep_away() turns the path from one ridge to the other", {
+  twin <- arched_ridges(3.4, 3)
+  curved <- curvature(twin, 2.5)
+  left <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, longest = 2))
+  expect_gt(max(left$y), 2)
+  region <- keep_away(c(-13, 4, 3), c(13, 4, 3), radius = 0.13)
+  right <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, keep_away = region, longest = 2))
+  expect_lt(min(right$y), -2)
+})
+
+test_that("optima hold every local optimum, best first, with angles in (-pi/2, pi/2]", {
+  twin <- arched_ridges(3.2, 2)
+  path <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2))
+  optima <- attr(path, "optima")
+  expect_named(optima, c("angle", "side", "criterion", "length"))
+  expect_true(all(optima$angle > -pi / 2 & optima$angle <= pi / 2))
+  expect_false(is.unsorted(-optima$criterion))
+  expect_identical(attr(path, "angle"), optima$angle[1])
+  expect_identical(attr(path, "criterion"), optima$criterion[1])
+  expect_gt(max(optima$angle), 0.3)
+  expect_lt(min(optima$angle), -0.3)
+  for (i in seq_len(nrow(optima))) {
+    cut <- plane_path(twin, "a", "b", optima$angle[i], optima$side[i])
+    expect_equal(attr(cut, "length"), optima$length[i], tolerance = 1e-6)
+  }
+  expect_output(print(path), "Local optima")
+})
+
+test_that("two ridges nearly alike are warned of, with both angles", {
+  twin <- arched_ridges(3, 3)
+  warning <- expect_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.3),
+                            class = "crestline_rival_path")
+  expect_match(conditionMessage(warning), "nearly as good: at -?[0-9]+ and -?[0-9]+ degrees")
+  expect_match(conditionMessage(warning), "a to b")
+  expect_identical(warning$id, "graph")
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.15), class = "crestline_rival_path")
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.3, distinct = 1.2),
+                    class = "crestline_rival_path")
+})
+
+test_that("planes that all cut a flat piece along one line are no rivals", {
+  flat <- graph_specimen(quote(0 * u), two_ends())
+  expect_no_warning(path <- reference_path(flat, "a", "b", "plane"), class = "crestline_rival_path")
+  expect_equal(attr(path, "length"), sqrt(26.9^2 + 0.3^2), tolerance = 1e-6)
+})
+
+test_that("the way back is the same path", {
+  bent <- bent_ridge(noise = 0.02)
+  there <- reference_path(bent, "a", "b", "ridge", 4)
+  back <- reference_path(bent, "b", "a", "ridge", 4)
+  expect_equal(attr(back, "length"), attr(there, "length"), tolerance = 1e-6)
+  expect_lt(max(distance_from_line(xyz_of(back), xyz_of(there))), 1e-5)
+})
+
+test_that("errors name the landmarks, the specimen and what to do", {
+  torn <- graph_specimen(quote(0 * u), two_ends())
+  middle <- which(torn$mesh$vb[1, ] > -1.5 & torn$mesh$vb[1, ] < 1.5 & abs(torn$mesh$vb[2, ]) < 17)
+  it <- torn$mesh$it
+  gap <- specimen(rgl::mesh3d(vertices = torn$mesh$vb, triangles = it[, colSums(matrix(it %in% middle, 3)) == 0]),
+                  torn$landmarks, id = "gap", outward = "keep")
+  error <- expect_crestline_error(reference_path(gap, "a", "b", "plane"), c("no plane cut joins a and b", "hole"), id = "gap")
+  expect_s3_class(error, "crestline_path_error")
+  expect_crestline_error(reference_path(torn, "a", "b", "crest"), "crest")
+  expect_crestline_error(reference_path(torn, "a", "c", "plane"), "no landmark c", id = "graph")
+  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = list()), "`curvature`")
+  other <- curvature(ball(), 0.5)
+  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = other), c("vertices", "own mesh"), id = "graph")
+})
+
+test_that("only vertices near the segment, on the piece of the landmarks, are looked at", {
+  sheet <- graph_specimen(quote(0 * u), two_ends())
+  n <- ncol(sheet$mesh$vb)
+  both <- rgl::mesh3d(vertices = cbind(sheet$mesh$vb, sheet$mesh$vb + c(0, 0, -1, 0)),
+                      triangles = cbind(sheet$mesh$it, sheet$mesh$it + n))
+  both <- specimen(both, sheet$landmarks, outward = "keep")
+  surface <- walkable(both)
+  near <- near_segment(surface, path_ends(both, surface, "a", "b"), 3)
+  expect_true(all(near <= n))
+  line <- distance_from_line(t(both$mesh$vb[1:3, 1:n]), both$landmarks)
+  expect_identical(near, which(line <= 3))
+})
+
+test_that("angles wrap into the half turn", {
+  expect_equal(wrap_angle(c(-pi / 2, pi / 2, pi, 0.1, 3 * pi / 4)), c(pi / 2, pi / 2, 0, 0.1, -pi / 4))
+})

@@ -1,0 +1,126 @@
+# A small window on a bent ridge with everything that ridge_curve() works out.
+fitted_window <- function(settings = ridge_settings(), radius = 4) {
+  bent <- bent_ridge(noise = 0.05, half = c(17, 12), spacing = 1.25)
+  curve <- suppressWarnings(ridge_curve(bent, "a", "b", "ridge", radius = radius, width = 5, n = 9, settings = settings))
+  list(specimen = bent, curve = curve, settings = settings, radius = radius,
+       curvature = curvature(bent, radius, order = settings$order),
+       problem = ridge_problem(curve$surface, curve$scale, radius, settings))
+}
+
+# Normal curvature along `direction` at vertex `at` when vertex `moved` is lifted by h along the fit's normal there.
+curvature_when <- function(mesh, at, direction, moved, h, normal, ...) {
+  mesh$vb[1:3, moved] <- mesh$vb[1:3, moved] + h * normal
+  curved <- curvature(mesh, vertices = at, ...)
+  shape <- curved$k1[at] * tcrossprod(curved$direction1[at, ]) + curved$k2[at] * tcrossprod(curved$direction2[at, ])
+  sum(direction * (shape %*% direction))
+}
+
+test_that("the variance of a normal curvature is that of its derivatives by the vertices' heights", {
+  # Nearly level, so that the frame that the derivative holds fixed stays where it is.
+  form <- list(x = quote(u), y = quote(v), z = quote((u^2 + 0.5 * v^2) / 200), u = c(-6, 6), v = c(-6, 6))
+  mesh <- closed_form_mesh(form, spacing = 1)$mesh
+  at <- which.min(colSums(mesh$vb[1:2, ]^2))
+  radius <- 4.3
+  for (order in c("quadratic", "cubic", "quartic")) {
+    curved <- curvature(mesh, radius, order, vertices = at)
+    normal <- curved$normal[at, ]
+    for (direction in list(curved$direction1[at, ], (curved$direction1[at, ] + curved$direction2[at, ]) / sqrt(2))) {
+      near <- which(colSums((mesh$vb[1:3, ] - mesh$vb[1:3, at])^2) <= radius^2)
+      h <- 1e-4
+      slope <- vapply(near, function(v) {
+        up <- curvature_when(mesh, at, direction, v, h, normal, radius = radius, order = order)
+        down <- curvature_when(mesh, at, direction, v, -h, normal, radius = radius, order = order)
+        (up - down) / (2 * h)
+      }, 0)
+      sigma <- with_seed(4, stats::runif(ncol(mesh$vb), 0.1, 1))
+      variance <- cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(direction), matrix(1), sigma,
+                                         fit_settings(radius, order))
+      expect_equal(sqrt(variance), sqrt(sum((slope * sigma[near])^2)), tolerance = 0.02)
+    }
+  }
+})
+
+test_that("a quadratic fit's variance is the one that least squares gives", {
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6), v = c(-6, 6)))$mesh
+  at <- which.min(colSums(mesh$vb[1:2, ]^2))
+  near <- which(colSums((mesh$vb[1:2, ] - mesh$vb[1:2, at])^2) <= 4.3^2)
+  x <- mesh$vb[1, near] - mesh$vb[1, at]
+  y <- mesh$vb[2, near] - mesh$vb[2, at]
+  covariance <- solve(crossprod(cbind(1, x, y, x^2, x * y, y^2)))
+  variance <- cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(0.3, ncol(mesh$vb)),
+                                     fit_settings(4.3, "quadratic"))
+  expect_equal(variance, 0.3^2 * 4 * covariance[4, 4], tolerance = 1e-8)
+})
+
+test_that("shared vertices are counted as shared: the difference of one curvature with itself has no variance", {
+  mesh <- closed_form_mesh(closed_forms()$bumpy)$mesh
+  at <- 1800:1801
+  direction <- rbind(c(1, 1), c(0, 0), c(0, 0))
+  sigma <- rep(1, ncol(mesh$vb))
+  variance <- function(targets, jacobian) {
+    cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, fit_settings(5, "quadratic"))
+  }
+  expect_lt(variance(c(1800L, 1800L), matrix(c(1, -1), 1)), 1e-20)
+  single <- variance(at, rbind(c(1, 0), c(0, 1)))
+  expect_lt(variance(at, matrix(c(1, -1), 1)), 0.5 * sum(single)) # neighbours: most points in common
+  expect_gt(variance(at, matrix(c(1, 1), 1)), 1.5 * sum(single))
+  expect_equal(variance(at, rbind(c(2, 0))), 4 * single[1], tolerance = 1e-12)
+})
+
+test_that("strength_jacobian() is the derivative of the ridge line by the strength of each vertex", {
+  window <- fitted_window()
+  curve <- window$curve
+  tight <- ridge_settings(tolerance = 1e-13)
+  line <- ridge_line(curve$surface, curve$scale, window$radius, tight)
+  alpha <- line$alpha[2:40]
+  slope <- strength_jacobian(window$problem, curve$surface, alpha)
+  expect_identical(dim(slope), c(39L, length(curve$surface$rows)))
+  refit <- function(strength) {
+    surface <- curve$surface
+    right <- as.vector(surface$design %*% strength)
+    beta <- backsolve(surface$factor, backsolve(surface$factor, right, transpose = TRUE))
+    surface$coefficients <- matrix(beta, nrow(surface$coefficients))
+    ridge_line(surface, curve$scale, window$radius, tight)$alpha[2:40]
+  }
+  scale <- max(abs(slope))
+  for (vertex in order(-colSums(slope^2))[c(1, 5, 50)]) {
+    h <- replace(numeric(length(curve$surface$strength)), vertex, 1e-5)
+    numeric_slope <- (refit(curve$surface$strength + h) - refit(curve$surface$strength - h)) / 2e-5
+    expect_lt(max(abs(slope[, vertex] - numeric_slope)), 1e-3 * scale)
+  }
+})
+
+test_that("the standard error is about the spread over meshes scanned again", {
+  lines <- vapply(1:30, function(seed) {
+    bent <- straight_ridge(noise = 0.1, seed = seed, half = c(17, 12), spacing = 1.25)
+    curve <- suppressWarnings(ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9),
+                              classes = "crestline_rival_path")
+    crest <- curve$points$y # of the curve; its truth is 0
+    c(crest[5], curve$points$se[5])
+  }, numeric(2))
+  ratio <- stats::median(lines[2, ]) / sqrt(mean(lines[1, ]^2))
+  expect_gt(ratio, 0.8)
+  expect_lt(ratio, 2.5) # inflated by 1.5
+})
+
+test_that("the error grows in proportion to the noise, ends have none, and inflation multiplies", {
+  at_noise <- function(noise, ...) {
+    bent <- straight_ridge(noise = noise, half = c(17, 12), spacing = 1.25)
+    ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9, settings = ridge_settings(...))
+  }
+  little <- at_noise(0.02)
+  more <- at_noise(0.1)
+  expect_gt(more$se, 2 * little$se)
+  expect_identical(little$points$se[c(1, 9)], c(0, 0))
+  expect_true(all(little$points$se[2:8] > 0))
+  doubled <- at_noise(0.02, inflation = 3)
+  expect_lte(max(doubled$line$se / little$line$se, na.rm = TRUE), 2 + 1e-9)
+  bias <- abs(little$line$alpha - ridge_line(little$surface, little$scale, 4, loosen(little$settings))$alpha)
+  expect_true(all(little$line$se >= bias - 1e-12))
+})
+
+test_that("loosen() divides lambda only", {
+  settings <- ridge_settings()
+  expect_equal(loosen(settings)$lambda, settings$lambda / 10)
+  expect_identical(loosen(settings)[names(settings) != "lambda"], settings[names(settings) != "lambda"])
+})
