@@ -3,7 +3,7 @@
 # parameters; a missing point is NaN.
 
 read_landmarks_amira <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   if (!grepl("^#.*ASCII", line[1])) {
     refuse_landmark_file(file, "not an AmiraMesh or Avizo file in ASCII", "Save it as ASCII, not binary.", 1)
   }
@@ -59,7 +59,7 @@ write_landmarks_amira <- function(sets, file, options) {
   x <- sets[[1]]
   number <- seq_along(sets)
   coordinates <- paste0("Coordinates", c("", number[-1]))
-  write_landmark_lines(c(
+  write_file_lines(c(
     "# AmiraMesh 3D ASCII 2.0", "", paste("define Markers", nrow(x)), "",
     "Parameters {", sprintf("    NumSets %d,", length(sets)),
     paste0('    ContentType "LandmarkSet"', amira_parameter("Sets", names(sets)), amira_parameter("Names", rownames(x))),

@@ -6,7 +6,7 @@ fcsv_columns <- function() {
 }
 
 read_landmarks_fcsv <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   comment <- grepl("^#", line)
   row <- which(!comment & grepl("\\S", line))
   column <- fcsv_header(line[comment], "columns")
@@ -70,7 +70,7 @@ write_landmarks_fcsv <- function(sets, file, options) {
   state <- ifelse(is.na(x[, 1]), 0L, 2L)
   position <- row_text(x, missing = "0", sep = ",")
   row <- paste(seq_len(nrow(x)), position, "0,0,0,1,1,1,0", quoted, "", "", state, 0, sep = ",")
-  write_landmark_lines(c(
+  write_file_lines(c(
     "# Markups fiducial file version = 4.11", paste("# CoordinateSystem =", options$frame),
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",
     if (nrow(x)) row

@@ -17,7 +17,7 @@ read_landmarks_mrkjson <- function(file, options) {
 }
 
 mrkjson_markups <- function(file) {
-  content <- tryCatch(jsonlite::parse_json(paste(landmark_lines(file), collapse = "\n")), error = function(e) {
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) {
     reason <- strsplit(conditionMessage(e), "\n")[[1]][1]
     refuse_landmark_file(file, paste("not JSON:", reason), "Save it anew from Slicer.")
   })
@@ -110,7 +110,7 @@ write_landmarks_mrkjson <- function(sets, file, options) {
   )
   schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/",
                    "Resources/Schema/markups-schema-v1.0.3.json#")
-  write_landmark_lines(sprintf('{"@schema": "%s",\n"markups": [\n%s\n]}', schema, paste(list, collapse = ",\n")), file)
+  write_file_lines(sprintf('{"@schema": "%s",\n"markups": [\n%s\n]}', schema, paste(list, collapse = ",\n")), file)
 }
 
 mrkjson_list <- function(x, type, name, label, options) {

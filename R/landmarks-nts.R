@@ -2,7 +2,7 @@
 # Names of landmarks, which the format has not, stand in a comment; of one specimen also p x k with labelled rows is read.
 
 read_landmarks_nts <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   is_comment <- grepl("^\\s*['\"]", line)
   comment <- sub("^\\s*['\"]+\\s*", "", line[is_comment])
   row <- which(!is_comment & grepl("\\S", line))
@@ -78,7 +78,7 @@ write_landmarks_nts <- function(sets, file, options) {
   code <- unused_code(unlist(sets))
   comment <- name_comment(rownames(x), "landmarks")
   if (nrow(x) == 1) comment <- sprintf("landmarks: %s", quote_names(rownames(x)))
-  write_landmark_lines(c(
+  write_file_lines(c(
     "'Landmarks, written by crestline", if (!is.null(comment)) paste0("'", comment),
     sprintf("1 %dL %d 1 %d DIM=3", length(sets), 3L * nrow(x), code), "", names(sets), "",
     unlist(lapply(sets, function(x) if (nrow(x)) c(row_text(x, missing = code), "")))

@@ -2,7 +2,7 @@
 # C000-001 is point 1 of curve 0; its numbers may have gaps. A missing point has 9999 three times.
 
 read_landmarks_pts <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   count <- which(grepl("^\\s*[0-9]{1,9}\\s*$", line))[1]
   if (is.na(count)) {
     refuse_landmark_file(file, "no line with the number of points",
@@ -53,7 +53,7 @@ write_landmarks_pts <- function(sets, file, options) {
     sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1, pts_rows(curves[[i]], file, options))
   }))
   row <- c(if (nrow(x)) paste(rownames(x), pts_rows(x, file, options)), point)
-  write_landmark_lines(c("Version 1.0", length(row), row), file)
+  write_file_lines(c("Version 1.0", length(row), row), file)
 }
 
 pts_rows <- function(x, file, options) {

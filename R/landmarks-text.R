@@ -1,13 +1,13 @@
 # What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets, errors.
 
 # UTF-8, with or without a mark of it; else taken for Latin 1, as Windows writes names with accents.
-landmark_lines <- function(file) {
+file_lines <- function(file) {
   line <- readLines(file, warn = FALSE, skipNul = TRUE)
   line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
   sub("^\ufeff", "", line)
 }
 
-write_landmark_lines <- function(line, file) {
+write_file_lines <- function(line, file) {
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })

@@ -2,7 +2,7 @@
 # Names of landmarks and curves, which the format has not, stand in COMMENT= lines.
 
 read_landmarks_tps <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   start <- which(grepl("^\\s*LM3?\\s*=", line, ignore.case = TRUE))
   if (!length(start)) {
     refuse_landmark_file(file, "no line LM= or LM3=", "Begin every specimen with LM3= and the number of its landmarks.")
@@ -107,7 +107,7 @@ tps_names <- function(record) {
 }
 
 write_landmarks_tps <- function(sets, file, options) {
-  write_landmark_lines(unlist(Map(tps_lines, sets, names(sets))), file)
+  write_file_lines(unlist(Map(tps_lines, sets, names(sets))), file)
 }
 
 tps_lines <- function(x, id) {
