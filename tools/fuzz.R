@@ -188,7 +188,8 @@ run_all <- function(seeds, script, cases_a_child = 250) {
 }
 
 read_log <- function(log) {
-  part <- strsplit(readLines(log, warn = FALSE), "\t", fixed = TRUE)
+  # A message that quotes a damaged file may hold line ends: only whole lines count.
+  part <- strsplit(grep("^[0-9]+\t[a-z]+\t", readLines(log, warn = FALSE), value = TRUE, useBytes = TRUE), "\t", fixed = TRUE)
   data.frame(seed = as.integer(vapply(part, `[`, "", 1)), mark = vapply(part, `[`, "", 2), text = vapply(part, `[`, "", 3))
 }
 
