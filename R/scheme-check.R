@@ -1,4 +1,5 @@
-# What the cells of a scheme's tables must be to one another. Each check takes its table and the scheme so far, and gives problems.
+# What the cells of a scheme's tables must be to one another: each check takes its table and the scheme so far, and
+# gives problems.
 
 check_scheme_landmarks <- function(landmarks, scheme) named_once(landmarks$landmark, "landmark")
 
@@ -13,7 +14,8 @@ check_scheme_curves <- function(curves, scheme) {
     problem(grep("[][+|]", curves$curve), "curve", "a name may not hold [ ] + or |"),
     do.call(rbind, lapply(landmark_columns, function(column) unknown_names(curves[[column]], known, column, "landmark"))),
     one("from", "to"), one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
-    empty("radius", by_curvature, "a ridge or valley needs it"), empty("width", by_curvature, "a ridge or valley needs it"),
+    empty("radius", by_curvature, "a ridge or valley needs it"),
+    empty("width", by_curvature, "a ridge or valley needs it"),
     whole_group(curves, c("cut_share", "cut_from", "cut_to")), whole_group(curves, c("keep_away_from", "keep_away_to")),
     whole_group(curves, c("side_of", "side")),
     needs(curves, "keep_away_radius", "keep_away_from"), needs(curves, "keep_away_extension", "keep_away_from"),
@@ -80,7 +82,8 @@ block_problems <- function(patches) {
   rbind(
     problem(apart, "curve_b", sprintf("gives %d columns where curve_a gives %d", b[apart], a[apart])),
     problem(wide, "columns", sprintf("%s does not lie within 1 to %d, each once", patches$columns[wide], a[wide])),
-    problem(high, "rows_kept", sprintf("%s does not lie within 1 to %d, each once", patches$rows_kept[high], patches$rows[high])),
+    problem(high, "rows_kept", sprintf("%s does not lie within 1 to %d, each once", patches$rows_kept[high],
+                                       patches$rows[high])),
     problem(wrong, "n", sprintf("is %d, but %d columns times %d rows are kept", patches$n[wrong],
                                 lengths(columns)[wrong], lengths(rows)[wrong]))
   )

@@ -7,8 +7,9 @@
 #' 1,602 triangles (36 more close the nose from below, 38 the eyes). Copy the folder to make a
 #' scheme of your own. Lengths in mm.
 #'
-#' Left is the subject's own left. The five curves on each side that start at the ear (`t`, `oi`) are cut off at a multiple of the
-#' distance between the inner corners of the eyes. Where this model finds a curve in another way than its authors do (`authors_kind`), `note` says why.
+#' Left is the subject's own left. The five curves on each side that start at the ear (`t`, `oi`) are cut off at a
+#' multiple of the distance between the inner corners of the eyes. Where this model finds a curve in another way than
+#' its authors do (`authors_kind`), `note` says why.
 #'
 #' @return A [curve_scheme()].
 #' @references The paper, section 4, and its authors' implementation.

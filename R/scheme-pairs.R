@@ -41,11 +41,13 @@ unlike_curves <- function(pairs, curves) {
   found <- unlike_pairs(pairs, "curves", curves$curve, curves, mirror, columns)
   for (axis in c("cut", "keep_away")) {
     ends <- paste0(axis, c("_from", "_to"))
-    found <- rbind(found, unlike_pairs(pairs, "curves", curves$curve, unordered(curves, ends), unordered(mirror, ends), axis))
+    found <- rbind(found, unlike_pairs(pairs, "curves", curves$curve, unordered(curves, ends),
+                                       unordered(mirror, ends), axis))
   }
   ends <- c("from", "to")
-  alone <- which(swap(curves$curve, "curves") == curves$curve & unordered(curves, ends)[[1]] != unordered(mirror, ends)[[1]])
-  rbind(found, problem(rep(NA, length(alone)), "left", sprintf("the curve \"%s\" has no partner, but its ends have", curves$curve[alone])))
+  unlike <- unordered(curves, ends)[[1]] != unordered(mirror, ends)[[1]]
+  alone <- curves$curve[swap(curves$curve, "curves") == curves$curve & unlike]
+  rbind(found, problem(rep(NA, length(alone)), "left", sprintf("the curve \"%s\" has no partner, but its ends have", alone)))
 }
 
 # The ends of an axis, whichever comes first.
@@ -64,10 +66,11 @@ unlike_patches <- function(pairs, patches) {
   columns <- c("block", "n", "columns", "rows", "rows_kept", "curve_a", "resample_a", "curve_b", "resample_b",
                "first_column", "outward")
   own <- partner_of(patches$patch, pairs, "surface") == patches$patch
-  alone <- which(own & !Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]]))))
+  alike <- Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]])))
+  alone <- patches$patch[own & !alike]
   block <- ifelse(is.na(patches$block), "", paste0("|", patches$block))
   rbind(unlike_pairs(pairs, "surface", paste0(patches$patch, block), patches, mirror, columns),
-        problem(rep(NA, length(alone)), "left", sprintf("the patch \"%s\" has no partner, but its curves have", patches$patch[alone])))
+        problem(rep(NA, length(alone)), "left", sprintf("the patch \"%s\" has no partner, but its curves have", alone)))
 }
 
 #' A bounding curve with every curve's partner in its place, written in one way
@@ -95,8 +98,9 @@ unlike_pairs <- function(pairs, level, name, table, mirror, columns) {
       return(problem(row, "right", sprintf("has %d blocks, its partner %d", length(right), length(left))))
     }
     unlike <- Filter(function(column) !all(same(mirror[[column]][left], table[[column]][right])), columns)
+    cells <- function(table, rows) vapply(unlike, function(column) toString(table[[column]][rows]), "")
     problem(rep(row, length(unlike)), "right", sprintf("is no mirror image: %s is %s, the partner's %s", unlike,
-      vapply(unlike, function(x) toString(table[[x]][right]), ""), vapply(unlike, function(x) toString(mirror[[x]][left]), "")))
+                                                       cells(table, right), cells(mirror, left)))
   })
   do.call(rbind, c(list(problem(integer())), each))
 }

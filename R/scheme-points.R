@@ -3,7 +3,8 @@
 #' Parts of a bounding curve: "upper lip left[1:8]+philtrum lip left[2]"
 #'
 #' @param text One string.
-#' @return Data frame `curve`, `from`, `to` (first and last point), one row a part; `NULL` where the text cannot be read.
+#' @return Data frame `curve`, `from`, `to` (first and last point), one row a part; `NULL` where the text cannot be
+#'   read.
 #' @noRd
 curve_parts <- function(text) {
   pattern <- "^([^][+|]+)\\[([0-9]{1,6})(:([0-9]{1,6}))?\\]$"

@@ -4,8 +4,8 @@
 #'
 #' @param patches,strips Tables of the scheme.
 #' @param points [scheme_points()] of the scheme.
-#' @return Data frame `part` ("model", or an optional part), `group` (the patch, or "strip" and its name), `v1`, `v2`, `v3`: rows of the surface points in outward
-#'   order; points of one place are named by the first of them.
+#' @return Data frame `part` ("model", or an optional part), `group` (the patch, or "strip" and its name), `v1`, `v2`,
+#'   `v3`: rows of the surface points in outward order; points of one place are named by the first of them.
 #' @noRd
 scheme_triangles <- function(patches, strips, points) {
   points <- points[points$level == "surface", ]
@@ -31,7 +31,8 @@ no_triangles <- function() {
 #' Two triangles a quad of a grid, split from (c, r) to (c + 1, r + 1); those with a repeated corner are left out
 #'
 #' @param grid Vertices, columns x rows.
-#' @param outward "columns": (c, r), (c + 1, r), (c + 1, r + 1) is the outward order; "rows": (c, r), (c, r + 1), (c + 1, r + 1).
+#' @param outward "columns": (c, r), (c + 1, r), (c + 1, r + 1) is the outward order; "rows": (c, r), (c, r + 1), (c +
+#'   1, r + 1).
 #' @noRd
 quad_triangles <- function(grid, outward, part, group) {
   nc <- nrow(grid)

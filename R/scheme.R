@@ -5,45 +5,53 @@
 #' What is measured on one kind of object (a face, a skull, a tooth) is data, in tables: [face_scheme()] is
 #' one. The tables are checked as a whole; a mistake is named by table, row and column.
 #'
-#' @param landmarks Data frame, a row a landmark: `landmark` (its name); if wanted `name` and `where` (words for the reader).
+#' @param landmarks Data frame, a row a landmark: `landmark` (its name); if wanted `name` and `where` (words for the
+#'   reader).
 #' @param curves Data frame, a row a curve from one landmark to another:
-#'   * `curve` (its name, without `[ ] + |`), `from`, `to` (landmarks), `kind` ("ridge", "valley" or "plane": the shortest plane cut),
-#'     `n` (points at equal chords, both ends counted);
-#'   * `radius` of the curvature and half `width` of the window, in the unit of the mesh; needed for ridges and valleys;
+#'   * `curve` (its name, without `[ ] + |`), `from`, `to` (landmarks), `kind` ("ridge", "valley" or "plane": the
+#'     shortest plane cut), `n` (points at equal chords, both ends counted);
+#'   * `radius` of the curvature and half `width` of the window, in the unit of the mesh; needed for ridges and
+#'     valleys;
 #'   * `cut_share`, `cut_from`, `cut_to`: only the part next to the end `to` is kept, as long as this share of the
 #'     distance between two landmarks (arc length; empty: the whole curve);
-#'   * `keep_away_from`, `keep_away_to`, `keep_away_radius` (0.7), `keep_away_extension` (0.2): a region where strength
-#'     counts as 0, see [keep_away()];
-#'   * `side_of`, `side`: strength counts as 0 unless it lies to the "left" or "right" of another curve (walked from its
-#'     `from` to its `to`, seen from outside);
-#'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length, where curvature is believed;
+#'   * `keep_away_from`, `keep_away_to`, `keep_away_radius` (0.7), `keep_away_extension` (0.2): a region where
+#'     strength counts as 0, see [keep_away()];
+#'   * `side_of`, `side`: strength counts as 0 unless it lies to the "left" or "right" of another curve (walked from
+#'     its `from` to its `to`, seen from outside);
+#'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length, where curvature is
+#'     believed;
 #'   * `angle_limit`: greatest angle in radians (at most pi / 2) between the plane of a cut and the mean of the
 #'     surface normals at the ends, see [plane_path()];
 #'   * `note`, and any further columns, which are kept.
-#' @param patches Data frame, a row a patch, or a block of one (`NULL`: no surface). Column c of a block is the cut from point c of a bounding curve A to point c of another,
-#'   B; row 1 lies on A, the last on B.
+#' @param patches Data frame, a row a patch, or a block of one (`NULL`: no surface). Column c of a block is the cut
+#'   from point c of a bounding curve A to point c of another, B; row 1 lies on A, the last on B.
 #'   * `patch` (its name), `block` (1, 2, ... where a patch has several, else empty), `n` (its points);
-#'   * `columns`: those that are kept, such as "1,3:8"; `rows`: the points a column is divided into, both ends counted;
-#'     `rows_kept`, such as "2:6";
-#'   * `curve_a`, `curve_b`: such as "upper lip left\[1:8]+philtrum lip left\[2]" (14:1 runs backwards); `resample_a`, `resample_b`: the number of points at equal chords that replace the
-#'     curve's own; a block without `curve_b` is one row on A;
-#'   * `first_column`: the curve from A to B that column 1 follows in place of a cut, such as "nasolabial left\\[1:6]"; its own points where it has as
-#'     many as `rows`, else resampled to them;
-#'   * `outward`: the order of the corners of a quad seen from outside, "columns" ((c, r), (c + 1, r), (c + 1, r + 1)) or "rows"
-#'     ((c, r), (c, r + 1), (c + 1, r + 1)); empty: no triangles; `note`.
+#'   * `columns`: those that are kept, such as "1,3:8"; `rows`: the points a column is divided into, both ends
+#'     counted; `rows_kept`, such as "2:6";
+#'   * `curve_a`, `curve_b`: such as `upper lip left[1:8]+philtrum lip left[2]` (`[14:1]` runs backwards); `resample_a`,
+#'     `resample_b`: the number of points at equal chords that replace the curve's own; a block without `curve_b` is
+#'     one row on A;
+#'   * `first_column`: the curve from A to B that column 1 follows in place of a cut, such as
+#'     `nasolabial left[1:6]`; its own points where it has as many as `rows`, else resampled to them;
+#'   * `outward`: the order of the corners of a quad seen from outside, "columns" ((c, r), (c + 1, r), (c + 1, r + 1))
+#'     or "rows" ((c, r), (c, r + 1), (c + 1, r + 1)); empty: no triangles; `note`.
 #'
-#'   The points of the surface are in the order of the rows, then by column, then by row; the index of a point is "block column row", "column row" or, where a patch is one
-#'   row of one block, "column"; columns are counted as kept, rows as made.
-#' @param pairs Data frame, a row a pair (`NULL`: none): `level` ("landmarks", "curves" or "surface": patches), `left`, `right`. What is not
-#'   listed is its own mirror image.
-#' @param strips Data frame of the triangles that join patches (`NULL`: none): `part` ("model", or the name of an optional part), `strip` (its name), `rung`
-#'   (1, 2, ...), `a`, `b` (points, as "patch|index"), `outward` ("columns": a, b, next b; "rows": a, next a, next b). Each two rungs are a quad.
+#'   The points of the surface are in the order of the rows, then by column, then by row; the index of a point is
+#'   "block column row", "column row" or, where a patch is one row of one block, "column"; columns are counted as
+#'   kept, rows as made.
+#' @param pairs Data frame, a row a pair (`NULL`: none): `level` ("landmarks", "curves" or "surface": patches),
+#'   `left`, `right`. What is not listed is its own mirror image (a curve
+#'   between the two landmarks of a pair: run backwards).
+#' @param strips Data frame of the triangles that join patches (`NULL`: none): `part` ("model", or the name of an
+#'   optional part), `strip` (its name), `rung` (1, 2, ...), `a`, `b` (points, as "patch|index"), `outward`
+#'   ("columns": a, b, next b; "rows": a, next a, next b). Each two rungs are a quad.
 #' @param name Name of the scheme, one string.
-#' @return Object of class `curve_scheme`, a list: `name`; data frames `landmarks`, `curves`, `patches`, `pairs`, `strips` with all
-#'   columns above (`NA` where empty); `points` (`level`, `part`, `point`, `place`: points that coincide by construction have the same `place`);
-#'   `triangles` (`part`, `group`, `v1`, `v2`, `v3`: rows of the surface's points, outward; coinciding points by the first).
-#'   `as.data.frame(scheme, table)` gives any of them.
-#' @section Errors: of class `crestline_scheme_error`, with all problems of the first table that has any (the message shows eight).
+#' @return Object of class `curve_scheme`, a list: `name`; data frames `landmarks`, `curves`, `patches`, `pairs`,
+#'   `strips` with all columns above (`NA` where empty); `points` (`level`, `part`, `point`, `place`: points that
+#'   coincide by construction have the same `place`); `triangles` (`part`, `group`, `v1`, `v2`, `v3`: rows of the
+#'   surface's points, outward; coinciding points by the first). `as.data.frame(scheme, table)` gives any of them.
+#' @section Errors: of class `crestline_scheme_error`, with all problems of the first table that has any (the message
+#'   shows eight).
 #' @seealso [read_scheme()], [face_scheme()]
 #' @examples
 #' landmarks <- data.frame(landmark = c("tip", "left", "right"))
@@ -62,7 +70,7 @@ curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
-  scheme <- list(name = name)
+  scheme <- list(name = check_id(name))
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]), scheme_columns[[table]])
     rows <- scheme_rows(table, typed$table)
@@ -97,7 +105,8 @@ present_table <- function(table, which, label) {
   }
   if (!is.data.frame(table) || nrow(table) == 0) {
     crestline_abort(sprintf("table %s is %s.", label, if (is.data.frame(table)) "empty" else describe_value(table)),
-                    "Give a data frame, see `?curve_scheme`.", stage = "scheme", class = "crestline_scheme_error", call = NULL)
+                    "Give a data frame, see `?curve_scheme`.", stage = "scheme",
+                    class = "crestline_scheme_error", call = NULL)
   }
   as.data.frame(table)
 }
@@ -128,23 +137,31 @@ as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, ta
 
 #' @export
 print.curve_scheme <- function(x, ...) {
-  amount <- function(n, one, many = paste0(one, "s")) paste(format(n, big.mark = ",", trim = TRUE), if (n == 1) one else many)
   line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
   curves <- x$curves
   kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))
-  line("<curve_scheme> ", x$name, ": ", amount(nrow(x$landmarks), "landmark"), ", ", amount(nrow(curves), "curve"), " with ",
-       amount(sum(curves$n), "point"))
+  paired <- table(factor(x$pairs$level, c("landmarks", "curves", "surface")))
+  line("<curve_scheme> ", x$name, ": ", amount(nrow(x$landmarks), "landmark"), ", ",
+       amount(nrow(curves), "curve"), " with ", amount(sum(curves$n), "point"))
   line("landmarks: ", shorten(x$landmarks$landmark, 30))
   line("curves: ", paste(kinds, names(kinds), collapse = ", "))
-  line("constraints: ", sum(!is.na(curves$cut_share)), " cut off, ", sum(!is.na(curves$keep_away_from)), " kept away from a region, ",
-       sum(!is.na(curves$side_of)), " held to a side, ", sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
+  line("constraints: ", sum(!is.na(curves$cut_share)), " cut off, ", sum(!is.na(curves$keep_away_from)),
+       " kept away from a region, ", sum(!is.na(curves$side_of)), " held to a side, ",
+       sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
        sum(!is.na(curves$angle_limit)), " limited in angle")
-  surface <- x$points$place[x$points$level == "surface"]
-  patches <- unique(x$patches$patch)
-  line("surface: ", amount(length(patches), "patch", "patches"), " in ", amount(nrow(x$patches), "block"), ", ",
-       amount(length(surface), "point"), " at ", amount(length(unique(surface)), "place"), ", ",
-       amount(sum(x$triangles$part == "model"), "triangle"), " and ", sum(x$triangles$part != "model"), " on request")
-  paired <- table(factor(x$pairs$level, c("landmarks", "curves", "surface")))
+  line("surface: ", surface_line(x))
   line("left-right pairs: ", paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
   invisible(x)
+}
+
+surface_line <- function(x) {
+  place <- x$points$place[x$points$level == "surface"]
+  model <- x$triangles$part == "model"
+  paste0(amount(length(unique(x$patches$patch)), "patch", "patches"), " in ", amount(nrow(x$patches), "block"), ", ",
+         amount(length(place), "point"), " at ", amount(length(unique(place)), "place"), ", ",
+         amount(sum(model), "triangle"), " and ", sum(!model), " on request")
+}
+
+amount <- function(n, one, many = paste0(one, "s")) {
+  paste(format(n, big.mark = ",", trim = TRUE), if (n == 1) one else many)
 }

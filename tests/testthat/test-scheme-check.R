@@ -63,7 +63,8 @@ test_that("names in curves that mean nothing", {
 
 test_that("columns that go together", {
   expect_mistake(set_cell("curves", 1, "cut_share", 2), "curves", 1, "cut_from", c("go together", "column cut_to"))
-  expect_mistake(set_cell("curves", 1, c("cut_share", "cut_from", "cut_to"), list(2, "base", "base")), "curves", 1, "cut_to", "same")
+  expect_mistake(set_cell("curves", 1, c("cut_share", "cut_from", "cut_to"), list(2, "base", "base")),
+                 "curves", 1, "cut_to", "same")
   expect_mistake(set_cell("curves", 1, "keep_away_from", "wideL"), "curves", 1, "keep_away_to", "go together")
   expect_mistake(set_cell("curves", 1, "keep_away_radius", 1), "curves", 1, "keep_away_radius", "keep_away_from is not")
   expect_mistake(set_cell("curves", 2, "side", NA), "curves", 2, "side", "go together")
