@@ -24,7 +24,7 @@
 #' @return A [specimen()] with landmarks `from` and `to`, whose attribute `truth` is the ridge
 #'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it.
 #' @section Errors: of class `crestline_error`, for an argument out of its range.
-#' @references The paper, section 5.2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
 #' @seealso [ridge_study()]
 #' @examples
 #' surface <- simulate_ridge(a = 0.25, b = 1, noise = 0.01, seed = 1)
@@ -148,7 +148,7 @@ ridge_offset <- function(points, truth) {
 #'   `determined`, `converged` (logical); `seconds`; `error`: the message
 #'   where the estimate failed, and then the others are `NA`.
 #' @section Errors: only for arguments out of their range; a failed estimate is a row with `error`.
-#' @references The paper, section 5.2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
 #' @examples
 #' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
 #' aggregate(distance ~ a + b + noise, study, mean)

@@ -7,7 +7,7 @@ figure7 <- function(height, slope, bend, order = "adaptive", radius = 0.5) {
   at <- expand.grid(x = side, y = side)
   corner <- as.vector(outer(1:40, (0:39) * 41, `+`))
   faces <- cbind(rbind(corner, corner + 1, corner + 42), rbind(corner, corner + 42, corner + 41))
-  mesh <- rgl::mesh3d(vertices = rbind(at$x, at$y, height(at$x), 1), triangles = faces)
+  mesh <- structure(list(vb = rbind(at$x, at$y, height(at$x), 1), it = faces), class = "mesh3d")
   row <- which(abs(at$y) < 1e-9)
   found <- curvature(mesh, radius, order = order, vertices = row)
   truth <- bend(side) / (1 + slope(side)^2)^1.5
@@ -17,22 +17,18 @@ figure7 <- function(height, slope, bend, order = "adaptive", radius = 0.5) {
 parabola <- function(...) figure7(function(x) -x^2, function(x) -2 * x, function(x) rep(-2, length(x)), ...)
 cubic <- function(...) figure7(function(x) -x^3, function(x) -3 * x^2, function(x) -6 * x, ...)
 
-test_that("curvature of z = -x^2 and z = -x^3 follows the truth over the cross-section", {
+test_that("curvature of z = -x^2 and z = -x^3 follows the truth over the whole cross-section", {
   for (section in list(parabola(), cubic())) {
-    inner <- abs(section$x) <= 0.5 + 1e-9
     scale <- max(abs(section$true1), abs(section$true2))
-    expect_lt(max(abs(section$k1 - section$true1)[inner]), 0.08 * scale)
-    expect_lt(max(abs(section$k2 - section$true2)[inner]), 0.08 * scale)
-    expect_lt(max(abs(section$k1 - section$true1), abs(section$k2 - section$true2)), 0.35 * scale)
+    expect_lt(max(abs(section$k1 - section$true1)), 0.03 * scale)
+    expect_lt(max(abs(section$k2 - section$true2)), 0.03 * scale)
   }
 })
 
-test_that("the forced quadratic flattens the peak, as in the paper's figure", {
-  middle <- function(section) section$k2[section$x == 0]
-  expect_equal(middle(parabola()), -2, tolerance = 0.01)
-  expect_gt(middle(parabola(order = "forced")), -2 * 0.999)
+test_that("the paper's forced quadratic has the top of the parabola right and is far off beside it", {
   ours <- parabola()
   paper <- parabola(order = "forced")
+  expect_equal(paper$k2[paper$x == 0], -2, tolerance = 0.01)
   error <- function(section) mean(abs(section$k2 - section$true2))
-  expect_lt(error(ours), 0.5 * error(paper))
+  expect_lt(error(ours), 0.2 * error(paper))
 })

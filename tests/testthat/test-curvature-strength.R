@@ -13,6 +13,10 @@ test_that("strength has the sought sign, and is 0 where the shape index has the 
   expect_equal(strength_at(curved, "ridge", at = c(6, 1)), c(2, 0))
 })
 
+test_that("however weak, it counts", {
+  expect_identical(strength_at(by_hand(1e-9, -2e-9), "ridge"), 2e-9)
+})
+
 test_that("a symmetric saddle is neither ridge nor valley, NA stays NA", {
   expect_equal(strength_at(by_hand(1, -1), "ridge"), 0)
   expect_equal(strength_at(by_hand(1, -1), "valley"), 0)

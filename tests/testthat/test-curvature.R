@@ -217,18 +217,6 @@ test_that("sigma is the noise", {
   expect_equal(stats::median(curvature(built$mesh, 8)$sigma), 0.2, tolerance = 0.05)
 })
 
-test_that("curvature of a cross-section follows the truth (the paper's Fig. 7)", {
-  figure7 <- function(z, truth) {
-    form <- list(x = quote(u), y = quote(v), z = z, u = c(-1, 1), v = c(-1, 1))
-    mesh <- closed_form_mesh(form, spacing = 0.05, jitter = 0)$mesh
-    at <- which(abs(mesh$vb[2, ]) < 1e-9 & abs(mesh$vb[1, ]) <= 0.5)
-    curved <- curvature(mesh, 0.5, vertices = at)
-    max(abs(curved$k2[at] - pmin(truth(mesh$vb[1, at]), 0)))
-  }
-  expect_lt(figure7(quote(-u^2 + 0 * v), function(x) -2 / (1 + 4 * x^2)^1.5), 0.1)
-  expect_lt(figure7(quote(-u^3 + 0 * v), function(x) -6 * x / (1 + 9 * x^4)^1.5), 0.15)
-})
-
 test_that("errors say what to do", {
   mesh <- ball()
   expect_crestline_error(curvature(mesh, 1e-3), c("no vertex could be fitted", "larger `radius`"))

@@ -90,7 +90,7 @@ test_that("two ridges nearly alike are warned of, with both angles", {
   expect_match(conditionMessage(warning), "nearly as good: at -?[0-9]+ and -?[0-9]+ degrees")
   expect_match(conditionMessage(warning), "a to b")
   expect_identical(warning$id, "graph")
-  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.05), class = "crestline_rival_path")
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.15), class = "crestline_rival_path")
   expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.3, distinct = 1.2),
                     class = "crestline_rival_path")
 })

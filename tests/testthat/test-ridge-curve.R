@@ -76,8 +76,27 @@ test_that("the paper's settings go all the way", {
   expect_sound_curve(curve, bent_ridge(), 9)
   expect_lt(off_crest(curve), 0.5)
   expect_equal(curve$surface$df, 12, tolerance = 1e-6)
-  positive <- curve$surface$strength
-  expect_true(all(positive > 0)) # wrong-signed vertices are left out
+})
+
+test_that("vertices of the wrong sign count as 0, or are left out", {
+  strengths <- function(...) {
+    suppressWarnings(curve_of(bent_ridge(), "a", "b", "ridge", radius = 4, width = 9, n = 9,
+                              settings = ridge_settings(window = Inf, ...)))$surface$strength
+  }
+  kept <- strengths()
+  expect_gt(sum(kept == 0), 50)
+  left <- strengths(wrong_sign = "drop")
+  expect_true(all(left > 0))
+  expect_length(left, sum(kept > 0))
+})
+
+test_that("nu0 is the mean strength near the reference path, places without curvature counting as 0", {
+  window <- data.frame(d = c(0, 0.5, -1, 1.1, 0), inside = c(TRUE, TRUE, TRUE, TRUE, FALSE))
+  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100, 100)), 1), 3)
+  expect_true(is.na(core_strength(window[4:5, ], list(value = c(1, 1)), 1)))
+  curve <- of_bent()
+  near <- curve$coordinates$vertex[abs(curve$coordinates$d) <= 0.3 * 4 & curve$coordinates$inside]
+  expect_equal(curve$scale, mean(-curvature(bent_ridge(), 4, order = curve$settings$order)$k2[near]), tolerance = 0.05)
 })
 
 test_that("n points, from 2 on", {

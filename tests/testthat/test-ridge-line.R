@@ -64,16 +64,23 @@ test_that("the paper's lambda is its own sum over second differences", {
   expect_equal(difference * 0.8 * 40, 0.5 * sum(diff(alpha, differences = 2)^2) * 40, tolerance = 1e-6)
 })
 
-test_that("steps never lower the criterion, also where plain Newton would", {
-  valley_start <- function(s, d) (d - 0.2)^2 / 4 - d^4 / 40 + 0.3 # a minimum by the path
-  surface <- surface_of(valley_start)
-  problem <- ridge_problem(surface, 1, 2, ridge_settings())
-  start <- ridge_criterion(problem, numeric(39))
-  values <- vapply(1:8, function(k) {
-    ridge_line(surface, 1, 2, ridge_settings(iterations = k))$criterion
-  }, 0)
-  expect_false(is.unsorted(c(start, values)))
-  expect_gt(ridge_hessian(problem, numeric(39))[20, 20] + 2 * problem$lambda * problem$roughness[20, 20], 0)
+test_that("steps never lower the criterion, also where whole Newton steps would", {
+  narrow <- function(s, d) exp(-16 * (d - 0.3 * sin(pi * s / 10))^2)
+  surface <- surface_of(narrow, df = 90)
+  criterion <- function(k) ridge_line(surface, 1, 2, ridge_settings(lambda = 1e-7, iterations = k))$criterion
+  start <- ridge_criterion(ridge_problem(surface, 1, 2, ridge_settings()), numeric(39))
+  expect_false(is.unsorted(c(start, vapply(1:12, criterion, 0))))
+})
+
+test_that("where the criterion is not concave the Hessian has a stand-in that goes up", {
+  dip <- function(s, d) d^2 / 4 + 0.1 * d
+  problem <- ridge_problem(surface_of(dip), 1, 2, ridge_settings(lambda = 1e-8))
+  expect_error(chol(-ridge_hessian(problem, numeric(39))))
+  factor <- ascent_factor(problem, numeric(39))
+  gradient <- ridge_gradient(problem, numeric(39))
+  step <- backsolve(factor, backsolve(factor, gradient, transpose = TRUE))
+  expect_gt(sum(step * gradient), 0)
+  expect_lt(max(ridge_line(surface_of(dip), 1, 2)$alpha), 0.98 * 3 + 1e-12)
 })
 
 test_that("a line that converged has no slope left and is a maximum", {
