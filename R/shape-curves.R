@@ -12,15 +12,26 @@ fit_scheme_curves <- function(specimen, scheme, settings, passes, threads, cut_s
   curves <- scheme$curves
   curvatures <- scheme_curvatures(specimen, curves, settings, threads)
   fits <- stats::setNames(vector("list", nrow(curves)), curves$curve)
+  fit <- function(row) {
+    suppressWarnings(fit_scheme_curve(row, specimen, curvatures, fits, settings, passes, threads),
+                     classes = "crestline_warning")
+  }
   for (i in fitting_order(curves)) {
-    fits[[i]] <- tryCatch(
-      suppressWarnings(fit_scheme_curve(curves[i, ], specimen, curvatures, fits, settings, passes, threads),
-                       classes = "crestline_warning"),
-      crestline_error = function(e) list(reason = e$problem)
-    )
+    fits[[i]] <- tryCatch(fit(curves[i, ]), crestline_error = function(e) cut_instead(curves[i, ], e$problem, fit))
     tick()
   }
   cut_curves(specimen, curves, fits, cut_scale)
+}
+
+#' The shortest cut in place of a ridge or valley that could not be estimated, or the reason alone
+#' @noRd
+cut_instead <- function(row, problem, fit) {
+  failed <- list(reason = problem)
+  if (row$kind == "plane") return(failed)
+  row$kind <- "plane"
+  cut <- tryCatch(fit(row), crestline_error = function(e) failed)
+  if (!is.null(cut$path)) cut$reason <- paste("the shortest cut instead:", problem)
+  cut
 }
 
 #' A curve comes after the one whose side it keeps to
@@ -169,7 +180,7 @@ cut_curves <- function(specimen, curves, fits, cut_scale) {
       cut_curve(specimen$mesh, fits[[i]], factor * wanted[i], curves$n[i])
     }
     if (factor < cut_scale && !is.null(fits[[i]]$path)) {
-      note <- sprintf("cut at %.3g times the scheme's share, for the curves to be long enough", factor)
+      note <- sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
       fits[[i]]$reason <- paste(c(stats::na.omit(fits[[i]]$reason), note), collapse = "; ")
     }
   }

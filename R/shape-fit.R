@@ -7,7 +7,8 @@
 #' path joins leave their own points NA, with the reason in `status`.
 #'
 #' Curvature is estimated once for all curves of one radius. A ridge or valley that curvature does not determine (see
-#' [ridge_curve()]) keeps its estimate, and `reason` says so. Where a curve that the scheme cuts off is shorter
+#' [ridge_curve()]) keeps its estimate, and `reason` says so; one that cannot be estimated at all (a window with too few
+#' vertices) is the shortest plane cut, and says so. Where a curve that the scheme cuts off is shorter
 #' than its share, all cut curves are cut at the same smaller multiple of their shares, and say so.
 #'
 #' A column of a patch is the shortest plane cut between two points of its bounding curves, among planes near
@@ -69,7 +70,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   patches <- fit_scheme_patches(specimen, scheme, fits, store, column, tick)
   structure(
     list(id = specimen$id, points = shape_points(scheme$points, patches$store),
-         status = shape_status(scheme, landmarks$reason, fits, patches$reasons),
+         status = shape_status(scheme, landmarks$reason, fits, patches$problems),
          paths = lapply(fits, `[[`, "path"), scheme = scheme),
     class = "shape"
   )
@@ -127,12 +128,10 @@ shape_points <- function(points, store) {
   cbind(points[c("level", "part", "point")], at)
 }
 
-shape_status <- function(scheme, landmark_reasons, fits, patch_reasons) {
+shape_status <- function(scheme, landmark_reasons, fits, problems) {
   of_curve <- function(name) vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0, USE.NAMES = FALSE)
-  blocks <- split(patch_reasons, factor(scheme$patches$patch, unique(scheme$patches$patch)))
-  patch_reasons <- vapply(blocks, function(reasons) {
-    if (all(is.na(reasons))) NA_character_ else paste(stats::na.omit(reasons), collapse = "; ")
-  }, "")
+  blocks <- split(problems, factor(scheme$patches$patch, unique(scheme$patches$patch)))
+  patch_reasons <- vapply(blocks, patch_reason, "")
   lines <- function(part, level, kind, ok, reason) {
     data.frame(part = part, level = rep(level, length(part)), kind = kind, ok = ok, reason = reason,
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),

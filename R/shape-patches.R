@@ -7,23 +7,23 @@
 #' @param store Places found so far, a matrix with row names, see [place_store()].
 #' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
 #' @param tick Called after every block.
-#' @return List: `store`, with the places of the patches; `reasons`, character, for each row of the patches table
-#'   (NA where all points were found).
+#' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
+#'   `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
 fit_scheme_patches <- function(specimen, scheme, fits, store, column, tick) {
   surface <- walkable(specimen)
   points <- scheme$points[scheme$points$level == "surface", ]
   block_of <- rep(seq_len(nrow(scheme$patches)), scheme$patches$n)
-  reasons <- rep(NA_character_, nrow(scheme$patches))
+  problems <- vector("list", nrow(scheme$patches))
   for (i in seq_len(nrow(scheme$patches))) {
     block <- scheme$patches[i, ]
     grid <- cbind(block_points(block), place = points$place[block_of == i])
     fit <- fit_block(block, grid, specimen, surface, scheme$curves, fits, store, column)
     store <- fit$store
-    reasons[i] <- fit$reason
+    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = fit$why)
     tick()
   }
-  list(store = store, reasons = reasons)
+  list(store = store, problems = problems)
 }
 
 #' One block: its sides, its first column, and the cuts of the columns with points that are not there yet
@@ -33,33 +33,39 @@ fit_block <- function(block, grid, specimen, surface, curves, fits, store, colum
   a <- side(block$curve_a, block$resample_a)
   b <- if (!is.na(block$curve_b)) side(block$curve_b, block$resample_b)
   store <- fill_store(store, grid$place[grid$row == 1], a$points[grid$column[grid$row == 1], , drop = FALSE])
-  problems <- a$problem
+  why <- a$problem
   if (!is.null(b)) {
     last <- grid$row == block$rows
     store <- fill_store(store, grid$place[last], b$points[grid$column[last], , drop = FALSE])
-    problems <- c(problems, b$problem)
+    why <- c(why, b$problem)
   }
   if (!is.na(block$first_column)) {
     first <- side(block$first_column, block$rows)
     inside <- grid$column == 1
     store <- fill_store(store, grid$place[inside], first$points[grid$row[inside], , drop = FALSE])
-    problems <- c(problems, first$problem)
+    why <- c(why, first$problem)
   }
   open <- grid[is.na(store[grid$place, "x"]) & grid$row > 1 & grid$row < block$rows, ]
-  for (at in unique(open$column)) {
+  whole <- which(!is.na(a$points[, "x"]) & !is.na(b$points[, "x"]))
+  for (at in intersect(open$column, whole)) {
     cut <- fit_column(a$points[at, ], b$points[at, ], block$rows, specimen, surface, column)
     rows <- open[open$column == at, ]
     if (is.null(cut$problem)) store <- fill_store(store, rows$place, cut$points[rows$row, , drop = FALSE])
-    else problems <- c(problems, paste0("column ", at, ": ", cut$problem))
+    else why <- c(why, paste0("column ", at, ": ", cut$problem))
   }
-  list(store = store, reason = block_reason(problems, sum(is.na(store[grid$place, "x"])), nrow(grid)))
+  list(store = store, why = why)
 }
 
-block_reason <- function(problems, missing, n, most = 3) {
-  if (missing == 0) return(NA_character_)
-  problems <- unique(problems)
-  more <- if (length(problems) > most) sprintf("and %d more", length(problems) - most)
-  paste0(missing, " of ", n, " points missing: ", paste(c(utils::head(problems, most), more), collapse = "; "))
+#' Why a patch, of one or more blocks, has points missing; NA where it has none
+#'
+#' @param most Number of reasons that are written out.
+#' @noRd
+patch_reason <- function(problems, most = 3) {
+  total <- function(name) sum(vapply(problems, `[[`, 0L, name))
+  if (total("missing") == 0) return(NA_character_)
+  why <- unique(unlist(lapply(problems, `[[`, "why")))
+  more <- if (length(why) > most) sprintf("and %d more", length(why) - most)
+  paste0(total("missing"), " of ", total("n"), " points missing: ", paste(c(utils::head(why, most), more), collapse = "; "))
 }
 
 #' Points of one bounding curve: its own, or spaced at equal chords
@@ -103,7 +109,6 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
 }
 
 fit_column <- function(from, to, rows, specimen, surface, column) {
-  if (anyNA(from) || anyNA(to)) return(list(problem = "an end is missing"))
   tryCatch({
     path <- cut_between(from, to, specimen, surface, column)
     list(points = as.matrix(resample_path(specimen$mesh, path, rows)[mesh_columns]))
