@@ -1,14 +1,17 @@
 # .landmarkAscii of Amira and Avizo: define Markers n, Parameters, Markers { float[3] Coordinates } @1, data after @1.
-# Several sets of co-ordinates are several specimens. Names, which the format has not, stand among the parameters; missing is NaN.
+# Several sets of co-ordinates are several specimens. Names, which the format has not, stand among the
+# parameters; a missing point is NaN.
 
 read_landmarks_amira <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   if (!grepl("^#.*ASCII", line[1])) {
     refuse_landmark_file(file, "not an AmiraMesh or Avizo file in ASCII", "Save it as ASCII, not binary.", 1)
   }
-  count <- regmatches(line, regexec("^[[:space:]]*define[[:space:]]+Markers[[:space:]]+([0-9]{1,9})", line))
+  count <- regmatches(line, regexec("^\\s*define\\s+Markers\\s+([0-9]{1,9})", line))
   count <- unlist(lapply(count, `[`, 2))
-  if (all(is.na(count))) refuse_landmark_file(file, "no line define Markers", "Give the number of points: define Markers 23.")
+  if (all(is.na(count))) {
+    refuse_landmark_file(file, "no line define Markers", "Give the number of points: define Markers 23.")
+  }
   n <- as.integer(count[!is.na(count)][1])
   name <- amira_names(line, "Names", n)
   section <- amira_sections(line, file)
@@ -19,8 +22,8 @@ read_landmarks_amira <- function(file, options) {
 
 # The numbers after @ of every set of co-ordinates, in the order of their declaration.
 amira_sections <- function(line, file) {
-  part <- regmatches(line, regexec("Markers[[:space:]]*[{][[:space:]]*(float|double)\\[3\\][[:space:]]*Coordinates[0-9]*[[:space:]]*[}][[:space:]]*=?[[:space:]]*@([0-9]+)", line))
-  section <- unlist(lapply(part, `[`, 3))
+  pattern <- "Markers\\s*[{]\\s*(float|double)\\[3\\]\\s*Coordinates[0-9]*\\s*[}]\\s*=?\\s*@([0-9]+)"
+  section <- unlist(lapply(regmatches(line, regexec(pattern, line)), `[`, 3))
   section <- section[!is.na(section)]
   if (!length(section)) {
     refuse_landmark_file(file, "no co-ordinates are declared", "Write: Markers { float[3] Coordinates } @1.")
@@ -29,12 +32,12 @@ amira_sections <- function(line, file) {
 }
 
 amira_rows <- function(line, section, n, file) {
-  mark <- grep("^[[:space:]]*@[0-9]+[[:space:]]*$", line)
+  mark <- grep("^\\s*@[0-9]+\\s*$", line)
   at <- mark[trimws(line[mark]) == paste0("@", section)][1]
   if (is.na(at)) refuse_landmark_file(file, sprintf("no data @%s", section), "Put the whole file.")
   end <- c(mark[mark > at], length(line) + 1)[1]
   row <- seq_len(end - at - 1) + at
-  row <- row[grepl("[^[:space:]]", line[row])]
+  row <- row[grepl("\\S", line[row])]
   if (length(row) != n) {
     refuse_landmark_file(file, sprintf("%d points are announced, %d follow @%s", n, length(row), section),
                          "Put the right number, or the whole file.", at)
@@ -56,8 +59,9 @@ write_landmarks_amira <- function(sets, file, options) {
   x <- sets[[1]]
   number <- seq_along(sets)
   coordinates <- paste0("Coordinates", c("", number[-1]))
-  write_landmark_lines(c(
-    "# AmiraMesh 3D ASCII 2.0", "", paste("define Markers", nrow(x)), "", "Parameters {", sprintf("    NumSets %d,", length(sets)),
+  write_file_lines(c(
+    "# AmiraMesh 3D ASCII 2.0", "", paste("define Markers", nrow(x)), "",
+    "Parameters {", sprintf("    NumSets %d,", length(sets)),
     paste0('    ContentType "LandmarkSet"', amira_parameter("Sets", names(sets)), amira_parameter("Names", rownames(x))),
     "}", "", sprintf("Markers { float[3] %s } @%d", coordinates, number), "", "# Data section follows",
     unlist(Map(function(x, i) c(paste0("@", i), if (nrow(x)) row_text(x, missing = "NaN"), ""), sets, number))

@@ -2,7 +2,7 @@
 
 read_landmarks_csv <- function(file, options) {
   table <- tryCatch(
-    suppressWarnings(utils::read.csv(text = landmark_lines(file), colClasses = "character", strip.white = TRUE,
+    suppressWarnings(utils::read.csv(text = file_lines(file), colClasses = "character", strip.white = TRUE,
                                      na.strings = character(), check.names = FALSE)),
     error = function(e) refuse_csv(file, conditionMessage(e))
   )
@@ -40,11 +40,11 @@ write_landmarks_csv <- function(sets, file, options) {
   x <- sets[[1]]
   curves <- attr(x, "curves")
   single <- if (nrow(x)) paste(quote_name(rownames(x)), row_text(x, sep = ","), sep = ",")
-  if (!length(curves)) return(write_landmark_lines(c('"name","x","y","z"', single), file))
+  if (!length(curves)) return(write_file_lines(c('"name","x","y","z"', single), file))
   point <- lapply(names(curves), function(name) {
     closed <- attr(curves[[name]], "closed")
-    if (nrow(curves[[name]])) paste('""', row_text(curves[[name]], sep = ","), quote_name(name), closed, sep = ",")
+    paste('""', row_text(curves[[name]], sep = ","), quote_name(name), closed, sep = ",")
   })
   if (nrow(x)) single <- paste0(single, ",,")
-  write_landmark_lines(c('"name","x","y","z","curve","closed"', single, unlist(point)), file)
+  write_file_lines(c('"name","x","y","z","curve","closed"', single, unlist(point)), file)
 }

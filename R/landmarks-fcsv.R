@@ -6,17 +6,17 @@ fcsv_columns <- function() {
 }
 
 read_landmarks_fcsv <- function(file, options) {
-  line <- landmark_lines(file)
+  line <- file_lines(file)
   comment <- grepl("^#", line)
-  row <- which(!comment & grepl("[^[:space:]]", line))
+  row <- which(!comment & grepl("\\S", line))
   column <- fcsv_header(line[comment], "columns")
   column <- if (is.na(column)) fcsv_columns() else tolower(trimws(strsplit(column, ",", fixed = TRUE)[[1]]))
   if (!all(c("x", "y", "z") %in% column)) {
     refuse_landmark_file(file, "no columns x, y, z", "Give them in the line # columns = id,x,y,z,...")
   }
   field <- fcsv_fields(line[row], row, column, file)
-  x <- vapply(c("x", "y", "z"), function(axis) landmark_numbers(field[, match(axis, column)], file, row), numeric(length(row)))
-  x <- matrix(x, ncol = 3)
+  xyz <- field[, match(c("x", "y", "z"), column)]
+  x <- matrix(landmark_numbers(xyz, file, rep(row, 3)), ncol = 3)
   x[fcsv_absent(field, column), ] <- NA
   frame <- slicer_frame(fcsv_frame(line[comment]), file)
   landmark_set(change_frame(x, frame, options$frame), fcsv_labels(field, column))
@@ -24,7 +24,7 @@ read_landmarks_fcsv <- function(file, options) {
 
 # The value of a comment "# key = value", or NA.
 fcsv_header <- function(comment, key) {
-  pattern <- paste0("^#.*\\b", key, "[[:space:]]*=[[:space:]]*")
+  pattern <- paste0("^#.*\\b", key, "\\s*=\\s*")
   sub(pattern, "", grep(pattern, comment, ignore.case = TRUE, value = TRUE), ignore.case = TRUE)[1]
 }
 
@@ -39,14 +39,15 @@ fcsv_frame <- function(comment) {
 # Matrix of strings, a row a line; columns after the named ones where there are any.
 fcsv_fields <- function(text, line, column, file) {
   field <- lapply(seq_along(text), function(i) {
-    value <- tryCatch(suppressWarnings(unquote_names(text[i])), error = function(e) character())
+    value <- tryCatch(unquote_names(text[i]), error = function(e) character())
     if (length(value) < max(match(c("x", "y", "z"), column))) {
       refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[i])
     }
     value
   })
   width <- max(length(column), lengths(field))
-  matrix(vapply(field, function(value) c(value, rep("", width - length(value))), character(width)), ncol = width, byrow = TRUE)
+  full <- lapply(field, function(value) c(value, rep("", width - length(value))))
+  matrix(as.character(unlist(full)), ncol = width, byrow = TRUE)
 }
 
 fcsv_absent <- function(field, column) {
@@ -65,11 +66,13 @@ fcsv_labels <- function(field, column) {
 
 write_landmarks_fcsv <- function(sets, file, options) {
   x <- sets[[1]]
-  quoted <- ifelse(grepl("[,\"#']|^[[:space:]]|[[:space:]]$", rownames(x)), quote_name(rownames(x)), rownames(x))
+  quoted <- ifelse(grepl("[,\"#']|^\\s|\\s$", rownames(x)), quote_name(rownames(x)), rownames(x))
   state <- ifelse(is.na(x[, 1]), 0L, 2L)
-  write_landmark_lines(c(
+  position <- row_text(x, missing = "0", sep = ",")
+  row <- paste(seq_len(nrow(x)), position, "0,0,0,1,1,1,0", quoted, "", "", state, 0, sep = ",")
+  write_file_lines(c(
     "# Markups fiducial file version = 4.11", paste("# CoordinateSystem =", options$frame),
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",
-    if (nrow(x)) paste(seq_len(nrow(x)), row_text(x, missing = "0", sep = ","), "0,0,0,1,1,1,0", quoted, "", "", state, 0, sep = ",")
+    if (nrow(x)) row
   ), file)
 }

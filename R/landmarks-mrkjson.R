@@ -1,5 +1,6 @@
 # .mrk.json of 3D Slicer (markups schema 1.0): an array of lists, each of a type, in a co-ordinate system, of control points.
-# Fiducial lists are landmarks, Curve, ClosedCurve, Line and Angle are curves. The orientation of a point is not a change of frame.
+# Fiducial lists are landmarks; Curve, ClosedCurve, Line and Angle are curves. The orientation of a point is
+# not a change of frame.
 
 read_landmarks_mrkjson <- function(file, options) {
   markup <- mrkjson_markups(file)
@@ -16,10 +17,10 @@ read_landmarks_mrkjson <- function(file, options) {
 }
 
 mrkjson_markups <- function(file) {
-  content <- tryCatch(
-    jsonlite::parse_json(paste(landmark_lines(file), collapse = "\n")),
-    error = function(e) refuse_landmark_file(file, paste("not JSON:", strsplit(conditionMessage(e), "\n")[[1]][1]), "Save it anew from Slicer.")
-  )
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) {
+    reason <- strsplit(conditionMessage(e), "\n")[[1]][1]
+    refuse_landmark_file(file, paste("not JSON:", reason), "Save it anew from Slicer.")
+  })
   markup <- if (is.list(content)) content[["markups"]]
   if (!is.null(names(markup))) markup <- list(markup)
   if (!is.list(markup) || !length(markup) || !all(vapply(markup, is.list, TRUE))) {
@@ -35,19 +36,23 @@ json_string <- function(object, name, default) {
 }
 
 mrkjson_points <- function(markup, i, file, options) {
-  x <- lapply(seq_along(markup$controlPoints), function(j) mrkjson_point(markup$controlPoints[[j]], sprintf("list %d, point %d", i, j), file))
+  point <- markup$controlPoints
+  x <- lapply(seq_along(point), function(j) mrkjson_point(point[[j]], sprintf("list %d, point %d", i, j), file))
   frame <- slicer_frame(json_string(markup, "coordinateSystem", "LPS"), file)
   change_frame(matrix(as.numeric(unlist(x)), ncol = 3, byrow = TRUE), frame, options$frame)
 }
 
 # Any state but "defined" is a point without a position (Slicer writes "" there).
 mrkjson_point <- function(point, where, file) {
-  if (!is.list(point)) refuse_landmark_file(file, paste0(where, ": not a control point"), "Save it anew from Slicer.")
+  if (!is.list(point)) {
+    refuse_landmark_file(file, paste0(where, ": not a control point"), "Save it anew from Slicer.")
+  }
   if (json_string(point, "positionStatus", "defined") != "defined") return(rep(NA_real_, 3))
   position <- point[["position"]]
   number <- vapply(position, function(v) if (is.numeric(v) && length(v) == 1) as.numeric(v) else NA_real_, 0)
   if (length(number) != 3 || !all(is.finite(number))) {
-    refuse_landmark_file(file, paste0(where, ": the position is not three numbers"), 'Give it, or "positionStatus": "undefined".')
+    refuse_landmark_file(file, paste0(where, ": the position is not three numbers"),
+                         'Give it, or "positionStatus": "undefined".')
   }
   number
 }
@@ -103,8 +108,9 @@ write_landmarks_mrkjson <- function(sets, file, options) {
       mrkjson_list(curve, type, name, sprintf("%s-%d", name, seq_len(nrow(curve))), options)
     }, curves, type, names(curves)))
   )
-  schema <- "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#"
-  write_landmark_lines(sprintf('{"@schema": "%s",\n"markups": [\n%s\n]}', schema, paste(list, collapse = ",\n")), file)
+  schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/",
+                   "Resources/Schema/markups-schema-v1.0.3.json#")
+  write_file_lines(sprintf('{"@schema": "%s",\n"markups": [\n%s\n]}', schema, paste(list, collapse = ",\n")), file)
 }
 
 mrkjson_list <- function(x, type, name, label, options) {
@@ -112,10 +118,11 @@ mrkjson_list <- function(x, type, name, label, options) {
   orientation <- sprintf("[%d, 0, 0, 0, %d, 0, 0, 0, 1]", sign, sign)
   absent <- is.na(x[, 1])
   position <- ifelse(absent, '""', sprintf("[%s]", row_text(x, sep = ", ")))
-  point <- sprintf('{"id": "%d", "label": %s, "position": %s, "orientation": %s, "positionStatus": "%s"}', seq_along(label),
-                   json_text(label), position, orientation, ifelse(absent, "undefined", "defined"))
-  sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", "controlPoints": [\n%s\n]}', type, json_text(name),
-          options$frame, paste(if (nrow(x)) point, collapse = ",\n"))
+  point <- sprintf('{"id": "%d", "label": %s, "position": %s, "orientation": %s, "positionStatus": "%s"}',
+                   seq_along(label), json_text(label), position, orientation,
+                   ifelse(absent, "undefined", "defined"))
+  sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", "controlPoints": [\n%s\n]}', type,
+          json_text(name), options$frame, paste(if (nrow(x)) point, collapse = ",\n"))
 }
 
 json_text <- function(string) {

@@ -2,22 +2,24 @@
 # Names of landmarks, which the format has not, stand in a comment; of one specimen also p x k with labelled rows is read.
 
 read_landmarks_nts <- function(file, options) {
-  line <- landmark_lines(file)
-  is_comment <- grepl("^[[:space:]]*['\"]", line)
-  comment <- sub("^[[:space:]]*['\"]+[[:space:]]*", "", line[is_comment])
-  row <- which(!is_comment & grepl("[^[:space:]]", line))
+  line <- file_lines(file)
+  is_comment <- grepl("^\\s*['\"]", line)
+  comment <- sub("^\\s*['\"]+\\s*", "", line[is_comment])
+  row <- which(!is_comment & grepl("\\S", line))
   if (!length(row)) refuse_landmark_file(file, "no line of parameters", nts_remedy())
   head <- nts_header(line[row[1]], file, row[1])
   body <- nts_body(line[row[-1]], row[-1], head, file)
   nts_sets(body, head, comment, file)
 }
 
-nts_remedy <- function() "Write a line such as 1 23L 69 1 9999 DIM=3: matrix, rows (L: labelled), columns, missing, code, dimension."
+nts_remedy <- function() {
+  "Write a line such as 1 23L 69 1 9999 DIM=3: matrix, rows (L: labelled), columns, missing, code, dimension."
+}
 
 nts_header <- function(text, file, line) {
   refuse <- function(problem) refuse_landmark_file(file, problem, nts_remedy(), line)
   part <- regmatches(text, regexec(
-    "^[[:space:]]*([0-9]+)[[:space:]]+([0-9]{1,7})([A-Za-z]?)[[:space:]]+([0-9]{1,7})([A-Za-z]?)[[:space:]]+([01])([[:space:]]+[^[:space:]]+)?[[:space:]]+DIM[[:space:]]*=[[:space:]]*([0-9])[[:space:]]*$",
+    "^\\s*([0-9]+)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([01])(\\s+\\S+)?\\s+DIM\\s*=\\s*([0-9])\\s*$",
     text, ignore.case = TRUE))[[1]]
   if (!length(part)) refuse("the line of parameters cannot be read")
   label <- toupper(part[c(4, 6)])
@@ -46,10 +48,11 @@ nts_body <- function(text, line, head, file) {
     after <- seq_along(flat) > labels
     number <- landmark_numbers(flat[after], file, rep(line, lengths(word))[after])
   } else {
-    refuse_landmark_file(file, sprintf("%d labels and %.0f numbers are announced, %.0f words follow", labels, wanted,
-                                       sum(lengths(word))), "Put the right numbers in the line of parameters, or the whole file.")
+    said <- sprintf("%d labels and %.0f numbers are announced, %d words follow", labels, wanted, sum(lengths(word)))
+    refuse_landmark_file(file, said, "Put the right numbers in the line of parameters, or the whole file.")
   }
-  list(label = if (head$labels[1]) label[seq_len(head$rows)], x = matrix(as.numeric(number), head$rows, head$columns, byrow = TRUE))
+  list(label = if (head$labels[1]) label[seq_len(head$rows)],
+       x = matrix(as.numeric(number), head$rows, head$columns, byrow = TRUE))
 }
 
 nts_sets <- function(body, head, comment, file) {
@@ -75,7 +78,7 @@ write_landmarks_nts <- function(sets, file, options) {
   code <- unused_code(unlist(sets))
   comment <- name_comment(rownames(x), "landmarks")
   if (nrow(x) == 1) comment <- sprintf("landmarks: %s", quote_names(rownames(x)))
-  write_landmark_lines(c(
+  write_file_lines(c(
     "'Landmarks, written by crestline", if (!is.null(comment)) paste0("'", comment),
     sprintf("1 %dL %d 1 %d DIM=3", length(sets), 3L * nrow(x), code), "", names(sets), "",
     unlist(lapply(sets, function(x) if (nrow(x)) c(row_text(x, missing = code), "")))
@@ -88,10 +91,10 @@ check_nts_sets <- function(sets, file) {
     refuse_landmark_file(file, sprintf("specimen %s has other landmarks than %s", names(sets)[differs[1]], names(sets)[1]),
                          "Give all the same landmarks in the same order, missing ones as NA.")
   }
-  wrong <- grepl("^[[:space:]]*['\"]|^[[:space:]]|[[:space:]]$", names(sets))
+  wrong <- grepl("^['\"]", names(sets))
   if (any(wrong)) {
     refuse_landmark_file(file, sprintf("%s cannot be a label", names(sets)[wrong][1]),
-                         "Name specimens without a quote or a blank at the ends.")
+                         "Name specimens without a quote in front.")
   }
 }
 

@@ -2,12 +2,13 @@
 # C000-001 is point 1 of curve 0; its numbers may have gaps. A missing point has 9999 three times.
 
 read_landmarks_pts <- function(file, options) {
-  line <- landmark_lines(file)
-  count <- which(grepl("^[[:space:]]*[0-9]{1,9}[[:space:]]*$", line))[1]
+  line <- file_lines(file)
+  count <- which(grepl("^\\s*[0-9]{1,9}\\s*$", line))[1]
   if (is.na(count)) {
-    refuse_landmark_file(file, "no line with the number of points", 'Begin with the lines "Version 1.0" and the number of points.')
+    refuse_landmark_file(file, "no line with the number of points",
+                         'Begin with the lines "Version 1.0" and the number of points.')
   }
-  row <- setdiff(which(grepl("[^[:space:]]", line)), seq_len(count))
+  row <- setdiff(which(grepl("\\S", line)), seq_len(count))
   said <- as.integer(line[count])
   if (length(row) != said) {
     refuse_landmark_file(file, sprintf("%d points are announced, %d follow", said, length(row)),
@@ -21,12 +22,12 @@ read_landmarks_pts <- function(file, options) {
 
 # The last three words are the co-ordinates; all before them is the name, blanks and all.
 pts_parts <- function(text, file, line) {
-  part <- regmatches(text, regexec("^[[:space:]]*(.*[^[:space:]])[[:space:]]+([^[:space:]]+)[[:space:]]+([^[:space:]]+)[[:space:]]+([^[:space:]]+)[[:space:]]*$", text))
+  part <- regmatches(text, regexec("^\\s*(.*\\S)\\s+(\\S+)\\s+(\\S+)\\s+(\\S+)\\s*$", text))
   wrong <- which(lengths(part) == 0)
   if (length(wrong)) {
     refuse_landmark_file(file, "not a name and three numbers", "Write: name x y z.", line[wrong[1]])
   }
-  matrix(unlist(part), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
+  matrix(as.character(unlist(part)), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
 }
 
 pts_curve_point <- function(name) grepl("^C[._-]?[0-9]+[._-][0-9]+$", name)
@@ -49,10 +50,10 @@ write_landmarks_pts <- function(sets, file, options) {
   check_pts_names(rownames(x), file)
   number <- pts_curve_names(curves, file)
   point <- unlist(lapply(seq_along(curves), function(i) {
-    if (nrow(curves[[i]])) sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1, pts_rows(curves[[i]], file, options))
+    sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1, pts_rows(curves[[i]], file, options))
   }))
   row <- c(if (nrow(x)) paste(rownames(x), pts_rows(x, file, options)), point)
-  write_landmark_lines(c("Version 1.0", length(row), row), file)
+  write_file_lines(c("Version 1.0", length(row), row), file)
 }
 
 pts_rows <- function(x, file, options) {
@@ -64,7 +65,7 @@ pts_rows <- function(x, file, options) {
 }
 
 check_pts_names <- function(name, file) {
-  wrong <- name[pts_curve_point(name) | grepl("^[[:space:]]|[[:space:]]$", name)]
+  wrong <- name[pts_curve_point(name) | grepl("^\\s|\\s$", name)]
   if (length(wrong)) {
     refuse_landmark_file(file, sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
                          "Name it otherwise: C, number, dash, number is a point of a curve; no blanks at the ends.")
@@ -73,11 +74,12 @@ check_pts_names <- function(name, file) {
 
 # Curves have numbers only: those called C000 ... keep them, others get them, with a warning.
 pts_curve_names <- function(curves, file) {
+  if (!length(curves)) return(character())
   name <- names(curves)
   closed <- vapply(curves, attr, TRUE, "closed")
   number <- sprintf("C%03d", seq_along(curves) - 1L)
   if (all(grepl("^C[._-]?[0-9]+$", name))) number <- name
-  if (!identical(number, as.character(name)) || any(closed)) {
+  if (!identical(number, name) || any(closed)) {
     crestline_warn(
       sprintf("%s: .pts has curves by number and open only: %s.", basename(file), paste(
         number, "is", paste0(name, ifelse(closed, " (closed)", "")), collapse = ", ")),

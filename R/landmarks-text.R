@@ -1,13 +1,13 @@
 # What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets, errors.
 
 # UTF-8, with or without a mark of it; else taken for Latin 1, as Windows writes names with accents.
-landmark_lines <- function(file) {
+file_lines <- function(file) {
   line <- readLines(file, warn = FALSE, skipNul = TRUE)
   line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
   sub("^\ufeff", "", line)
 }
 
-write_landmark_lines <- function(line, file) {
+write_file_lines <- function(line, file) {
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })
@@ -42,9 +42,12 @@ landmark_rows <- function(text, width, file, line) {
 
 # 15 digits where they give the number back, else the 17 that always do.
 number_text <- function(x, missing = "NA") {
-  short <- sprintf("%.15g", x)
-  text <- ifelse(as.numeric(short) == x, short, sprintf("%.17g", x))
-  ifelse(is.na(x), missing, text)
+  text <- rep(missing, length(x))
+  given <- which(!is.na(x))
+  text[given] <- sprintf("%.15g", x[given])
+  longer <- given[as.numeric(text[given]) != x[given]]
+  text[longer] <- sprintf("%.17g", x[longer])
+  text
 }
 
 # One string a row.
@@ -57,8 +60,8 @@ row_text <- function(x, missing = "NA", sep = " ") {
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
 unquote_names <- function(text) {
-  scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE, na.strings = character(),
-       encoding = "UTF-8")
+  suppressWarnings(scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE,
+                        na.strings = character(), encoding = "UTF-8"))
 }
 
 # The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number is another.

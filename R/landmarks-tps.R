@@ -2,8 +2,8 @@
 # Names of landmarks and curves, which the format has not, stand in COMMENT= lines.
 
 read_landmarks_tps <- function(file, options) {
-  line <- landmark_lines(file)
-  start <- which(grepl("^[[:space:]]*LM3?[[:space:]]*=", line, ignore.case = TRUE))
+  line <- file_lines(file)
+  start <- which(grepl("^\\s*LM3?\\s*=", line, ignore.case = TRUE))
   if (!length(start)) {
     refuse_landmark_file(file, "no line LM= or LM3=", "Begin every specimen with LM3= and the number of its landmarks.")
   }
@@ -16,18 +16,25 @@ read_landmarks_tps <- function(file, options) {
 
 # One record as its keys: data frame key, value, line, and the rows of numbers after each.
 tps_record <- function(text, line, file) {
-  full <- grepl("[^[:space:]]", text)
+  full <- grepl("\\S", text)
   text <- text[full]
   line <- line[full]
-  is_key <- grepl("^[[:space:]]*[[:alnum:]]+[[:space:]]*=", text)
-  key <- data.frame(key = toupper(trimws(sub("=.*", "", text[is_key]))), value = trimws(sub("^[^=]*=", "", text[is_key])),
-                    line = line[is_key])
+  is_key <- grepl("^\\s*[[:alnum:]]+\\s*=", text)
+  key <- data.frame(key = toupper(trimws(sub("=.*", "", text[is_key]))),
+                    value = trimws(sub("^[^=]*=", "", text[is_key])), line = line[is_key])
   group <- cumsum(is_key)[!is_key]
   row <- split(data.frame(text = text, line = line)[!is_key, ], factor(group, seq_len(nrow(key))))
-  width <- if (key$key[1] == "LM3") 3 else if (nrow(row[[1]])) length(strsplit(trimws(row[[1]]$text[1]), "[[:space:],]+")[[1]]) else 2
-  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers", "Write one point a line.", row[[1]]$line[1])
+  width <- if (key$key[1] == "LM3") 3 else tps_width(row[[1]], file)
   key$rows <- lapply(seq_len(nrow(key)), function(i) tps_block(key[i, ], row[[i]], width, file))
   key
+}
+
+# Of a record LM=, which should have two co-ordinates but has three in some files.
+tps_width <- function(row, file) {
+  if (!nrow(row)) return(2)
+  width <- length(strsplit(trimws(row$text[1]), "[[:space:],]+")[[1]])
+  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers", "Write one point a line.", row$line[1])
+  width
 }
 
 # The rows of numbers that a key announces.
@@ -42,7 +49,8 @@ tps_block <- function(key, row, width, file) {
 
 tps_count <- function(key, file) {
   if (!grepl("^[0-9]{1,9}$", key$value)) {
-    refuse_landmark_file(file, sprintf('%s=%s has no whole number', key$key, key$value), "Put the number of points.", key$line)
+    refuse_landmark_file(file, sprintf("%s=%s has no whole number", key$key, key$value), "Put the number of points.",
+                         key$line)
   }
   as.integer(key$value)
 }
@@ -99,7 +107,7 @@ tps_names <- function(record) {
 }
 
 write_landmarks_tps <- function(sets, file, options) {
-  write_landmark_lines(unlist(Map(tps_lines, sets, names(sets))), file)
+  write_file_lines(unlist(Map(tps_lines, sets, names(sets))), file)
 }
 
 tps_lines <- function(x, id) {
@@ -119,6 +127,6 @@ tps_curve_lines <- function(curves) {
   head <- character(length(curves))
   head[first[seq_along(run$lengths)]] <- paste0(ifelse(run$values, "OUTLINES=", "CURVES="), run$lengths)
   unlist(lapply(seq_along(curves), function(i) {
-    c(head[i][nzchar(head[i])], paste0("POINTS=", nrow(curves[[i]])), if (nrow(curves[[i]])) row_text(curves[[i]]))
+    c(head[i][nzchar(head[i])], paste0("POINTS=", nrow(curves[[i]])), row_text(curves[[i]]))
   }))
 }

@@ -4,17 +4,35 @@
 #'
 #' The format goes by the file's extension, in any case. Files are taken for UTF-8, else Latin 1, and
 #' written in UTF-8, numbers with as many digits as give them back to the last bit. What is written is
-#' read back identically, except where this table says otherwise.
+#' read back identically, except where the list below says otherwise.
 #'
-#' | extension | from | specimens | curves | what to know |
-#' |---|---|---|---|---|
-#' | `.csv` | tables | one | yes | A header line; the name in a column `name`, `landmark` or `label` (otherwise the first column that is not a number), the co-ordinates in `x`, `y`, `z`, in any order. Rows with something in a column `curve` are points of that curve, closed where a column `closed` says TRUE. Other columns are ignored; a missing landmark has NA or nothing |
-#' | `.pts` | IDAV Landmark, Checkpoint | one | open | Names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get numbers and closed ones are opened, with a warning |
-#' | `.tps` | tpsDig and kin | several | yes | `CURVES=` are open, `OUTLINES=` closed; names of landmarks and curves, which the format has not, stand in `COMMENT=`. Specimens are named by `ID=`, else by `IMAGE=`. Negative co-ordinates are numbers, not missing |
-#' | `.nts`, `.dta` | NTSYS, IDAV Landmark | several | no | The header's code is missing where the header says so, or where a point has it in all co-ordinates. Names of landmarks stand in a comment |
-#' | `.landmarkAscii` | Amira, Avizo | several | no | Sets of co-ordinates are specimens. Names stand among the parameters, missing landmarks are NaN: not every program reads these |
-#' | `.fcsv` | 3D Slicer | one | no | Points not in the state "defined" are missing; names are the labels, else the ids |
-#' | `.mrk.json` | 3D Slicer | one | yes | All lists of the file: Fiducial as landmarks (with the list's name before the label where two lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Other types are left out with a warning |
+#' | extension | from | specimens in a file | curves |
+#' |---|---|---|---|
+#' | `.csv` | tables | one | yes |
+#' | `.pts` | IDAV Landmark, Checkpoint | one | open, by number |
+#' | `.tps` | tpsDig and kin | several | yes |
+#' | `.nts`, `.dta` | NTSYS, IDAV Landmark | several | no |
+#' | `.landmarkAscii` | Amira, Avizo | several | no |
+#' | `.fcsv` | 3D Slicer | one | no |
+#' | `.mrk.json` | 3D Slicer | one | yes |
+#'
+#' * `.csv`: a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
+#'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order. Rows with something in a
+#'   column `curve` are points of that curve, closed where a column `closed` says TRUE. Other columns
+#'   are ignored; a missing landmark has NA or nothing.
+#' * `.pts`: names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get
+#'   numbers, and closed ones are opened, with a warning.
+#' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. Names of landmarks and curves, which the format has
+#'   not, stand in `COMMENT=`. Specimens are named by `ID=`, else by `IMAGE=`, else numbered. Negative
+#'   co-ordinates are numbers, not missing.
+#' * `.nts`, `.dta`: the header's code is missing where the header says so, or where a point has it in
+#'   all its co-ordinates. Names of landmarks stand in a comment.
+#' * `.landmarkAscii`: sets of co-ordinates are specimens. Names stand among the parameters, missing
+#'   landmarks are NaN: not every program reads these.
+#' * `.fcsv`: points in another state than "defined" are missing; names are the labels, else the ids.
+#' * `.mrk.json`: all lists of the file, Fiducial as landmarks (the list's name before the label where two
+#'   lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Lists of other
+#'   types are left out with a warning.
 #'
 #' @param file Path of the file.
 #' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the
@@ -123,8 +141,8 @@ as_curve <- function(x, name) {
   closed <- isTRUE(attr(x, "closed"))
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
-  if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3) {
-    refuse_landmarks(sprintf("curve %s is %s, not an n x 3 numeric matrix.", name, describe_shape(x)),
+  if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
+    refuse_landmarks(sprintf("curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
@@ -143,9 +161,9 @@ check_written <- function(sets, format, file) {
   }
   name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
   wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
-  if (wrong) {
+  if (wrong || any(names(sets) != trimws(names(sets)))) {
     refuse_landmark_file(file, "a name is empty or holds a line break, or two specimens have the same",
-                         "Give every specimen, landmark and curve a name of its own, in one line.")
+                         "Give every specimen, landmark and curve a name of its own, in one line, no blanks at the ends.")
   }
 }
 

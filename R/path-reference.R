@@ -22,7 +22,7 @@
 #' @param angles Number of angles of the coarse grid over a half turn.
 #' @param refined Number of angles between the neighbours of each local optimum.
 #' @param rival Share within which a second optimum is a rival that is warned of.
-#' @param distinct Angle in radians by which a rival differs at least.
+#' @param distinct A rival runs further than this share of the path's length from it at some place.
 #' @inheritParams curvature
 #' @param ... Further arguments of [curvature()], where it is not given; [ridge_curve()] uses the `order` of its settings.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
@@ -43,7 +43,7 @@
 #' @export
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
-                           angles = 60, refined = 21, rival = 0.05, distinct = pi / 12,
+                           angles = 60, refined = 21, rival = 0.05, distinct = 0.05,
                            threads = getOption("crestline.threads", 1L), ...) {
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   surface <- walkable(specimen)
@@ -63,56 +63,68 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   }
   optima <- cut_optima(cuts, angles, refined, longest)
   if (nrow(optima) == 0) abort_no_cut(cuts(0, 0L)$end, ends, surface$id)
-  best <- optima[1, ]
-  cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
-                        plane_normal(axis, best$angle), best$side, reach * axis$span)
-  warn_rival(optima, rival, distinct, axis$span, ends, surface$id)
+  cut <- function(optimum) {
+    found <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
+                            plane_normal(axis, optimum$angle), optimum$side, reach * axis$span)
+    new_path(found$points, ends, angle = optimum$angle, side = optimum$side, type = type)
+  }
+  path <- cut(optima[1, ])
+  warn_rival(optima, path, cut, rival, distinct, ends, surface$id)
   if (type == "plane") optima$criterion <- optima$length
-  new_path(cut$points, ends, angle = best$angle, side = best$side, type = type,
-           criterion = optima$criterion[1], optima = optima)
+  structure(path, criterion = optima$criterion[1], optima = optima)
 }
 
 #' Local optima of the criterion over angle and side, refined, best first
+#'
+#' @param digits Criteria that agree to this many significant digits are equal: on a straight feature many
+#'   planes cut one line. Of equal cuts the shortest counts, then the straightest in.
 #' @noRd
-cut_optima <- function(cuts, angles, refined, longest) {
+cut_optima <- function(cuts, angles, refined, longest, digits = 8) {
   step <- pi / angles
   grid <- -pi / 2 + step * seq_len(angles)
   coarse <- rbind(cuts(grid, rep(0L, angles)), cuts(grid, rep(1L, angles)))
   shortest <- suppressWarnings(min(coarse$length, na.rm = TRUE))
   admit <- function(found) {
-    found$criterion[is.na(found$length) | found$length > longest * shortest] <- -Inf
-    found$criterion[is.na(found$criterion)] <- -Inf
+    found$level <- signif(found$criterion, digits)
+    found$extent <- signif(found$length, digits)
+    found$level[is.na(found$level) | found$length > longest * shortest] <- -Inf
     found
   }
   coarse <- admit(coarse)
-  peaks <- unlist(lapply(split(seq_len(2 * angles), coarse$side), function(rows) {
-    rows[is_circular_peak(coarse$criterion[rows])]
-  }), use.names = FALSE)
-  if (length(unique(coarse$criterion[is.finite(coarse$criterion)])) == 1) peaks <- level_peak(coarse)
-  best <- lapply(peaks, function(i) {
-    fine <- coarse$angle[i] + step * seq(-1, 1, length.out = refined)
-    found <- admit(rbind(coarse[i, ], cuts(fine, rep(coarse$side[i], refined))))
-    found[which.max(found$criterion), ]
+  peaks <- unlist(lapply(split(coarse, coarse$side), function(side) {
+    lapply(circular_peaks(side$level), function(run) best_cuts(side[run, ])[1, ])
+  }), recursive = FALSE)
+  best <- lapply(peaks, function(peak) {
+    fine <- peak$angle + step * seq(-1, 1, length.out = refined)
+    best_cuts(rbind(peak, admit(cuts(fine, rep(peak$side, refined)))))[1, ]
   })
+  if (length(best) == 0) return(data.frame())
   best <- do.call(rbind, best)
-  if (is.null(best)) return(data.frame())
   best$angle <- wrap_angle(best$angle)
-  best <- best[order(-best$criterion), c("angle", "side", "criterion", "length")]
+  best <- best_cuts(best)[c("angle", "side", "criterion", "length")]
   best <- best[!duplicated(round(best[c("angle", "side")], 6)), ]
   rownames(best) <- NULL
   best
 }
 
-is_circular_peak <- function(x) {
-  before <- c(x[length(x)], x[-length(x)])
-  after <- c(x[-1], x[1])
-  is.finite(x) & x >= before & x > after
-}
+#' Cuts in order: greatest criterion, least length, smallest angle
+#' @noRd
+best_cuts <- function(found) found[order(-found$level, found$extent, abs(found$angle)), ]
 
-# Where all cuts are as good (a flat piece, no such curvature): the shortest, of these the straightest in.
-level_peak <- function(coarse) {
-  finite <- which(is.finite(coarse$criterion))
-  finite[order(coarse$length[finite], abs(coarse$angle[finite]))[1]]
+#' Runs of equal values round a circle that are higher than what lies on both sides
+#'
+#' @return List of index vectors; one with all finite values where these are all equal.
+#' @noRd
+circular_peaks <- function(x) {
+  n <- length(x)
+  if (length(unique(x[is.finite(x)])) == 1) return(list(which(is.finite(x))))
+  before <- c(x[n], x[-n])
+  runs <- lapply(which(is.finite(x) & x > before), function(first) {
+    ahead <- (first + seq_len(n) - 2) %% n + 1
+    run <- ahead[seq_len(which(x[ahead] != x[first])[1] - 1)]
+    if (x[run[length(run)] %% n + 1] < x[first]) run
+  })
+  Filter(length, runs)
 }
 
 # Into (-pi/2, pi/2].
@@ -167,15 +179,15 @@ abort_no_cut <- function(end, ends, id) {
   )
 }
 
-#' Warn of a second cut nearly as good
+#' Warn of a second cut nearly as good that runs elsewhere
 #'
-#' @param straight Cuts longer than the straight line by no more than this share are one and the same.
+#' @param cut Function of one row of `optima` that gives its path.
 #' @noRd
-warn_rival <- function(optima, rival, distinct, span, ends, id, straight = 1e-4) {
+warn_rival <- function(optima, path, cut, rival, distinct, ends, id) {
   best <- optima[1, ]
-  apart <- abs(wrap_angle(optima$angle - best$angle)) >= distinct | optima$side != best$side
-  if (best$length <= (1 + straight) * span) apart <- apart & optima$length > (1 + straight) * span
-  near <- which(apart & optima$criterion >= best$criterion - rival * abs(best$criterion))
+  near <- which(optima$criterion >= best$criterion - rival * abs(best$criterion))[-1]
+  apart <- vapply(near, function(i) path_distance(cut(optima[i, ]), path), 0)
+  near <- near[apart > distinct * attr(path, "length")]
   if (length(near) == 0) return(invisible())
   other <- optima[near[1], ]
   crestline_warn(
@@ -185,4 +197,11 @@ warn_rival <- function(optima, rival, distinct, span, ends, id, straight = 1e-4)
     "Look at both with plane_path(); keep_away() rules one out.",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )
+}
+
+#' Greatest distance of the points of one path from another
+#' @noRd
+path_distance <- function(from, to) {
+  xyz <- function(path) t(as.matrix(path[c("x", "y", "z")]))
+  max(abs(cpp_path_coordinates(xyz(from), xyz(to), matrix(1, 3, nrow(to)))$d))
 }

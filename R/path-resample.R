@@ -5,19 +5,24 @@
 #' @param n Number of points, both ends counted, at least 2.
 #' @param tolerance Relative difference of the chords at which to stop.
 #' @param iterations Most rounds of correction.
+#' @param slowest Least share of a correction that is carried out.
 #' @return Data frame of n rows `s, x, y, z, face, w1, w2, w3`; the straight distances between
 #'   neighbours are equal. The points lie on the path, so on the mesh. Attribute `converged`.
 #' @noRd
-resample_path <- function(mesh, path, n, tolerance = 1e-10, iterations = 200) {
+resample_path <- function(mesh, path, n, tolerance = 1e-10, iterations = 200, slowest = 0.2) {
   s <- attr(path, "length") * seq(0, 1, length.out = n)
-  spread <- 0
+  spread <- Inf
+  share <- 1
   for (round in seq_len(iterations)) {
     at <- points_along(path, s)
     chord <- sqrt(rowSums(diff(at)^2))
+    before <- spread
     spread <- max(chord) / min(chord) - 1
     if (spread < tolerance) break
-    # Where the sum of chords reaches equal shares.
-    s <- stats::approx(c(0, cumsum(chord)) / sum(chord), s, seq(0, 1, length.out = n), ties = "ordered")$y
+    # Towards where the sum of chords reaches equal shares; more slowly once that overshoots.
+    if (spread >= before) share <- max(share / 2, slowest)
+    aim <- stats::approx(c(0, cumsum(chord)) / sum(chord), s, seq(0, 1, length.out = n), ties = "ordered")$y
+    s <- s + share * (aim - s)
   }
   structure(place_along(mesh, path, s), converged = spread < tolerance)
 }

@@ -29,7 +29,7 @@ read_scheme_table <- function(file) {
   if (!file.exists(file) && !basename(file) %in% c("landmarks.csv", "curves.csv")) return(NULL)
   check_file(file, "scheme")
   tryCatch(
-    utils::read.csv(text = landmark_lines(file), colClasses = "character", na.strings = "", strip.white = TRUE,
+    utils::read.csv(text = file_lines(file), colClasses = "character", na.strings = "", strip.white = TRUE,
                     check.names = FALSE),
     error = function(e) {
       crestline_abort(sprintf("%s cannot be read: %s.", basename(file), conditionMessage(e)),

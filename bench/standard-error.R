@@ -42,7 +42,6 @@ report <- function(label, results) {
 a <- c(0, 0.25, 0.5)
 full <- expand.grid(seed = seq_len(simulations), a = a, b = c(1, 2), noise = c(0.01, 0.05), radius = 0.25, correlation = 0)
 results <- study(full)
-saveRDS(results, file.path(tempdir(), "standard-error.rds"))
 cat("Coverage of |error across| <= 2 se (nominal 0.95)\n")
 report("all", results)
 for (noise in c(0.01, 0.05)) for (b in c(1, 2)) {

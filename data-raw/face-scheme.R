@@ -4,7 +4,8 @@
 #
 # data-raw/face-scheme/ holds the published facial model (Vittert, Bowman and Katina 2019, and the authors' implementation)
 # in its own terms: landmarks.csv, curves.csv, patches.csv, strips_left.csv (the strips of the left side); and choices.csv:
-# where this package finds a curve in another way than the authors do, and why.
+# where this package finds a curve in another way than the authors do, or might have, and why (spreads are across the curve,
+# measured on 23 simulated faces in dense correspondence).
 
 from <- "data-raw/face-scheme"
 to <- "inst/extdata/face_scheme"

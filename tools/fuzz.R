@@ -77,6 +77,16 @@ byte_mutations <- list(
   }
 )
 
+landmark_kinds <- c("csv", "pts", "tps", "nts", "dta", "landmarkAscii", "fcsv", "mrk.json")
+
+# Landmarks, one of them missing at times, with curves where the format has them.
+write_landmark_case <- function(case, kind, file) {
+  x <- case$landmarks
+  if (runif(1) < 0.3) x["d", ] <- NA
+  curves <- if (kind %in% c("csv", "pts", "tps", "mrk.json")) list(C000 = x[1:2, ], C001 = structure(x[c(1, 3, 2), ], closed = kind != "pts"))
+  crestline::write_landmarks(x, file, curves)
+}
+
 write_case <- function(case, kind) {
   stem <- tempfile()
   file <- paste0(stem, ".", sub("_.*", "", kind))
@@ -86,7 +96,7 @@ write_case <- function(case, kind) {
     obj = Rvcg::vcgObjWrite(case$mesh, stem),
     stl_ascii = Rvcg::vcgStlWrite(case$mesh, stem, binary = FALSE),
     stl_binary = Rvcg::vcgStlWrite(case$mesh, stem, binary = TRUE),
-    csv = crestline::write_landmarks(case$landmarks, file)
+    write_landmark_case(case, kind, file)
   )
   file
 }
@@ -101,7 +111,8 @@ damage_file <- function(file) {
 # A specimen from one seed; `tell` gets the words for what was done.
 make_specimen <- function(tell) {
   case <- sound_case()
-  kind <- pick(c("memory", "memory", "memory", "ply_ascii", "ply_binary", "obj", "stl_ascii", "stl_binary", "csv"))
+  kind <- pick(c("memory", "memory", "memory", "ply_ascii", "ply_binary", "obj", "stl_ascii", "stl_binary", landmark_kinds),
+               prob = c(rep(1, 8), rep(0.25, length(landmark_kinds))))
   if (kind == "memory") {
     change <- c(pick(names(mesh_mutations), sample(2, 1)), pick(if (runif(1) < 0.6) "none" else names(landmark_mutations)))
     tell(paste("memory", change[1]))
@@ -115,7 +126,7 @@ make_specimen <- function(tell) {
   file <- write_case(case, kind)
   on.exit(unlink(file))
   tell(paste(kind, damage_file(file)))
-  if (kind == "csv") return(crestline::specimen(case$mesh, crestline::read_landmarks(file), tolerance = 0.05))
+  if (kind %in% landmark_kinds) return(crestline::specimen(case$mesh, crestline::read_landmarks(file), tolerance = 0.05))
   crestline::read_specimen(file, case$landmarks, tolerance = 0.05)
 }
 

@@ -52,3 +52,7 @@ test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(csv_file("x,y,z", "1,2,3"), "no column of names")
   expect_refused(csv_file(""), "cannot be read")
 })
+
+test_that("blanks at the ends of a name stay when it is quoted", {
+  expect_round_trip(xyz(1, 2, 3, name = " a "), "csv")
+})

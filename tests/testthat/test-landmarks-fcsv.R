@@ -3,7 +3,7 @@ fcsv_head <- function(system = "LPS", version = "4.11") {
   c(paste("# Markups fiducial file version =", version), paste("# CoordinateSystem =", system),
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID")
 }
-fcsv_row <- function(label, position = "10,20,30", end = ",,2,0") paste0("1,", position, ",0,0,0,1,1,1,0,", label, end)
+fcsv_row <- function(label, position = "10,20,30", end = ",,,2,0") paste0("1,", position, ",0,0,0,1,1,1,0,", label, end)
 
 test_that("what is written is read back, to the last bit, in either frame", {
   expect_round_trip(hard_landmarks(), "fcsv")
@@ -29,8 +29,8 @@ test_that("the frame is what the file says, in words or by number, or what its v
 })
 
 test_that("a point that is not defined is missing, whatever its position", {
-  x <- read_landmarks(fcsv_file(fcsv_head(), fcsv_row("undefined", "0,0,0", ",,0,0"), fcsv_row("preview", "1,2,3", ",,1,0"),
-                                fcsv_row("defined", "0,0,0"), fcsv_row("missing", "0,0,0", ",,3,0"), fcsv_row("old", "4,5,6", ",,")))
+  x <- read_landmarks(fcsv_file(fcsv_head(), fcsv_row("undefined", "0,0,0", ",,,0,0"), fcsv_row("preview", "1,2,3", ",,,1,0"),
+                                fcsv_row("defined", "0,0,0"), fcsv_row("missing", "0,0,0", ",,,3,0"), fcsv_row("old", "4,5,6", ",,")))
   expect_equal(rownames(x)[is.na(x[, 1])], c("undefined", "preview", "missing"))
   expect_equal(unname(x["defined", ]), c(0, 0, 0))
   expect_equal(unname(x["old", ]), 4:6)

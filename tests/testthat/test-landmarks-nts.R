@@ -53,6 +53,6 @@ test_that("what cannot be written or read is refused with file, line and remedy"
   expect_refused(nts_file("1 2 7 0 DIM=3", "1"), "not points", line = 1)
   expect_refused(nts_file("1 1L 6 1 x DIM=3", "1"), '"x"', line = 1)
   expect_refused(nts_file("'", "1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5"), "1 labels and 6 numbers are announced, 6 words follow")
-  expect_refused(nts_file("1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5 6,x"), "7 words")
+  expect_refused(nts_file("1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5 6,x"), "8 words")
   expect_refused(nts_file("1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5 sn"), '"sn"', line = 4)
 })

@@ -33,6 +33,7 @@ test_that("several specimens are a named list where the format holds them", {
   expect_crestline_error(write_landmarks(list(), file), "must be one")
   expect_crestline_error(write_landmarks(unname(x)[c(1, 1)], file, curves = hard_curves()), "attribute `curves`")
   expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "a")), file), "two specimens have the same")
+  expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "b ")), file), "no blanks at the ends")
 })
 
 test_that("curves come from the argument or the attribute, and are refused where there is no place for them", {
@@ -48,13 +49,12 @@ test_that("curves come from the argument or the attribute, and are refused where
   expect_equal(attr(read_landmarks(file), "curves"), list(line = structure(xyz(1, 2, 3), closed = FALSE)))
   expect_crestline_error(write_landmarks(x, file, curves = list(xyz(1, 2, 3))), "a name of its own")
   expect_crestline_error(write_landmarks(x, file, curves = list(a = 1:3)), "curve a is 1, 2, 3")
+  expect_crestline_error(write_landmarks(x, file, curves = list(a = matrix(0, 0, 3))), "a row at least")
   expect_crestline_error(write_landmarks(x, file, curves = list("a\nb" = xyz(1, 2, 3))), "line break")
 })
 
 test_that("curves of ridge_curve() are written point by point", {
   curve <- structure(list(points = data.frame(point = 1:2, x = c(1, 2), y = 3:4, z = 5:6)), class = "curve")
-  local_mocked_s3 <- function(x, ...) x$points
-  registerS3method("as.data.frame", "curve", local_mocked_s3, envir = environment())
   file <- tempfile(fileext = ".tps")
   write_landmarks(NULL, file, curves = list(lip = curve))
   expect_equal(attr(read_landmarks(file), "curves")$lip, structure(xyz(1, 3, 5, 2, 4, 6), closed = FALSE))
