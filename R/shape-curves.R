@@ -80,7 +80,7 @@ fit_scheme_curve <- function(row, specimen, curvatures, fits, settings, passes, 
     fit_curved(row, specimen, curvatures[[as.character(row$radius)]], fits, settings, passes, threads)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
-       strength = curve$strength, se = curve$se, competing = competing_share(curve$reference), reason = curve$reason)
+       strength = curve$strength, se = curve$se, competing = competing_share(curve$reference, specimen), reason = curve$reason)
 }
 
 #' A ridge or valley with the constraints of its row
@@ -151,17 +151,19 @@ without_curvature <- function(curvature, vertex) {
   curvature
 }
 
-#' How good the best other optimum of a reference path is, as a share of the chosen one
+#' How good the best other optimum of a reference path is that runs elsewhere, as a share of the chosen one
 #'
-#' @param distinct Angle in radians by which another optimum differs at least.
+#' @param distinct As in [reference_path()].
 #' @noRd
-competing_share <- function(path, distinct = pi / 12) {
+competing_share <- function(path, specimen, distinct = 0.05) {
   optima <- attr(path, "optima")
-  if (is.null(optima)) return(NA_real_)
-  apart <- which(abs(wrap_angle(optima$angle - optima$angle[1])) >= distinct | optima$side != optima$side[1])
-  if (!length(apart)) return(NA_real_)
-  share <- optima$criterion[apart] / optima$criterion[1]
-  if (attr(path, "type") == "plane") max(1 / share) else max(share)
+  share <- optima$criterion / optima$criterion[1]
+  if (identical(attr(path, "type"), "plane")) share <- 1 / share
+  for (i in seq_along(share)[-1]) {
+    other <- plane_path(specimen, path[1, ], path[nrow(path), ], optima$angle[i], optima$side[i])
+    if (path_distance(other, path) > distinct * attr(path, "length")) return(share[i])
+  }
+  NA_real_
 }
 
 #' Cut off the curves that a scheme cuts, all of one specimen by one factor
