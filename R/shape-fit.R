@@ -13,7 +13,8 @@
 #'
 #' A column of a patch is the shortest plane cut between two points of its bounding curves, among planes near
 #' the surface's normal, divided at equal chords. All points lie on the mesh; points that coincide by
-#' construction are stored once and agree exactly.
+#' construction are stored once and agree exactly. Triangles of the model that are flipped or cross are named in the `reason`
+#' of a patch that they begin at, see [surface_faults()].
 #'
 #' @param specimen A [specimen()].
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
@@ -34,8 +35,8 @@
 #'     `point` (text), `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (all NA where missing), `se` (standard error
 #'     across the curve, in the unit of the mesh; NA where there is none: landmarks, plane curves, insides of patches);
 #'   * `status`: data frame, a row a landmark, curve and patch: `part`, `level`, `kind` ("landmark", "ridge",
-#'     "valley", "plane", "patch"), `ok` (whether all its points are there), `reason` (text, NA where all is well), and of curves `length`
-#'     (as cut off), `strength` (mean, as found, 1 / unit), `se` (median), `competing` (how good the best other reference
+#'     "valley", "plane", "patch"), `ok` (whether all its points are there), `reason` (text, NA where all is well), and
+#'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `se` (median), `competing` (how good the best other reference
 #'     path is, as a share of the one chosen: near 1, a rival; NA: none);
 #'   * `paths`: list by curve of `mesh_path`s, as cut off; `NULL` where it failed;
 #'   * `scheme`.
@@ -68,12 +69,13 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   fits <- fit_scheme_curves(specimen, scheme, settings, check_count(passes, "passes"), threads, cut_scale, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scheme, fits, store, column, tick)
-  structure(
+  shape <- structure(
     list(id = specimen$id, points = shape_points(scheme$points, patches$store),
          status = shape_status(scheme, landmarks$reason, fits, patches$problems),
          paths = lapply(fits, `[[`, "path"), scheme = scheme),
     class = "shape"
   )
+  note_faults(shape, specimen)
 }
 
 progress_ticks <- function(progress, n, id) {
@@ -129,7 +131,9 @@ shape_points <- function(points, store) {
 }
 
 shape_status <- function(scheme, landmark_reasons, fits, problems) {
-  of_curve <- function(name) vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0, USE.NAMES = FALSE)
+  of_curve <- function(name) {
+    vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0, USE.NAMES = FALSE)
+  }
   blocks <- split(problems, factor(scheme$patches$patch, unique(scheme$patches$patch)))
   patch_reasons <- vapply(blocks, patch_reason, "")
   lines <- function(part, level, kind, ok, reason) {
@@ -142,10 +146,28 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
   measures <- c("length", "strength", "se", "competing")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
-    lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)), is.na(landmark_reasons), landmark_reasons),
+    lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)), is.na(landmark_reasons),
+          landmark_reasons),
     curves,
     lines(names(blocks), "surface", rep("patch", length(blocks)), is.na(patch_reasons), patch_reasons)
   )
   rownames(status) <- NULL
   status
+}
+
+#' The status with the faults of the model's triangles, each with the patch of its first corner
+#' @noRd
+note_faults <- function(shape, specimen) {
+  faults <- tryCatch(surface_faults(shape, specimen), crestline_error = function(e) NULL)
+  if (is.null(faults) || nrow(faults) == 0) return(shape)
+  part <- shape$points$part[shape$points$level == "surface"][faults$v1]
+  said <- vapply(split(faults$fault, part), function(fault) {
+    n <- table(fault)
+    paste(sprintf("%d %s triangle%s", n, names(n), ifelse(n > 1, "s", "")), collapse = ", ")
+  }, "")
+  patch <- shape$status$level == "surface" & shape$status$part %in% names(said)
+  before <- shape$status$reason[patch]
+  said <- said[shape$status$part[patch]]
+  shape$status$reason[patch] <- ifelse(is.na(before), said, paste(before, said, sep = "; "))
+  shape
 }

@@ -31,3 +31,13 @@ test_that("a triangle that is there twice is doubled", {
   expect_equal(faults$fault, "doubled")
   expect_equal(unlist(faults[c("v1", "v2", "v3")]), unlist(shape$scheme$triangles[5, c("v1", "v2", "v3")]))
 })
+
+test_that("faults of the model are in the status of the patch, beside what was there", {
+  shape <- quad_shape()
+  shape$scheme$triangles <- rbind(shape$scheme$triangles, shape$scheme$triangles[5:6, ])
+  noted <- note_faults(shape, quad_specimen())
+  expect_equal(status_of(noted, "quad")$reason, "2 doubled triangles")
+  shape$status$reason[shape$status$part == "quad"] <- "before"
+  expect_equal(status_of(note_faults(shape, quad_specimen()), "quad")$reason, "before; 2 doubled triangles")
+  expect_true(status_of(noted, "quad")$ok)
+})
