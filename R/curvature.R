@@ -22,8 +22,8 @@
 #'   through the vertex, level along the average of the triangles' normals.
 #' @param threads Number of threads.
 #' @param vertices Vertices to work at (indices or logical); all when `NULL`.
-#' @param shrinkage The factor c above, without unit; tuned on seven closed-form
-#'   surfaces (bench/curvature.R).
+#' @param shrinkage The factor c above, without unit; chosen on seven closed-form
+#'   surfaces with noise (bench/README.md has the figures for 2 to 6).
 #' @param points_per_term Fewest neighbours for each coefficient of a fit: with
 #'   fewer, the order steps down.
 #' @param one_sided A neighbourhood whose centroid lies further from the vertex
@@ -52,7 +52,7 @@
 #' @export
 curvature <- function(mesh, radius, order = "adaptive",
                       threads = getOption("crestline.threads", 1L), vertices = NULL,
-                      shrinkage = 3, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
+                      shrinkage = 6, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
   mesh <- as_mesh(mesh)
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
   threads <- check_count(threads, "threads")
@@ -95,7 +95,7 @@ fill_curvature <- function(out, found, at) {
 
 #' Settings of the local fit in the form of the kernel
 #' @noRd
-fit_settings <- function(radius, order = "adaptive", shrinkage = 3, points_per_term = 1.5,
+fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_term = 1.5,
                          one_sided = 0.2) {
   orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
                  quartic = c(4L, 4L), forced = c(2L, 2L))

@@ -24,7 +24,7 @@
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
 #'   * `determined`: whether curvature determines the curve: `FALSE` when the median
-#'     standard error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, cannot be lifted onto the mesh, or there is no such curvature by the path (`reason` says why); then the
+#'     standard error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, the curvature is fainter than `settings$faint`, the line cannot be lifted onto the mesh, or there is no such curvature by the path (`reason` says why); then the
 #'     plane path (`reference`, or `type = "plane"`) is the safer choice; `NA` for plane curves and without standard errors;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`.
 #' @section Standard error: the standard deviation of the curve's position across
@@ -165,7 +165,8 @@ new_curve <- function(specimen, path, reference, n, about, fit = NULL) {
                   coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
                   strength = mean_strength(specimen, path, fit), scale = fit$scale),
              verdict, about)
-  curve$converged <- attr(placed, "converged") && !isFALSE(fit$line$converged)
+  curve$converged <- !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged)
+  curve$even <- attr(placed, "converged")
   structure(curve, class = "curve")
 }
 
@@ -179,6 +180,9 @@ judge_curve <- function(about, fit) {
     fit$reason
   } else if (fit$line$at_bound) {
     "it runs along the edge of the window"
+  } else if (fit$scale * about$radius < about$settings$faint) {
+    sprintf("the curvature by its reference path is faint: %.2g times the radius, below %.2g",
+            fit$scale * about$radius, about$settings$faint)
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
   } else {

@@ -56,6 +56,8 @@ level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
   level[coordinates$vertex] <- coordinates$d - offset(coordinates$s)
   at_end <- function(end) sum(end[2:4] * level[surface$it[, end[1]]])
   share <- pmin(pmax(coordinates$s / max(s), 0), 1)
+  share[coordinates$vertex %in% surface$it[, ends$from[1]]] <- 0
+  share[coordinates$vertex %in% surface$it[, ends$to[1]]] <- 1
   level[coordinates$vertex] <- level[coordinates$vertex] -
     (1 - share) * at_end(ends$from) - share * at_end(ends$to)
   level

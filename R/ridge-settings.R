@@ -22,6 +22,8 @@
 #'   * `longest`: reference paths may be this many times as long as the shortest;
 #'   * `inflation`: factor of the standard error of the delta method;
 #'   * `undetermined`: median standard error, in radii, above which a curve counts as not determined by curvature;
+#'   * `faint`: a curve also counts as not determined where the mean strength near the reference path, times the
+#'     radius (so without unit), is below this;
 #'   * `error`: whether to work out standard errors at all.
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting.
@@ -37,7 +39,7 @@ ridge_settings <- function(preset = c("crestline", "paper"), ...) {
                    cap_quantile = 0.99, window = 1.5, basis = c(10, 10), anisotropy = 10, df = 20,
                    lambda = 1e-4, lambda_scale = "feature", grid = 41, core = 0.3, bound = 0.98,
                    step = 0.25, iterations = 100, tolerance = 1e-9, longest = 1.25, inflation = 1.5,
-                   undetermined = 0.2, error = TRUE)
+                   undetermined = 0.2, faint = 0.15, error = TRUE)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
                 window = Inf, anisotropy = 1, df = 12, lambda = 0.5, lambda_scale = "grid",
                 longest = Inf)
@@ -54,7 +56,7 @@ ridge_settings <- function(preset = c("crestline", "paper"), ...) {
 
 check_settings <- function(settings) {
   positive <- c("cap", "cap_quantile", "window", "anisotropy", "df", "lambda", "core", "bound", "step",
-                "tolerance", "longest", "inflation", "undetermined")
+                "tolerance", "longest", "inflation", "undetermined", "faint")
   for (name in positive) {
     if (!identical(settings[[name]], Inf)) check_number(settings[[name]], name, lower = 0, open = TRUE)
   }
