@@ -9,7 +9,8 @@
 #' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.
 #' @param parts Parts of the surface, as in [shape_mesh()].
 #' @param colour Colours of ridges, valleys and plane curves.
-#' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the shape's own surface: its colour.
+#' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the shape's own surface:
+#'   its colour.
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
 #' @param points Whether to draw the points: of the curves; with `specimen` also those of the surface, small.
@@ -70,6 +71,7 @@ draw_model <- function(mesh, colour, edges, engine, view, ...) {
   side <- cbind(mesh$it[1:2, ], mesh$it[2:3, ], mesh$it[c(3, 1), ])
   side <- unique(t(apply(side, 2, sort)))
   xyz <- t(mesh$vb[1:3, ])
-  gaps <- matrix(aperm(array(c(xyz[side[, 1], ], xyz[side[, 2], ], rep(NA, 3 * nrow(side))), c(nrow(side), 3, 3)), c(3, 1, 2)), ncol = 3)
+  ends <- array(c(xyz[side[, 1], ], xyz[side[, 2], ], rep(NA, 3 * nrow(side))), c(nrow(side), 3, 3))
+  gaps <- matrix(aperm(ends, c(3, 1, 2)), ncol = 3)
   draw_lines(scene, gaps, edges, 0.5)
 }

@@ -7,8 +7,8 @@
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on.
 #' @param parts Parts of the surface, as in [shape_mesh()].
-#' @return Data frame, a row a fault (none: no fault): `fault` ("flipped": the triangle's normal is more than 90 degrees from the
-#'   specimen's normals at its corners; "doubled"; "crossing"), `group` (the patch or strip of the triangle, as in the
+#' @return Data frame, a row a fault (none: no fault): `fault` ("flipped": the triangle's normal is more than 90 degrees
+#'   from the specimen's normals at its corners; "doubled"; "crossing"), `group` (the patch or strip of the triangle, as in the
 #'   scheme's `triangles`), `v1`, `v2`, `v3` (rows of the surface points), and for crossings `other` (group of the
 #'   triangle that it passes through).
 #' @section Errors: as [shape_mesh()].

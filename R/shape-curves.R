@@ -80,7 +80,8 @@ fit_scheme_curve <- function(row, specimen, curvatures, fits, settings, passes, 
     fit_curved(row, specimen, curvatures[[as.character(row$radius)]], fits, settings, passes, threads)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
-       strength = curve$strength, se = curve$se, competing = competing_share(curve$reference, specimen), reason = curve$reason)
+       strength = curve$strength, se = curve$se, competing = competing_share(curve$reference, specimen),
+       reason = curve$reason)
 }
 
 #' A ridge or valley with the constraints of its row

@@ -19,3 +19,11 @@ test_that("curves have the colour of their kind, edges their own", {
   bare <- drawn_pixels(plot(shape, edges = NA, engine = "picture"))
   expect_lt(sum(edged), sum(bare) - 50)
 })
+
+test_that("a shape is drawn in rgl", {
+  shape <- quad_shape()
+  with_null_rgl({
+    expect_s3_class(plot(shape, quad_specimen(), surface = "plain", engine = "rgl"), "rgl_scene")
+    expect_s3_class(plot(shape, engine = "rgl"), "rgl_scene")
+  })
+})

@@ -100,3 +100,25 @@ test_that("the model of scan_a has the authors' names and, where cuts make it, t
     expect_lte(sqrt(mean(rowSums(gap^2))), 0.1)
   }
 })
+
+test_that("progress is shown on request, and changes nothing", {
+  loud <- suppressMessages(fit_shape(quad_specimen(), quad_scheme(), progress = TRUE))
+  expect_identical(loud$points, quad_shape()$points)
+})
+
+test_that("the mirrored specimen, its landmarks renamed, gives the mirrored points", {
+  pairs <- data.frame(level = c("landmarks", "landmarks", "curves"), left = c("a", "d", "left"), right = c("b", "c", "right"))
+  scheme <- quad_scheme(function(tables) c(tables[1:2], list(pairs = pairs)))
+  specimen <- quad_specimen()
+  mesh <- specimen$mesh
+  mesh$vb[1, ] <- -mesh$vb[1, ]
+  mesh$it <- mesh$it[c(1, 3, 2), ]
+  mesh$normals <- NULL
+  landmarks <- specimen$landmarks[c("b", "a", "d", "c"), ] %*% diag(c(-1, 1, 1))
+  rownames(landmarks) <- c("a", "b", "c", "d")
+  mirror <- fit_shape(specimen(mesh, landmarks, id = "mirror"), scheme, progress = FALSE)
+  at <- coords(mirror, "curves") %*% diag(c(-1, 1, 1))
+  whole <- coords(fit_shape(specimen, scheme, progress = FALSE), "curves")
+  expect_equal(unname(at[paste("left", 1:5), ]), unname(whole[paste("right", 1:5), ]), tolerance = 1e-7)
+  expect_equal(unname(at[paste("top", 1:7), ]), unname(whole[paste("top", 7:1), ]), tolerance = 1e-7)
+})
