@@ -1,0 +1,77 @@
+# A whole shape: its curves on the specimen, or its surface as a model.
+
+#' Plot a shape
+#'
+#' The curves and landmarks of a shape on its specimen, with bands of two standard errors at their points, or the points
+#' of its patches as a surface with the edges of its triangles.
+#'
+#' @param x A `shape`, as [fit_shape()] returns it.
+#' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.
+#' @param parts Parts of the surface, as in [shape_mesh()].
+#' @param colour Colours of ridges, valleys and plane curves.
+#' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the shape's own surface:
+#'   its colour.
+#' @param edges Colour of the edges of the shape's own surface, NA for none.
+#' @param band Whether to draw the bands.
+#' @param points Whether to draw the points: of the curves; with `specimen` also those of the surface, small.
+#' @param width Line width of curves.
+#' @param engine,view,... As in [plot.specimen()] and [draw_surface()].
+#' @return The scene of [draw_surface()], invisibly.
+#' @seealso [fit_shape()]
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' shape <- fit_shape(face, face_scheme())
+#' plot(shape, face, engine = "picture")
+#' plot(shape, engine = "picture")
+#' }
+#' @export
+plot.shape <- function(x, specimen = NULL, parts = "model",
+                       colour = c(ridge = "#A0002A", valley = "#16218C", plane = "#202020"),
+                       surface = if (is.null(specimen)) "#E3CDB8" else "shape index", edges = "#00000070", band = TRUE,
+                       points = TRUE, width = 2, engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
+  scene <- if (is.null(specimen)) {
+    draw_model(shape_mesh(x, parts), surface, edges, engine, view, ...)
+  } else {
+    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+    plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, ...)
+  }
+  patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
+  if (points && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.3)
+  for (i in which(x$status$level == "curves" & x$status$ok)) {
+    scene <- draw_shape_curve(scene, x, x$status$part[i], specimen, colour[[x$status$kind[i]]], band, points, width)
+  }
+  marks <- coords(x, "landmarks")
+  scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
+  if (engine == "picture" && !is.null(specimen)) {
+    on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = width, bty = "n", cex = 0.8))
+  }
+  invisible(scene)
+}
+
+draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, width) {
+  path <- x$paths[[name]]
+  own <- x$points[x$points$level == "curves" & x$points$part == name, ]
+  if (band && !is.null(specimen) && any(is.finite(own$se))) {
+    along <- stats::approx(seq(0, 1, length.out = nrow(own)), own$se, path$s / attr(path, "length"), rule = 2)$y
+    scene <- draw_curve_band(scene, list(path = path, points = data.frame(s = path$s, se = along)), specimen$mesh, colour)
+  }
+  scene <- draw_lines(scene, path, colour, width, halo = "white")
+  if (points) scene <- draw_points(scene, own, colour, 0.28 * width, "white")
+  scene
+}
+
+#' The surface of a shape with the edges of its triangles
+#' @noRd
+draw_model <- function(mesh, colour, edges, engine, view, ...) {
+  scene <- draw_surface(mesh, colour, view, engine, ...)
+  if (is.na(edges)) return(scene)
+  side <- cbind(mesh$it[1:2, ], mesh$it[2:3, ], mesh$it[c(3, 1), ])
+  side <- unique(t(apply(side, 2, sort)))
+  xyz <- t(mesh$vb[1:3, ])
+  ends <- array(c(xyz[side[, 1], ], xyz[side[, 2], ], rep(NA, 3 * nrow(side))), c(nrow(side), 3, 3))
+  gaps <- matrix(aperm(ends, c(3, 1, 2)), ncol = 3)
+  draw_lines(scene, gaps, edges, 0.5)
+}

@@ -1,0 +1,173 @@
+# A whole specimen measured by a scheme: landmarks, curves, surface, and how each of them went.
+
+#' Measure a specimen by a scheme
+#'
+#' Finds every curve of the scheme, cuts off and spaces them, then puts the points of the patches between
+#' them. What is missing costs only itself: a landmark that is absent or NA, a hole, a curve that no
+#' path joins leave their own points NA, with the reason in `status`.
+#'
+#' Curvature is estimated once for all curves of one radius. A ridge or valley that curvature does not determine (see
+#' [ridge_curve()]) keeps its estimate, and `reason` says so; one that cannot be estimated at all (a window with too few
+#' vertices) is the shortest plane cut, and says so. Where a curve that the scheme cuts off is shorter
+#' than its share, all cut curves are cut at the same smaller multiple of their shares, and say so.
+#'
+#' A column of a patch is the shortest plane cut between two points of its bounding curves, among planes near
+#' the surface's normal, divided at equal chords. All points lie on the mesh; points that coincide by
+#' construction are stored once and agree exactly. Triangles of the model that are flipped or cross are named in the `reason`
+#' of a patch that they begin at, see [surface_faults()].
+#'
+#' @param specimen A [specimen()].
+#' @param scheme A [curve_scheme()], such as [face_scheme()].
+#' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard errors.
+#' @param passes As in [ridge_curve()].
+#' @param cut_scale Factor on the shares at which curves are cut off (no unit): to give several specimens the same smaller
+#'   one. Lowered where a curve is too short for it.
+#' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
+#'   at its ends (the paper's implementation: 45 degrees).
+#' @param column_angles Number of planes that are tried for a column (there: 51).
+#' @param column_reach A column stays within this share of the distance of its ends from the straight line between
+#'   them (there: 1).
+#' @param progress Whether to show a progress bar.
+#' @inheritParams curvature
+#' @return Object of class `shape`, a list:
+#'   * `id`: of the specimen;
+#'   * `points`: data frame, a row a point in the order of the scheme: `level` ("landmarks", "curves", "surface"), `part`,
+#'     `point` (text), `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (all NA where missing), `se` (standard error
+#'     across the curve, in the unit of the mesh; NA where there is none: landmarks, plane curves, insides of patches);
+#'   * `status`: data frame, a row a landmark, curve and patch: `part`, `level`, `kind` ("landmark", "ridge",
+#'     "valley", "plane", "patch"), `ok` (whether all its points are there), `reason` (text, NA where all is well), and
+#'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `se` (median), `competing` (how good the best other reference
+#'     path is, as a share of the one chosen: near 1, a rival; NA: none);
+#'   * `paths`: list by curve of `mesh_path`s, as cut off; `NULL` where it failed;
+#'   * `scheme`.
+#'
+#'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and [plot.shape()].
+#' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
+#' @references The paper, section 4.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' shape <- fit_shape(face, face_scheme())
+#' shape
+#' head(coords(shape, "curves"))
+#' }
+#' @export
+fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, cut_scale = 1,
+                      column_angle = pi / 4, column_angles = 51, column_reach = 1,
+                      threads = getOption("crestline.threads", 1L), progress = interactive()) {
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
+  column <- list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
+                 angles = check_count(column_angles, "column_angles"),
+                 reach = check_number(column_reach, "column_reach", 0, open = TRUE))
+  tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
+  landmarks <- fit_scheme_landmarks(specimen, scheme)
+  fits <- fit_scheme_curves(specimen, scheme, settings, check_count(passes, "passes"), threads, cut_scale, tick)
+  store <- place_store(scheme, landmarks$points, fits)
+  patches <- fit_scheme_patches(specimen, scheme, fits, store, column, tick)
+  shape <- structure(
+    list(id = specimen$id, points = shape_points(scheme$points, patches$store),
+         status = shape_status(scheme, landmarks$reason, fits, patches$problems),
+         paths = lapply(fits, `[[`, "path"), scheme = scheme),
+    class = "shape"
+  )
+  note_faults(shape, specimen)
+}
+
+progress_ticks <- function(progress, n, id) {
+  if (!progress) return(function() NULL)
+  bar <- cli::cli_progress_bar(paste("Measuring", id), total = n, .envir = parent.frame())
+  function() cli::cli_progress_update(id = bar)
+}
+
+#' The scheme's landmarks on the mesh
+#' @return List: `points` (matrix k x 7, row names), `reason` (NA where found).
+#' @noRd
+fit_scheme_landmarks <- function(specimen, scheme) {
+  names <- scheme$landmarks$landmark
+  points <- matrix(NA_real_, length(names), length(mesh_columns), dimnames = list(names, mesh_columns))
+  reason <- stats::setNames(rep(NA_character_, length(names)), names)
+  for (name in names) {
+    found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) e$problem)
+    if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else reason[name] <- found
+  }
+  list(points = points, reason = reason)
+}
+
+#' Every place of a scheme, those of landmarks and curves filled in
+#'
+#' @return Matrix, a row a place (row names), columns x, y, z, face, w1, w2, w3, se.
+#' @noRd
+place_store <- function(scheme, landmarks, fits) {
+  places <- unique(scheme$points$place)
+  store <- matrix(NA_real_, length(places), 8, dimnames = list(places, c(mesh_columns, "se")))
+  store[paste0("landmarks|", rownames(landmarks)), mesh_columns] <- landmarks
+  for (name in names(fits)) {
+    points <- fits[[name]]$points
+    if (is.null(points)) next
+    place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part == name]
+    store <- fill_store(store, place, as.matrix(points[c(mesh_columns, "se")]))
+  }
+  store
+}
+
+#' Fill those of the places that are still empty
+#' @noRd
+fill_store <- function(store, place, values) {
+  empty <- is.na(store[place, "x"])
+  store[place[empty], colnames(values)] <- values[empty, ]
+  store
+}
+
+shape_points <- function(points, store) {
+  at <- as.data.frame(store[points$place, ], row.names = FALSE)
+  at$face <- as.integer(at$face)
+  rownames(at) <- NULL
+  cbind(points[c("level", "part", "point")], at)
+}
+
+shape_status <- function(scheme, landmark_reasons, fits, problems) {
+  of_curve <- function(name) {
+    vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0, USE.NAMES = FALSE)
+  }
+  blocks <- split(problems, factor(scheme$patches$patch, unique(scheme$patches$patch)))
+  patch_reasons <- vapply(blocks, patch_reason, "")
+  lines <- function(part, level, kind, ok, reason) {
+    data.frame(part = part, level = rep(level, length(part)), kind = kind, ok = ok, reason = reason,
+               length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
+               se = rep(NA_real_, length(part)), competing = rep(NA_real_, length(part)))
+  }
+  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, !vapply(fits, function(fit) is.null(fit$path), NA),
+                  vapply(fits, `[[`, "", "reason"))
+  measures <- c("length", "strength", "se", "competing")
+  curves[measures] <- lapply(measures, of_curve)
+  status <- rbind(
+    lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)), is.na(landmark_reasons),
+          landmark_reasons),
+    curves,
+    lines(names(blocks), "surface", rep("patch", length(blocks)), is.na(patch_reasons), patch_reasons)
+  )
+  rownames(status) <- NULL
+  status
+}
+
+#' The status with the faults of the model's triangles, each with the patch of its first corner
+#' @noRd
+note_faults <- function(shape, specimen) {
+  faults <- tryCatch(surface_faults(shape, specimen), crestline_error = function(e) NULL)
+  if (is.null(faults) || nrow(faults) == 0) return(shape)
+  part <- shape$points$part[shape$points$level == "surface"][faults$v1]
+  said <- vapply(split(faults$fault, part), function(fault) {
+    n <- table(fault)
+    paste(sprintf("%d %s triangle%s", n, names(n), ifelse(n > 1, "s", "")), collapse = ", ")
+  }, "")
+  patch <- shape$status$level == "surface" & shape$status$part %in% names(said)
+  before <- shape$status$reason[patch]
+  said <- said[shape$status$part[patch]]
+  shape$status$reason[patch] <- ifelse(is.na(before), said, paste(before, said, sep = "; "))
+  shape
+}

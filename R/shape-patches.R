@@ -1,0 +1,121 @@
+# The patches between curves: columns of points on plane cuts from one bounding curve to another.
+
+#' Fit the patches of a scheme
+#'
+#' @param specimen,scheme As in [fit_shape()].
+#' @param fits Curves as of [fit_scheme_curves()].
+#' @param store Places found so far, a matrix with row names, see [place_store()].
+#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
+#' @param tick Called after every block.
+#' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
+#'   `missing` and `n` (numbers of points) and `why` (character).
+#' @noRd
+fit_scheme_patches <- function(specimen, scheme, fits, store, column, tick) {
+  surface <- walkable(specimen)
+  points <- scheme$points[scheme$points$level == "surface", ]
+  block_of <- rep(seq_len(nrow(scheme$patches)), scheme$patches$n)
+  problems <- vector("list", nrow(scheme$patches))
+  for (i in seq_len(nrow(scheme$patches))) {
+    block <- scheme$patches[i, ]
+    grid <- cbind(block_points(block), place = points$place[block_of == i])
+    fit <- fit_block(block, grid, specimen, surface, scheme$curves, fits, store, column)
+    store <- fit$store
+    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = fit$why)
+    tick()
+  }
+  list(store = store, problems = problems)
+}
+
+#' One block: its sides, its first column, and the cuts of the columns with points that are not there yet
+#' @noRd
+fit_block <- function(block, grid, specimen, surface, curves, fits, store, column) {
+  side <- function(text, resample) block_side(text, resample, specimen, surface, curves, fits, store, column)
+  a <- side(block$curve_a, block$resample_a)
+  b <- if (!is.na(block$curve_b)) side(block$curve_b, block$resample_b)
+  store <- fill_store(store, grid$place[grid$row == 1], a$points[grid$column[grid$row == 1], , drop = FALSE])
+  why <- a$problem
+  if (!is.null(b)) {
+    last <- grid$row == block$rows
+    store <- fill_store(store, grid$place[last], b$points[grid$column[last], , drop = FALSE])
+    why <- c(why, b$problem)
+  }
+  if (!is.na(block$first_column)) {
+    first <- side(block$first_column, block$rows)
+    inside <- grid$column == 1
+    store <- fill_store(store, grid$place[inside], first$points[grid$row[inside], , drop = FALSE])
+    why <- c(why, first$problem)
+  }
+  open <- grid[is.na(store[grid$place, "x"]) & grid$row > 1 & grid$row < block$rows, ]
+  whole <- which(!is.na(a$points[, "x"]) & !is.na(b$points[, "x"]))
+  for (at in intersect(open$column, whole)) {
+    cut <- fit_column(a$points[at, ], b$points[at, ], block$rows, specimen, surface, column)
+    rows <- open[open$column == at, ]
+    if (is.null(cut$problem)) store <- fill_store(store, rows$place, cut$points[rows$row, , drop = FALSE])
+    else why <- c(why, paste0("column ", at, ": ", cut$problem))
+  }
+  list(store = store, why = why)
+}
+
+#' Why a patch, of one or more blocks, has points missing; NA where it has none
+#'
+#' @param most Number of reasons that are written out.
+#' @noRd
+patch_reason <- function(problems, most = 3) {
+  total <- function(name) sum(vapply(problems, `[[`, 0L, name))
+  if (total("missing") == 0) return(NA_character_)
+  why <- unique(unlist(lapply(problems, `[[`, "why")))
+  more <- if (length(why) > most) sprintf("and %d more", length(why) - most)
+  paste0(total("missing"), " of ", total("n"), " points missing: ", paste(c(utils::head(why, most), more), collapse = "; "))
+}
+
+#' Points of one bounding curve: its own, or spaced at equal chords
+#'
+#' @return List: `points` (K x 7 matrix, rows of NA where missing), `problem` (NULL or what is missing).
+#' @noRd
+block_side <- function(text, resample, specimen, surface, curves, fits, store, column) {
+  knots <- side_points(text)
+  points <- store[curve_places(knots$curve, knots$point, curves), mesh_columns, drop = FALSE]
+  lost <- unique(knots$curve[is.na(points[, "x"])])
+  problem <- if (length(lost)) sprintf("%s is missing", toString(lost))
+  if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
+  spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
+  if (length(lost)) return(list(points = spaced, problem = problem))
+  path <- side_path(knots, points, specimen, surface, fits, column)
+  spaced[] <- as.matrix(resample_path(specimen$mesh, path, resample)[mesh_columns])
+  spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
+  list(points = spaced, problem = NULL)
+}
+
+#' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet
+#' @noRd
+side_path <- function(knots, points, specimen, surface, fits, column) {
+  run <- cumsum(c(TRUE, knots$curve[-1] != knots$curve[-nrow(knots)]))
+  pieces <- list()
+  for (r in unique(run)) {
+    at <- which(run == r)
+    before <- at[1] - 1
+    if (before > 0 && any(points[before, 1:3] != points[at[1], 1:3])) {
+      pieces <- c(pieces, list(cut_between(points[before, ], points[at[1], ], specimen, surface, column)))
+    }
+    if (length(at) > 1) {
+      fit <- fits[[knots$curve[at[1]]]]
+      s <- fit$points$s[knots$point[range(at)]]
+      if (at[1] > at[length(at)]) s <- rev(s)
+      pieces <- c(pieces, list(part_of_path(specimen$mesh, fit$path, s[1], s[2])))
+    }
+  }
+  rows <- lapply(pieces, function(piece) as.data.frame(piece)[mesh_columns])
+  path_through(do.call(rbind, rows))
+}
+
+fit_column <- function(from, to, rows, specimen, surface, column) {
+  tryCatch({
+    path <- cut_between(from, to, specimen, surface, column)
+    list(points = as.matrix(resample_path(specimen$mesh, path, rows)[mesh_columns]))
+  }, crestline_error = function(e) list(problem = e$problem))
+}
+
+cut_between <- function(from, to, specimen, surface, column) {
+  ends <- path_ends(specimen, surface, as.data.frame(t(from)), as.data.frame(t(to)))
+  limited_cut(surface, ends, column$angle, column$angles, column$reach)
+}

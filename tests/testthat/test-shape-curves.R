@@ -1,0 +1,72 @@
+test_that("a ridge of a scheme is that of ridge_curve()", {
+  face <- straight_ridge()
+  shape <- fit_shape(face, ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6), progress = FALSE)
+  alone <- curve_of(face, "a", "b", "ridge", radius = 6, width = 6, n = 9)
+  expect_equal(unname(coords(shape, "curves")), unname(as.matrix(alone$points[c("x", "y", "z")])), tolerance = 1e-6)
+  status <- status_of(shape, "crest")
+  expect_equal(unlist(status[c("length", "strength", "se")]), unlist(alone[c("length", "strength", "se")]), tolerance = 1e-6)
+  own <- shape$points$se[shape$points$level == "curves"]
+  expect_equal(own[2:8], alone$points$se[2:8], tolerance = 1e-6)
+})
+
+test_that("side_of takes the ridge on that side of another curve", {
+  face <- arched_ridges(3, 3.2)
+  on <- function(side) {
+    scheme <- ends_scheme(curve = c("arch", "middle"), kind = c("ridge", "plane"), radius = 3, width = c(6, NA), side_of = c("middle", NA),
+                          side = c(side, NA))
+    shape <- fit_shape(face, scheme, progress = FALSE)
+    mean(coords(shape, "curves")[paste("arch", 4:6), "y"])
+  }
+  expect_gt(on("left"), 2)
+  expect_lt(on("right"), -2)
+})
+
+test_that("a curve comes after the one whose side it keeps to", {
+  curves <- data.frame(curve = c("p", "q", "r"), side_of = c("q", "r", NA))
+  expect_equal(fitting_order(curves), c(3, 2, 1))
+})
+
+test_that("angle_limit holds cuts and reference paths near the surface's normal", {
+  face <- straight_ridge()
+  for (kind in c("plane", "ridge")) {
+    scheme <- ends_scheme(curve = "crest", kind = kind, radius = 6, width = 6, angle_limit = 0)
+    shape <- fit_shape(face, scheme, progress = FALSE)
+    expect_true(status_of(shape, "crest")$ok)
+    if (kind == "plane") expect_equal(attr(shape$paths$crest, "angle"), 0)
+    expect_equal(is.na(status_of(shape, "crest")$strength), kind == "plane")
+  }
+})
+
+test_that("outside the trusted part of the path there is no curvature", {
+  face <- straight_ridge()
+  curved <- curvature(face, 6, "adaptive cubic")
+  path <- plane_path(face, "a", "b")
+  row <- data.frame(width = 6, radius = 6, trust_from = 0.25, trust_to = 0.75)
+  half <- trusted(curved, row, face, path)
+  x <- face$mesh$vb[1, ] / attr(path, "length")
+  near <- abs(face$mesh$vb[2, ]) < 2
+  expect_true(all(half$k2[near & x > -0.45 & x < -0.3] == 0))
+  expect_identical(half$k2[near & abs(x) < 0.2], curved$k2[near & abs(x) < 0.2])
+  scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
+  expect_true(status_of(fit_shape(face, scheme, progress = FALSE), "crest")$ok)
+})
+
+test_that("where a ridge cannot be estimated the shortest cut stands in, and says so", {
+  face <- graph_specimen(quote(6 * exp(-v^2 / 50)), two_ends(c(-1, 1)))
+  shape <- fit_shape(face, ends_scheme(curve = "crest", kind = "ridge", radius = 2, width = 1), progress = FALSE)
+  status <- status_of(shape, "crest")
+  expect_true(status$ok)
+  expect_match(status$reason, "the shortest cut instead", fixed = TRUE)
+  expect_true(is.na(status$strength))
+  plane <- fit_shape(face, ends_scheme(curve = "crest", kind = "plane"), progress = FALSE)
+  expect_identical(coords(shape, "curves"), coords(plane, "curves"))
+})
+
+test_that("a rival path is seen in competing", {
+  status <- function(left, right) {
+    scheme <- ends_scheme(curve = "arch", kind = "ridge", radius = 3, width = 3)
+    status_of(fit_shape(arched_ridges(left, right), scheme, progress = FALSE), "arch")
+  }
+  expect_gt(status(3, 3)$competing, 0.9)
+  expect_lt(status(3, 1)$competing, status(3, 3)$competing)
+})
