@@ -20,7 +20,7 @@ strength_at <- function(curved, type, at = seq_along(curved$k1), across = NULL) 
   sought <- if (is.null(across)) (if (type == "ridge") k2 else k1) else {
     normal_curvature(curved, at, across)
   }
-  ifelse(turn * (k1 + k2) > 0, pmax(turn * sought, 0), 0)
+  pmax(turn * sought, 0) * (turn * (k1 + k2) > 0)
 }
 
 #' Curvature of the normal section in given directions (Euler's formula)

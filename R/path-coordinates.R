@@ -31,7 +31,8 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   track <- t(as.matrix(clear[c("x", "y", "z")]))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   xyz <- mesh$vb[1:3, , drop = FALSE]
-  near <- which(colSums(xyz >= box[1, ] & xyz <= box[2, ]) == 3)
+  near <- seq_len(ncol(xyz))
+  for (axis in 1:3) near <- near[xyz[axis, near] >= box[1, axis] & xyz[axis, near] <= box[2, axis]]
   found <- cpp_path_coordinates(xyz[, near, drop = FALSE], track, path_normals(mesh, clear))
   kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") + margin
   member <- logical(ncol(xyz))
