@@ -135,6 +135,7 @@ wrap_angle <- function(angle) angle - pi * ceiling(angle / pi - 0.5)
 path_strength <- function(curvature, type, keep_away, specimen, surface) {
   strength <- strength_at(curvature, type)
   strength[is.na(strength)] <- 0
+  if (is.null(keep_away)) return(strength)
   some <- which(strength > 0)
   strength[some][is_kept_away(keep_away, specimen, t(surface$xyz[, some, drop = FALSE]))] <- 0
   strength
