@@ -17,7 +17,7 @@
 #' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), where it is
 #'   known; otherwise it is estimated where the curve may lie.
 #' @return Object of class `curve`, a list:
-#'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance from the reference path),
+#'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance from the reference path; NA where no ridge was found and the points lie on the reference path),
 #'     `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`; lengths in the unit of the mesh; `as.data.frame()` gives it;
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
 #'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane curve but the first);
@@ -155,7 +155,7 @@ new_curve <- function(specimen, path, reference, n, about, fit = NULL) {
   placed <- resample_path(as_mesh(specimen), path, n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
-    if (is.null(values)) rep(NA_real_, n) else stats::approx(fit$line$s, values, along, rule = 2)$y
+    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, n) else stats::approx(fit$line$s, values, along, rule = 2)$y
   }
   points <- data.frame(point = seq_len(n), placed[c("s", "x", "y", "z")], d = on_line(fit$line$alpha),
                        se = on_line(fit$line$se), placed[c("face", "w1", "w2", "w3")])

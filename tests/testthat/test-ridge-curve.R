@@ -250,3 +250,15 @@ test_that("errors of any stage name the curve", {
   expect_crestline_error(ridge_curve(bent, "a", "b", "ridge", radius = 400, width = 5, n = 9),
                          c("specimen graph", "ridge from a to b", "as large as the mesh"), id = "graph")
 })
+
+test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {
+  u <- straight_ridge()
+  path <- reference_path(u, "a", "b", "plane")
+  about <- list(type = "ridge", radius = 4, settings = ridge_settings(), from = "a", to = "b", id = "u")
+  fit <- list(found = FALSE, reason = "not lifted", line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)),
+              scale = 1, coordinates = path_coordinates(u, path, 4), strengths = list(value = 1))
+  fit$strengths$value <- rep(1, nrow(fit$coordinates))
+  expect_warning(curve <- new_curve(u, path, path, 5, about, fit), class = "crestline_undetermined")
+  expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
+  expect_false(curve$determined)
+})
