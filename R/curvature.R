@@ -57,39 +57,80 @@ curvature <- function(mesh, radius, order = "adaptive",
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
   threads <- check_count(threads, "threads")
   check_number(widen, "widen", lower = 1)
-  targets <- vertex_indices(vertices, ncol(mesh$vb))
-  out <- empty_curvature(ncol(mesh$vb))
-  xyz <- mesh$vb[1:3, , drop = FALSE]
-  check_radius(radius, xyz)
-  todo <- targets
-  while (length(todo) > 0 && settings$radius <= widen * radius) {
-    found <- cpp_curvature(xyz, mesh$it, todo, settings, threads)
-    out <- fill_curvature(out, found, todo)
-    todo <- todo[is.na(found$k1)]
-    settings$radius <- settings$radius * 1.5
-  }
-  out$reason[todo] <- ifelse(out$neighbours[todo] < points_per_term * 6,
-                             "too few connected points within the radius",
-                             "points nearly in a line, or no normal")
-  if (length(todo) == length(targets) && length(targets) > 0) abort_radius(out, targets, radius)
+  check_radius(radius, mesh)
+  n <- ncol(mesh$vb)
+  targets <- vertex_indices(vertices, n)
+  out <- curvature_at(mesh, targets, settings, threads, widen)
+  if (length(targets) > 0 && all(is.na(out$k1))) abort_radius(out$neighbours, radius)
+  if (!is.null(vertices)) out <- fill_curvature(empty_curvature(n, "not asked for"), out, targets)
   structure(out, radius = radius, order = order, class = "curvature")
 }
 
-empty_curvature <- function(n) {
+#' Curvature at some vertices, in wider balls where the radius holds too few points
+#'
+#' @param vertices Indices.
+#' @param settings As of [fit_settings()].
+#' @return List as [curvature()]'s with entries for these vertices only.
+#' @noRd
+curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
+  out <- empty_curvature(length(vertices))
+  radius <- settings$radius
+  todo <- seq_along(vertices)
+  while (length(todo) > 0 && settings$radius <= widen * radius) {
+    found <- cpp_curvature(mesh$vb, mesh$it, vertices[todo], settings, threads)
+    fitted <- !is.na(found$k1)
+    found$order[!fitted] <- NA_integer_
+    out <- fill_curvature(out, found, todo)
+    todo <- todo[!fitted]
+    settings$radius <- settings$radius * 1.5
+  }
+  out$reason[todo] <- ifelse(out$neighbours[todo] < settings$points_per_term * 6,
+                             "too few connected points within the radius",
+                             "points nearly in a line, or no normal")
+  out
+}
+
+#' Curvature at vertices, estimated when it is first asked for and then kept
+#'
+#' @return Function of vertices (indices): list of `k1`, `k2`, `direction1`, `direction2`, `normal`, `sigma`, with an
+#'   entry for each of them.
+#' @noRd
+curvature_source <- function(specimen, radius, order, threads) {
+  mesh <- as_mesh(specimen)
+  settings <- fit_settings(radius, order)
+  check_radius(radius, mesh)
+  row <- integer(ncol(mesh$vb))
+  known <- curvature_rows(empty_curvature(0), integer())
+  function(vertices) {
+    new <- unique(vertices[row[vertices] == 0])
+    if (length(new)) {
+      found <- curvature_at(mesh, new, settings, threads)
+      if (all(is.na(found$k1)) && all(is.na(known$k1))) abort_radius(found$neighbours, radius)
+      row[new] <<- length(known$k1) + seq_along(new)
+      known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known, found[names(known)])
+    }
+    curvature_rows(known, row[vertices])
+  }
+}
+
+#' The rows of a curvature that a curve needs
+#' @noRd
+curvature_rows <- function(curvature, at) {
+  lapply(curvature[c("k1", "k2", "direction1", "direction2", "normal", "sigma")],
+         function(x) if (is.matrix(x)) x[at, , drop = FALSE] else x[at])
+}
+
+empty_curvature <- function(n, reason = NA_character_) {
   blank <- rep(NA_real_, n)
   vectors <- matrix(NA_real_, n, 3)
   list(k1 = blank, k2 = blank, direction1 = vectors, direction2 = vectors, normal = vectors,
-       order = rep(NA_integer_, n), sigma = blank, neighbours = rep(NA_integer_, n),
-       reason = rep("not asked for", n))
+       order = rep(NA_integer_, n), sigma = blank, neighbours = rep(NA_integer_, n), reason = rep(reason, n))
 }
 
 fill_curvature <- function(out, found, at) {
-  fitted <- !is.na(found$k1)
-  found$order[!fitted] <- NA_integer_
   for (name in names(found)) {
     if (is.matrix(found[[name]])) out[[name]][at, ] <- found[[name]] else out[[name]][at] <- found[[name]]
   }
-  out$reason[at[fitted]] <- NA_character_
   out
 }
 
@@ -130,18 +171,18 @@ vertex_indices <- function(vertices, n) {
 
 #' A ball as large as the object holds no local shape: most likely another unit
 #' @noRd
-check_radius <- function(radius, xyz) {
-  size <- sqrt(sum(apply(xyz, 1, function(x) diff(range(x)))^2))
+check_radius <- function(radius, mesh) {
+  size <- mesh_diagonal(mesh)
   if (radius > size / 2) {
     crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose diagonal is %.4g.", radius, size),
                     "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
   }
 }
 
-abort_radius <- function(curved, targets, radius) {
+abort_radius <- function(neighbours, radius) {
   crestline_abort(
     sprintf("no vertex could be fitted within %.3g of it: the balls hold %.0f vertices in the median.",
-            radius, stats::median(curved$neighbours[targets])),
+            radius, stats::median(neighbours)),
     "Give a larger `radius`, in the unit of the mesh: several times the spacing of its vertices.",
     stage = "curvature"
   )

@@ -1,5 +1,8 @@
 # Points on a mesh: the exactly closest place, as face and barycentric weights.
 
+# The columns of a point on a mesh.
+mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
+
 #' Closest points of a mesh
 #'
 #' Candidates come from a k-d tree of the faces' centres; a point is settled once the faces

@@ -30,12 +30,11 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   clear <- without_stubs(path)
   track <- t(as.matrix(clear[c("x", "y", "z")]))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
-  xyz <- mesh$vb[1:3, , drop = FALSE]
-  near <- seq_len(ncol(xyz))
-  for (axis in 1:3) near <- near[xyz[axis, near] >= box[1, axis] & xyz[axis, near] <= box[2, axis]]
-  found <- cpp_path_coordinates(xyz[, near, drop = FALSE], track, path_normals(mesh, clear))
+  near <- seq_len(ncol(mesh$vb))
+  for (axis in 1:3) near <- near[mesh$vb[axis, near] >= box[1, axis] & mesh$vb[axis, near] <= box[2, axis]]
+  found <- cpp_path_coordinates(mesh$vb[1:3, near, drop = FALSE], track, path_normals(mesh, clear))
   kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") + margin
-  member <- logical(ncol(xyz))
+  member <- logical(ncol(mesh$vb))
   member[near[kept]] <- TRUE
   joined <- cpp_joined_to(mesh$it, member, as.vector(mesh$it[, path$face]))[near]
   inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width

@@ -32,11 +32,20 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
   check_number(side, "side", lower = 0, upper = 1)
-  axis <- cut_axis(surface, ends)
-  cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
-                        plane_normal(axis, angle), side, axis$span * reach)
-  if (cut$end != "arrived") abort_cut(cut$end, ends, surface$id)
-  new_path(cut$points, ends, angle = angle, side = side)
+  cut_path(surface, ends, cut_axis(surface, ends), angle, side, reach)
+}
+
+#' One plane cut as a path
+#'
+#' @param surface,ends,axis As of [walkable()], [path_ends()] and [cut_axis()].
+#' @param angle,side,reach As in [plane_path()].
+#' @param ... Attributes of the path.
+#' @noRd
+cut_path <- function(surface, ends, axis, angle, side, reach, ...) {
+  found <- cpp_plane_path(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, angle), side,
+                          reach * axis$span)
+  if (found$end != "arrived") abort_cut(found$end, ends, surface$id)
+  new_path(found$points, ends, angle = angle, side = side, ...)
 }
 
 #' The arrays that walks need, from a specimen (kept) or a mesh (worked out)
@@ -44,8 +53,8 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
 walkable <- function(mesh) {
   whole <- as_mesh(mesh)
   geometry <- if (inherits(mesh, "specimen")) mesh$geometry else mesh_topology(whole)[c("twin", "piece")]
-  list(xyz = whole$vb[1:3, , drop = FALSE], it = whole$it, twin = geometry$twin,
-       piece = geometry$piece, id = if (inherits(mesh, "specimen")) mesh$id)
+  list(vb = whole$vb, it = whole$it, twin = geometry$twin, piece = geometry$piece,
+       id = if (inherits(mesh, "specimen")) mesh$id)
 }
 
 #' Both ends of a path: located, in different places, on one piece of the mesh
@@ -97,62 +106,18 @@ end_name <- function(at) {
 }
 
 #' Axis between the ends (moved inside their triangles), and the plane normal at angle 0
+#' @return List: `axis` and `across` (unit vectors), `span` (length).
 #' @noRd
 cut_axis <- function(surface, ends) {
-  place <- function(p) as.vector(surface$xyz[, surface$it[, p[1]]] %*% p[2:4])
-  axis <- place(ends$to) - place(ends$from)
-  span <- sqrt(sum(axis^2))
-  if (!is.finite(span) || span == 0) {
+  axis <- cpp_cut_axis(surface$vb, surface$it, surface$twin, ends$from, ends$to)
+  if (axis$span == 0) {
     crestline_abort(sprintf("%s and %s are too near to each other for the size of their triangle.",
                             ends$names[1], ends$names[2]),
                     "Check the mesh for huge triangles, and the two landmarks.",
                     stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
   }
-  axis <- axis / span
-  out <- end_normal(surface, ends$from) + end_normal(surface, ends$to)
-  out <- out - sum(out * axis) * axis
-  if (sum(out^2) < .Machine$double.eps) out <- replace(numeric(3), which.min(abs(axis)), 1)
-  across <- cross_product(axis, out - sum(out * axis) * axis)
-  list(axis = axis, span = span, across = across / sqrt(sum(across^2)))
+  axis
 }
-
-#' Unit normal of the surface at an end, 0 where its triangles have no area
-#'
-#' The normals of the triangle's corners, weighted as the end is, so that an end at a corner or on an
-#' edge has one normal, whichever of the triangles there it was put in.
-#' @noRd
-end_normal <- function(surface, end) {
-  corners <- vapply(surface$it[, end[1]], function(v) corner_normal(surface, end[1], v), numeric(3))
-  unit_vector(as.vector(corners %*% end[2:4]))
-}
-
-#' Unit normal at a corner of a face: of the triangles about it, weighted by area
-#' @noRd
-corner_normal <- function(surface, face, vertex) {
-  normals <- vapply(faces_about(surface, face, vertex), function(f) {
-    corners <- surface$xyz[, surface$it[, f]]
-    cross_product(corners[, 2] - corners[, 1], corners[, 3] - corners[, 1])
-  }, numeric(3))
-  unit_vector(rowSums(normals))
-}
-
-#' Faces about a corner of a face, walked over the edges there both ways round
-#' @noRd
-faces_about <- function(surface, face, vertex) {
-  found <- face
-  for (back in 0:1) {
-    at <- face
-    repeat {
-      side <- (match(vertex, surface$it[, at]) - 1 - back) %% 3 + 1
-      at <- (surface$twin[side, at] - 1) %/% 3 + 1
-      if (at == 0 || at %in% found) break
-      found <- c(found, at)
-    }
-  }
-  found
-}
-
-unit_vector <- function(x) x / max(sqrt(sum(x^2)), .Machine$double.xmin)
 
 #' Normals of the planes at given angles, 3 x k
 #' @noRd

@@ -19,12 +19,13 @@
 #' @param reach Cuts stay within this share of the distance between the landmarks
 #'   from the straight line between them (the paper: 1/2).
 #' @param longest Cuts may be this many times as long as the shortest.
+#' @param spacing Strength is taken along a cut at places no further apart than this share of `radius`.
 #' @param angles Number of angles of the coarse grid over a half turn.
 #' @param refined Number of angles between the neighbours of each local optimum.
 #' @param rival Share within which a second optimum is a rival that is warned of.
 #' @param distinct A rival runs further than this share of the path's length from it at some place.
 #' @inheritParams curvature
-#' @param ... Further arguments of [curvature()], where it is not given; [ridge_curve()] uses the `order` of its settings.
+#' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of its settings.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
 #'   (mean strength in 1 / unit, or length), and `optima`: data frame with a row for every local
 #'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`.
@@ -43,63 +44,85 @@
 #' @export
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
-                           angles = 60, refined = 21, rival = 0.05, distinct = 0.05,
-                           threads = getOption("crestline.threads", 1L), ...) {
+                           spacing = 0.25, angles = 60, refined = 21, rival = 0.05,
+                           distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, from, to)
   axis <- cut_axis(surface, ends)
-  strength <- numeric()
-  if (type != "plane") {
-    curvature <- known_curvature(curvature, specimen, radius,
-                                 near_segment(surface, ends, reach * axis$span + radius), threads, ...)
-    strength <- path_strength(curvature, type, keep_away, specimen, surface)
+  rate <- if (type == "plane") {
+    function(found) -found$length
+  } else {
+    curvature <- known_curvature(curvature, specimen, radius, threads, order)
+    strength <- path_strength(curvature, type, keep_away, specimen)
+    function(found) cut_strength(surface, ends, axis, found, reach, spacing * radius, strength)
   }
-  cuts <- function(angle, side) {
-    found <- cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
-                            plane_normal(axis, angle), side, reach * axis$span, strength)
-    data.frame(angle = angle, side = side, length = found$length,
-               criterion = if (type == "plane") -found$length else found$strength, end = found$end)
-  }
-  optima <- cut_optima(cuts, angles, refined, longest)
-  if (nrow(optima) == 0) abort_no_cut(cuts(0, 0L)$end, ends, surface$id)
-  cut <- function(optimum) {
-    found <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to,
-                            plane_normal(axis, optimum$angle), optimum$side, reach * axis$span)
-    new_path(found$points, ends, angle = optimum$angle, side = optimum$side, type = type)
-  }
+  measure <- function(angle, side) measure_cuts(surface, ends, axis, angle, side, reach)
+  optima <- cut_optima(measure, rate, angles, refined, longest)
+  if (nrow(optima) == 0) abort_no_cut(measure(0, 0L)$end, ends, surface$id)
+  cut <- function(optimum) cut_path(surface, ends, axis, optimum$angle, optimum$side, reach, type = type)
   path <- cut(optima[1, ])
   warn_rival(optima, path, cut, rival, distinct, ends, surface$id)
   if (type == "plane") optima$criterion <- optima$length
   structure(path, criterion = optima$criterion[1], optima = optima)
 }
 
+#' Lengths of plane cuts, NA where a cut does not arrive
+#' @return Data frame `angle`, `side`, `length`, `end`.
+#' @noRd
+measure_cuts <- function(surface, ends, axis, angle, side, reach) {
+  found <- cpp_plane_cuts(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, angle), side,
+                          reach * axis$span)
+  data.frame(angle = angle, side = side, length = found$length, end = found$end)
+}
+
+#' Mean strength along plane cuts, at places no further apart than `step`
+#'
+#' @param found Cuts as of [measure_cuts()], all arrived.
+#' @param strength Function of vertices.
+#' @noRd
+cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
+  if (nrow(found) == 0) return(numeric())
+  at <- cpp_cut_crossings(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, found$angle),
+                          found$side, reach * axis$span, step)
+  vertex <- unique(c(at$a, at$b))
+  value <- strength(vertex)
+  value <- (1 - at$share) * value[match(at$a, vertex)] + at$share * value[match(at$b, vertex)]
+  mean <- numeric(nrow(found))
+  mean[unique(at$cut)] <- rowsum(at$weight * value, at$cut, reorder = FALSE)
+  mean
+}
+
 #' Local optima of the criterion over angle and side, refined, best first
 #'
+#' @param measure Function of angles and sides, as [measure_cuts()].
+#' @param rate Function of measured cuts that gives their criterion.
 #' @param digits Criteria that agree to this many significant digits are equal: on a straight feature many
 #'   planes cut one line. Of equal cuts the shortest counts, then the straightest in.
 #' @noRd
-cut_optima <- function(cuts, angles, refined, longest, digits = 8) {
+cut_optima <- function(measure, rate, angles, refined, longest, digits = 8) {
   step <- pi / angles
   grid <- -pi / 2 + step * seq_len(angles)
-  coarse <- rbind(cuts(grid, rep(0L, angles)), cuts(grid, rep(1L, angles)))
-  shortest <- suppressWarnings(min(coarse$length, na.rm = TRUE))
-  admit <- function(found) {
-    found$level <- signif(found$criterion, digits)
+  coarse <- measure(rep(grid, 2), rep(0:1, each = angles))
+  if (all(is.na(coarse$length))) return(data.frame())
+  limit <- longest * min(coarse$length, na.rm = TRUE)
+  rated <- function(found) {
+    allowed <- which(found$length <= limit)
+    found$criterion <- NA_real_
+    found$criterion[allowed] <- rate(found[allowed, ])
+    found$level <- ifelse(is.na(found$criterion), -Inf, signif(found$criterion, digits))
     found$extent <- signif(found$length, digits)
-    found$level[is.na(found$level) | found$length > longest * shortest] <- -Inf
     found
   }
-  coarse <- admit(coarse)
-  peaks <- unlist(lapply(split(coarse, coarse$side), function(side) {
-    lapply(circular_peaks(side$level), function(run) best_cuts(side[run, ])[1, ])
-  }), recursive = FALSE)
-  best <- lapply(peaks, function(peak) {
-    fine <- peak$angle + step * seq(-1, 1, length.out = refined)
-    best_cuts(rbind(peak, admit(cuts(fine, rep(peak$side, refined)))))[1, ]
-  })
-  if (length(best) == 0) return(data.frame())
-  best <- do.call(rbind, best)
+  coarse <- rated(coarse)
+  peaks <- do.call(rbind, lapply(split(coarse, coarse$side), function(side) {
+    do.call(rbind, lapply(circular_peaks(side$level), function(run) best_cuts(side[run, ])[1, ]))
+  }))
+  around <- step * seq(-1, 1, length.out = refined)
+  fine <- measure(rep(peaks$angle, each = refined) + around, rep(peaks$side, each = refined))
+  all <- rbind(peaks, rated(fine))
+  of_peak <- c(seq_len(nrow(peaks)), rep(seq_len(nrow(peaks)), each = refined))
+  best <- do.call(rbind, lapply(split(all, of_peak), function(near) best_cuts(near)[1, ]))
   best$angle <- wrap_angle(best$angle)
   best <- best_cuts(best)[c("angle", "side", "criterion", "length")]
   best <- best[!duplicated(round(best[c("angle", "side")], 6)), ]
@@ -130,38 +153,27 @@ circular_peaks <- function(x) {
 # Into (-pi/2, pi/2].
 wrap_angle <- function(angle) angle - pi * ceiling(angle / pi - 0.5)
 
-#' Strength of the principal curvature at the vertices, 0 where it is not known or not wanted
-#' @noRd
-path_strength <- function(curvature, type, keep_away, specimen, surface) {
-  strength <- strength_at(curvature, type)
-  strength[is.na(strength)] <- 0
-  if (is.null(keep_away)) return(strength)
-  some <- which(strength > 0)
-  strength[some][is_kept_away(keep_away, specimen, t(surface$xyz[, some, drop = FALSE]))] <- 0
-  strength
-}
-
-#' Vertices within a distance of the straight segment between the ends, on their piece
-#' @noRd
-near_segment <- function(surface, ends, distance) {
-  a <- unlist(ends$exact[1, c("x", "y", "z")])
-  axis <- unlist(ends$exact[2, c("x", "y", "z")]) - a
-  relative <- surface$xyz - a
-  along <- pmin(pmax(as.vector(axis %*% relative) / sum(axis^2), 0), 1)
-  near <- colSums((relative - outer(axis, along))^2) <= distance^2
-  own <- logical(length(near))
-  own[surface$it[, surface$piece == surface$piece[ends$exact$face[1]]]] <- TRUE
-  which(near & own)
-}
-
-#' The curvature that was given, after a check, or estimated at the vertices that need it
+#' Strength of the principal curvature as a function of vertices, 0 where it is not known or not wanted
 #'
-#' `vertices` is a promise: it costs nothing where the curvature is given.
+#' @param curvature As of [known_curvature()].
 #' @noRd
-known_curvature <- function(curvature, specimen, radius, vertices, threads, ...) {
-  if (is.null(curvature)) {
-    return(crestline::curvature(specimen, radius, threads = threads, vertices = vertices, ...))
+path_strength <- function(curvature, type, keep_away, specimen) {
+  vb <- as_mesh(specimen)$vb
+  function(vertices) {
+    strength <- strength_at(curvature(vertices), type)
+    strength[is.na(strength)] <- 0
+    if (is.null(keep_away)) return(strength)
+    some <- which(strength > 0)
+    strength[some][is_kept_away(keep_away, specimen, t(vb[1:3, vertices[some], drop = FALSE]))] <- 0
+    strength
   }
+}
+
+#' Curvature as a function of vertices: the one that was given, after a check, or estimated where it is asked for
+#' @noRd
+known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
+  if (is.function(curvature)) return(curvature)
+  if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
   check_class(curvature, "curvature", "curvature", "curvature()")
   n <- ncol(as_mesh(specimen)$vb)
   if (length(curvature$k1) != n) {
@@ -169,7 +181,7 @@ known_curvature <- function(curvature, specimen, radius, vertices, threads, ...)
                     "Give the curvature of this specimen's own mesh: curvature(specimen, radius).",
                     stage = "curvature", id = specimen$id)
   }
-  curvature
+  function(vertices) curvature_rows(curvature, vertices)
 }
 
 abort_no_cut <- function(end, ends, id) {

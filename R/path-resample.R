@@ -10,21 +10,13 @@
 #'   neighbours are equal. The points lie on the path, so on the mesh. Attribute `converged`.
 #' @noRd
 resample_path <- function(mesh, path, n, tolerance = 1e-10, iterations = 200, slowest = 0.2) {
-  s <- attr(path, "length") * seq(0, 1, length.out = n)
-  spread <- Inf
-  share <- 1
-  for (round in seq_len(iterations)) {
-    at <- points_along(path, s)
-    chord <- sqrt(rowSums(diff(at)^2))
-    before <- spread
-    spread <- max(chord) / min(chord) - 1
-    if (spread < tolerance) break
-    # Towards where the sum of chords reaches equal shares; more slowly once that overshoots.
-    if (spread >= before) share <- max(share / 2, slowest)
-    aim <- stats::approx(c(0, cumsum(chord)) / sum(chord), s, seq(0, 1, length.out = n), ties = "ordered")$y
-    s <- s + share * (aim - s)
-  }
-  structure(place_along(mesh, path, s), converged = spread < tolerance)
+  spaced <- cpp_equal_chords(as.matrix(path[c("x", "y", "z")]), path$s, n,
+                             chord_settings(tolerance, iterations, slowest))
+  structure(place_along(mesh, path, spaced$s), converged = spaced$converged)
+}
+
+chord_settings <- function(tolerance = 1e-10, iterations = 200, slowest = 0.2) {
+  list(tolerance = tolerance, iterations = iterations, slowest = slowest)
 }
 
 # Positions at arc lengths, n x 3.
@@ -35,16 +27,13 @@ points_along <- function(path, s) {
 #' Points of a path at given arc lengths, each in the triangle of its segment
 #' @noRd
 place_along <- function(mesh, path, s) {
-  segment <- pmin(findInterval(s, path$s, all.inside = TRUE), nrow(path) - 1)
-  face <- path$face[segment + 1]
-  xyz <- points_along(path, s)
-  weight <- weights_in_faces(mesh, face, xyz)
-  ends <- s %in% range(path$s)
-  exact <- path[ifelse(s[ends] == 0, 1, nrow(path)), ]
-  face[ends] <- exact$face
-  weight[ends, ] <- as.matrix(exact[c("w1", "w2", "w3")])
-  data.frame(s = s, place_on_faces(mesh, face, weight), face = face, weight) |>
-    stats::setNames(c("s", "x", "y", "z", "face", "w1", "w2", "w3"))
+  placed <- cpp_place_along(mesh$vb, mesh$it, as.matrix(path[c("x", "y", "z")]), path$s, path$face, s)
+  colnames(placed) <- mesh_columns
+  ends <- which(s %in% range(path$s))
+  if (length(ends)) placed[ends, ] <- as.matrix(path[ifelse(s[ends] == 0, 1, nrow(path)), mesh_columns])
+  placed <- as.data.frame(placed)
+  placed$face <- as.integer(placed$face)
+  cbind(s = s, placed)
 }
 
 # Barycentric weights of points that lie in the given triangles.

@@ -60,7 +60,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
     } else {
       about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
       about$width <- check_number(width, "width", lower = 0, open = TRUE)
-      curvature <- curvature_for(curvature, specimen, from, to, radius, width, reach, settings, threads)
+      curvature <- known_curvature(curvature, specimen, radius, check_count(threads, "threads"), settings$order)
       path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
                              longest = settings$longest)
       fit <- fit_passes(specimen, path, curvature, keep_away, about)
@@ -81,18 +81,6 @@ fit_passes <- function(specimen, path, curvature, keep_away, about) {
   fit
 }
 
-#' Curvature where the curve and its window may lie, unless it is given
-#' @noRd
-curvature_for <- function(curvature, specimen, from, to, radius, width, reach, settings, threads) {
-  vertices <- function() {
-    surface <- walkable(specimen)
-    ends <- path_ends(specimen, surface, from, to)
-    span <- cut_axis(surface, ends)$span
-    near_segment(surface, ends, reach * span + radius + min(width, settings$window * radius))
-  }
-  known_curvature(curvature, specimen, radius, vertices(), threads, order = settings$order)
-}
-
 #' One pass from reference path to lifted curve
 #' @noRd
 fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away, settings) {
@@ -108,8 +96,8 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
   stages$surface <- curvature_surface(coordinates, strength$value, settings)
   stages$line <- ridge_line(stages$surface, scale, radius, settings)
   if (settings$error) {
-    stages$line$se <- ridge_error(specimen, curvature, coordinates, stages$surface, stages$line, strength,
-                                  scale, radius, type, settings)
+    stages$line$se <- ridge_error(specimen, coordinates, stages$surface, stages$line, strength, scale, radius, type,
+                                  settings)
   }
   lifted <- tryCatch(lift(specimen, coordinates, path, stages$line$s, stages$line$alpha),
                      crestline_path_error = function(e) NULL)
@@ -122,21 +110,30 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
   stages
 }
 
-#' Strength at the vertices of a window as the settings define it
+#' Strength at the vertices inside a window as the settings define it
 #'
-#' @return List: `value` (NA where left out), `cap`, `direction` (n x 3, across the path or principal).
+#' @return List with entries for the rows of `coordinates`, NA outside the window: `value` (also NA where left out),
+#'   `direction` (n x 3, across the path or principal), `sigma`; and `cap`.
 #' @noRd
 window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings) {
-  at <- coordinates$vertex
-  across <- cross_rows(curvature$normal[at, , drop = FALSE], as.matrix(coordinates[c("tx", "ty", "tz")]))
+  inside <- which(coordinates$inside)
+  curved <- curvature(coordinates$vertex[inside])
+  across <- cross_rows(curved$normal, as.matrix(coordinates[inside, c("tx", "ty", "tz")]))
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
-  value <- strength_at(curvature, type, at, if (!principal) across)
-  value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, at, drop = FALSE]))] <- 0
+  value <- strength_at(curved, type, across = if (!principal) across)
+  if (!is.null(keep_away)) {
+    value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[inside], drop = FALSE]))] <- 0
+  }
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
-  cap <- settings$cap * stats::quantile(value[coordinates$inside], settings$cap_quantile, na.rm = TRUE, names = FALSE)
-  own <- if (type == "ridge") curvature$direction2 else curvature$direction1
-  list(value = pmin(value, cap), cap = cap, direction = if (principal) own[at, , drop = FALSE] else across)
+  cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
+  own <- if (type == "ridge") curved$direction2 else curved$direction1
+  all_rows <- function(x) {
+    if (is.matrix(x)) return(replace(matrix(NA_real_, nrow(coordinates), 3), cbind(rep(inside, 3), rep(1:3, each = length(inside))), x))
+    replace(rep(NA_real_, nrow(coordinates)), inside, x)
+  }
+  list(value = all_rows(pmin(value, cap)), cap = cap, direction = all_rows(if (principal) own else across),
+       sigma = all_rows(curved$sigma))
 }
 
 core_strength <- function(coordinates, strength, distance) {
@@ -199,14 +196,17 @@ judge_curve <- function(about, fit) {
 }
 
 #' Length-weighted mean along a path of the strength that the curve was fitted to
+#'
+#' Corners outside the window are left out of a place's mean.
 #' @noRd
 mean_strength <- function(specimen, path, fit) {
   if (is.null(fit)) return(NA_real_)
-  mesh <- as_mesh(specimen)
-  strength <- rep(NA_real_, ncol(mesh$vb))
-  strength[fit$coordinates$vertex] <- ifelse(is.na(fit$strengths$value), 0, fit$strengths$value)
-  at <- path$w1 * strength[mesh$it[1, path$face]] + path$w2 * strength[mesh$it[2, path$face]] +
-    path$w3 * strength[mesh$it[3, path$face]]
+  row <- matrix(match(as_mesh(specimen)$it[, path$face], fit$coordinates$vertex), 3)
+  inside <- matrix(fit$coordinates$inside[row] %in% TRUE, 3)
+  strength <- fit$strengths$value[row]
+  strength[is.na(strength)] <- 0
+  weight <- rbind(path$w1, path$w2, path$w3) * inside
+  at <- colSums(weight * strength) / colSums(weight)
   middle <- (at[-1] + at[-length(at)]) / 2
   stats::weighted.mean(middle, diff(path$s), na.rm = TRUE)
 }

@@ -9,24 +9,25 @@
 #' result is inflated by `settings$inflation`, and the change of the line when lambda is
 #' divided by ten stands for its bias.
 #'
-#' @param specimen,curvature The mesh and its curvature.
+#' @param specimen The mesh.
 #' @param coordinates,surface,line The stages of the fit.
-#' @param strength List of `value`, `cap`, `direction` (n x 3) at the rows of `coordinates`.
+#' @param strength As of [window_strength()].
 #' @param scale,radius,type,settings As in [ridge_line()] and [ridge_curve()].
 #' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
 #' @noRd
-ridge_error <- function(specimen, curvature, coordinates, surface, line, strength, scale, radius, type,
-                        settings) {
+ridge_error <- function(specimen, coordinates, surface, line, strength, scale, radius, type, settings) {
   problem <- ridge_problem(surface, scale, radius, settings)
   alpha <- line$alpha[-c(1, length(line$alpha))]
   slope <- strength_jacobian(problem, surface, alpha)
   live <- which(strength$value[surface$rows] > 0 & strength$value[surface$rows] < strength$cap)
   rows <- surface$rows[live]
-  sigma <- curvature$sigma
-  sigma[is.na(sigma)] <- stats::median(sigma, na.rm = TRUE)
+  vb <- as_mesh(specimen)$vb
+  sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(vb))
+  known <- !is.na(strength$sigma)
+  sigma[coordinates$vertex[known]] <- strength$sigma[known]
   turn <- if (type == "ridge") -1 else 1
   variance <- cpp_curvature_variance(
-    as_mesh(specimen)$vb[1:3, , drop = FALSE], as_mesh(specimen)$it, coordinates$vertex[rows],
+    vb, as_mesh(specimen)$it, coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), turn * slope[, live, drop = FALSE], sigma,
     fit_settings(radius, settings$order)
   )

@@ -28,7 +28,7 @@ lift <- function(specimen, coordinates, path, s, alpha) {
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)
   towards <- first_direction(specimen, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
-  walked <- cpp_level_path(surface$xyz, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
+  walked <- cpp_level_path(surface$vb, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
   if (walked$end == "arrived") return(new_path(walked$points, ends, lifted = TRUE))
   piece_together(specimen, surface, coordinates, path, s, alpha)
 }
@@ -52,7 +52,7 @@ lift_ends <- function(path, surface) {
 #' @noRd
 level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
   offset <- stats::splinefun(s, alpha, method = "natural")
-  level <- rep(NaN, ncol(surface$xyz))
+  level <- rep(NaN, ncol(surface$vb))
   level[coordinates$vertex] <- coordinates$d - offset(coordinates$s)
   at_end <- function(end) sum(end[2:4] * level[surface$it[, end[1]]])
   share <- pmin(pmax(coordinates$s / max(s), 0), 1)
@@ -86,14 +86,14 @@ piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
 }
 
 places_in_plane <- function(surface, coordinates, path, s, alpha) {
-  row_of <- match(seq_len(ncol(surface$xyz)), coordinates$vertex)
+  row_of <- match(seq_len(ncol(surface$vb)), coordinates$vertex)
   corners <- matrix(row_of[surface$it], 3)
   faces <- which(colSums(is.na(corners)) == 0)
   flat <- list(vb = rbind(coordinates$s, coordinates$d, 0), it = corners[, faces, drop = FALSE])
   found <- lapply(seq_along(s)[-c(1, length(s))], function(i) {
     holds <- triangles_about(flat, s[i], alpha[i])
     if (length(holds$face) == 0) return(NULL)
-    xyz <- place_on_faces(list(vb = surface$xyz, it = surface$it), faces[holds$face], holds$weight)
+    xyz <- place_on_faces(surface, faces[holds$face], holds$weight)
     at <- points_along(path, s[i])
     best <- which.min(rowSums(sweep(xyz, 2, at)^2))
     data.frame(x = xyz[best, 1], y = xyz[best, 2], z = xyz[best, 3], face = faces[holds$face[best]],

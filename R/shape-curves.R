@@ -10,10 +10,10 @@
 #' @noRd
 fit_scheme_curves <- function(specimen, scheme, settings, passes, threads, cut_scale, tick) {
   curves <- scheme$curves
-  curvatures <- scheme_curvatures(specimen, curves, settings, threads)
+  sources <- scheme_curvatures(specimen, curves, settings, threads)
   fits <- stats::setNames(vector("list", nrow(curves)), curves$curve)
   fit <- function(row) {
-    suppressWarnings(fit_scheme_curve(row, specimen, curvatures, fits, settings, passes, threads),
+    suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes),
                      classes = "crestline_warning")
   }
   for (i in fitting_order(curves)) {
@@ -47,37 +47,28 @@ fitting_order <- function(curves) {
   order(depth)
 }
 
-#' Curvature for all curves of one radius, where any of them may lie
+#' Curvature for all curves of one radius, estimated where they ask for it
 #'
-#' @param reach As in [ridge_curve()].
-#' @return List by radius of `curvature`s, or of the error where there is none.
+#' @return List by radius of functions as of [curvature_source()].
 #' @noRd
-scheme_curvatures <- function(specimen, curves, settings, threads, reach = 0.5) {
-  curved <- curves[curves$kind != "plane", ]
-  surface <- walkable(specimen)
-  lapply(split(curved, curved$radius), function(rows) {
-    vertices <- lapply(seq_len(nrow(rows)), function(i) {
-      row <- rows[i, ]
-      tryCatch({
-        ends <- path_ends(specimen, surface, row$from, row$to)
-        wander <- min(row$width, settings$window * row$radius)
-        near_segment(surface, ends, reach * cut_axis(surface, ends)$span + row$radius + wander)
-      }, crestline_error = function(e) integer())
+scheme_curvatures <- function(specimen, curves, settings, threads) {
+  radius <- unique(curves$radius[curves$kind != "plane"])
+  sources <- lapply(radius, function(r) {
+    tryCatch(curvature_source(specimen, r, settings$order, threads), crestline_error = function(e) {
+      function(vertices) rlang::cnd_signal(e)
     })
-    vertices <- sort(unique(unlist(vertices)))
-    if (!length(vertices)) return(NULL)
-    tryCatch(curvature(specimen, rows$radius[1], settings$order, threads, vertices), crestline_error = identity)
   })
+  stats::setNames(sources, radius)
 }
 
-fit_scheme_curve <- function(row, specimen, curvatures, fits, settings, passes, threads) {
+fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
   curve <- if (row$kind == "plane" && is.na(row$angle_limit)) {
     ridge_curve(specimen, row$from, row$to, "plane", n = row$n)
   } else if (row$kind == "plane") {
     path <- limited_reference(row, specimen, NULL, NULL, settings)
     new_curve(specimen, path, path, row$n, about_curve(row, specimen, settings, passes))
   } else {
-    fit_curved(row, specimen, curvatures[[as.character(row$radius)]], fits, settings, passes, threads)
+    fit_curved(row, specimen, sources[[as.character(row$radius)]], fits, settings, passes)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
        strength = curve$strength, se = curve$se, competing = competing_share(curve$reference, specimen),
@@ -86,8 +77,7 @@ fit_scheme_curve <- function(row, specimen, curvatures, fits, settings, passes, 
 
 #' A ridge or valley with the constraints of its row
 #' @noRd
-fit_curved <- function(row, specimen, curvature, fits, settings, passes, threads) {
-  if (inherits(curvature, "condition")) rlang::cnd_signal(curvature)
+fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
   away <- if (!is.na(row$keep_away_from)) {
     keep_away(row$keep_away_from, row$keep_away_to, row$keep_away_radius, row$keep_away_extension)
   }
@@ -95,7 +85,7 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes, threads
   free <- is.na(row$angle_limit) && row$trust_from == 0 && row$trust_to == 1
   if (free) {
     return(ridge_curve(specimen, row$from, row$to, row$kind, row$radius, row$width, row$n, away, settings, passes,
-                       curvature, threads = threads))
+                       curvature))
   }
   path <- if (is.na(row$angle_limit)) {
     reference_path(specimen, row$from, row$to, row$kind, row$radius, away, curvature, longest = settings$longest)
@@ -115,13 +105,15 @@ about_curve <- function(row, specimen, settings, passes) {
 #' Reference path among the angles that a row allows
 #'
 #' @param angles Number of angles.
-#' @param reach As in [reference_path()].
+#' @param reach,spacing As in [reference_path()].
 #' @noRd
-limited_reference <- function(row, specimen, curvature, away, settings, angles = 61, reach = 0.5) {
+limited_reference <- function(row, specimen, curvature, away, settings, angles = 61, reach = 0.5, spacing = 0.25) {
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, row$from, row$to)
-  strength <- if (is.null(curvature)) numeric() else path_strength(curvature, row$kind, away, specimen, surface)
-  limited_cut(surface, ends, row$angle_limit, angles, reach, strength, settings$longest)
+  if (is.null(curvature)) return(limited_cut(surface, ends, row$angle_limit, angles, reach))
+  strength <- path_strength(curvature, row$kind, away, specimen)
+  rate <- function(axis, found) cut_strength(surface, ends, axis, found, reach, spacing * row$radius, strength)
+  limited_cut(surface, ends, row$angle_limit, angles, reach, rate, settings$longest)
 }
 
 #' Curvature with none on the wrong side of another curve
@@ -146,10 +138,14 @@ trusted <- function(curvature, row, specimen, path) {
 }
 
 without_curvature <- function(curvature, vertex) {
-  known <- vertex[!is.na(curvature$k1[vertex])]
-  curvature$k1[known] <- 0
-  curvature$k2[known] <- 0
-  curvature
+  force(curvature)
+  function(vertices) {
+    curved <- curvature(vertices)
+    none <- vertices %in% vertex & !is.na(curved$k1)
+    curved$k1[none] <- 0
+    curved$k2[none] <- 0
+    curved
+  }
 }
 
 #' How good the best other optimum of a reference path is that runs elsewhere, as a share of the chosen one

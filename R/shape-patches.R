@@ -47,13 +47,15 @@ fit_block <- function(block, grid, specimen, surface, curves, fits, store, colum
   }
   open <- grid[is.na(store[grid$place, "x"]) & grid$row > 1 & grid$row < block$rows, ]
   whole <- which(!is.na(a$points[, "x"]) & !is.na(b$points[, "x"]))
-  for (at in intersect(open$column, whole)) {
-    cut <- fit_column(a$points[at, ], b$points[at, ], block$rows, specimen, surface, column)
-    rows <- open[open$column == at, ]
-    if (is.null(cut$problem)) store <- fill_store(store, rows$place, cut$points[rows$row, , drop = FALSE])
-    else why <- c(why, paste0("column ", at, ": ", cut$problem))
+  at <- intersect(open$column, whole)
+  if (!length(at)) return(list(store = store, why = why))
+  cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], block$rows, surface, column)
+  failed <- !is.na(cuts$problem)
+  for (i in which(!failed)) {
+    rows <- open[open$column == at[i], ]
+    store <- fill_store(store, rows$place, cuts$points[[i]][rows$row, , drop = FALSE])
   }
-  list(store = store, why = why)
+  list(store = store, why = c(why, if (any(failed)) paste0("column ", at[failed], ": ", cuts$problem[failed])))
 }
 
 #' Why a patch, of one or more blocks, has points missing; NA where it has none
@@ -108,12 +110,30 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
   path_through(do.call(rbind, rows))
 }
 
-fit_column <- function(from, to, rows, specimen, surface, column) {
-  tryCatch({
-    path <- cut_between(from, to, specimen, surface, column)
-    list(points = as.matrix(resample_path(specimen$mesh, path, rows)[mesh_columns]))
-  }, crestline_error = function(e) list(problem = e$problem))
+#' Columns: the shortest cut between two places of each, divided at equal chords
+#'
+#' @param from,to k x 7 matrices, a row a column.
+#' @param rows Points of a column, the ends among them.
+#' @param inside As in [path_ends()].
+#' @return List: `points` (list of rows x 7 matrices), `problem` (NA where the column is there).
+#' @noRd
+fit_columns <- function(from, to, rows, surface, column, inside = 1e-6) {
+  at <- c("face", "w1", "w2", "w3")
+  same <- rowSums((from[, 1:3, drop = FALSE] - to[, 1:3, drop = FALSE])^2) == 0
+  apart <- surface$piece[from[, "face"]] != surface$piece[to[, "face"]]
+  found <- cpp_fit_columns(surface$vb, surface$it, surface$twin, from[, at, drop = FALSE], to[, at, drop = FALSE],
+                           rep(rows, nrow(from)), c(column, inside = inside), chord_settings())
+  why <- unname(column_problems[found$end])
+  why[apart] <- "its ends lie on different pieces of the mesh"
+  why[same] <- "its ends are the same point"
+  list(points = lapply(found$points, `colnames<-`, mesh_columns), problem = why)
 }
+
+column_problems <- c(
+  arrived = NA, border = "the plane cut meets a border of the mesh",
+  round = "the plane cut does not come to the second point", "too far" = "the plane cut strays too far from the axis",
+  "no axis" = "its ends are too near to each other"
+)
 
 cut_between <- function(from, to, specimen, surface, column) {
   ends <- path_ends(specimen, surface, as.data.frame(t(from)), as.data.frame(t(to)))

@@ -7,28 +7,17 @@
 #' @param limit Greatest angle in radians between the plane and that of the mean of the normals at the ends.
 #' @param angles Number of angles.
 #' @param reach Cuts stay within this share of the ends' distance from the straight line between them.
-#' @param strength At the vertices: the cut with the greatest mean strength; the shortest where empty.
-#' @param longest Cuts may be this many times as long as the shortest, where there is strength.
+#' @param rate Function of measured cuts that are at most `longest` times as long as the shortest: the greatest counts.
 #' @return `mesh_path`; error of class `crestline_path_error` where no cut joins the ends.
 #' @noRd
-limited_cut <- function(surface, ends, limit, angles, reach, strength = numeric(), longest = Inf) {
+limited_cut <- function(surface, ends, limit, angles, reach, rate = function(axis, found) -found$length, longest = 1) {
   axis <- cut_axis(surface, ends)
-  angle <- seq(-limit, limit, length.out = angles)
-  normals <- plane_normal(axis, angle)
-  found <- cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to, normals, rep(0L, angles),
-                          reach * axis$span, strength)
+  found <- measure_cuts(surface, ends, axis, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
   if (all(is.na(found$length))) abort_cut(found$end[ceiling(angles / 2)], ends, surface$id)
-  best <- if (length(strength)) {
-    which.max(ifelse(found$length <= longest * min(found$length, na.rm = TRUE), found$strength, NA))
-  } else {
-    which.min(found$length)
-  }
-  cut <- cpp_plane_path(surface$xyz, surface$it, surface$twin, ends$from, ends$to, normals[, best], 0,
-                        reach * axis$span)
-  new_path(cut$points, ends, angle = angle[best], side = 0)
+  allowed <- found[which(found$length <= longest * min(found$length, na.rm = TRUE)), ]
+  best <- allowed[which.max(rate(axis, allowed)), ]
+  cut_path(surface, ends, axis, best$angle, 0, reach)
 }
-
-mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
 
 #' The part of a path between two arc lengths; run backwards where the first is the greater
 #' @noRd

@@ -11,34 +11,34 @@ Rcpp::Rostream<false>& Rcpp::Rcerr = Rcpp::Rcpp_cerr_get();
 #endif
 
 // cpp_curvature
-List cpp_curvature(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, List settings, int threads);
-RcppExport SEXP _crestline_cpp_curvature(SEXP xyzSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
+List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, List settings, int threads);
+RcppExport SEXP _crestline_cpp_curvature(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
     Rcpp::traits::input_parameter< int >::type threads(threadsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature(xyz, it, targets, settings, threads));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature(vb, it, targets, settings, threads));
     return rcpp_result_gen;
 END_RCPP
 }
 // cpp_curvature_variance
-NumericVector cpp_curvature_variance(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix jacobian, NumericVector sigma, List settings);
-RcppExport SEXP _crestline_cpp_curvature_variance(SEXP xyzSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP jacobianSEXP, SEXP sigmaSEXP, SEXP settingsSEXP) {
+NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix jacobian, NumericVector sigma, List settings);
+RcppExport SEXP _crestline_cpp_curvature_variance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP jacobianSEXP, SEXP sigmaSEXP, SEXP settingsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type jacobian(jacobianSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type sigma(sigmaSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature_variance(xyz, it, targets, directions, jacobian, sigma, settings));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_variance(vb, it, targets, directions, jacobian, sigma, settings));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -54,13 +54,28 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_plane_cuts
-DataFrame cpp_plane_cuts(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, NumericVector strength);
-RcppExport SEXP _crestline_cpp_plane_cuts(SEXP xyzSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP strengthSEXP) {
+// cpp_cut_axis
+List cpp_cut_axis(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to);
+RcppExport SEXP _crestline_cpp_cut_axis(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type to(toSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_cut_axis(vb, it, twin, from, to));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_plane_cuts
+DataFrame cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach);
+RcppExport SEXP _crestline_cpp_plane_cuts(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
@@ -68,18 +83,36 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
     Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
-    Rcpp::traits::input_parameter< NumericVector >::type strength(strengthSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_plane_cuts(xyz, it, twin, from, to, normals, sides, reach, strength));
+    rcpp_result_gen = Rcpp::wrap(cpp_plane_cuts(vb, it, twin, from, to, normals, sides, reach));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_cut_crossings
+DataFrame cpp_cut_crossings(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, double step);
+RcppExport SEXP _crestline_cpp_cut_crossings(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP stepSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type to(toSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< double >::type step(stepSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_cut_crossings(vb, it, twin, from, to, normals, sides, reach, step));
     return rcpp_result_gen;
 END_RCPP
 }
 // cpp_plane_path
-List cpp_plane_path(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericVector normal, int side, double reach);
-RcppExport SEXP _crestline_cpp_plane_path(SEXP xyzSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalSEXP, SEXP sideSEXP, SEXP reachSEXP) {
+List cpp_plane_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericVector normal, int side, double reach);
+RcppExport SEXP _crestline_cpp_plane_path(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalSEXP, SEXP sideSEXP, SEXP reachSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
@@ -87,24 +120,72 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< NumericVector >::type normal(normalSEXP);
     Rcpp::traits::input_parameter< int >::type side(sideSEXP);
     Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_plane_path(xyz, it, twin, from, to, normal, side, reach));
+    rcpp_result_gen = Rcpp::wrap(cpp_plane_path(vb, it, twin, from, to, normal, side, reach));
     return rcpp_result_gen;
 END_RCPP
 }
 // cpp_level_path
-List cpp_level_path(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, int from_face, int to_face, NumericVector level, NumericVector towards);
-RcppExport SEXP _crestline_cpp_level_path(SEXP xyzSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP from_faceSEXP, SEXP to_faceSEXP, SEXP levelSEXP, SEXP towardsSEXP) {
+List cpp_level_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, int from_face, int to_face, NumericVector level, NumericVector towards);
+RcppExport SEXP _crestline_cpp_level_path(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP from_faceSEXP, SEXP to_faceSEXP, SEXP levelSEXP, SEXP towardsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
     Rcpp::traits::input_parameter< int >::type from_face(from_faceSEXP);
     Rcpp::traits::input_parameter< int >::type to_face(to_faceSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type level(levelSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type towards(towardsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_level_path(xyz, it, twin, from_face, to_face, level, towards));
+    rcpp_result_gen = Rcpp::wrap(cpp_level_path(vb, it, twin, from_face, to_face, level, towards));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_equal_chords
+List cpp_equal_chords(NumericMatrix xyz, NumericVector s, int n, List settings);
+RcppExport SEXP _crestline_cpp_equal_chords(SEXP xyzSEXP, SEXP sSEXP, SEXP nSEXP, SEXP settingsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type s(sSEXP);
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_equal_chords(xyz, s, n, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_place_along
+NumericMatrix cpp_place_along(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, NumericVector s, IntegerVector face, NumericVector at);
+RcppExport SEXP _crestline_cpp_place_along(SEXP vbSEXP, SEXP itSEXP, SEXP xyzSEXP, SEXP sSEXP, SEXP faceSEXP, SEXP atSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type s(sSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type face(faceSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type at(atSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_place_along(vb, it, xyz, s, face, at));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_fit_columns
+List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix from, NumericMatrix to, IntegerVector rows, List settings, List chords);
+RcppExport SEXP _crestline_cpp_fit_columns(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP rowsSEXP, SEXP settingsSEXP, SEXP chordsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type to(toSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type rows(rowsSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    Rcpp::traits::input_parameter< List >::type chords(chordsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_fit_columns(vb, it, twin, from, to, rows, settings, chords));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -155,9 +236,14 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
-    {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 9},
+    {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
+    {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
+    {"_crestline_cpp_cut_crossings", (DL_FUNC) &_crestline_cpp_cut_crossings, 9},
     {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
     {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
+    {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},
+    {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
+    {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 8},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},

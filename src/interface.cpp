@@ -2,10 +2,13 @@
 #include <Rcpp.h>
 
 #include "curvature.h"
+#include "mesh_crop.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
+#include "path_resample.h"
 #include "plot_render.h"
+#include "shape_column.h"
 
 using namespace Rcpp;
 
@@ -36,20 +39,43 @@ crestline::FitSettings fit_settings(const List& s) {
   return out;
 }
 
-// The parts of a triangulation, counted from 0, and the view of them that kernels take.
-struct MeshArrays {
-  NumericMatrix xyz;
-  std::vector<int> it, twin;
-  MeshArrays(const NumericMatrix& xyz, const IntegerMatrix& it, const IntegerMatrix& twin)
-      : xyz(xyz), it(from_zero(it)), twin(from_zero(twin)) {}
-  crestline::Triangulation view() const {
-    return {xyz.begin(), it.data(), twin.data(), static_cast<int>(it.size() / 3)};
-  }
-};
+// The part of a mesh that the balls about the targets reach.
+crestline::Crop crop(const NumericMatrix& vb, const IntegerMatrix& it, const IntegerVector& targets,
+                     double radius) {
+  return crestline::crop_mesh(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(),
+                              from_zero(targets), radius);
+}
+
+crestline::MeshView view(const crestline::Crop& crop) {
+  return {crop.xyz.data(), static_cast<int>(crop.vertex.size()), crop.it.data(),
+          static_cast<int>(crop.it.size() / 3)};
+}
+
+// vb has three rows or more, the first three x, y, z.
+crestline::Triangulation triangulation(const NumericMatrix& vb, const IntegerMatrix& it,
+                                       const IntegerMatrix& twin) {
+  return {vb.begin(), vb.nrow(), it.begin(), twin.begin(), it.ncol()};
+}
 
 // (face, w1, w2, w3), the face counted from 1.
 crestline::SurfacePoint surface_point(const NumericVector& p) {
   return {static_cast<int>(p[0]) - 1, {p[1], p[2], p[3]}};
+}
+
+crestline::SurfacePoint surface_point(const NumericMatrix& rows, int i) {
+  return {static_cast<int>(rows(i, 0)) - 1, {rows(i, 1), rows(i, 2), rows(i, 3)}};
+}
+
+// One row of x, y, z, face, w1, w2, w3.
+void fill_row(const crestline::Triangulation& mesh, const crestline::SurfacePoint& p, int i,
+              NumericMatrix& out) {
+  double xyz[3];
+  crestline::position(mesh, p, xyz);
+  for (int k = 0; k < 3; ++k) {
+    out(i, k) = xyz[k];
+    out(i, 4 + k) = p.w[k];
+  }
+  out(i, 3) = p.face + 1;
 }
 
 // Columns x, y, z, face, w1, w2, w3; each crossing in the face that it leaves.
@@ -58,15 +84,28 @@ NumericMatrix crossing_rows(const crestline::Triangulation& mesh,
   NumericMatrix out(crossings.size(), 7);
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     int h = crossings[i].half_edge, c = h % 3;
-    double share = crossings[i].share;
-    const double *a = crestline::corner(mesh, mesh.it[h]),
-                 *b = crestline::corner(mesh, mesh.it[crestline::next_half_edge(h)]);
-    for (int k = 0; k < 3; ++k) out(i, k) = a[k] + share * (b[k] - a[k]);
+    double xyz[3];
+    crestline::position(mesh, crossings[i], xyz);
+    for (int k = 0; k < 3; ++k) out(i, k) = xyz[k];
     out(i, 3) = crestline::face_of(h) + 1;
-    out(i, 4 + c) = 1 - share;
-    out(i, 4 + (c + 1) % 3) = share;
+    out(i, 4 + c) = 1 - crossings[i].share;
+    out(i, 4 + (c + 1) % 3) = crossings[i].share;
   }
   return out;
+}
+
+// xyz: k x 3; face: k, counted from 1.
+crestline::Track track(const NumericMatrix& xyz, const NumericVector& s, const IntegerVector& face) {
+  crestline::Track out;
+  for (int i = 0; i < xyz.nrow(); ++i)
+    for (int a = 0; a < 3; ++a) out.xyz.push_back(xyz(i, a));
+  out.s.assign(s.begin(), s.end());
+  out.face = from_zero(face);
+  return out;
+}
+
+crestline::ChordSettings chord_settings(const List& s) {
+  return {s["tolerance"], s["iterations"], s["slowest"]};
 }
 
 // How a walk ended, in the words of the package.
@@ -91,26 +130,28 @@ NumericMatrix as_rows(const std::vector<double>& x) {
 }  // namespace
 
 // [[Rcpp::export]]
-List cpp_curvature(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets, List settings,
+List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, List settings,
                    int threads) {
-  std::vector<int> corners = from_zero(it);
-  crestline::MeshView mesh{xyz.begin(), xyz.ncol(), corners.data(), it.ncol()};
-  crestline::Curvature c = crestline::curvature(mesh, from_zero(targets), fit_settings(settings),
-                                                threads, [] { checkUserInterrupt(); });
+  crestline::FitSettings fit = fit_settings(settings);
+  crestline::Crop near = crop(vb, it, targets, fit.radius);
+  crestline::Curvature c = crestline::curvature(view(near), near.local, fit, threads,
+                                                [] { checkUserInterrupt(); });
   return List::create(_["k1"] = c.k1, _["k2"] = c.k2, _["direction1"] = as_rows(c.direction1),
                       _["direction2"] = as_rows(c.direction2), _["normal"] = as_rows(c.normal),
                       _["order"] = c.order, _["sigma"] = c.sigma, _["neighbours"] = c.neighbours);
 }
 
 // [[Rcpp::export]]
-NumericVector cpp_curvature_variance(NumericMatrix xyz, IntegerMatrix it, IntegerVector targets,
+NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets,
                                      NumericMatrix directions, NumericMatrix jacobian,
                                      NumericVector sigma, List settings) {
-  std::vector<int> corners = from_zero(it);
-  crestline::MeshView mesh{xyz.begin(), xyz.ncol(), corners.data(), it.ncol()};
-  return wrap(crestline::curvature_variance(mesh, from_zero(targets), directions.begin(),
-                                            jacobian.begin(), jacobian.nrow(), sigma.begin(),
-                                            fit_settings(settings), [] { checkUserInterrupt(); }));
+  crestline::FitSettings fit = fit_settings(settings);
+  crestline::Crop near = crop(vb, it, targets, fit.radius);
+  std::vector<double> near_sigma;
+  for (int v : near.vertex) near_sigma.push_back(sigma[v]);
+  return wrap(crestline::curvature_variance(view(near), near.local, directions.begin(),
+                                            jacobian.begin(), jacobian.nrow(), near_sigma.data(),
+                                            fit, [] { checkUserInterrupt(); }));
 }
 
 // [[Rcpp::export]]
@@ -125,44 +166,113 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
 }
 
 // [[Rcpp::export]]
-DataFrame cpp_plane_cuts(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin,
-                         NumericVector from, NumericVector to, NumericMatrix normals,
-                         IntegerVector sides, double reach, NumericVector strength) {
-  MeshArrays mesh(xyz, it, twin);
+List cpp_cut_axis(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+                  NumericVector to) {
+  crestline::CutAxis axis = crestline::cut_axis(triangulation(vb, it, twin), surface_point(from),
+                                                surface_point(to));
+  return List::create(_["axis"] = NumericVector(axis.axis, axis.axis + 3),
+                      _["across"] = NumericVector(axis.across, axis.across + 3),
+                      _["span"] = axis.span);
+}
+
+// [[Rcpp::export]]
+DataFrame cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+                         NumericVector to, NumericMatrix normals, IntegerVector sides, double reach) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
   int n = sides.size();
-  NumericVector length(n), mean(n);
+  NumericVector length(n);
   CharacterVector end(n);
   for (int i = 0; i < n; ++i) {
-    crestline::CutRequest request{surface_point(from), surface_point(to), &normals(0, i), sides[i],
-                                  reach, strength.size() ? strength.begin() : nullptr, false};
-    crestline::PlaneCut cut = crestline::plane_cut(mesh.view(), request);
+    crestline::PlaneCut cut = crestline::plane_cut(
+        mesh, {surface_point(from), surface_point(to), &normals(0, i), sides[i], reach, false});
     length[i] = cut.length;
-    mean[i] = cut.strength;
     end[i] = walk_end(cut.end);
     checkUserInterrupt();
   }
-  return DataFrame::create(_["length"] = length, _["strength"] = mean, _["end"] = end);
+  return DataFrame::create(_["length"] = length, _["end"] = end);
 }
 
 // [[Rcpp::export]]
-List cpp_plane_path(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+DataFrame cpp_cut_crossings(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin,
+                            NumericVector from, NumericVector to, NumericMatrix normals,
+                            IntegerVector sides, double reach, double step) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  std::vector<int> cut_of, a, b;
+  std::vector<double> share, weight;
+  for (int i = 0; i < sides.size(); ++i) {
+    crestline::PlaneCut cut = crestline::plane_cut(
+        mesh, {surface_point(from), surface_point(to), &normals(0, i), sides[i], reach, true});
+    for (const auto& w : crestline::spaced_crossings(mesh, cut, surface_point(from), step)) {
+      cut_of.push_back(i + 1);
+      a.push_back(it[w.crossing.half_edge]);
+      b.push_back(it[crestline::next_half_edge(w.crossing.half_edge)]);
+      share.push_back(w.crossing.share);
+      weight.push_back(w.weight);
+    }
+    checkUserInterrupt();
+  }
+  return DataFrame::create(_["cut"] = cut_of, _["a"] = a, _["b"] = b, _["share"] = share,
+                           _["weight"] = weight);
+}
+
+// [[Rcpp::export]]
+List cpp_plane_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
                     NumericVector to, NumericVector normal, int side, double reach) {
-  MeshArrays mesh(xyz, it, twin);
-  crestline::CutRequest request{surface_point(from), surface_point(to), normal.begin(), side,
-                                reach, nullptr, true};
-  crestline::PlaneCut cut = crestline::plane_cut(mesh.view(), request);
-  return List::create(_["end"] = walk_end(cut.end),
-                      _["points"] = crossing_rows(mesh.view(), cut.crossings));
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  crestline::PlaneCut cut = crestline::plane_cut(
+      mesh, {surface_point(from), surface_point(to), normal.begin(), side, reach, true});
+  return List::create(_["end"] = walk_end(cut.end), _["points"] = crossing_rows(mesh, cut.crossings));
 }
 
 // [[Rcpp::export]]
-List cpp_level_path(NumericMatrix xyz, IntegerMatrix it, IntegerMatrix twin, int from_face,
+List cpp_level_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, int from_face,
                     int to_face, NumericVector level, NumericVector towards) {
-  MeshArrays mesh(xyz, it, twin);
-  crestline::LevelPath path = crestline::level_path(mesh.view(), from_face - 1, to_face - 1,
-                                                    level.begin(), towards.begin());
-  return List::create(_["end"] = walk_end(path.end),
-                      _["points"] = crossing_rows(mesh.view(), path.crossings));
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  crestline::LevelPath path = crestline::level_path(mesh, from_face - 1, to_face - 1, level.begin(),
+                                                    towards.begin());
+  return List::create(_["end"] = walk_end(path.end), _["points"] = crossing_rows(mesh, path.crossings));
+}
+
+// [[Rcpp::export]]
+List cpp_equal_chords(NumericMatrix xyz, NumericVector s, int n, List settings) {
+  crestline::Spacing spacing = crestline::equal_chords(track(xyz, s, IntegerVector()), n,
+                                                       chord_settings(settings));
+  return List::create(_["s"] = spacing.s, _["converged"] = spacing.converged);
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_place_along(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, NumericVector s,
+                              IntegerVector face, NumericVector at) {
+  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::Track path = track(xyz, s, face);
+  NumericMatrix out(at.size(), 7);
+  for (int i = 0; i < at.size(); ++i) {
+    double point[3];
+    int segment = crestline::point_along(path, at[i], point);
+    fill_row(mesh, crestline::place_in_face(mesh, path.face[segment], point), i, out);
+  }
+  return out;
+}
+
+// [[Rcpp::export]]
+List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix from,
+                     NumericMatrix to, IntegerVector rows, List settings, List chords) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  crestline::ColumnSettings s{settings["angle"], settings["angles"], settings["reach"],
+                              settings["inside"], chord_settings(chords)};
+  const char* words[] = {"arrived", "border", "round", "too far", "no axis"};
+  CharacterVector end(rows.size());
+  List points(rows.size());
+  for (int i = 0; i < rows.size(); ++i) {
+    crestline::Column column = crestline::fit_column(mesh, surface_point(from, i),
+                                                     surface_point(to, i), rows[i], s);
+    end[i] = words[static_cast<int>(column.end)];
+    NumericMatrix out(column.points.size(), 7);
+    for (std::size_t r = 0; r < column.points.size(); ++r) fill_row(mesh, column.points[r], r, out);
+    points[i] = out;
+    checkUserInterrupt();
+  }
+  return List::create(_["end"] = end, _["points"] = points);
 }
 
 // [[Rcpp::export]]
@@ -175,9 +285,8 @@ List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatri
 // [[Rcpp::export]]
 LogicalVector cpp_joined_to(IntegerMatrix it, LogicalVector member, IntegerVector seeds) {
   std::vector<char> marked(member.begin(), member.end());
-  std::vector<int> corners = from_zero(it);
   std::vector<char> joined =
-      crestline::joined_to(corners.data(), it.ncol(), marked, from_zero(seeds));
+      crestline::joined_to(it.begin(), it.ncol(), marked, from_zero(seeds));
   return LogicalVector(joined.begin(), joined.end());
 }
 

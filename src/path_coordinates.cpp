@@ -97,7 +97,7 @@ std::vector<char> joined_to(const int* it, int m, const std::vector<char>& membe
   };
   for (int f = 0; f < m; ++f)
     for (int c = 0; c < 3; ++c) {
-      int a = it[3 * f + c], b = it[3 * f + (c + 1) % 3];
+      int a = it[3 * f + c] - 1, b = it[3 * f + (c + 1) % 3] - 1;
       if (member[a] && member[b]) parent[root(a)] = root(b);
     }
   std::vector<char> wanted(member.size(), 0), out(member.size(), 0);

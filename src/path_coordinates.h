@@ -15,7 +15,7 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
                                  const double* normals, int k);
 
 // Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
-// it: 3 x m, from 0.
+// it: 3 x m, corners from 1; seeds from 0.
 std::vector<char> joined_to(const int* it, int m, const std::vector<char>& member,
                             const std::vector<int>& seeds);
 

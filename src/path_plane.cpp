@@ -9,24 +9,21 @@ namespace {
 
 double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-double value_at(const Triangulation& mesh, const SurfacePoint& p, const double* values) {
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) sum += p.w[c] * values[mesh.it[3 * p.face + c]];
-  return sum;
+void cross(const double* a, const double* b, double* out) {
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// Length and mean strength of the polyline met so far.
-struct Sum {
-  double at[3], strength, length = 0, integral = 0;
-  void step(const double* to, double next) {
-    double d[3] = {to[0] - at[0], to[1] - at[1], to[2] - at[2]};
-    double ds = std::sqrt(dot(d, d));
-    length += ds;
-    integral += ds * (strength + next) / 2;
-    for (int a = 0; a < 3; ++a) at[a] = to[a];
-    strength = next;
-  }
-};
+double distance(const double* a, const double* b) {
+  double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return std::sqrt(dot(d, d));
+}
+
+void make_unit(double* a) {
+  double length = std::max(std::sqrt(dot(a, a)), std::numeric_limits<double>::min());
+  for (int i = 0; i < 3; ++i) a[i] /= length;
+}
 
 // Of the two ways out of the first triangle, the one that leads along `axis` (side 0) or against it.
 template <class Value>
@@ -35,13 +32,58 @@ int way_out(const Triangulation& mesh, const int* half_edges, Value&& value, con
   double along[2];
   for (int k = 0; k < 2; ++k) {
     int h = half_edges[k];
-    double fa = value(mesh.it[h]), fb = value(mesh.it[next_half_edge(h)]), share = fa / (fa - fb);
-    const double *a = corner(mesh, mesh.it[h]), *b = corner(mesh, mesh.it[next_half_edge(h)]);
-    along[k] = 0;
-    for (int i = 0; i < 3; ++i) along[k] += axis[i] * (a[i] + share * (b[i] - a[i]));
+    double fa = value(vertex_at(mesh, h)), fb = value(vertex_at(mesh, next_half_edge(h))), x[3];
+    position(mesh, Crossing{h, fa / (fa - fb)}, x);
+    along[k] = dot(axis, x);
   }
   int towards = along[0] >= along[1] ? 0 : 1;
   return half_edges[side == 0 ? towards : 1 - towards];
+}
+
+// Faces about a corner of a face, over the edges there both ways round.
+std::vector<int> faces_about(const Triangulation& mesh, int face, int vertex) {
+  std::vector<int> found{face};
+  for (int back = 0; back < 2; ++back) {
+    int at = face;
+    for (;;) {
+      int c = 0;
+      while (c < 2 && vertex_at(mesh, 3 * at + c) != vertex) ++c;
+      int across = twin_of(mesh, 3 * at + (back ? (c + 2) % 3 : c));
+      if (across < 0) break;
+      at = face_of(across);
+      if (std::find(found.begin(), found.end(), at) != found.end()) break;
+      found.push_back(at);
+    }
+  }
+  return found;
+}
+
+// Unit normal at a corner of a face: of the triangles about it, weighted by area.
+void corner_normal(const Triangulation& mesh, int face, int vertex, double* normal) {
+  for (int i = 0; i < 3; ++i) normal[i] = 0;
+  for (int f : faces_about(mesh, face, vertex)) {
+    const double* a = corner(mesh, vertex_at(mesh, 3 * f));
+    double u[3], v[3], own[3];
+    for (int i = 0; i < 3; ++i) {
+      u[i] = corner(mesh, vertex_at(mesh, 3 * f + 1))[i] - a[i];
+      v[i] = corner(mesh, vertex_at(mesh, 3 * f + 2))[i] - a[i];
+    }
+    cross(u, v, own);
+    for (int i = 0; i < 3; ++i) normal[i] += own[i];
+  }
+  make_unit(normal);
+}
+
+// Of the triangle's corners, weighted as the end is, so that an end at a corner or on an edge has one
+// normal, whichever of the triangles there it was put in.
+void end_normal(const Triangulation& mesh, const SurfacePoint& end, double* normal) {
+  for (int i = 0; i < 3; ++i) normal[i] = 0;
+  for (int c = 0; c < 3; ++c) {
+    double own[3];
+    corner_normal(mesh, end.face, vertex_at(mesh, 3 * end.face + c), own);
+    for (int i = 0; i < 3; ++i) normal[i] += end.w[c] * own[i];
+  }
+  make_unit(normal);
 }
 
 }  // namespace
@@ -49,33 +91,74 @@ int way_out(const Triangulation& mesh, const int* half_edges, Value&& value, con
 void position(const Triangulation& mesh, const SurfacePoint& p, double* xyz) {
   for (int a = 0; a < 3; ++a) {
     xyz[a] = 0;
-    for (int c = 0; c < 3; ++c) xyz[a] += p.w[c] * corner(mesh, mesh.it[3 * p.face + c])[a];
+    for (int c = 0; c < 3; ++c) xyz[a] += p.w[c] * corner(mesh, vertex_at(mesh, 3 * p.face + c))[a];
   }
+}
+
+void position(const Triangulation& mesh, const Crossing& c, double* xyz) {
+  const double *a = corner(mesh, vertex_at(mesh, c.half_edge)),
+               *b = corner(mesh, vertex_at(mesh, next_half_edge(c.half_edge)));
+  for (int i = 0; i < 3; ++i) xyz[i] = a[i] + c.share * (b[i] - a[i]);
+}
+
+CutAxis cut_axis(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to) {
+  CutAxis out;
+  double a[3], b[3], out_of[3], other[3];
+  position(mesh, from, a);
+  position(mesh, to, b);
+  for (int i = 0; i < 3; ++i) out.axis[i] = b[i] - a[i];
+  out.span = std::sqrt(dot(out.axis, out.axis));
+  if (!(out.span > 0) || !std::isfinite(out.span)) {
+    out.span = 0;
+    return out;
+  }
+  for (double& v : out.axis) v /= out.span;
+  end_normal(mesh, from, out_of);
+  end_normal(mesh, to, other);
+  for (int i = 0; i < 3; ++i) out_of[i] += other[i];
+  double along = dot(out_of, out.axis);
+  for (int i = 0; i < 3; ++i) out_of[i] -= along * out.axis[i];
+  if (dot(out_of, out_of) < std::numeric_limits<double>::epsilon()) {
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+      if (std::fabs(out.axis[i]) < std::fabs(out.axis[least])) least = i;
+    for (int i = 0; i < 3; ++i) out_of[i] = i == least;
+    along = dot(out_of, out.axis);
+    for (int i = 0; i < 3; ++i) out_of[i] -= along * out.axis[i];
+  }
+  cross(out.axis, out_of, out.across);
+  make_unit(out.across);
+  return out;
+}
+
+void plane_normal(const CutAxis& axis, double angle, double* normal) {
+  double turned[3];
+  cross(axis.axis, axis.across, turned);
+  for (int i = 0; i < 3; ++i)
+    normal[i] = axis.across[i] * std::cos(angle) + turned[i] * std::sin(angle);
 }
 
 PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& r) {
   PlaneCut cut;
-  double from[3], to[3], axis[3];
+  double from[3], to[3], axis[3], at[3], length = 0;
   position(mesh, r.from, from);
   position(mesh, r.to, to);
-  for (int a = 0; a < 3; ++a) axis[a] = to[a] - from[a];
+  for (int a = 0; a < 3; ++a) {
+    axis[a] = to[a] - from[a];
+    at[a] = from[a];
+  }
   double span = std::sqrt(dot(axis, axis)), offset = dot(r.normal, from);
   for (double& v : axis) v /= span;
   auto value = [&](int v) { return dot(r.normal, corner(mesh, v)) - offset; };
-  Sum sum;
-  for (int a = 0; a < 3; ++a) sum.at[a] = from[a];
-  sum.strength = r.strength ? value_at(mesh, r.from, r.strength) : 0;
-  auto keep = [&](int h, int a, int b, double share) {
-    const double *p = corner(mesh, a), *q = corner(mesh, b);
+  auto keep = [&](int h, int, int, double share) {
     double x[3], rel[3];
-    for (int i = 0; i < 3; ++i) {
-      x[i] = p[i] + share * (q[i] - p[i]);
-      rel[i] = x[i] - from[i];
-    }
+    position(mesh, Crossing{h, share}, x);
+    for (int i = 0; i < 3; ++i) rel[i] = x[i] - from[i];
     double along = std::min(std::max(dot(rel, axis), 0.0), span);
     for (int i = 0; i < 3; ++i) rel[i] -= along * axis[i];
     if (dot(rel, rel) > r.reach * r.reach) return false;
-    sum.step(x, r.strength ? r.strength[a] + share * (r.strength[b] - r.strength[a]) : 0);
+    length += distance(x, at);
+    for (int i = 0; i < 3; ++i) at[i] = x[i];
     if (r.keep_crossings) cut.crossings.push_back({h, share});
     return true;
   };
@@ -87,13 +170,40 @@ PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& r) {
   } else {
     cut.end = WalkEnd::border;
   }
-  cut.length = cut.strength = std::numeric_limits<double>::quiet_NaN();
-  if (cut.end == WalkEnd::arrived) {
-    sum.step(to, r.strength ? value_at(mesh, r.to, r.strength) : 0);
-    cut.length = sum.length;
-    cut.strength = sum.integral / sum.length;
-  }
+  cut.length = cut.end == WalkEnd::arrived ? length + distance(to, at)
+                                           : std::numeric_limits<double>::quiet_NaN();
   return cut;
+}
+
+std::vector<WeightedCrossing> spaced_crossings(const Triangulation& mesh, const PlaneCut& cut,
+                                               const SurfacePoint& from, double step) {
+  std::vector<WeightedCrossing> spaced;
+  if (cut.crossings.empty()) return spaced;
+  std::vector<double> s, at_node;
+  double at[3], x[3], length = 0;
+  position(mesh, from, at);
+  for (const Crossing& c : cut.crossings) {
+    position(mesh, c, x);
+    length += distance(x, at);
+    s.push_back(length);
+    std::copy(x, x + 3, at);
+  }
+  int pieces = std::max(1, static_cast<int>(std::ceil(cut.length / step)));
+  std::size_t i = 0, last = s.size();
+  for (int p = 0; p <= pieces; ++p) {
+    double place = static_cast<double>(p) / pieces * cut.length;
+    while (i + 1 < s.size() && std::fabs(s[i + 1] - place) < std::fabs(s[i] - place)) ++i;
+    if (i == last) continue;
+    last = i;
+    spaced.push_back({cut.crossings[i], 0});
+    at_node.push_back(s[i]);
+  }
+  for (std::size_t k = 0; k < spaced.size(); ++k) {
+    double before = k == 0 ? 0 : (at_node[k - 1] + at_node[k]) / 2;
+    double after = k + 1 == spaced.size() ? cut.length : (at_node[k] + at_node[k + 1]) / 2;
+    spaced[k].weight = (after - before) / cut.length;
+  }
+  return spaced;
 }
 
 LevelPath level_path(const Triangulation& mesh, int from_face, int to_face, const double* level,

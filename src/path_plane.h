@@ -1,17 +1,15 @@
 // Plane cuts of a mesh through two surface points.
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "path_walk.h"
 
 namespace crestline {
 
-// One cut: its crossings in order, its length, and the length-weighted mean of `strength` along it.
 struct PlaneCut {
   WalkEnd end;
-  double length, strength;
-  std::vector<Crossing> crossings;
+  double length;                    // NaN unless it arrived
+  std::vector<Crossing> crossings;  // in order
 };
 
 struct CutRequest {
@@ -19,11 +17,32 @@ struct CutRequest {
   const double* normal;    // of the plane, which passes through `from` and `to`
   int side;                // 0: leaves `from` towards `to`, 1: the other way round
   double reach;            // distance from the segment between the ends at which a cut is given up
-  const double* strength;  // n, or null
   bool keep_crossings;
 };
 
 PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& request);
+
+// A crossing with the share of the cut's length that it stands for.
+struct WeightedCrossing {
+  Crossing crossing;
+  double weight;
+};
+
+// Of the crossings of a cut that arrived, those nearest to equally spaced places no further apart than
+// `step`, weighted by the trapezoidal rule; none where the cut crosses no edge.
+std::vector<WeightedCrossing> spaced_crossings(const Triangulation& mesh, const PlaneCut& cut,
+                                               const SurfacePoint& from, double step);
+
+// Axis between two ends, and the direction across it that lies in the surface: the plane at angle 0,
+// which holds the mean of the surface's normals at the ends, has it as its normal.
+struct CutAxis {
+  double axis[3], across[3], span;  // unit vectors; span 0 where the ends are one place
+};
+
+CutAxis cut_axis(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to);
+
+// Normal of the plane turned by `angle` about the axis.
+void plane_normal(const CutAxis& axis, double angle, double* normal);
 
 // The zero line of a function given at the vertices, from one triangle to another, setting out along
 // the direction `towards`. NaN stands for "not here": the walk ends as at a border.
@@ -36,5 +55,6 @@ LevelPath level_path(const Triangulation& mesh, int from_face, int to_face, cons
                      const double* towards);
 
 void position(const Triangulation& mesh, const SurfacePoint& p, double* xyz);
+void position(const Triangulation& mesh, const Crossing& c, double* xyz);
 
 }  // namespace crestline

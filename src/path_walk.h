@@ -20,15 +20,20 @@ struct Crossing {
 
 enum class WalkEnd { arrived, border, round, too_far };
 
+// The arrays as R holds them, so that no walk waits for a copy: corners and half edges counted from 1.
 struct Triangulation {
-  const double* xyz;  // 3 x n
-  const int* it;      // 3 x m, from 0
-  const int* twin;    // 3 x m, -1 at borders
+  const double* vb;  // rows x n, the first three of each column are x, y, z
+  int rows;
+  const int* it;     // 3 x m
+  const int* twin;   // 3 x m, 0 at borders
   int m;
 };
 
+inline int vertex_at(const Triangulation& t, int half_edge) { return t.it[half_edge] - 1; }
+inline int twin_of(const Triangulation& t, int half_edge) { return t.twin[half_edge] - 1; }
+
 inline const double* corner(const Triangulation& t, int vertex) {
-  return t.xyz + 3 * static_cast<std::size_t>(vertex);
+  return t.vb + t.rows * static_cast<std::size_t>(vertex);
 }
 
 // Half edges by which the zero line leaves `face`: two where it crosses it, else none. Zero counts
@@ -36,7 +41,7 @@ inline const double* corner(const Triangulation& t, int vertex) {
 template <class Value>
 int exits(const Triangulation& t, int face, Value&& value, int* half_edges) {
   bool positive[3];
-  for (int c = 0; c < 3; ++c) positive[c] = value(t.it[3 * face + c]) >= 0;
+  for (int c = 0; c < 3; ++c) positive[c] = value(vertex_at(t, 3 * face + c)) >= 0;
   int count = 0;
   for (int c = 0; c < 3; ++c)
     if (positive[c] != positive[(c + 1) % 3]) half_edges[count++] = 3 * face + c;
@@ -49,17 +54,17 @@ template <class Value, class Keep>
 WalkEnd walk(const Triangulation& t, int leave, int to_face, Value&& value, Keep&& keep) {
   int from_face = face_of(leave), h = leave;
   for (int step = 0; step <= t.m; ++step) {
-    int a = t.it[h], b = t.it[next_half_edge(h)];
+    int a = vertex_at(t, h), b = vertex_at(t, next_half_edge(h));
     double fa = value(a), fb = value(b);
     if (!keep(h, a, b, fa / (fa - fb))) return WalkEnd::too_far;
-    int across = t.twin[h];
+    int across = twin_of(t, h);
     if (across < 0) return WalkEnd::border;
     int face = face_of(across);
     if (face == to_face) return WalkEnd::arrived;
     if (face == from_face) return WalkEnd::round;
     int second = next_half_edge(across), third = next_half_edge(second);
     // `across` runs from b to a; its opposite corner decides which side the line leaves by.
-    bool opposite = value(t.it[third]) >= 0;
+    bool opposite = value(vertex_at(t, third)) >= 0;
     h = opposite != (fa >= 0) ? second : third;
   }
   return WalkEnd::round;

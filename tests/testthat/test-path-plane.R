@@ -155,10 +155,23 @@ test_that("side is 0 or 1", {
   expect_crestline_error(plane_path(ball(), c(1, 0, 0), c(0, 1, 0), side = 2), "`side`")
 })
 
-test_that("the faces about a corner are all of them, inside and on the border, from whichever face", {
-  surface <- walkable(grid_mesh(5))
-  for (vertex in c(1, 3, 13, 25)) {
-    wanted <- which(colSums(surface$it == vertex) > 0)
-    for (face in wanted) expect_setequal(faces_about(surface, face, vertex), wanted)
+test_that("at an end on a corner the normal is of all the faces there, whichever of them it was put in", {
+  mesh <- bent_ridge(noise = 0.2)$mesh
+  surface <- walkable(mesh)
+  corner <- function(i, face) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
+  area_normal <- function(face) cross_rows(corner(2, face) - corner(1, face), corner(3, face) - corner(1, face))
+  unit <- function(x) x / sqrt(sum(x^2))
+  other <- 1000L
+  for (vertex in c(1, 20, 700)) {
+    about <- which(colSums(mesh$it == vertex) > 0)
+    own <- unit(colSums(area_normal(about)))
+    normal_of <- function(v) unit(colSums(area_normal(which(colSums(mesh$it == v) > 0))))
+    far <- unit(rowMeans(vapply(mesh$it[, other], normal_of, numeric(3))))
+    for (face in about) {
+      axis <- cpp_cut_axis(surface$vb, surface$it, surface$twin, as.double(c(face, mesh$it[, face] == vertex)),
+                           c(other, 1 / 3, 1 / 3, 1 / 3))
+      wanted <- cross_product(axis$axis, own + far)
+      expect_equal(axis$across, unit(wanted), tolerance = 1e-10)
+    }
   }
 })

@@ -35,7 +35,9 @@ test_that("the ridge's cut gathers most strength: it goes out to the ridge besid
     at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) * matrix(strength[t(aside$mesh$it[, p$face])], ncol = 3))
     sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / attr(p, "length")
   }
-  expect_equal(attr(path, "criterion"), mean_along(path), tolerance = 1e-6)
+  fine <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, longest = 1.5, spacing = 1e-3)
+  expect_equal(attr(fine, "criterion"), mean_along(fine), tolerance = 5e-3)
+  expect_equal(attr(path, "criterion"), mean_along(path), tolerance = 0.03)
   expect_gt(mean_along(path), 1.05 * mean_along(shortest))
 })
 
@@ -124,17 +126,21 @@ test_that("errors name the landmarks, the specimen and what to do", {
   expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = other), c("vertices", "own mesh"), id = "graph")
 })
 
-test_that("only vertices near the segment, on the piece of the landmarks, are looked at", {
-  sheet <- graph_specimen(quote(0 * u), two_ends())
-  n <- ncol(sheet$mesh$vb)
-  both <- rgl::mesh3d(vertices = cbind(sheet$mesh$vb, sheet$mesh$vb + c(0, 0, -1, 0)),
-                      triangles = cbind(sheet$mesh$it, sheet$mesh$it + n))
-  both <- specimen(both, sheet$landmarks, outward = "keep")
-  surface <- walkable(both)
-  near <- near_segment(surface, path_ends(both, surface, "a", "b"), 3)
-  expect_true(all(near <= n))
-  line <- distance_from_line(t(both$mesh$vb[1:3, 1:n]), both$landmarks)
-  expect_identical(near, which(line <= 3))
+test_that("strength is taken no further apart than asked, and the mean comes to that along every edge crossed", {
+  aside <- arched_ridges(4, 2)
+  surface <- walkable(aside)
+  ends <- path_ends(aside, surface, "a", "b")
+  axis <- cut_axis(surface, ends)
+  cut <- measure_cuts(surface, ends, axis, 0.2, 0L, 0.5)
+  height <- function(vertices) surface$vb[3, vertices]
+  path <- cut_path(surface, ends, axis, 0.2, 0, 0.5)
+  exact <- sum(diff(path$s) * (path$z[-1] + path$z[-nrow(path)]) / 2) / cut$length
+  expect_equal(cut_strength(surface, ends, axis, cut, 0.5, 1e-3, height), exact, tolerance = 2e-3)
+  expect_equal(cut_strength(surface, ends, axis, cut, 0.5, 2, height), exact, tolerance = 2e-2)
+  expect_identical(cut_strength(surface, ends, axis, cut[0, ], 0.5, 2, height), numeric())
+  asked <- NULL
+  cut_strength(surface, ends, axis, cut, 0.5, 5, function(vertices) height(asked <<- vertices))
+  expect_lte(length(asked), 2 * (ceiling(cut$length / 5) + 1))
 })
 
 test_that("angles wrap into the half turn", {

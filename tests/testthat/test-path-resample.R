@@ -37,7 +37,7 @@ test_that("places between two points lie in the face of their segment", {
   b <- bent_path()
   middle <- (b$path$s[-1] + b$path$s[-nrow(b$path)]) / 2
   placed <- place_along(b$mesh, b$path, middle)
-  expect_identical(placed$face, b$path$face[-1])
+  expect_identical(placed$face, as.integer(b$path$face[-1]))
   half <- (xyz_of(b$path)[-1, ] + xyz_of(b$path)[-nrow(b$path), ]) / 2
   expect_equal(xyz_of(placed), half, tolerance = 1e-6, ignore_attr = TRUE)
 })

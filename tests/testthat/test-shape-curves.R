@@ -42,7 +42,7 @@ test_that("outside the trusted part of the path there is no curvature", {
   curved <- curvature(face, 6, "adaptive cubic")
   path <- plane_path(face, "a", "b")
   row <- data.frame(width = 6, radius = 6, trust_from = 0.25, trust_to = 0.75)
-  half <- trusted(curved, row, face, path)
+  half <- trusted(known_curvature(curved, face), row, face, path)(seq_along(curved$k2))
   x <- face$mesh$vb[1, ] / attr(path, "length")
   near <- abs(face$mesh$vb[2, ]) < 2
   expect_true(all(half$k2[near & x > -0.45 & x < -0.3] == 0))

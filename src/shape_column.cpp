@@ -1,0 +1,93 @@
+#include "shape_column.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crestline {
+
+namespace {
+
+// Inside its triangle, so that a plane through it always crosses that triangle.
+SurfacePoint moved_inside(SurfacePoint p, double inside) {
+  double total = 0;
+  for (double& w : p.w) total += w += inside;
+  for (double& w : p.w) w /= total;
+  return p;
+}
+
+ColumnEnd column_end(WalkEnd end) {
+  switch (end) {
+    case WalkEnd::arrived: return ColumnEnd::arrived;
+    case WalkEnd::border: return ColumnEnd::border;
+    case WalkEnd::round: return ColumnEnd::round;
+    default: return ColumnEnd::too_far;
+  }
+}
+
+void add_node(const double* xyz, int face, Track& track) {
+  double step = 0;
+  if (!track.s.empty()) {
+    const double* before = &track.xyz[track.xyz.size() - 3];
+    for (int i = 0; i < 3; ++i) step += (xyz[i] - before[i]) * (xyz[i] - before[i]);
+    if (step == 0) return;
+  }
+  track.s.push_back(track.s.empty() ? 0 : track.s.back() + std::sqrt(step));
+  track.xyz.insert(track.xyz.end(), xyz, xyz + 3);
+  track.face.push_back(face);
+}
+
+Track track_of(const Triangulation& mesh, const PlaneCut& cut, const SurfacePoint& from,
+               const SurfacePoint& to) {
+  Track track;
+  double x[3];
+  position(mesh, from, x);
+  add_node(x, from.face, track);
+  for (const Crossing& c : cut.crossings) {
+    position(mesh, c, x);
+    add_node(x, face_of(c.half_edge), track);
+  }
+  position(mesh, to, x);
+  add_node(x, to.face, track);
+  return track;
+}
+
+}  // namespace
+
+Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to,
+                  int rows, const ColumnSettings& settings) {
+  Column column{ColumnEnd::no_axis, {}};
+  SurfacePoint a = moved_inside(from, settings.inside), b = moved_inside(to, settings.inside);
+  CutAxis axis = cut_axis(mesh, a, b);
+  if (axis.span == 0) return column;
+  PlaneCut best{WalkEnd::border, INFINITY, {}}, middle = best;
+  double normal[3], best_angle = 0;
+  for (int i = 0; i < settings.angles; ++i) {
+    double angle = settings.angles == 1 ? -settings.limit
+                                        : settings.limit * (2.0 * i / (settings.angles - 1) - 1);
+    plane_normal(axis, angle, normal);
+    PlaneCut cut = plane_cut(mesh, {a, b, normal, 0, settings.reach * axis.span, false});
+    if (i == (settings.angles - 1) / 2) middle = cut;
+    if (!(cut.length < best.length)) continue;
+    best = cut;
+    best_angle = angle;
+  }
+  if (!std::isfinite(best.length)) {
+    column.end = column_end(middle.end);
+    return column;
+  }
+  plane_normal(axis, best_angle, normal);
+  best = plane_cut(mesh, {a, b, normal, 0, settings.reach * axis.span, true});
+  Track track = track_of(mesh, best, from, to);
+  column.end = ColumnEnd::arrived;
+  column.points.push_back(from);
+  std::vector<double> s = equal_chords(track, rows, settings.chords).s;
+  for (int r = 1; r + 1 < rows; ++r) {
+    double x[3];
+    int segment = point_along(track, s[r], x);
+    column.points.push_back(place_in_face(mesh, track.face[segment], x));
+  }
+  column.points.push_back(to);
+  return column;
+}
+
+}  // namespace crestline
