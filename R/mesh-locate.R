@@ -3,6 +3,13 @@
 # The columns of a point on a mesh.
 mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
 
+# Columns of a data frame as a matrix, and columns as a data frame: without the checks of as.matrix() and data.frame(),
+# which cost more than what is done with them.
+columns_of <- function(x, names = mesh_columns) do.call(cbind, unclass(x)[names])
+frame_of <- function(columns, ..., class = NULL) {
+  structure(columns, row.names = .set_row_names(length(columns[[1]])), ..., class = c(class, "data.frame"))
+}
+
 #' Closest points of a mesh
 #'
 #' Candidates come from a k-d tree of the faces' centres; a point is settled once the faces

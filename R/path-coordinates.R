@@ -28,7 +28,7 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   check_number(width, "width", lower = 0, open = TRUE)
   mesh <- as_mesh(specimen)
   clear <- without_stubs(path)
-  track <- t(as.matrix(clear[c("x", "y", "z")]))
+  track <- t(columns_of(clear, c("x", "y", "z")))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   near <- seq_len(ncol(mesh$vb))
   for (axis in 1:3) near <- near[mesh$vb[axis, near] >= box[1, axis] & mesh$vb[axis, near] <= box[2, axis]]
@@ -38,11 +38,9 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   member[near[kept]] <- TRUE
   joined <- cpp_joined_to(mesh$it, member, as.vector(mesh$it[, path$face]))[near]
   inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width
-  rows <- data.frame(vertex = near, s = found$s, d = found$d, inside = inside, found$tangent)[joined, ]
-  names(rows)[5:7] <- c("tx", "ty", "tz")
-  rownames(rows) <- NULL
-  structure(rows, length = attr(path, "length"), width = width,
-            class = c("path_coordinates", "data.frame"))
+  columns <- list(vertex = near, s = found$s, d = found$d, inside = inside, tx = found$tangent[, 1],
+                  ty = found$tangent[, 2], tz = found$tangent[, 3])
+  frame_of(lapply(columns, `[`, joined), length = attr(path, "length"), width = width, class = "path_coordinates")
 }
 
 #' A path without the crossings next to its ends

@@ -62,35 +62,35 @@ walkable <- function(mesh) {
 #' @param inside Barycentric weight by which ends are kept off edges and corners, so
 #'   that a plane through an end always crosses its triangle. The path begins and
 #'   stops at the exact places.
-#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact` (data frame of two rows),
-#'   `names`.
+#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact` (2 x 7 matrix), `names`.
 #' @noRd
 path_ends <- function(mesh, surface, from, to, inside = 1e-6) {
-  exact <- rbind(end_point(mesh, from, "from"), end_point(mesh, to, "to"))
+  exact <- rbind(end_vector(mesh, from, "from"), end_vector(mesh, to, "to"))
   names <- c(end_name(from), end_name(to))
-  apart <- sqrt(sum((exact[1, c("x", "y", "z")] - exact[2, c("x", "y", "z")])^2))
-  if (apart == 0) {
+  if (all(exact[1, 1:3] == exact[2, 1:3])) {
     crestline_abort(sprintf("%s and %s are the same point.", names[1], names[2]),
                     "Choose two different landmarks, or correct the one that was misplaced.",
                     stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
   }
-  if (surface$piece[exact$face[1]] != surface$piece[exact$face[2]]) {
+  if (surface$piece[exact[1, "face"]] != surface$piece[exact[2, "face"]]) {
     crestline_abort(sprintf("%s and %s lie on different pieces of the mesh.", names[1], names[2]),
                     "Join the pieces (fill the gap), or move the landmark to the main piece.",
                     stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
   }
-  moved <- function(i) {
-    w <- unlist(exact[i, c("w1", "w2", "w3")], use.names = FALSE)
-    c(exact$face[i], (w + inside) / sum(w + inside))
-  }
-  list(from = moved(1), to = moved(2), exact = exact, names = names)
+  moved <- function(at) c(at[4], (at[5:7] + inside) / sum(at[5:7] + inside))
+  list(from = moved(exact[1, ]), to = moved(exact[2, ]), exact = exact, names = names)
+}
+
+#' An end of a path as one row of its columns
+#' @noRd
+end_vector <- function(mesh, at, name) {
+  if (is.numeric(at) && identical(names(at), mesh_columns)) return(at)
+  unlist(unclass(end_point(mesh, at, name))[mesh_columns])
 }
 
 end_point <- function(mesh, at, name) {
   if (is.character(at) && inherits(mesh, "specimen")) return(landmark_point(mesh, at))
-  if (is.data.frame(at) && all(c("face", "w1", "w2", "w3") %in% names(at)) && nrow(at) == 1) {
-    return(at[c("x", "y", "z", "face", "w1", "w2", "w3")])
-  }
+  if (is.data.frame(at) && all(mesh_columns[-(1:3)] %in% names(at)) && nrow(at) == 1) return(at[mesh_columns])
   if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
                     "Give the name of a landmark of a specimen, or three finite co-ordinates.",
@@ -101,8 +101,7 @@ end_point <- function(mesh, at, name) {
 
 end_name <- function(at) {
   if (is.character(at)) return(at)
-  if (is.data.frame(at)) at <- unlist(at[c("x", "y", "z")])
-  sprintf("(%s)", paste(signif(at, 4), collapse = ", "))
+  sprintf("(%s)", paste(signif(unlist(at[1:3]), 4), collapse = ", "))
 }
 
 #' Axis between the ends (moved inside their triangles), and the plane normal at angle 0
@@ -131,17 +130,24 @@ cross_product <- function(a, b) {
 }
 
 #' A path from the crossings of a walk
+#'
+#' @param crossings k x 7.
+#' @param ends As of [path_ends()].
 #' @noRd
-new_path <- function(crossings, ends, ...) {
-  columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
-  points <- rbind(as.matrix(ends$exact[1, columns]), crossings, as.matrix(ends$exact[2, columns]))
-  points <- as.data.frame(points)
-  names(points) <- columns
-  step <- sqrt(rowSums(diff(as.matrix(points[1:3]))^2))
-  kept <- c(TRUE, step[-length(step)] > 0, TRUE)
-  points <- cbind(s = c(0, cumsum(step)), points)[kept, ]
-  rownames(points) <- NULL
-  structure(points, length = sum(step), ..., class = c("mesh_path", "data.frame"))
+new_path <- function(crossings, ends, ...) path_through(rbind(ends$exact[1, ], crossings, ends$exact[2, ]), ...)
+
+#' A path through points that follow one another on the mesh; of neighbours at one place the later goes, but not the last
+#'
+#' @param points k x 7 matrix.
+#' @param ... Attributes of the path.
+#' @noRd
+path_through <- function(points, ...) {
+  step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] - points[-nrow(points), 1:3, drop = FALSE]))
+  kept <- c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))]
+  columns <- lapply(1:7, function(i) as.vector(points[kept, i]))
+  columns[[4]] <- as.integer(columns[[4]])
+  columns <- c(list(c(0, cumsum(step))[kept]), columns)
+  frame_of(stats::setNames(columns, c("s", mesh_columns)), length = sum(step), ..., class = "mesh_path")
 }
 
 abort_cut <- function(end, ends, id) {

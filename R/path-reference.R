@@ -27,8 +27,9 @@
 #' @inheritParams curvature
 #' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of its settings.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
-#'   (mean strength in 1 / unit, or length), and `optima`: data frame with a row for every local
-#'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`.
+#'   (mean strength in 1 / unit, or length), `optima`: data frame with a row for every local
+#'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`; and `competing`: how good the best of those
+#'   that run elsewhere is, as a share of the path (for lengths the other way round), NA where there is none.
 #' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
 #' @section Warnings: of class `crestline_rival_path`, when another optimum is
 #'   nearly as good; the warning names both angles.
@@ -60,11 +61,14 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   measure <- function(angle, side) measure_cuts(surface, ends, axis, angle, side, reach)
   optima <- cut_optima(measure, rate, angles, refined, longest)
   if (nrow(optima) == 0) abort_no_cut(measure(0, 0L)$end, ends, surface$id)
-  cut <- function(optimum) cut_path(surface, ends, axis, optimum$angle, optimum$side, reach, type = type)
-  path <- cut(optima[1, ])
-  warn_rival(optima, path, cut, rival, distinct, ends, surface$id)
+  cut <- function(i) cut_path(surface, ends, axis, optima$angle[i], optima$side[i], reach, type = type)
+  path <- cut(1)
+  other <- first_elsewhere(path, nrow(optima), cut, distinct)
   if (type == "plane") optima$criterion <- optima$length
-  structure(path, criterion = optima$criterion[1], optima = optima)
+  competing <- if (is.na(other)) NA_real_ else optima$criterion[other] / optima$criterion[1]
+  if (type == "plane") competing <- 1 / competing
+  if (isTRUE(competing >= 1 - rival)) warn_rival(optima[c(1, other), ], ends, surface$id)
+  structure(path, criterion = optima$criterion[1], optima = optima, competing = competing)
 }
 
 #' Lengths of plane cuts, NA where a cut does not arrive
@@ -73,7 +77,7 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
 measure_cuts <- function(surface, ends, axis, angle, side, reach) {
   found <- cpp_plane_cuts(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, angle), side,
                           reach * axis$span)
-  data.frame(angle = angle, side = side, length = found$length, end = found$end)
+  frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
 }
 
 #' Mean strength along plane cuts, at places no further apart than `step`
@@ -102,37 +106,42 @@ cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
 #' @noRd
 cut_optima <- function(measure, rate, angles, refined, longest, digits = 8) {
   step <- pi / angles
-  grid <- -pi / 2 + step * seq_len(angles)
-  coarse <- measure(rep(grid, 2), rep(0:1, each = angles))
+  coarse <- measure(rep(-pi / 2 + step * seq_len(angles), 2), rep(0:1, each = angles))
   if (all(is.na(coarse$length))) return(data.frame())
-  limit <- longest * min(coarse$length, na.rm = TRUE)
-  rated <- function(found) {
-    allowed <- which(found$length <= limit)
-    found$criterion <- NA_real_
-    found$criterion[allowed] <- rate(found[allowed, ])
-    found$level <- ifelse(is.na(found$criterion), -Inf, signif(found$criterion, digits))
-    found$extent <- signif(found$length, digits)
-    found
-  }
+  rated <- rater(rate, longest * min(coarse$length, na.rm = TRUE), digits)
   coarse <- rated(coarse)
-  peaks <- do.call(rbind, lapply(split(coarse, coarse$side), function(side) {
-    do.call(rbind, lapply(circular_peaks(side$level), function(run) best_cuts(side[run, ])[1, ]))
-  }))
+  on_side <- split(seq_len(2 * angles), coarse$side)
+  peaks <- unlist(lapply(on_side, function(side) {
+    vapply(circular_peaks(coarse$level[side]), function(run) best_cut(coarse, side[run]), 0L)
+  }), use.names = FALSE)
   around <- step * seq(-1, 1, length.out = refined)
-  fine <- measure(rep(peaks$angle, each = refined) + around, rep(peaks$side, each = refined))
-  all <- rbind(peaks, rated(fine))
-  of_peak <- c(seq_len(nrow(peaks)), rep(seq_len(nrow(peaks)), each = refined))
-  best <- do.call(rbind, lapply(split(all, of_peak), function(near) best_cuts(near)[1, ]))
-  best$angle <- wrap_angle(best$angle)
-  best <- best_cuts(best)[c("angle", "side", "criterion", "length")]
-  best <- best[!duplicated(round(best[c("angle", "side")], 6)), ]
-  rownames(best) <- NULL
-  best
+  fine <- rated(measure(rep(coarse$angle[peaks], each = refined) + around, rep(coarse$side[peaks], each = refined)))
+  all <- Map(c, lapply(coarse, `[`, peaks), fine)
+  of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = refined))
+  best <- vapply(split(seq_along(of_peak), of_peak), function(near) best_cut(all, near), 0L)
+  all$angle <- wrap_angle(all$angle)
+  best <- best[order(-all$level[best], all$extent[best], abs(all$angle[best]))]
+  best <- best[!duplicated(round(cbind(all$angle, all$side)[best, , drop = FALSE], 6))]
+  frame_of(lapply(all[c("angle", "side", "criterion", "length")], `[`, best))
 }
 
-#' Cuts in order: greatest criterion, least length, smallest angle
+#' A function that gives measured cuts, as a list, their criterion, and the rounded criterion and length they are compared by
 #' @noRd
-best_cuts <- function(found) found[order(-found$level, found$extent, abs(found$angle)), ]
+rater <- function(rate, limit, digits) {
+  function(found) {
+    allowed <- which(found$length <= limit)
+    criterion <- rep(NA_real_, length(found$length))
+    criterion[allowed] <- rate(frame_of(lapply(unclass(found), `[`, allowed)))
+    level <- signif(criterion, digits)
+    level[is.na(level)] <- -Inf
+    c(unclass(found)[c("angle", "side", "length")],
+      list(criterion = criterion, level = level, extent = signif(found$length, digits)))
+  }
+}
+
+#' Of some cuts the one with the greatest criterion, least length, smallest angle
+#' @noRd
+best_cut <- function(found, at) at[order(-found$level[at], found$extent[at], abs(found$angle[at]))[1]]
 
 #' Runs of equal values round a circle that are higher than what lies on both sides
 #'
@@ -192,21 +201,26 @@ abort_no_cut <- function(end, ends, id) {
   )
 }
 
+#' The best of the other optima that runs elsewhere, NA where none does
+#'
+#' @param cut Function of an optimum's row that gives its path.
+#' @noRd
+first_elsewhere <- function(path, count, cut, distinct) {
+  for (i in seq_len(count)[-1]) {
+    if (path_distance(cut(i), path) > distinct * attr(path, "length")) return(i)
+  }
+  NA_integer_
+}
+
 #' Warn of a second cut nearly as good that runs elsewhere
 #'
-#' @param cut Function of one row of `optima` that gives its path.
+#' @param two The two rows of `optima`.
 #' @noRd
-warn_rival <- function(optima, path, cut, rival, distinct, ends, id) {
-  best <- optima[1, ]
-  near <- which(optima$criterion >= best$criterion - rival * abs(best$criterion))[-1]
-  apart <- vapply(near, function(i) path_distance(cut(optima[i, ]), path), 0)
-  near <- near[apart > distinct * attr(path, "length")]
-  if (length(near) == 0) return(invisible())
-  other <- optima[near[1], ]
+warn_rival <- function(two, ends, id) {
+  degrees <- two$angle * 180 / pi
   crestline_warn(
     sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
-            ends$names[1], ends$names[2], best$angle * 180 / pi, other$angle * 180 / pi,
-            abs(best$criterion), abs(other$criterion)),
+            ends$names[1], ends$names[2], degrees[1], degrees[2], two$criterion[1], two$criterion[2]),
     "Look at both with plane_path(); keep_away() rules one out.",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )
@@ -215,6 +229,6 @@ warn_rival <- function(optima, path, cut, rival, distinct, ends, id) {
 #' Greatest distance of the points of one path from another
 #' @noRd
 path_distance <- function(from, to) {
-  xyz <- function(path) t(as.matrix(path[c("x", "y", "z")]))
+  xyz <- function(path) t(columns_of(path, c("x", "y", "z")))
   max(abs(cpp_path_coordinates(xyz(from), xyz(to), matrix(1, 3, nrow(to)))$d))
 }

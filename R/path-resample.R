@@ -10,7 +10,7 @@
 #'   neighbours are equal. The points lie on the path, so on the mesh. Attribute `converged`.
 #' @noRd
 resample_path <- function(mesh, path, n, tolerance = 1e-10, iterations = 200, slowest = 0.2) {
-  spaced <- cpp_equal_chords(as.matrix(path[c("x", "y", "z")]), path$s, n,
+  spaced <- cpp_equal_chords(columns_of(path, c("x", "y", "z")), path$s, n,
                              chord_settings(tolerance, iterations, slowest))
   structure(place_along(mesh, path, spaced$s), converged = spaced$converged)
 }
@@ -27,13 +27,12 @@ points_along <- function(path, s) {
 #' Points of a path at given arc lengths, each in the triangle of its segment
 #' @noRd
 place_along <- function(mesh, path, s) {
-  placed <- cpp_place_along(mesh$vb, mesh$it, as.matrix(path[c("x", "y", "z")]), path$s, path$face, s)
-  colnames(placed) <- mesh_columns
+  placed <- cpp_place_along(mesh$vb, mesh$it, columns_of(path, c("x", "y", "z")), path$s, path$face, s)
   ends <- which(s %in% range(path$s))
-  if (length(ends)) placed[ends, ] <- as.matrix(path[ifelse(s[ends] == 0, 1, nrow(path)), mesh_columns])
-  placed <- as.data.frame(placed)
-  placed$face <- as.integer(placed$face)
-  cbind(s = s, placed)
+  if (length(ends)) placed[ends, ] <- columns_of(path)[ifelse(s[ends] == 0, 1, nrow(path)), ]
+  columns <- stats::setNames(c(list(s), lapply(1:7, function(i) placed[, i])), c("s", mesh_columns))
+  columns$face <- as.integer(columns$face)
+  frame_of(columns)
 }
 
 # Barycentric weights of points that lie in the given triangles.

@@ -118,7 +118,7 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
 window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings) {
   inside <- which(coordinates$inside)
   curved <- curvature(coordinates$vertex[inside])
-  across <- cross_rows(curved$normal, as.matrix(coordinates[inside, c("tx", "ty", "tz")]))
+  across <- cross_rows(curved$normal, columns_of(coordinates, c("tx", "ty", "tz"))[inside, , drop = FALSE])
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
   value <- strength_at(curved, type, across = if (!principal) across)

@@ -36,7 +36,7 @@ lift <- function(specimen, coordinates, path, s, alpha) {
 #' Direction in which the curve leaves the first point: along the path and, by the slope, across it
 #' @noRd
 first_direction <- function(specimen, path, slope) {
-  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")] - path[1, c("x", "y", "z")])
+  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")]) - unlist(path[1, c("x", "y", "z")])
   tangent <- tangent / sqrt(sum(tangent^2))
   across <- cross_product(path_normals(as_mesh(specimen), path[1, ])[, 1], tangent)
   tangent + slope * across / sqrt(sum(across^2))
@@ -45,7 +45,8 @@ first_direction <- function(specimen, path, slope) {
 #' The ends of a path as path_ends() gives them
 #' @noRd
 lift_ends <- function(path, surface) {
-  path_ends(list(), surface, as.data.frame(path[1, ]), as.data.frame(path[nrow(path), ]))
+  at <- columns_of(path)
+  path_ends(list(), surface, at[1, ], at[nrow(at), ])
 }
 
 #' d - alpha(s) at all vertices, NaN outside the window, shifted to vanish at both ends
@@ -75,14 +76,13 @@ piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
                     "Give a smaller `width`, or use the plane cut.", stage = "lift", id = surface$id,
                     class = "crestline_path_error", call = NULL)
   }
-  knots <- rbind(path[1, names(places)], places, path[nrow(path), names(places)])
-  knots <- knots[c(TRUE, rowSums(diff(as.matrix(knots[1:3]))^2) > 0), ]
+  at <- columns_of(path)
+  knots <- rbind(at[1, ], columns_of(places), at[nrow(at), ])
+  knots <- knots[c(TRUE, row_lengths(diff(knots[, 1:3])) > 0), ]
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
-    reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf, rival = 0)
+    columns_of(reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf, rival = 0))
   })
-  joined <- do.call(rbind, lapply(pieces, function(p) as.data.frame(p)[-1, -1]))
-  ends <- list(exact = knots[c(1, nrow(knots)), ])
-  new_path(as.matrix(joined[-nrow(joined), ]), ends, lifted = FALSE)
+  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))), lifted = FALSE)
 }
 
 places_in_plane <- function(surface, coordinates, path, s, alpha) {

@@ -65,9 +65,17 @@ abort_few_vertices <- function(count, df) {
   )
 }
 
-#' One margin: mgcv's p-spline smooth on equally spaced knots over an interval
+#' One margin: mgcv's p-spline smooth on equally spaced knots over an interval, made once a session
 #' @noRd
 spline_margin <- function(k, lower, upper) {
+  key <- paste(k, lower, upper)
+  if (is.null(kept_margins[[key]])) kept_margins[[key]] <- new_margin(k, lower, upper)
+  kept_margins[[key]]
+}
+
+kept_margins <- new.env(parent = emptyenv())
+
+new_margin <- function(k, lower, upper) {
   term <- eval(substitute(mgcv::s(x, bs = "ps", k = k, m = c(2, 2)), list(x = quote(x), k = k)))
   mgcv::smoothCon(term, data.frame(x = seq(lower, upper, length.out = 2 * k)),
                   knots = list(x = c(lower, upper)))[[1]]

@@ -33,7 +33,9 @@ surface_faults <- function(x, specimen, parts = "model") {
   normals <- matrix(NA_real_, nrow(at), 3)
   normals[row, ] <- t(path_normals(specimen$mesh, at[row, ]))
   pairs <- crossing_pairs(xyz, it)
-  sorted <- apply(it, 2, function(v) paste(sort(v), collapse = " "))
+  least <- pmin(it[1, ], it[2, ], it[3, ])
+  most <- pmax(it[1, ], it[2, ], it[3, ])
+  sorted <- paste(least, colSums(it) - least - most, most)
   fault <- function(rows, name, other = NA_character_) {
     data.frame(fault = rep(name, length(rows)), triangles[rows, c("group", "v1", "v2", "v3")],
                other = rep(other, length.out = length(rows)))
@@ -58,18 +60,29 @@ flipped_triangles <- function(xyz, it, normals) {
 #' @noRd
 crossing_pairs <- function(xyz, it) {
   corner <- lapply(1:3, function(i) xyz[it[i, ], , drop = FALSE])
-  low <- do.call(pmin, corner)
-  high <- do.call(pmax, corner)
-  near <- lapply(seq_len(ncol(it))[-1], function(i) {
-    before <- seq_len(i - 1)
-    apart <- low[before, 1] > high[i, 1] | high[before, 1] < low[i, 1] | low[before, 2] > high[i, 2] |
-      high[before, 2] < low[i, 2] | low[before, 3] > high[i, 3] | high[before, 3] < low[i, 3]
-    cbind(before[!apart], rep(i, sum(!apart)))
-  })
-  pairs <- do.call(rbind, c(list(matrix(0L, 0, 2)), near))
+  pairs <- overlapping_boxes(do.call(pmin, corner), do.call(pmax, corner))
   shared <- Reduce(`+`, lapply(1:3, function(i) is_corner(it, it[i, pairs[, 1]], pairs[, 2])))
   pairs <- pairs[shared < 2, , drop = FALSE]
   pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
+}
+
+#' Pairs of boxes that overlap, found along the first axis
+#'
+#' @param low,high n x 3.
+#' @return Matrix of two columns, the smaller index first.
+#' @noRd
+overlapping_boxes <- function(low, high) {
+  along <- order(low[, 1])
+  reached <- findInterval(high[along, 1], low[along, 1])
+  count <- reached - seq_along(along)
+  first <- rep(seq_along(along), count)
+  second <- first + sequence(count)
+  pairs <- cbind(along[first], along[second])
+  for (axis in 2:3) {
+    apart <- low[pairs[, 1], axis] > high[pairs[, 2], axis] | low[pairs[, 2], axis] > high[pairs[, 1], axis]
+    pairs <- pairs[!apart, , drop = FALSE]
+  }
+  cbind(pmin(pairs[, 1], pairs[, 2]), pmax(pairs[, 1], pairs[, 2]))
 }
 
 is_corner <- function(it, vertex, triangle) {

@@ -71,7 +71,7 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
     fit_curved(row, specimen, sources[[as.character(row$radius)]], fits, settings, passes)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
-       strength = curve$strength, se = curve$se, competing = competing_share(curve$reference, specimen),
+       strength = curve$strength, se = curve$se, competing = c(attr(curve$reference, "competing"), NA)[1],
        reason = curve$reason)
 }
 
@@ -146,21 +146,6 @@ without_curvature <- function(curvature, vertex) {
     curved$k2[none] <- 0
     curved
   }
-}
-
-#' How good the best other optimum of a reference path is that runs elsewhere, as a share of the chosen one
-#'
-#' @param distinct As in [reference_path()].
-#' @noRd
-competing_share <- function(path, specimen, distinct = 0.05) {
-  optima <- attr(path, "optima")
-  share <- optima$criterion / optima$criterion[1]
-  if (identical(attr(path, "type"), "plane")) share <- 1 / share
-  for (i in seq_along(share)[-1]) {
-    other <- plane_path(specimen, path[1, ], path[nrow(path), ], optima$angle[i], optima$side[i])
-    if (path_distance(other, path) > distinct * attr(path, "length")) return(share[i])
-  }
-  NA_real_
 }
 
 #' Cut off the curves that a scheme cuts, all of one specimen by one factor

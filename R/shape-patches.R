@@ -51,10 +51,9 @@ fit_block <- function(block, grid, specimen, surface, curves, fits, store, colum
   if (!length(at)) return(list(store = store, why = why))
   cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], block$rows, surface, column)
   failed <- !is.na(cuts$problem)
-  for (i in which(!failed)) {
-    rows <- open[open$column == at[i], ]
-    store <- fill_store(store, rows$place, cuts$points[[i]][rows$row, , drop = FALSE])
-  }
+  rows <- open[open$column %in% at[!failed], ]
+  values <- do.call(rbind, cuts$points)[(match(rows$column, at[!failed]) - 1) * block$rows + rows$row, , drop = FALSE]
+  store <- fill_store(store, rows$place, values)
   list(store = store, why = c(why, if (any(failed)) paste0("column ", at[failed], ": ", cuts$problem[failed])))
 }
 
@@ -83,7 +82,7 @@ block_side <- function(text, resample, specimen, surface, curves, fits, store, c
   spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (length(lost)) return(list(points = spaced, problem = problem))
   path <- side_path(knots, points, specimen, surface, fits, column)
-  spaced[] <- as.matrix(resample_path(specimen$mesh, path, resample)[mesh_columns])
+  spaced[] <- columns_of(resample_path(specimen$mesh, path, resample))
   spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
 }
@@ -106,8 +105,7 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
       pieces <- c(pieces, list(part_of_path(specimen$mesh, fit$path, s[1], s[2])))
     }
   }
-  rows <- lapply(pieces, function(piece) as.data.frame(piece)[mesh_columns])
-  path_through(do.call(rbind, rows))
+  path_through(do.call(rbind, lapply(pieces, columns_of)))
 }
 
 #' Columns: the shortest cut between two places of each, divided at equal chords
@@ -136,6 +134,6 @@ column_problems <- c(
 )
 
 cut_between <- function(from, to, specimen, surface, column) {
-  ends <- path_ends(specimen, surface, as.data.frame(t(from)), as.data.frame(t(to)))
+  ends <- path_ends(specimen, surface, from[mesh_columns], to[mesh_columns])
   limited_cut(surface, ends, column$angle, column$angles, column$reach)
 }

@@ -23,8 +23,8 @@ limited_cut <- function(surface, ends, limit, angles, reach, rate = function(axi
 #' @noRd
 part_of_path <- function(mesh, path, from, to) {
   range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
-  between <- as.data.frame(path)[path$s > range[1] & path$s < range[2], mesh_columns]
-  ends <- place_along(mesh, path, range)[mesh_columns]
+  between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
+  ends <- columns_of(place_along(mesh, path, range))
   part <- path_through(rbind(ends[1, ], between, ends[2, ]))
   if (from > to) reversed_path(mesh, part) else part
 }
@@ -33,18 +33,8 @@ part_of_path <- function(mesh, path, from, to) {
 #' @noRd
 reversed_path <- function(mesh, path) {
   n <- nrow(path)
-  back <- as.data.frame(path)[n:1, mesh_columns]
-  back$face[-1] <- path$face[n:2]
-  back[2:n, c("w1", "w2", "w3")] <- weights_in_faces(mesh, back$face[-1], as.matrix(back[-1, c("x", "y", "z")]))
+  back <- columns_of(path)[n:1, ]
+  back[-1, "face"] <- path$face[n:2]
+  back[-1, 5:7] <- weights_in_faces(mesh, back[-1, "face"], back[-1, 1:3, drop = FALSE])
   path_through(back)
-}
-
-#' A path through points that follow one another on the mesh
-#' @noRd
-path_through <- function(points) {
-  step <- sqrt(rowSums(diff(as.matrix(points[c("x", "y", "z")]))^2))
-  points <- cbind(s = c(0, cumsum(step)), points)
-  points <- points[c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))], ]
-  rownames(points) <- NULL
-  structure(points, length = sum(step), class = c("mesh_path", "data.frame"))
 }
