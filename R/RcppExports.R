@@ -53,6 +53,10 @@ cpp_joined_to <- function(it, member, seeds) {
     .Call(`_crestline_cpp_joined_to`, it, member, seeds)
 }
 
+cpp_tensor_moments <- function(along, across, y) {
+    .Call(`_crestline_cpp_tensor_moments`, along, across, y)
+}
+
 cpp_render_mesh <- function(xyz, rgb, it, width, height, samples) {
     .Call(`_crestline_cpp_render_mesh`, xyz, rgb, it, width, height, samples)
 }

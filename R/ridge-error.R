@@ -55,5 +55,5 @@ strength_jacobian <- function(problem, surface, alpha) {
   factor <- ascent_factor(problem, alpha)
   by_beta <- backsolve(factor, backsolve(factor, by_beta, transpose = TRUE))
   smooth <- backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE))
-  as.matrix(Matrix::crossprod(smooth, surface$design))
+  tcrossprod(t(smooth), mgcv::tensor.prod.model.matrix(surface$design))
 }

@@ -53,14 +53,13 @@ lift_ends <- function(path, surface) {
 #' @noRd
 level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
   offset <- stats::splinefun(s, alpha, method = "natural")
-  level <- rep(NaN, ncol(surface$vb))
-  level[coordinates$vertex] <- coordinates$d - offset(coordinates$s)
-  at_end <- function(end) sum(end[2:4] * level[surface$it[, end[1]]])
+  own <- coordinates$d - offset(coordinates$s)
+  at_end <- function(end) sum(end[2:4] * own[match(surface$it[, end[1]], coordinates$vertex)])
   share <- pmin(pmax(coordinates$s / max(s), 0), 1)
   share[coordinates$vertex %in% surface$it[, ends$from[1]]] <- 0
   share[coordinates$vertex %in% surface$it[, ends$to[1]]] <- 1
-  level[coordinates$vertex] <- level[coordinates$vertex] -
-    (1 - share) * at_end(ends$from) - share * at_end(ends$to)
+  level <- rep(NaN, ncol(surface$vb))
+  level[coordinates$vertex] <- own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
   level
 }
 

@@ -32,13 +32,13 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
   if (length(rows) < settings$df) abort_few_vertices(length(rows), settings$df)
   margins <- list(along = spline_margin(settings$basis[1], 0, 1),
                   across = spline_margin(settings$basis[2], -1, 1))
-  design <- tensor_design(margins, coordinates$s[rows] / length, coordinates$d[rows] / width)
+  design <- list(along = margin_design(margins$along, coordinates$s[rows] / length),
+                 across = margin_design(margins$across, coordinates$d[rows] / width))
   penalty <- tensor_penalty(margins, settings$anisotropy)
-  moments <- as.matrix(Matrix::tcrossprod(design))
-  chosen <- penalty_for_df(moments, penalty, settings$df)
-  factor <- surface_factor(moments + chosen$value * penalty)
-  right <- as.vector(design %*% strength[rows])
-  beta <- backsolve(factor, backsolve(factor, right, transpose = TRUE))
+  moments <- cpp_tensor_moments(design$along, design$across, strength[rows])
+  chosen <- penalty_for_df(moments$matrix, penalty, settings$df)
+  factor <- surface_factor(moments$matrix + chosen$value * penalty)
+  beta <- backsolve(factor, backsolve(factor, moments$right, transpose = TRUE))
   structure(
     list(coefficients = matrix(beta, settings$basis[2]), length = length, width = width, rows = rows,
          strength = strength[rows], penalty = chosen$value, df = chosen$df, converged = chosen$converged,
@@ -83,18 +83,11 @@ new_margin <- function(k, lower, upper) {
 
 #' B-splines of a margin, or their derivatives, at places: n x k
 #' @noRd
-margin_design <- function(margin, x, derivative = 0, sparse = FALSE) {
+margin_design <- function(margin, x, derivative = 0) {
   order <- margin$m[1] + 2
   range <- margin$knots[c(order, length(margin$knots) - order + 1)]
   splines::splineDesign(margin$knots, pmin(pmax(x, range[1]), range[2]), order,
-                        rep(derivative, length(x)), sparse = sparse)
-}
-
-#' Columns of the tensor product, across running fastest: (k across * k along) x n
-#' @noRd
-tensor_design <- function(margins, u, v) {
-  Matrix::KhatriRao(Matrix::t(margin_design(margins$along, u, sparse = TRUE)),
-                    Matrix::t(margin_design(margins$across, v, sparse = TRUE)))
+                        rep(derivative, length(x)))
 }
 
 tensor_penalty <- function(margins, anisotropy) {

@@ -106,13 +106,12 @@ place_store <- function(scheme, landmarks, fits) {
   places <- unique(scheme$points$place)
   store <- matrix(NA_real_, length(places), 8, dimnames = list(places, c(mesh_columns, "se")))
   store[paste0("landmarks|", rownames(landmarks)), mesh_columns] <- landmarks
-  for (name in names(fits)) {
-    points <- fits[[name]]$points
-    if (is.null(points)) next
-    place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part == name]
-    store <- fill_store(store, place, as.matrix(points[c(mesh_columns, "se")]))
-  }
-  store
+  found <- Filter(function(fit) !is.null(fit$points), fits)
+  if (!length(found)) return(store)
+  values <- do.call(rbind, lapply(found, function(fit) columns_of(fit$points, c(mesh_columns, "se"))))
+  place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part %in% names(found)]
+  first <- !duplicated(place)
+  fill_store(store, place[first], values[first, , drop = FALSE])
 }
 
 #' Fill those of the places that are still empty

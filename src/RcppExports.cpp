@@ -215,6 +215,19 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_tensor_moments
+List cpp_tensor_moments(NumericMatrix along, NumericMatrix across, NumericVector y);
+RcppExport SEXP _crestline_cpp_tensor_moments(SEXP alongSEXP, SEXP acrossSEXP, SEXP ySEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type along(alongSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type across(acrossSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type y(ySEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_tensor_moments(along, across, y));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_render_mesh
 List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int width, int height, int samples);
 RcppExport SEXP _crestline_cpp_render_mesh(SEXP xyzSEXP, SEXP rgbSEXP, SEXP itSEXP, SEXP widthSEXP, SEXP heightSEXP, SEXP samplesSEXP) {
@@ -246,6 +259,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 8},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
+    {"_crestline_cpp_tensor_moments", (DL_FUNC) &_crestline_cpp_tensor_moments, 3},
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {NULL, NULL, 0}
 };

@@ -8,6 +8,7 @@
 #include "path_plane.h"
 #include "path_resample.h"
 #include "plot_render.h"
+#include "ridge_surface.h"
 #include "shape_column.h"
 
 using namespace Rcpp;
@@ -288,6 +289,14 @@ LogicalVector cpp_joined_to(IntegerMatrix it, LogicalVector member, IntegerVecto
   std::vector<char> joined =
       crestline::joined_to(it.begin(), it.ncol(), marked, from_zero(seeds));
   return LogicalVector(joined.begin(), joined.end());
+}
+
+// [[Rcpp::export]]
+List cpp_tensor_moments(NumericMatrix along, NumericMatrix across, NumericVector y) {
+  crestline::TensorMoments m = crestline::tensor_moments(along.begin(), along.ncol(), across.begin(),
+                                                         across.ncol(), y.begin(), y.size());
+  int size = m.right.size();
+  return List::create(_["matrix"] = NumericMatrix(size, size, m.matrix.begin()), _["right"] = m.right);
 }
 
 // [[Rcpp::export]]

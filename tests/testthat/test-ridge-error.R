@@ -77,7 +77,7 @@ test_that("strength_jacobian() is the derivative of the ridge line by the streng
   expect_identical(dim(slope), c(39L, length(curve$surface$rows)))
   refit <- function(strength) {
     surface <- curve$surface
-    right <- as.vector(surface$design %*% strength)
+    right <- crossprod(mgcv::tensor.prod.model.matrix(surface$design), strength)
     beta <- backsolve(surface$factor, backsolve(surface$factor, right, transpose = TRUE))
     surface$coefficients <- matrix(beta, nrow(surface$coefficients))
     ridge_line(surface, curve$scale, window$radius, tight)$alpha[2:40]

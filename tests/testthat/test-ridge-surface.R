@@ -26,7 +26,7 @@ test_that("mgcv::gam at the same smoothing parameters has the same fitted values
   window <- window_of(900)
   data <- data.frame(y = bumps(window), u = window$s / 10, v = window$d / 3)
   smooth <- curvature_surface(window, data$y)
-  X <- t(as.matrix(smooth$design))
+  X <- mgcv::tensor.prod.model.matrix(smooth$design)
   S <- tensor_penalty(smooth$margins, 10)
   fit <- mgcv::gam(y ~ X - 1, data = list(y = data$y, X = X), paraPen = list(X = list(S, sp = smooth$penalty)))
   expect_equal(predict(smooth, window$s, window$d), unname(stats::fitted(fit)), tolerance = 1e-6)
@@ -37,7 +37,7 @@ test_that("the degrees of freedom are the trace of the hat matrix", {
   window <- window_of()
   for (df in c(6, 12, 20, 45)) {
     smooth <- curvature_surface(window, bumps(window), ridge_settings(df = df))
-    hat <- crossprod(backsolve(smooth$factor, as.matrix(smooth$design), transpose = TRUE))
+    hat <- crossprod(backsolve(smooth$factor, t(mgcv::tensor.prod.model.matrix(smooth$design)), transpose = TRUE))
     expect_equal(sum(diag(hat)), df, tolerance = 1e-6)
     expect_equal(smooth$df, df, tolerance = 1e-6)
     expect_true(smooth$converged)
@@ -112,4 +112,17 @@ test_that("vertices on a line determine no surface: an error, not a crash", {
   window <- window_of()
   window$d <- 0
   expect_crestline_error(curvature_surface(window, bumps(window)), c("on a line", "`width`"))
+})
+
+test_that("moments of the tensor product are those of mgcv's own design", {
+  with_seed(1, {
+    u <- runif(200)
+    v <- runif(200, -1, 1)
+    y <- rnorm(200)
+  })
+  design <- list(along = margin_design(spline_margin(7, 0, 1), u), across = margin_design(spline_margin(5, -1, 1), v))
+  found <- cpp_tensor_moments(design$along, design$across, y)
+  dense <- mgcv::tensor.prod.model.matrix(design)
+  expect_equal(found$matrix, crossprod(dense), tolerance = 1e-12)
+  expect_equal(found$right, as.vector(crossprod(dense, y)), tolerance = 1e-12)
 })
