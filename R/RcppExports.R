@@ -21,8 +21,8 @@ cpp_plane_cuts <- function(vb, it, twin, from, to, normals, sides, reach) {
     .Call(`_crestline_cpp_plane_cuts`, vb, it, twin, from, to, normals, sides, reach)
 }
 
-cpp_cut_crossings <- function(vb, it, twin, from, to, normals, sides, reach, step) {
-    .Call(`_crestline_cpp_cut_crossings`, vb, it, twin, from, to, normals, sides, reach, step)
+cpp_cut_weights <- function(vb, it, twin, from, to, normals, sides, reach, step) {
+    .Call(`_crestline_cpp_cut_weights`, vb, it, twin, from, to, normals, sides, reach, step)
 }
 
 cpp_plane_path <- function(vb, it, twin, from, to, normal, side, reach) {

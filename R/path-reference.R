@@ -87,14 +87,11 @@ measure_cuts <- function(surface, ends, axis, angle, side, reach) {
 #' @noRd
 cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
   if (nrow(found) == 0) return(numeric())
-  at <- cpp_cut_crossings(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, found$angle),
-                          found$side, reach * axis$span, step)
-  vertex <- unique(c(at$a, at$b))
-  value <- strength(vertex)
-  value <- (1 - at$share) * value[match(at$a, vertex)] + at$share * value[match(at$b, vertex)]
-  mean <- numeric(nrow(found))
-  mean[unique(at$cut)] <- rowsum(at$weight * value, at$cut, reorder = FALSE)
-  mean
+  at <- cpp_cut_weights(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, found$angle),
+                        found$side, reach * axis$span, step)
+  vertex <- unique(at$vertex)
+  value <- strength(vertex)[match(at$vertex, vertex)]
+  as.vector(rowsum(at$weight * value, at$cut, reorder = FALSE))
 }
 
 #' Local optima of the criterion over angle and side, refined, best first

@@ -112,33 +112,58 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
 
 #' Strength at the vertices inside a window as the settings define it
 #'
-#' @return List with entries for the rows of `coordinates`, NA outside the window: `value` (also NA where left out),
-#'   `direction` (n x 3, across the path or principal), `sigma`; and `cap`.
+#' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated: `value` (also NA where
+#'   left out), `direction` (n x 3, across the path or principal), `sigma`; `rows` (where it was estimated), `cell` (of
+#'   every row, the place in `rows` of the one that stands for it, NA outside the window); and `cap`.
 #' @noRd
 window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings) {
-  inside <- which(coordinates$inside)
-  curved <- curvature(coordinates$vertex[inside])
-  across <- cross_rows(curved$normal, columns_of(coordinates, c("tx", "ty", "tz"))[inside, , drop = FALSE])
+  thinned <- thinned_rows(coordinates, settings$vertices)
+  rows <- thinned$rows
+  curved <- curvature(coordinates$vertex[rows])
+  across <- cross_rows(curved$normal, columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
   value <- strength_at(curved, type, across = if (!principal) across)
   if (!is.null(keep_away)) {
-    value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[inside], drop = FALSE]))] <- 0
+    value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
   }
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
   cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
   own <- if (type == "ridge") curved$direction2 else curved$direction1
-  all_rows <- function(x) {
-    if (is.matrix(x)) return(replace(matrix(NA_real_, nrow(coordinates), 3), cbind(rep(inside, 3), rep(1:3, each = length(inside))), x))
-    replace(rep(NA_real_, nrow(coordinates)), inside, x)
+  direction <- matrix(NA_real_, nrow(coordinates), 3)
+  direction[rows, ] <- if (principal) own else across
+  all_rows <- function(x) replace(rep(NA_real_, nrow(coordinates)), rows, x)
+  list(value = all_rows(pmin(value, cap)), direction = direction, sigma = all_rows(curved$sigma), rows = rows,
+       cell = thinned$cell, cap = cap)
+}
+
+#' The rows inside a window; where there are more than `most`, the one nearest to the centre of each of as many square cells
+#'
+#' @return List: `rows`; `cell`, for every row of `coordinates` the place in `rows` of the one that stands for it, NA outside.
+#' @noRd
+thinned_rows <- function(coordinates, most) {
+  inside <- which(coordinates$inside)
+  cell <- rep(NA_integer_, nrow(coordinates))
+  if (length(inside) <= most) {
+    cell[inside] <- seq_along(inside)
+    return(list(rows = inside, cell = cell))
   }
-  list(value = all_rows(pmin(value, cap)), cap = cap, direction = all_rows(if (principal) own else across),
-       sigma = all_rows(curved$sigma))
+  length <- attr(coordinates, "length")
+  width <- attr(coordinates, "width")
+  columns <- ceiling(sqrt(most * length / (2 * width)))
+  half <- ceiling(most / columns / 2)
+  along <- coordinates$s[inside] / length * columns
+  across <- coordinates$d[inside] / width * half
+  own <- floor(along) * (2 * half + 2) + floor(across)
+  off <- (along - floor(along) - 0.5)^2 + (across - floor(across) - 0.5)^2
+  nearest <- order(own, off)
+  first <- nearest[!duplicated(own[nearest])]
+  cell[inside] <- match(own, own[first])
+  list(rows = inside[first], cell = cell)
 }
 
 core_strength <- function(coordinates, strength, distance) {
-  core <- coordinates$inside & abs(coordinates$d) <= distance
-  value <- strength$value[core]
+  value <- strength$value[strength$rows[abs(coordinates$d[strength$rows]) <= distance]]
   value[is.na(value)] <- 0
   if (length(value)) mean(value) else NA_real_
 }
@@ -201,9 +226,10 @@ judge_curve <- function(about, fit) {
 #' @noRd
 mean_strength <- function(specimen, path, fit) {
   if (is.null(fit)) return(NA_real_)
-  row <- matrix(match(as_mesh(specimen)$it[, path$face], fit$coordinates$vertex), 3)
-  inside <- matrix(fit$coordinates$inside[row] %in% TRUE, 3)
-  strength <- fit$strengths$value[row]
+  corner <- match(as_mesh(specimen)$it[, path$face], fit$coordinates$vertex)
+  stands_in <- matrix(fit$strengths$rows[fit$strengths$cell[corner]], 3)
+  inside <- !is.na(stands_in)
+  strength <- fit$strengths$value[stands_in]
   strength[is.na(strength)] <- 0
   weight <- rbind(path$w1, path$w2, path$w3) * inside
   at <- colSums(weight * strength) / colSums(weight)

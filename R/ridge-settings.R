@@ -10,6 +10,8 @@
 #'   * `wrong_sign`: vertices with the wrong sign of curvature count as `"zero"` or are left out, `"drop"`;
 #'   * `cap`, `cap_quantile`: strength is capped at `cap` times its quantile;
 #'   * `window`: half width at most this many radii; `Inf`: the width given;
+#'   * `vertices`: where a window holds more vertices than this it is divided into so many square cells in (s, d), and one
+#'     vertex of each is used: the smooth surface gains nothing from more, and dense meshes take no longer; `Inf`: all;
 #'   * `basis`: number of B-splines along and across;
 #'   * `anisotropy`: penalty across over penalty along;
 #'   * `df`: equivalent degrees of freedom of the smooth surface;
@@ -36,12 +38,12 @@
 ridge_settings <- function(preset = c("crestline", "paper"), ...) {
   preset <- check_choice(preset, c("crestline", "paper"), "preset")
   settings <- list(order = "adaptive cubic", strength = "across", wrong_sign = "zero", cap = 2,
-                   cap_quantile = 0.99, window = 1.5, basis = c(10, 10), anisotropy = 10, df = 20,
+                   cap_quantile = 0.99, window = 1.5, vertices = 4000, basis = c(10, 10), anisotropy = 10, df = 20,
                    lambda = 1e-4, lambda_scale = "feature", grid = 41, core = 0.3, bound = 0.98,
                    step = 0.25, iterations = 100, tolerance = 1e-9, longest = 1.25, inflation = 1.5,
                    undetermined = 0.2, faint = 0.15, error = TRUE)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
-                window = Inf, anisotropy = 1, df = 12, lambda = 0.5, lambda_scale = "grid",
+                window = Inf, vertices = Inf, anisotropy = 1, df = 12, lambda = 0.5, lambda_scale = "grid",
                 longest = Inf)
   if (preset == "paper") settings[names(paper)] <- paper
   change <- list(...)
@@ -55,7 +57,7 @@ ridge_settings <- function(preset = c("crestline", "paper"), ...) {
 }
 
 check_settings <- function(settings) {
-  positive <- c("cap", "cap_quantile", "window", "anisotropy", "df", "lambda", "core", "bound", "step",
+  positive <- c("cap", "cap_quantile", "window", "vertices", "anisotropy", "df", "lambda", "core", "bound", "step",
                 "tolerance", "longest", "inflation", "undetermined", "faint")
   for (name in positive) {
     if (!identical(settings[[name]], Inf)) check_number(settings[[name]], name, lower = 0, open = TRUE)

@@ -87,9 +87,9 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_cut_crossings
-DataFrame cpp_cut_crossings(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, double step);
-RcppExport SEXP _crestline_cpp_cut_crossings(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP stepSEXP) {
+// cpp_cut_weights
+DataFrame cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, double step);
+RcppExport SEXP _crestline_cpp_cut_weights(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP stepSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -102,7 +102,7 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
     Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
     Rcpp::traits::input_parameter< double >::type step(stepSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_cut_crossings(vb, it, twin, from, to, normals, sides, reach, step));
+    rcpp_result_gen = Rcpp::wrap(cpp_cut_weights(vb, it, twin, from, to, normals, sides, reach, step));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -251,7 +251,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
-    {"_crestline_cpp_cut_crossings", (DL_FUNC) &_crestline_cpp_cut_crossings, 9},
+    {"_crestline_cpp_cut_weights", (DL_FUNC) &_crestline_cpp_cut_weights, 9},
     {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
     {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
     {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},

@@ -194,26 +194,25 @@ DataFrame cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin,
 }
 
 // [[Rcpp::export]]
-DataFrame cpp_cut_crossings(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin,
-                            NumericVector from, NumericVector to, NumericMatrix normals,
-                            IntegerVector sides, double reach, double step) {
+DataFrame cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+                          NumericVector to, NumericMatrix normals, IntegerVector sides, double reach,
+                          double step) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
-  std::vector<int> cut_of, a, b;
-  std::vector<double> share, weight;
+  std::vector<int> cut_of, vertex;
+  std::vector<double> weight;
   for (int i = 0; i < sides.size(); ++i) {
-    crestline::PlaneCut cut = crestline::plane_cut(
-        mesh, {surface_point(from), surface_point(to), &normals(0, i), sides[i], reach, true});
-    for (const auto& w : crestline::spaced_crossings(mesh, cut, surface_point(from), step)) {
+    crestline::CutRequest request{surface_point(from), surface_point(to), &normals(0, i), sides[i],
+                                  reach, true};
+    crestline::PlaneCut cut = crestline::plane_cut(mesh, request);
+    crestline::Track path = crestline::track_of(mesh, cut, request.from, request.to);
+    for (const auto& w : crestline::mean_weights(mesh, path, step)) {
       cut_of.push_back(i + 1);
-      a.push_back(it[w.crossing.half_edge]);
-      b.push_back(it[crestline::next_half_edge(w.crossing.half_edge)]);
-      share.push_back(w.crossing.share);
+      vertex.push_back(w.vertex + 1);
       weight.push_back(w.weight);
     }
     checkUserInterrupt();
   }
-  return DataFrame::create(_["cut"] = cut_of, _["a"] = a, _["b"] = b, _["share"] = share,
-                           _["weight"] = weight);
+  return DataFrame::create(_["cut"] = cut_of, _["vertex"] = vertex, _["weight"] = weight);
 }
 
 // [[Rcpp::export]]

@@ -24,9 +24,15 @@ Vec cross(Vec a, Vec b) {
 }
 Vec unit(Vec a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
+// Segments are held in runs with a ball about each, so that most of a long path is passed over at once.
+constexpr int kRun = 16;
+
 struct Polyline {
   std::vector<Vec> node, tangent;  // tangent of each segment
   std::vector<double> start;       // arc length at each node
+  std::vector<Vec> centre;         // of each run's ball, and its radius
+  std::vector<double> radius;
+  int segments() const { return static_cast<int>(tangent.size()); }
 };
 
 Polyline make_polyline(const double* path, int k) {
@@ -39,7 +45,60 @@ Polyline make_polyline(const double* path, int k) {
     line.tangent.push_back((1 / length) * step);
     line.start.push_back(line.start[i] + length);
   }
+  for (int first = 0; first + 1 < k; first += kRun) {
+    int last = std::min(first + kRun, k - 1);
+    Vec centre = 0.5 * (line.node[first] + line.node[last]);
+    double radius = 0;
+    for (int i = first; i <= last; ++i) {
+      Vec off = line.node[i] - centre;
+      radius = std::max(radius, std::sqrt(dot(off, off)));
+    }
+    line.centre.push_back(centre);
+    line.radius.push_back(radius);
+  }
   return line;
+}
+
+struct Nearest {
+  double square = INFINITY, along = 0;
+  int segment = 0;
+};
+
+// The segments of a run that are nearer than what was found before; of equally near ones the first.
+void look_at_run(const Polyline& line, int run, Vec p, Nearest& best) {
+  int last = std::min((run + 1) * kRun, line.segments());
+  for (int j = run * kRun; j < last; ++j) {
+    Vec rel = p - line.node[j];
+    double length = line.start[j + 1] - line.start[j];
+    double along = dot(rel, line.tangent[j]);
+    // The first and last segments go on straight past the ends.
+    if (along < 0 && j > 0) along = 0;
+    if (along > length && j + 1 < line.segments()) along = length;
+    Vec off = rel - along * line.tangent[j];
+    double square = dot(off, off);
+    if (square < best.square || (square == best.square && j < best.segment)) {
+      best.square = square;
+      best.along = along;
+      best.segment = j;
+    }
+  }
+}
+
+// The first and last run are always looked at: their straight ends reach out of their balls.
+Nearest nearest_place(const Polyline& line, Vec p, int guess) {
+  Nearest best;
+  int runs = static_cast<int>(line.radius.size());
+  look_at_run(line, guess, p, best);
+  for (int run = 0; run < runs; ++run) {
+    if (run == guess) continue;
+    if (run > 0 && run + 1 < runs) {
+      Vec off = p - line.centre[run];
+      double reach = std::sqrt(best.square) + line.radius[run];
+      if (dot(off, off) > reach * reach * (1 + 1e-12)) continue;
+    }
+    look_at_run(line, run, p, best);
+  }
+  return best;
 }
 
 }  // namespace
@@ -51,35 +110,22 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
   out.s.resize(n);
   out.d.resize(n);
   out.tangent.resize(3 * static_cast<std::size_t>(n));
+  int guess = 0;
   for (int i = 0; i < n; ++i) {
     Vec p = at(points, i);
-    double best = INFINITY, best_along = 0;
-    int segment = 0;
-    for (int j = 0; j + 1 < k; ++j) {
-      Vec rel = p - line.node[j];
-      double length = line.start[j + 1] - line.start[j];
-      double along = dot(rel, line.tangent[j]);
-      // The first and last segments go on straight past the ends.
-      if (along < 0 && j > 0) along = 0;
-      if (along > length && j + 2 < k) along = length;
-      Vec off = rel - along * line.tangent[j];
-      double d2 = dot(off, off);
-      if (d2 < best) {
-        best = d2;
-        best_along = along;
-        segment = j;
-      }
-    }
+    Nearest best = nearest_place(line, p, guess);
+    guess = best.segment / kRun;
+    int segment = best.segment;
     double length = line.start[segment + 1] - line.start[segment];
     Vec tangent = line.tangent[segment];
-    if (best_along == 0 && segment > 0) tangent = unit(tangent + line.tangent[segment - 1]);
-    if (best_along == length && segment + 2 < k) tangent = unit(tangent + line.tangent[segment + 1]);
-    double share = std::min(std::max(best_along / length, 0.0), 1.0);
+    if (best.along == 0 && segment > 0) tangent = unit(tangent + line.tangent[segment - 1]);
+    if (best.along == length && segment + 2 < k) tangent = unit(tangent + line.tangent[segment + 1]);
+    double share = std::min(std::max(best.along / length, 0.0), 1.0);
     Vec normal = (1 - share) * at(normals, segment) + share * at(normals, segment + 1);
-    Vec foot = line.node[segment] + best_along * line.tangent[segment];
+    Vec foot = line.node[segment] + best.along * line.tangent[segment];
     double side = dot(p - foot, cross(normal, tangent));
-    out.s[i] = line.start[segment] + best_along;
-    out.d[i] = side < 0 ? -std::sqrt(best) : std::sqrt(best);
+    out.s[i] = line.start[segment] + best.along;
+    out.d[i] = side < 0 ? -std::sqrt(best.square) : std::sqrt(best.square);
     out.tangent[3 * i] = tangent.x;
     out.tangent[3 * i + 1] = tangent.y;
     out.tangent[3 * i + 2] = tangent.z;

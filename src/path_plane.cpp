@@ -175,35 +175,39 @@ PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& r) {
   return cut;
 }
 
-std::vector<WeightedCrossing> spaced_crossings(const Triangulation& mesh, const PlaneCut& cut,
-                                               const SurfacePoint& from, double step) {
-  std::vector<WeightedCrossing> spaced;
-  if (cut.crossings.empty()) return spaced;
-  std::vector<double> s, at_node;
-  double at[3], x[3], length = 0;
-  position(mesh, from, at);
+Track track_of(const Triangulation& mesh, const PlaneCut& cut, const SurfacePoint& from,
+               const SurfacePoint& to) {
+  Track track;
+  double x[3];
+  auto add = [&](int face) {
+    double step = track.s.empty() ? 0 : distance(x, &track.xyz[track.xyz.size() - 3]);
+    if (!track.s.empty() && step == 0) return;
+    track.s.push_back(track.s.empty() ? 0 : track.s.back() + step);
+    track.xyz.insert(track.xyz.end(), x, x + 3);
+    track.face.push_back(face);
+  };
+  position(mesh, from, x);
+  add(from.face);
   for (const Crossing& c : cut.crossings) {
     position(mesh, c, x);
-    length += distance(x, at);
-    s.push_back(length);
-    std::copy(x, x + 3, at);
+    add(face_of(c.half_edge));
   }
-  int pieces = std::max(1, static_cast<int>(std::ceil(cut.length / step)));
-  std::size_t i = 0, last = s.size();
+  position(mesh, to, x);
+  add(to.face);
+  return track;
+}
+
+std::vector<WeightedVertex> mean_weights(const Triangulation& mesh, const Track& track, double step) {
+  std::vector<WeightedVertex> weights;
+  int pieces = std::max(1, static_cast<int>(std::ceil(track.s.back() / step)));
   for (int p = 0; p <= pieces; ++p) {
-    double place = static_cast<double>(p) / pieces * cut.length;
-    while (i + 1 < s.size() && std::fabs(s[i + 1] - place) < std::fabs(s[i] - place)) ++i;
-    if (i == last) continue;
-    last = i;
-    spaced.push_back({cut.crossings[i], 0});
-    at_node.push_back(s[i]);
+    double x[3], share = (p == 0 || p == pieces ? 0.5 : 1.0) / pieces;
+    int segment = point_along(track, track.s.back() * p / pieces, x);
+    SurfacePoint at = place_in_face(mesh, track.face[segment], x);
+    for (int c = 0; c < 3; ++c)
+      if (at.w[c] != 0) weights.push_back({vertex_at(mesh, 3 * at.face + c), share * at.w[c]});
   }
-  for (std::size_t k = 0; k < spaced.size(); ++k) {
-    double before = k == 0 ? 0 : (at_node[k - 1] + at_node[k]) / 2;
-    double after = k + 1 == spaced.size() ? cut.length : (at_node[k] + at_node[k + 1]) / 2;
-    spaced[k].weight = (after - before) / cut.length;
-  }
-  return spaced;
+  return weights;
 }
 
 LevelPath level_path(const Triangulation& mesh, int from_face, int to_face, const double* level,

@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "path_resample.h"
 #include "path_walk.h"
 
 namespace crestline {
@@ -22,16 +23,19 @@ struct CutRequest {
 
 PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& request);
 
-// A crossing with the share of the cut's length that it stands for.
-struct WeightedCrossing {
-  Crossing crossing;
+// A vertex with the share of a cut's length that its value counts for.
+struct WeightedVertex {
+  int vertex;
   double weight;
 };
 
-// Of the crossings of a cut that arrived, those nearest to equally spaced places no further apart than
-// `step`, weighted by the trapezoidal rule; none where the cut crosses no edge.
-std::vector<WeightedCrossing> spaced_crossings(const Triangulation& mesh, const PlaneCut& cut,
-                                               const SurfacePoint& from, double step);
+// The path of a cut that arrived, repeated places left out.
+Track track_of(const Triangulation& mesh, const PlaneCut& cut, const SurfacePoint& from,
+               const SurfacePoint& to);
+
+// Weights for the mean along a path of a function given at the vertices: the trapezoidal rule over
+// equally spaced places no further apart than `step`.
+std::vector<WeightedVertex> mean_weights(const Triangulation& mesh, const Track& track, double step);
 
 // Axis between two ends, and the direction across it that lies in the surface: the plane at angle 0,
 // which holds the mean of the surface's normals at the ends, has it as its normal.

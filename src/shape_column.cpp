@@ -24,33 +24,6 @@ ColumnEnd column_end(WalkEnd end) {
   }
 }
 
-void add_node(const double* xyz, int face, Track& track) {
-  double step = 0;
-  if (!track.s.empty()) {
-    const double* before = &track.xyz[track.xyz.size() - 3];
-    for (int i = 0; i < 3; ++i) step += (xyz[i] - before[i]) * (xyz[i] - before[i]);
-    if (step == 0) return;
-  }
-  track.s.push_back(track.s.empty() ? 0 : track.s.back() + std::sqrt(step));
-  track.xyz.insert(track.xyz.end(), xyz, xyz + 3);
-  track.face.push_back(face);
-}
-
-Track track_of(const Triangulation& mesh, const PlaneCut& cut, const SurfacePoint& from,
-               const SurfacePoint& to) {
-  Track track;
-  double x[3];
-  position(mesh, from, x);
-  add_node(x, from.face, track);
-  for (const Crossing& c : cut.crossings) {
-    position(mesh, c, x);
-    add_node(x, face_of(c.half_edge), track);
-  }
-  position(mesh, to, x);
-  add_node(x, to.face, track);
-  return track;
-}
-
 }  // namespace
 
 Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to,

@@ -92,7 +92,7 @@ test_that("vertices of the wrong sign count as 0, or are left out", {
 
 test_that("nu0 is the mean strength near the reference path, places without curvature counting as 0", {
   window <- data.frame(d = c(0, 0.5, -1, 1.1, 0), inside = c(TRUE, TRUE, TRUE, TRUE, FALSE))
-  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100, 100)), 1), 3)
+  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100, 100), rows = which(window$inside)), 1), 3)
   expect_true(is.na(core_strength(window[4:5, ], list(value = c(1, 1)), 1)))
   curve <- of_bent()
   near <- curve$coordinates$vertex[abs(curve$coordinates$d) <= 0.3 * 4 & curve$coordinates$inside]
@@ -251,13 +251,30 @@ test_that("errors of any stage name the curve", {
                          c("specimen graph", "ridge from a to b", "as large as the mesh"), id = "graph")
 })
 
+test_that("of a dense window one vertex a cell stands for the others, the nearest to the centre, and the curve hardly moves", {
+  window <- structure(data.frame(s = c(0.1, 0.5, 0.9, 1.6, 1.5, 9), d = c(0.1, 0.6, 0.4, -0.9, -0.5, 0),
+                                 inside = c(rep(TRUE, 5), FALSE)), length = 2, width = 1)
+  thinned <- thinned_rows(window, 4)
+  expect_setequal(thinned$rows, c(2, 5))
+  expect_identical(thinned$rows[thinned$cell], c(2L, 2L, 2L, 5L, 5L, NA))
+  expect_identical(thinned_rows(window, 5)$rows, 1:5)
+  dense <- bent_ridge(spacing = 0.4)
+  whole <- of_bent(dense, settings = ridge_settings(vertices = Inf))
+  some <- of_bent(dense, settings = ridge_settings(vertices = 500))
+  expect_gt(length(whole$surface$rows), 1500)
+  expect_lte(length(some$surface$rows), 550)
+  expect_lt(max(distance_from_line(xyz_of(some$path), xyz_of(whole$path))), 0.02)
+  expect_equal(some$strength, whole$strength, tolerance = 0.01)
+})
+
 test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {
   u <- straight_ridge()
   path <- reference_path(u, "a", "b", "plane")
   about <- list(type = "ridge", radius = 4, settings = ridge_settings(), from = "a", to = "b", id = "u")
   fit <- list(found = FALSE, reason = "not lifted", line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)),
-              scale = 1, coordinates = path_coordinates(u, path, 4), strengths = list(value = 1))
-  fit$strengths$value <- rep(1, nrow(fit$coordinates))
+              scale = 1, coordinates = path_coordinates(u, path, 4))
+  every <- seq_len(nrow(fit$coordinates))
+  fit$strengths <- list(value = rep(1, length(every)), rows = every, cell = every)
   expect_warning(curve <- new_curve(u, path, path, 5, about, fit), class = "crestline_undetermined")
   expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
   expect_false(curve$determined)
