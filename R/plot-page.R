@@ -3,11 +3,13 @@
 #' Write a page with the turning specimen and its curves
 #'
 #' One HTML file that needs no other, or a file and a folder: the surface coloured by shape index, the
-#' curves with their bands, buttons that hide the colours or the curves, the colour scale, and a table.
+#' curves with their bands, of a shape also the triangles of its surface, buttons that hide each of these, the colour
+#' scale, and a table.
 #'
 #' @param file Where to write, ending in ".html".
 #' @param specimen A `specimen`.
-#' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in the table.
+#' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in the table. Or a
+#'   `shape`, as [fit_shape()] returns it.
 #' @param table A data frame to show below, NULL for none.
 #' @param title Heading of the page.
 #' @param caption A sentence below the picture.
@@ -15,7 +17,7 @@
 #' @param selfcontained Whether to put all into one file; else a folder
 #'   named after the file, ending in `_files`, stands beside it.
 #' @param size Width and height of the picture in the browser's pixels.
-#' @param ... Passed to [plot_curves()]: `curvature`, `radius`, `view`, `band`.
+#' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`, `view`, `band`.
 #' @return The path of the file, invisibly.
 #' @examples
 #' \donttest{
@@ -34,15 +36,14 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
-  curves <- check_curves(curves)
   rgl::open3d(useNULL = TRUE)
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
   plot(specimen, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
-  scene <- plot_curves(curves, specimen, surface, colour, width = width, engine = "rgl", ...)
+  layers <- page_layers(curves, specimen, surface, colour, width, ...)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-                   page_scene(scene$ids, surface, size), page_legend(surface), tags$p(caption), html_table(table))
+                   page_scene(layers, size), page_legend(surface), tags$p(caption), html_table(table))
   save_page(page, file, selfcontained)
   invisible(file)
 }
@@ -78,12 +79,29 @@ check_page_file <- function(file, call = rlang::caller_env()) {
   file.path(normalizePath(dirname(file)), basename(file))
 }
 
-# The turning scene; the first of the ids is the coloured surface, the others are curves: a button hides each.
-page_scene <- function(ids, surface, size) {
+#' Draw what a page shows on the specimen
+#' @return Named list of the ids of what belongs together.
+#' @noRd
+page_layers <- function(curves, specimen, surface, colour, width, ..., edges = "#505050", raised = 0.004) {
+  of_shape <- inherits(curves, "shape")
+  scene <- if (of_shape) {
+    chosen <- if (is.null(colour)) list() else list(colour = colour)
+    do.call(plot, c(list(curves, specimen, surface = surface, width = width, engine = "rgl", patches = FALSE), chosen, list(...)))
+  } else {
+    plot_curves(check_curves(curves), specimen, surface, colour, width = width, engine = "rgl", ...)
+  }
+  layers <- stats::setNames(list(scene$ids[1], scene$ids[-1]), c(surface, "curves"))
+  if (of_shape && any(curves$status$level == "surface" & curves$status$ok)) {
+    layers[["surface model"]] <- draw_edges(scene, shape_mesh(curves), edges, width / 4, raised)$ids[-seq_along(scene$ids)]
+  }
+  Filter(length, layers)
+}
+
+# The turning scene, with a button that hides each of its layers.
+page_scene <- function(layers, size) {
   scene <- rgl::rglwidget(width = size[1], height = size[2], elementId = "crestline")
-  button <- function(ids, label) rgl::toggleWidget("crestline", ids = ids, label = label)
-  htmltools::tagList(scene, htmltools::tags$div(style = "display:flex;gap:8px", button(ids[1], surface),
-                                                if (length(ids) > 1) button(ids[-1], "curves")))
+  buttons <- Map(function(ids, label) rgl::toggleWidget("crestline", ids = ids, label = label), layers, names(layers))
+  htmltools::tagList(scene, htmltools::tags$div(style = "display:flex;gap:8px", unname(buttons)))
 }
 
 page_legend <- function(surface) {
@@ -102,7 +120,7 @@ html_table <- function(table, digits = 3) {
   cell <- "padding:3px 12px;border-bottom:1px solid #ddd;text-align:left"
   shown <- vapply(table, function(column) {
     if (is.numeric(column)) column <- signif(column, digits)
-    vapply(column, format, "", USE.NAMES = FALSE)
+    ifelse(is.na(column), "", vapply(column, format, "", USE.NAMES = FALSE))
   }, character(nrow(table)))
   shown <- matrix(shown, nrow(table))
   rows <- apply(shown, 1, function(row) htmltools::tags$tr(lapply(row, htmltools::tags$td, style = cell)), simplify = FALSE)
@@ -112,6 +130,9 @@ html_table <- function(table, digits = 3) {
 
 # One row a curve: what it is, how long, how strong, how sure.
 curve_table <- function(curves) {
+  if (inherits(curves, "shape")) {
+    return(curves$status[curves$status$level == "curves", c("part", "kind", "length", "strength", "se", "competing", "reason")])
+  }
   curves <- check_curves(curves)
   pick <- function(name, type) vapply(curves, function(curve) type(curve[[name]]), type(NA), USE.NAMES = FALSE)
   name <- if (is.null(names(curves))) character(length(curves)) else names(curves)

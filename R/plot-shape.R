@@ -13,7 +13,8 @@
 #'   its colour.
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
-#' @param points Whether to draw the points: of the curves; with `specimen` also those of the surface, small.
+#' @param points Whether to draw the points of the curves.
+#' @param patches Whether to draw the points of the surface, small, on the specimen.
 #' @param width Line width of curves.
 #' @param engine,view,... As in [plot.specimen()] and [draw_surface()].
 #' @return The scene of [draw_surface()], invisibly.
@@ -31,7 +32,7 @@
 plot.shape <- function(x, specimen = NULL, parts = "model",
                        colour = c(ridge = "#A0002A", valley = "#16218C", plane = "#202020"),
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index", edges = "#00000070", band = TRUE,
-                       points = TRUE, width = 2, engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
+                       points = TRUE, patches = points, width = 2, engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
   scene <- if (is.null(specimen)) {
     draw_model(shape_mesh(x, parts), surface, edges, engine, view, ...)
   } else {
@@ -39,7 +40,7 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
     plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, ...)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
-  if (points && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.3)
+  if (patches && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.3)
   for (i in which(x$status$level == "curves" & x$status$ok)) {
     scene <- draw_shape_curve(scene, x, x$status$part[i], specimen, colour[[x$status$kind[i]]], band, points, width)
   }
@@ -67,11 +68,19 @@ draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, wid
 #' @noRd
 draw_model <- function(mesh, colour, edges, engine, view, ...) {
   scene <- draw_surface(mesh, colour, view, engine, ...)
-  if (is.na(edges)) return(scene)
+  if (is.na(edges)) scene else draw_edges(scene, mesh, edges, 0.5)
+}
+
+#' The edges of the triangles of a mesh, each once
+#'
+#' @param raised How far along the normals they are drawn, as a share of the mesh's diagonal: long edges run below the
+#'   surface that their ends lie on.
+#' @noRd
+draw_edges <- function(scene, mesh, colour, width, raised = 0) {
   side <- cbind(mesh$it[1:2, ], mesh$it[2:3, ], mesh$it[c(3, 1), ])
   side <- unique(t(apply(side, 2, sort)))
-  xyz <- t(mesh$vb[1:3, ])
+  xyz <- t(mesh$vb[1:3, ] + raised * mesh_diagonal(mesh) * mesh$normals[1:3, ])
   ends <- array(c(xyz[side[, 1], ], xyz[side[, 2], ], rep(NA, 3 * nrow(side))), c(nrow(side), 3, 3))
   gaps <- matrix(aperm(ends, c(3, 1, 2)), ncol = 3)
-  draw_lines(scene, gaps, edges, 0.5)
+  draw_lines(scene, gaps, colour, width)
 }
