@@ -45,6 +45,10 @@ cpp_fit_columns <- function(vb, it, twin, from, to, rows, settings, chords) {
     .Call(`_crestline_cpp_fit_columns`, vb, it, twin, from, to, rows, settings, chords)
 }
 
+cpp_vertices_in_box <- function(vb, low, high) {
+    .Call(`_crestline_cpp_vertices_in_box`, vb, low, high)
+}
+
 cpp_path_coordinates <- function(points, path, normals) {
     .Call(`_crestline_cpp_path_coordinates`, points, path, normals)
 }

@@ -30,8 +30,7 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   clear <- without_stubs(path)
   track <- t(columns_of(clear, c("x", "y", "z")))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
-  near <- seq_len(ncol(mesh$vb))
-  for (axis in 1:3) near <- near[mesh$vb[axis, near] >= box[1, axis] & mesh$vb[axis, near] <= box[2, axis]]
+  near <- cpp_vertices_in_box(mesh$vb, box[1, ], box[2, ])
   found <- cpp_path_coordinates(mesh$vb[1:3, near, drop = FALSE], track, path_normals(mesh, clear))
   kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") + margin
   member <- logical(ncol(mesh$vb))

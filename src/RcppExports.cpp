@@ -189,6 +189,19 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_vertices_in_box
+IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high);
+RcppExport SEXP _crestline_cpp_vertices_in_box(SEXP vbSEXP, SEXP lowSEXP, SEXP highSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type low(lowSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type high(highSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertices_in_box(vb, low, high));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_path_coordinates
 List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals);
 RcppExport SEXP _crestline_cpp_path_coordinates(SEXP pointsSEXP, SEXP pathSEXP, SEXP normalsSEXP) {
@@ -257,6 +270,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 8},
+    {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
     {"_crestline_cpp_tensor_moments", (DL_FUNC) &_crestline_cpp_tensor_moments, 3},

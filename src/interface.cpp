@@ -276,6 +276,11 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
 }
 
 // [[Rcpp::export]]
+IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high) {
+  return from_one(crestline::vertices_in_box(vb.begin(), vb.nrow(), vb.ncol(), low.begin(), high.begin()));
+}
+
+// [[Rcpp::export]]
 List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals) {
   crestline::PathCoordinates c = crestline::path_coordinates(
       points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol());

@@ -5,6 +5,18 @@
 
 namespace crestline {
 
+std::vector<int> vertices_in_box(const double* vb, int rows, int n, const double* low,
+                                 const double* high) {
+  std::vector<int> inside;
+  for (int v = 0; v < n; ++v) {
+    const double* p = vb + rows * static_cast<std::size_t>(v);
+    if (p[0] >= low[0] && p[0] <= high[0] && p[1] >= low[1] && p[1] <= high[1] && p[2] >= low[2] &&
+        p[2] <= high[2])
+      inside.push_back(v);
+  }
+  return inside;
+}
+
 Crop crop_mesh(const double* vb, int rows, int n, const int* it, int m,
                const std::vector<int>& wanted, double margin) {
   auto at = [&](int v) { return vb + rows * static_cast<std::size_t>(v); };
@@ -16,12 +28,7 @@ Crop crop_mesh(const double* vb, int rows, int n, const int* it, int m,
     }
   constexpr int kOutside = -2, kInside = -1;
   std::vector<int> local(n, kOutside);
-  for (int v = 0; v < n; ++v) {
-    const double* p = at(v);
-    if (p[0] >= low[0] && p[0] <= high[0] && p[1] >= low[1] && p[1] <= high[1] && p[2] >= low[2] &&
-        p[2] <= high[2])
-      local[v] = kInside;
-  }
+  for (int v : vertices_in_box(vb, rows, n, low, high)) local[v] = kInside;
   std::vector<char> member(n, 0);
   std::vector<int> faces;
   for (int f = 0; f < m; ++f) {

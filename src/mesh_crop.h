@@ -4,6 +4,10 @@
 
 namespace crestline {
 
+// Vertices in a box, from 0, in the order of the mesh. vb: rows x n, the first three of each column x, y, z.
+std::vector<int> vertices_in_box(const double* vb, int rows, int n, const double* low,
+                                 const double* high);
+
 struct Crop {
   std::vector<double> xyz;  // 3 x its vertices
   std::vector<int> it;      // corners from 0
