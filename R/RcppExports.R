@@ -41,8 +41,8 @@ cpp_place_along <- function(vb, it, xyz, s, face, at) {
     .Call(`_crestline_cpp_place_along`, vb, it, xyz, s, face, at)
 }
 
-cpp_fit_columns <- function(vb, it, twin, from, to, rows, settings, chords) {
-    .Call(`_crestline_cpp_fit_columns`, vb, it, twin, from, to, rows, settings, chords)
+cpp_fit_columns <- function(vb, it, twin, from, to, outside, rows, settings, chords) {
+    .Call(`_crestline_cpp_fit_columns`, vb, it, twin, from, to, outside, rows, settings, chords)
 }
 
 cpp_vertices_in_box <- function(vb, low, high) {

@@ -12,8 +12,9 @@
 #' than its share, all cut curves are cut at the same smaller multiple of their shares, and say so.
 #'
 #' A column of a patch is the shortest plane cut between two points of its bounding curves, among planes near
-#' the surface's normal, divided at equal chords. All points lie on the mesh; points that coincide by
-#' construction are stored once and agree exactly. Triangles of the model that are flipped or cross are named in the `reason`
+#' the surface's normal, divided at equal chords. Where the normals at its ends say nothing, as on a sharp rim, the
+#' order of the patch's corners (`outward`) says where outside is, and the cut runs over the outer wall. All points lie on
+#' the mesh; points that coincide by construction are stored once and agree exactly. Triangles of the model that are flipped or cross are named in the `reason`
 #' of a patch that they begin at, see [surface_faults()].
 #'
 #' @param specimen A [specimen()].

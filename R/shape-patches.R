@@ -49,7 +49,8 @@ fit_block <- function(block, grid, specimen, surface, curves, fits, store, colum
   whole <- which(!is.na(a$points[, "x"]) & !is.na(b$points[, "x"]))
   at <- intersect(open$column, whole)
   if (!length(at)) return(list(store = store, why = why))
-  cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], block$rows, surface, column)
+  outside <- vapply(at, function(i) column_outside(a$points, b$points, i, block$outward), numeric(3))
+  cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], outside, block$rows, surface, column)
   failed <- !is.na(cuts$problem)
   rows <- open[open$column %in% at[!failed], ]
   values <- do.call(rbind, cuts$points)[(match(rows$column, at[!failed]) - 1) * block$rows + rows$row, , drop = FALSE]
@@ -108,19 +109,35 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
   path_through(do.call(rbind, lapply(pieces, columns_of)))
 }
 
+#' Direction out of a patch at one of its columns, by the order of its corners
+#'
+#' @param a,b Points of both sides.
+#' @param at The column.
+#' @return Vector of 3; NA where the scheme does not say, or no neighbour tells the direction along the sides.
+#' @noRd
+column_outside <- function(a, b, at, outward) {
+  near <- intersect(at + -1:1, which(!is.na(a[, "x"]) & !is.na(b[, "x"])))
+  if (is.na(outward) || length(near) < 2) return(rep(NA_real_, 3))
+  step <- function(x) x[max(near), 1:3] - x[min(near), 1:3]
+  out <- cross_product(step(a) + step(b), b[at, 1:3] - a[at, 1:3])
+  if (all(out == 0)) return(rep(NA_real_, 3))
+  unname(if (outward == "columns") out else -out)
+}
+
 #' Columns: the shortest cut between two places of each, divided at equal chords
 #'
 #' @param from,to k x 7 matrices, a row a column.
+#' @param outside 3 x k: direction out of the surface, NA where it is not known.
 #' @param rows Points of a column, the ends among them.
 #' @param inside As in [path_ends()].
 #' @return List: `points` (list of rows x 7 matrices), `problem` (NA where the column is there).
 #' @noRd
-fit_columns <- function(from, to, rows, surface, column, inside = 1e-6) {
+fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6) {
   at <- c("face", "w1", "w2", "w3")
   same <- rowSums((from[, 1:3, drop = FALSE] - to[, 1:3, drop = FALSE])^2) == 0
   apart <- surface$piece[from[, "face"]] != surface$piece[to[, "face"]]
   found <- cpp_fit_columns(surface$vb, surface$it, surface$twin, from[, at, drop = FALSE], to[, at, drop = FALSE],
-                           rep(rows, nrow(from)), c(column, inside = inside), chord_settings())
+                           outside, rep(rows, nrow(from)), c(column, inside = inside), chord_settings())
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
   why[same] <- "its ends are the same point"

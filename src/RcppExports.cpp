@@ -172,8 +172,8 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_fit_columns
-List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix from, NumericMatrix to, IntegerVector rows, List settings, List chords);
-RcppExport SEXP _crestline_cpp_fit_columns(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP rowsSEXP, SEXP settingsSEXP, SEXP chordsSEXP) {
+List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix from, NumericMatrix to, NumericMatrix outside, IntegerVector rows, List settings, List chords);
+RcppExport SEXP _crestline_cpp_fit_columns(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP outsideSEXP, SEXP rowsSEXP, SEXP settingsSEXP, SEXP chordsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -182,10 +182,11 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type from(fromSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type to(toSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type outside(outsideSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type rows(rowsSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
     Rcpp::traits::input_parameter< List >::type chords(chordsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_fit_columns(vb, it, twin, from, to, rows, settings, chords));
+    rcpp_result_gen = Rcpp::wrap(cpp_fit_columns(vb, it, twin, from, to, outside, rows, settings, chords));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -269,7 +270,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
     {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
-    {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 8},
+    {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},

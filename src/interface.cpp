@@ -256,7 +256,8 @@ NumericMatrix cpp_place_along(NumericMatrix vb, IntegerMatrix it, NumericMatrix 
 
 // [[Rcpp::export]]
 List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix from,
-                     NumericMatrix to, IntegerVector rows, List settings, List chords) {
+                     NumericMatrix to, NumericMatrix outside, IntegerVector rows, List settings,
+                     List chords) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
   crestline::ColumnSettings s{settings["angle"], settings["angles"], settings["reach"],
                               settings["inside"], chord_settings(chords)};
@@ -264,12 +265,13 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
   CharacterVector end(rows.size());
   List points(rows.size());
   for (int i = 0; i < rows.size(); ++i) {
+    const double* outer = ISNAN(outside(0, i)) ? nullptr : &outside(0, i);
     crestline::Column column = crestline::fit_column(mesh, surface_point(from, i),
-                                                     surface_point(to, i), rows[i], s);
+                                                     surface_point(to, i), outer, rows[i], s);
     end[i] = words[static_cast<int>(column.end)];
-    NumericMatrix out(column.points.size(), 7);
-    for (std::size_t r = 0; r < column.points.size(); ++r) fill_row(mesh, column.points[r], r, out);
-    points[i] = out;
+    NumericMatrix at(column.points.size(), 7);
+    for (std::size_t r = 0; r < column.points.size(); ++r) fill_row(mesh, column.points[r], r, at);
+    points[i] = at;
     checkUserInterrupt();
   }
   return List::create(_["end"] = end, _["points"] = points);

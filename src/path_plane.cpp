@@ -58,17 +58,22 @@ std::vector<int> faces_about(const Triangulation& mesh, int face, int vertex) {
   return found;
 }
 
+void area_normal(const Triangulation& mesh, int face, double* normal) {
+  const double* a = corner(mesh, vertex_at(mesh, 3 * face));
+  double u[3], v[3];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = corner(mesh, vertex_at(mesh, 3 * face + 1))[i] - a[i];
+    v[i] = corner(mesh, vertex_at(mesh, 3 * face + 2))[i] - a[i];
+  }
+  cross(u, v, normal);
+}
+
 // Unit normal at a corner of a face: of the triangles about it, weighted by area.
 void corner_normal(const Triangulation& mesh, int face, int vertex, double* normal) {
   for (int i = 0; i < 3; ++i) normal[i] = 0;
   for (int f : faces_about(mesh, face, vertex)) {
-    const double* a = corner(mesh, vertex_at(mesh, 3 * f));
-    double u[3], v[3], own[3];
-    for (int i = 0; i < 3; ++i) {
-      u[i] = corner(mesh, vertex_at(mesh, 3 * f + 1))[i] - a[i];
-      v[i] = corner(mesh, vertex_at(mesh, 3 * f + 2))[i] - a[i];
-    }
-    cross(u, v, own);
+    double own[3];
+    area_normal(mesh, f, own);
     for (int i = 0; i < 3; ++i) normal[i] += own[i];
   }
   make_unit(normal);
@@ -116,19 +121,27 @@ CutAxis cut_axis(const Triangulation& mesh, const SurfacePoint& from, const Surf
   end_normal(mesh, from, out_of);
   end_normal(mesh, to, other);
   for (int i = 0; i < 3; ++i) out_of[i] += other[i];
-  double along = dot(out_of, out.axis);
-  for (int i = 0; i < 3; ++i) out_of[i] -= along * out.axis[i];
-  if (dot(out_of, out_of) < std::numeric_limits<double>::epsilon()) {
+  return turned_out(out, out_of);
+}
+
+CutAxis turned_out(const CutAxis& axis, const double* out) {
+  CutAxis turned = axis;
+  double across[3], along = dot(out, axis.axis);
+  for (int i = 0; i < 3; ++i) across[i] = out[i] - along * axis.axis[i];
+  if (dot(across, across) < std::numeric_limits<double>::epsilon() * dot(out, out) || dot(out, out) == 0) {
     int least = 0;
     for (int i = 1; i < 3; ++i)
-      if (std::fabs(out.axis[i]) < std::fabs(out.axis[least])) least = i;
-    for (int i = 0; i < 3; ++i) out_of[i] = i == least;
-    along = dot(out_of, out.axis);
-    for (int i = 0; i < 3; ++i) out_of[i] -= along * out.axis[i];
+      if (std::fabs(axis.axis[i]) < std::fabs(axis.axis[least])) least = i;
+    for (int i = 0; i < 3; ++i) across[i] = i == least;
   }
-  cross(out.axis, out_of, out.across);
-  make_unit(out.across);
-  return out;
+  cross(axis.axis, across, turned.across);
+  make_unit(turned.across);
+  return turned;
+}
+
+void face_normal(const Triangulation& mesh, int face, double* normal) {
+  area_normal(mesh, face, normal);
+  make_unit(normal);
 }
 
 void plane_normal(const CutAxis& axis, double angle, double* normal) {

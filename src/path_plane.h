@@ -45,6 +45,12 @@ struct CutAxis {
 
 CutAxis cut_axis(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to);
 
+// The same axis with the plane at angle 0 holding the direction `out` instead.
+CutAxis turned_out(const CutAxis& axis, const double* out);
+
+// Unit normal of a triangle.
+void face_normal(const Triangulation& mesh, int face, double* normal);
+
 // Normal of the plane turned by `angle` about the axis.
 void plane_normal(const CutAxis& axis, double angle, double* normal);
 

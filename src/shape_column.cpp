@@ -24,21 +24,37 @@ ColumnEnd column_end(WalkEnd end) {
   }
 }
 
+double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// The side by which a cut in a plane leaves its first triangle with the outside on its left.
+int outer_side(const Triangulation& mesh, int face, const double* axis, const double* plane) {
+  double normal[3];
+  face_normal(mesh, face, normal);
+  double cross[3] = {plane[1] * axis[2] - plane[2] * axis[1], plane[2] * axis[0] - plane[0] * axis[2],
+                     plane[0] * axis[1] - plane[1] * axis[0]};
+  return dot(cross, normal) < 0;
+}
+
 }  // namespace
 
 Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to,
-                  int rows, const ColumnSettings& settings) {
+                  const double* outside, int rows, const ColumnSettings& settings) {
   Column column{ColumnEnd::no_axis, {}};
   SurfacePoint a = moved_inside(from, settings.inside), b = moved_inside(to, settings.inside);
   CutAxis axis = cut_axis(mesh, a, b);
   if (axis.span == 0) return column;
+  if (outside) {
+    CutAxis outward = turned_out(axis, outside);
+    if (dot(axis.across, outward.across) < std::cos(settings.limit)) axis = outward;
+  }
+  auto side = [&](const double* plane) { return outside ? outer_side(mesh, a.face, axis.axis, plane) : 0; };
   PlaneCut best{WalkEnd::border, INFINITY, {}}, middle = best;
   double normal[3], best_angle = 0;
   for (int i = 0; i < settings.angles; ++i) {
     double angle = settings.angles == 1 ? -settings.limit
                                         : settings.limit * (2.0 * i / (settings.angles - 1) - 1);
     plane_normal(axis, angle, normal);
-    PlaneCut cut = plane_cut(mesh, {a, b, normal, 0, settings.reach * axis.span, false});
+    PlaneCut cut = plane_cut(mesh, {a, b, normal, side(normal), settings.reach * axis.span, false});
     if (i == (settings.angles - 1) / 2) middle = cut;
     if (!(cut.length < best.length)) continue;
     best = cut;
@@ -49,7 +65,7 @@ Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const Sur
     return column;
   }
   plane_normal(axis, best_angle, normal);
-  best = plane_cut(mesh, {a, b, normal, 0, settings.reach * axis.span, true});
+  best = plane_cut(mesh, {a, b, normal, side(normal), settings.reach * axis.span, true});
   Track track = track_of(mesh, best, from, to);
   column.end = ColumnEnd::arrived;
   column.points.push_back(from);

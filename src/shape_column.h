@@ -22,7 +22,10 @@ struct Column {
   std::vector<SurfacePoint> points;  // rows of them, the ends as given
 };
 
+// outside: direction out of the surface between the ends where it is known, else null. On a sharp rim the
+// normals at the ends are those of one wall or the other: where they are further than the limit from the
+// outside they are dropped for it, and each cut leaves by the side that keeps it on the outer wall.
 Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to,
-                  int rows, const ColumnSettings& settings);
+                  const double* outside, int rows, const ColumnSettings& settings);
 
 }  // namespace crestline

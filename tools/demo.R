@@ -1,56 +1,15 @@
-# The main job of `make demo`: ridges and valleys of one real face, from landmarks to table, CSV, picture and page.
+# The main job of `make demo`: the whole model of one real face, from mesh and landmarks to tables, pictures and pages.
 # Run from anywhere, crestline being installed: Rscript tools/demo.R [folder for the output, default demo-output]
 
 options(rgl.useNULL = TRUE) # no display is needed
 library(crestline)
 
-demo_file <- function(name) system.file("extdata", name, package = "crestline", mustWork = TRUE)
-
 # Rvcg's humface with the 23 landmarks of inst/extdata/humface_landmarks.csv.
 demo_specimen <- function() {
   data <- new.env()
   utils::data("humface", package = "Rvcg", envir = data)
-  specimen(data$humface, read_landmarks(demo_file("humface_landmarks.csv")), id = "humface")
-}
-
-demo_curves <- function() utils::read.csv(demo_file("demo_curves.csv"), na.strings = "")
-
-# The curve of one row of the table.
-demo_curve <- function(row, face) {
-  region <- if (!is.na(row$keep_from)) keep_away(row$keep_from, row$keep_to)
-  ridge_curve(face, row$from, row$to, type = row$kind, radius = row$radius, width = row$half_width,
-              n = row$n, keep_away = region)
-}
-
-# All curves, with seconds and warnings, and a line for each as it is done.
-estimate_curves <- function(rows, face) {
-  cat(sprintf("%-24s %-7s %7s %9s %7s %10s %11s %8s\n", "curve", "kind", "length", "strength", "error",
-              "converged", "determined", "seconds"))
-  warned <- character()
-  curves <- lapply(split(rows, seq_len(nrow(rows))), function(row) {
-    seconds <- system.time(curve <- withCallingHandlers(demo_curve(row, face), warning = function(w) {
-      warned <<- c(warned, paste0(row$curve, ": ", gsub("\n", " ", conditionMessage(w))))
-      invokeRestart("muffleWarning")
-    }))[["elapsed"]]
-    line <- curve_row(row$curve, curve, seconds)
-    cat(sprintf("%-24s %-7s %7.1f %9.3f %7.2f %10s %11s %8.2f\n", line$curve, line$kind, line$length, line$strength,
-                line$standard_error, line$converged, line$determined, line$seconds))
-    list(curve = curve, row = line)
-  })
-  list(curves = stats::setNames(lapply(curves, `[[`, "curve"), rows$curve),
-       table = do.call(rbind, lapply(curves, `[[`, "row")), warnings = warned)
-}
-
-# What the table says of one curve; the standard error is the median along it, ends left out.
-curve_row <- function(name, curve, seconds) {
-  data.frame(curve = name, kind = curve$type, length = curve$length, strength = curve$strength,
-             standard_error = curve$se,
-             converged = curve$converged, determined = curve$determined, seconds = seconds)
-}
-
-# Every curve's points in one table.
-curve_points <- function(curves) {
-  do.call(rbind, Map(function(name, curve) cbind(curve = name, as.data.frame(curve)), names(curves), curves))
+  file <- system.file("extdata", "humface_landmarks.csv", package = "crestline", mustWork = TRUE)
+  specimen(data$humface, read_landmarks(file), id = "humface")
 }
 
 # The rotation that sets the face upright, seen from `round` radians towards its left.
@@ -64,15 +23,26 @@ face_view <- function(landmarks, round = 0) {
   rbind(cos(round) * across - sin(round) * out, up, sin(round) * across + cos(round) * out)
 }
 
-# From the front and from both sides, without a display.
-write_picture <- function(file, curves, face, bending) {
-  grDevices::png(file, width = 2400, height = 1000, res = 150, type = "cairo")
+# Curves over shape index above, the surface model below, from the front and both sides.
+write_picture <- function(file, shape, face, bending) {
+  grDevices::png(file, width = 2400, height = 1800, res = 150, type = "cairo")
   on.exit(grDevices::dev.off())
-  graphics::layout(t(1:3), widths = c(1, 1, 1.3))
-  for (round in c(-0.7, 0, 0.7)) {
-    plot_curves(curves, face, surface = "shape index", curvature = bending, engine = "picture",
-                view = face_view(face$landmarks, round), legend = round > 0)
+  graphics::layout(matrix(1:6, 2, byrow = TRUE), widths = c(1, 1, 1.3))
+  turns <- c(-0.7, 0, 0.7)
+  for (round in turns) {
+    plot(shape, face, engine = "picture", view = face_view(face$landmarks, round), curvature = bending,
+         patches = FALSE, legend = round > 0)
   }
+  for (round in turns) plot(shape, engine = "picture", view = face_view(face$landmarks, round), points = FALSE)
+}
+
+print_table <- function(shape, graded) {
+  curves <- graded[graded$level == "curves", ]
+  numbers <- c("length", "strength", "contrast", "se", "competing")
+  shown <- cbind(curves[c("part", "kind")], signif(curves[numbers], 3), grade = as.character(curves$grade))
+  print(shown, row.names = FALSE)
+  said <- graded[graded$grade != "green", ]
+  if (nrow(said)) cat("\nNot green\n", strwrap(paste0(said$part, ": ", said$why), 118, indent = 2, exdent = 4, prefix = "\n"), "\n", sep = "")
 }
 
 # The pictures show the shape index at `picture_radius`, in mm: between the radii of lips and of brows.
@@ -81,17 +51,20 @@ run_demo <- function(folder, picture_radius = 7) {
   cat("crestline", format(utils::packageVersion("crestline")), "on Rvcg's humface\n\n")
   face <- demo_specimen()
   print(face)
-  cat("\nLengths in mm, strength (mean curvature of the kind sought along the curve) in 1/mm, error: median standard error across the curve in mm\n")
-  rows <- demo_curves()
-  estimates <- estimate_curves(rows, face)
-  if (length(estimates$warnings)) cat("\nWarnings\n", paste0("- ", estimates$warnings, "\n"), sep = "")
-  files <- file.path(folder, c("curves.csv", "points.csv", "face.png", "face.html"))
-  utils::write.csv(estimates$table, files[1], row.names = FALSE)
-  utils::write.csv(curve_points(estimates$curves), files[2], row.names = FALSE)
+  seconds <- system.time(shape <- fit_shape(face, face_scheme()))[["elapsed"]]
+  cat(sprintf("\nMeasured in %.1f s\n", seconds))
+  print(shape)
+  cat("\nLengths in mm, strength (mean curvature of the kind sought along the curve) in 1/mm, se (median standard error across) in mm\n")
+  print_table(shape, quality(shape))
+  files <- file.path(folder, c("curves.csv", "points.csv", "model.ply", "face.png", "face.html", "quality.html"))
+  utils::write.csv(shape$status[shape$status$level == "curves", ], files[1], row.names = FALSE)
+  utils::write.csv(as.data.frame(shape), files[2], row.names = FALSE)
+  write_mesh(shape, files[3])
   bending <- curvature(face$mesh, radius = picture_radius)
-  write_picture(files[3], estimates$curves, face, bending)
-  write_page(files[4], face, estimates$curves, table = estimates$table, curvature = bending,
-             view = face_view(face$landmarks), title = "Ridges and valleys of Rvcg's humface")
+  write_picture(files[4], shape, face, bending)
+  write_page(files[5], face, shape, curvature = bending, view = face_view(face$landmarks),
+             title = "Ridges, valleys and surface model of Rvcg's humface")
+  quality_report(shape, files[6], specimens = list(face))
   cat("\nWritten\n", paste0("  ", normalizePath(files), "\n"), sep = "")
 }
 

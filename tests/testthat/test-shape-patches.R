@@ -56,3 +56,54 @@ test_that("the surface is a mesh of the scheme's triangles, outward", {
   empty <- quad_shape(quad_scheme(function(tables) tables[1:2]))
   expect_crestline_error(shape_mesh(empty), "no triangle", id = "quad")
 })
+
+# A thin bowl, open at the top: outer wall of radius 50, inner wall of 48, a rim as sharp as a knife at z = 0.
+bowl <- function(step = 3) {
+  down <- seq(0, 90, step) * pi / 180
+  wall <- function(radius, from) radius * cbind(cos(down), -sin(down))[from:length(down), ]
+  profile <- rbind(wall(48, 2)[length(down):2 - 1, ], c(49, 0.5), wall(50, 2))
+  turn <- seq(0, 360 - step, step) * pi / 180
+  grid <- expand.grid(v = seq_len(nrow(profile)), u = turn)
+  xyz <- cbind(profile[grid$v, 1] * cos(grid$u), profile[grid$v, 1] * sin(grid$u), profile[grid$v, 2])
+  at <- expand.grid(v = seq_len(nrow(profile) - 1), u = seq_along(turn))
+  corner <- function(v, u) (u - 1) %% length(turn) * nrow(profile) + v
+  a <- corner(at$v, at$u); b <- corner(at$v + 1, at$u); c <- corner(at$v + 1, at$u + 1); d <- corner(at$v, at$u + 1)
+  rgl::mesh3d(vertices = rbind(t(xyz), 1), triangles = cbind(rbind(a, b, c), rbind(a, c, d)))
+}
+
+test_that("columns that begin on a sharp rim run over the outer wall", {
+  on_wall <- function(radius, lon, down) radius * c(cos(down) * cos(lon), cos(down) * sin(lon), -sin(down))
+  low <- 0.5
+  rim <- 0.02
+  landmarks <- rbind(a = on_wall(50, -0.4, low), b = on_wall(50, 0.4, low), c = on_wall(48, 0.4, rim), d = on_wall(48, -0.4, rim))
+  cup <- specimen(bowl(), landmarks, id = "bowl")
+  from_rim <- quad_scheme(function(tables) {
+    tables$patches[c("curve_a", "curve_b", "first_column", "outward")] <-
+      list("top[1:7]", "bottom[1:7]", "left[5:1]", "rows")
+    tables
+  })
+  for (scheme in list(quad_scheme(), from_rim)) {
+    shape <- fit_shape(cup, scheme, progress = FALSE)
+    expect_true(status_of(shape, "quad")$ok)
+    inside <- shape$points[shape$points$level == "surface", ]
+    low_half <- inside[inside$z < -5, ]
+    expect_gt(nrow(low_half), 20)
+    expect_gt(min(sqrt(low_half$x^2 + low_half$y^2 + low_half$z^2)), 49.8)
+    expect_on_mesh(inside, cup$mesh)
+  }
+})
+
+test_that("the order of a patch's corners says where outside is, where its sides do", {
+  a <- cbind(x = 0:2, y = 0, z = 0)
+  b <- cbind(x = 0:2, y = 1, z = 0)
+  direction <- function(...) unname(sign(column_outside(...)))
+  for (at in 1:3) {
+    expect_equal(direction(a, b, at, "columns"), c(0, 0, 1))
+    expect_equal(direction(a, b, at, "rows"), c(0, 0, -1))
+  }
+  expect_true(all(is.na(column_outside(a, b, 2, NA))))
+  expect_true(all(is.na(column_outside(a[1, , drop = FALSE], b[1, , drop = FALSE], 1, "rows"))))
+  expect_true(all(is.na(column_outside(a, a, 2, "rows"))))
+  a[2:3, ] <- NA
+  expect_true(all(is.na(column_outside(a, b, 1, "rows"))))
+})
