@@ -3,24 +3,30 @@
 #' Fit the curves of a scheme
 #'
 #' @param specimen,scheme,settings,passes,threads,cut_scale As in [fit_shape()].
+#' @param given Fits of curves that are not to be found, see [given_fits()].
 #' @param tick Called after every curve.
 #' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se),
 #'   `path`, `length`, `strength`, `se`, `competing`, `reason` (NA where there is nothing to say) or, where it failed,
 #'   of `reason` alone.
 #' @noRd
-fit_scheme_curves <- function(specimen, scheme, settings, passes, threads, cut_scale, tick) {
+fit_scheme_curves <- function(specimen, scheme, settings, passes, threads, cut_scale, given, tick) {
   curves <- scheme$curves
-  sources <- scheme_curvatures(specimen, curves, settings, threads)
+  open <- !curves$curve %in% names(given)
+  sources <- scheme_curvatures(specimen, curves[open, ], settings, threads)
   fits <- stats::setNames(vector("list", nrow(curves)), curves$curve)
+  fits[names(given)] <- given
   fit <- function(row) {
     suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes),
                      classes = "crestline_warning")
   }
   for (i in fitting_order(curves)) {
-    fits[[i]] <- tryCatch(fit(curves[i, ]), crestline_error = function(e) cut_instead(curves[i, ], e$problem, fit))
+    if (open[i]) {
+      fits[[i]] <- tryCatch(fit(curves[i, ]), crestline_error = function(e) cut_instead(curves[i, ], e$problem, fit))
+    }
     tick()
   }
-  cut_curves(specimen, curves, fits, cut_scale)
+  fits[open] <- cut_curves(specimen, curves[open, ], fits[open], cut_scale)
+  fits
 }
 
 #' The shortest cut in place of a ridge or valley that could not be estimated, or the reason alone

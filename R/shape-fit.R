@@ -20,6 +20,11 @@
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard errors.
 #' @param passes As in [ridge_curve()].
+#' @param curves Curves that are there already, drawn by hand or found by other software: named list (names of the
+#'   scheme's curves) of n x 3 matrices, data frames with columns x, y, z, or values of [ridge_curve()], such as the
+#'   attribute `curves` of [read_landmarks()]. They are put on the mesh (nearest points, joined by cuts) and neither searched
+#'   for nor cut off; either way round. Ends are moved to their landmarks. A curve of as many points as the scheme has for it keeps
+#'   them, another gets points at equal chords. The other curves are found as ever.
 #' @param cut_scale Factor on the shares at which curves are cut off (no unit): to give several specimens the same smaller
 #'   one. Lowered where a curve is too short for it.
 #' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
@@ -54,7 +59,7 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, cut_scale = 1,
+fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
@@ -66,7 +71,8 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                  reach = check_number(column_reach, "column_reach", 0, open = TRUE))
   tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(specimen, scheme)
-  fits <- fit_scheme_curves(specimen, scheme, settings, check_count(passes, "passes"), threads, cut_scale, tick)
+  given <- given_fits(specimen, scheme, curves, column)
+  fits <- fit_scheme_curves(specimen, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scheme, fits, store, column, tick)
   shape <- structure(
@@ -140,8 +146,8 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
                se = rep(NA_real_, length(part)), competing = rep(NA_real_, length(part)))
   }
-  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, !vapply(fits, function(fit) is.null(fit$path), NA),
-                  vapply(fits, `[[`, "", "reason"))
+  whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
+  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole, vapply(fits, `[[`, "", "reason"))
   measures <- c("length", "strength", "se", "competing")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(

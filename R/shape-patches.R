@@ -76,15 +76,24 @@ patch_reason <- function(problems, most = 3) {
 block_side <- function(text, resample, specimen, surface, curves, fits, store, column) {
   knots <- side_points(text)
   points <- store[curve_places(knots$curve, knots$point, curves), mesh_columns, drop = FALSE]
-  lost <- unique(knots$curve[is.na(points[, "x"])])
-  problem <- if (length(lost)) sprintf("%s is missing", toString(lost))
+  lost <- is.na(points[, "x"])
+  problem <- if (any(lost)) lost_points(knots, lost, fits)
   if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
-  if (length(lost)) return(list(points = spaced, problem = problem))
+  if (any(lost)) return(list(points = spaced, problem = problem))
   path <- side_path(knots, points, specimen, surface, fits, column)
   spaced[] <- columns_of(resample_path(specimen$mesh, path, resample))
   spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
+}
+
+#' What is missing of the curves of a side, in words
+#' @noRd
+lost_points <- function(knots, lost, fits) {
+  vapply(unique(knots$curve[lost]), function(curve) {
+    gone <- lost[knots$curve == curve]
+    if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
+  }, "", USE.NAMES = FALSE)
 }
 
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet
