@@ -2,7 +2,8 @@
 
 #' Fit the patches of a scheme
 #'
-#' @param specimen,scheme As in [fit_shape()].
+#' @param specimen,scan As in [fit_scheme_curves()].
+#' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
 #' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
@@ -10,7 +11,7 @@
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
 #'   `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
-fit_scheme_patches <- function(specimen, scheme, fits, store, column, tick) {
+fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick) {
   surface <- walkable(specimen)
   points <- scheme$points[scheme$points$level == "surface", ]
   block_of <- rep(seq_len(nrow(scheme$patches)), scheme$patches$n)
@@ -20,7 +21,10 @@ fit_scheme_patches <- function(specimen, scheme, fits, store, column, tick) {
     grid <- cbind(block_points(block), place = points$place[block_of == i])
     fit <- fit_block(block, grid, specimen, surface, scheme$curves, fits, store, column)
     store <- fit$store
-    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = fit$why)
+    lost <- grid$place[which(store[grid$place, "face"] > ncol(scan$mesh$it))]
+    store[lost, ] <- NA
+    why <- c(fit$why, if (length(lost)) sprintf("%d in a hole of the mesh", length(lost)))
+    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = why)
     tick()
   }
   list(store = store, problems = problems)
