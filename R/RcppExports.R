@@ -13,6 +13,10 @@ cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }
 
+cpp_border_loops <- function(twin) {
+    .Call(`_crestline_cpp_border_loops`, twin)
+}
+
 cpp_cut_axis <- function(vb, it, twin, from, to) {
     .Call(`_crestline_cpp_cut_axis`, vb, it, twin, from, to)
 }

@@ -130,4 +130,4 @@ warn_mirrored <- function(id) {
   )
 }
 
-mesh_diagonal <- function(mesh) sqrt(sum(apply(mesh$vb[1:3, ], 1, function(x) diff(range(x)))^2))
+mesh_diagonal <- function(mesh) box_diagonal(mesh$vb[1:3, , drop = FALSE])

@@ -2,25 +2,43 @@
 
 #' Fit the curves of a scheme
 #'
-#' @param specimen,scheme,settings,passes,threads,cut_scale As in [fit_shape()].
+#' @param specimen The specimen with its holes bridged, `scan` as it is.
+#' @param scheme,settings,passes,threads,cut_scale As in [fit_shape()].
+#' @param given Fits of curves that are not to be found, see [given_fits()].
 #' @param tick Called after every curve.
-#' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se),
-#'   `path`, `length`, `strength`, `se`, `competing`, `reason` (NA where there is nothing to say) or, where it failed,
-#'   of `reason` alone.
+#' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA
+#'   where the mesh ends before), `path`, `length`, `strength`, `se`, `competing`, `reason` (NA where there is nothing to
+#'   say) or, where it failed, of `reason` alone.
 #' @noRd
-fit_scheme_curves <- function(specimen, scheme, settings, passes, threads, cut_scale, tick) {
+fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick) {
   curves <- scheme$curves
-  sources <- scheme_curvatures(specimen, curves, settings, threads)
+  sources <- scheme_curvatures(scan, curves, settings, threads)
   fits <- stats::setNames(vector("list", nrow(curves)), curves$curve)
+  fits[names(given)] <- given
   fit <- function(row) {
-    suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes),
-                     classes = "crestline_warning")
+    suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes), classes = "crestline_warning")
   }
+  open <- which(!curves$curve %in% names(given))
   for (i in fitting_order(curves)) {
-    fits[[i]] <- tryCatch(fit(curves[i, ]), crestline_error = function(e) cut_instead(curves[i, ], e$problem, fit))
+    if (i %in% open) fits[[i]] <- fit_or_follow(as.list(curves[i, ]), specimen, scheme$pairs, fit)
     tick()
   }
-  cut_curves(specimen, curves, fits, cut_scale)
+  fits[open] <- cut_curves(specimen, curves[open, ], scheme$pairs, fits[open], cut_scale)
+  lapply(fits, without_bridges, ncol(scan$mesh$it))
+}
+
+#' A curve; where no cut joins its ends and it is to be cut off, as much of it as the mesh has
+#' @noRd
+fit_or_follow <- function(row, specimen, pairs, fit) {
+  attempt <- function(row) tryCatch(fit(row), crestline_error = function(e) cut_instead(row, e$problem, fit))
+  found <- attempt(row)
+  far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, specimen, pairs)
+  if (is.null(far)) return(found)
+  row$from <- far$end
+  followed <- sprintf("%s: followed towards %s as far as the mesh goes", sub("\\.$", "", found$reason), far$name)
+  found <- attempt(row)
+  found$followed <- followed
+  add_note(found, followed)
 }
 
 #' The shortest cut in place of a ridge or valley that could not be estimated, or the reason alone
@@ -54,9 +72,13 @@ fitting_order <- function(curves) {
 scheme_curvatures <- function(specimen, curves, settings, threads) {
   radius <- unique(curves$radius[curves$kind != "plane"])
   sources <- lapply(radius, function(r) {
-    tryCatch(curvature_source(specimen, r, settings$order, threads), crestline_error = function(e) {
-      function(vertices) rlang::cnd_signal(e)
-    })
+    tryCatch({
+      source <- curvature_source(specimen, r, settings$order, threads)
+      function(vertices) {
+        own <- vertices <= ncol(specimen$mesh$vb)
+        curvature_rows(source(vertices[own]), ifelse(own, cumsum(own), NA))
+      }
+    }, crestline_error = function(e) function(vertices) rlang::cnd_signal(e))
   })
   stats::setNames(sources, radius)
 }
@@ -98,7 +120,7 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
 }
 
 about_curve <- function(row, specimen, settings, passes) {
-  list(id = specimen$id, from = row$from, to = row$to, type = row$kind, settings = settings, passes = passes,
+  list(id = specimen$id, from = end_name(row$from), to = row$to, type = row$kind, settings = settings, passes = passes,
        radius = row$radius, width = row$width)
 }
 
@@ -148,44 +170,13 @@ without_curvature <- function(curvature, vertex) {
   }
 }
 
-#' Cut off the curves that a scheme cuts, all of one specimen by one factor
+#' A curve without its points on bridges over holes
 #'
-#' Where a curve is shorter than its share the factor is lowered until all are long enough, so that no two curves from
-#' one landmark keep it both.
+#' @param faces Number of faces that are not bridges.
 #' @noRd
-cut_curves <- function(specimen, curves, fits, cut_scale) {
-  wanted <- cut_lengths(specimen, curves)
-  found <- vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit$length, 0)
-  factor <- min(cut_scale, found / wanted, na.rm = TRUE)
-  for (i in which(!is.na(curves$cut_share) & !is.na(found))) {
-    fits[[i]] <- if (is.na(wanted[i])) {
-      list(reason = sprintf("%s or %s is missing: where to cut it is not known", curves$cut_from[i], curves$cut_to[i]))
-    } else {
-      cut_curve(specimen$mesh, fits[[i]], factor * wanted[i], curves$n[i])
-    }
-    if (factor < cut_scale && !is.null(fits[[i]]$path)) {
-      note <- sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
-      fits[[i]]$reason <- paste(c(stats::na.omit(fits[[i]]$reason), note), collapse = "; ")
-    }
-  }
-  fits
-}
-
-#' Length that the scheme leaves of every curve, NA where it is not cut or a landmark is missing
-#' @noRd
-cut_lengths <- function(specimen, curves) {
-  at <- function(name) specimen$landmarks[match(name, rownames(specimen$landmarks)), , drop = FALSE]
-  curves$cut_share * sqrt(rowSums((at(curves$cut_from) - at(curves$cut_to))^2))
-}
-
-cut_curve <- function(mesh, fit, length, n) {
-  start <- max(fit$length - length, 0)
-  path <- part_of_path(mesh, fit$path, start, fit$length)
-  placed <- resample_path(mesh, path, n)
-  se <- rep(NA_real_, n)
-  if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, placed$s + start, rule = 2)$y
-  points <- cbind(placed[c(mesh_columns, "s")], se = se)
-  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se))
-  fit[names(cut)] <- cut
-  fit
+without_bridges <- function(fit, faces) {
+  lost <- which(fit$points$face > faces)
+  if (!length(lost)) return(fit)
+  fit$points[lost, setdiff(names(fit$points), "s")] <- NA
+  add_note(fit, sprintf("%d of %d points missing: they lie in a hole of the mesh", length(lost), nrow(fit$points)))
 }

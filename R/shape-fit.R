@@ -3,8 +3,7 @@
 #' Measure a specimen by a scheme
 #'
 #' Finds every curve of the scheme, cuts off and spaces them, then puts the points of the patches between
-#' them. What is missing costs only itself: a landmark that is absent or NA, a hole, a curve that no
-#' path joins leave their own points NA, with the reason in `status`.
+#' them. What is missing costs only itself, with the reason in `status`: see below.
 #'
 #' Curvature is estimated once for all curves of one radius. A ridge or valley that curvature does not determine (see
 #' [ridge_curve()]) keeps its estimate, and `reason` says so; one that cannot be estimated at all (a window with too few
@@ -21,8 +20,16 @@
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard errors.
 #' @param passes As in [ridge_curve()].
+#' @param curves Curves that are there already, drawn by hand or found by other software: named list (names of the
+#'   scheme's curves) of n x 3 matrices, data frames with columns x, y, z, or values of [ridge_curve()], such as the
+#'   attribute `curves` of [read_landmarks()]. They are put on the mesh (nearest points, joined by cuts) and neither searched
+#'   for nor cut off; either way round. Ends are moved to their landmarks. A curve of as many points as the scheme has for it keeps
+#'   them, another gets points at equal chords. The other curves are found as ever.
 #' @param cut_scale Factor on the shares at which curves are cut off (no unit): to give several specimens the same smaller
 #'   one. Lowered where a curve is too short for it.
+#' @param bridge Holes up to this size (diagonal of the bounding box, as a share of that of the mesh) are bridged by
+#'   flat triangles, so that curves and columns run on where the surface would be; their points there are missing. With 0
+#'   they run round holes, as they do round larger ones.
 #' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
 #'   at its ends (the paper's implementation: 45 degrees).
 #' @param column_angles Number of planes that are tried for a column (there: 51).
@@ -39,10 +46,22 @@
 #'     "valley", "plane", "patch"), `ok` (whether all its points are there), `reason` (text, NA where all is well), and
 #'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `se` (median), `competing` (how good the best other reference
 #'     path is, as a share of the one chosen: near 1, a rival; NA: none);
-#'   * `paths`: list by curve of `mesh_path`s, as cut off; `NULL` where it failed;
+#'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`.
 #'
 #'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and [plot.shape()].
+#' @section What is missing: costs only its own points, which are NA; `status` says why.
+#'   * A landmark that is absent or NA costs the curves that end there and the columns that begin on them.
+#'   * A curve that is cut off (`cut_share`) keeps only the part next to its end `to`, and needs no more of the mesh. Where
+#'     its other landmark is not on the mesh (an ear outside the scan) the way towards it is followed as far as the mesh
+#'     goes: towards the landmark's own co-ordinates where it has any (`specimen$landmarks["tL", ] <- ...` after
+#'     [specimen()] lets it lie off the mesh), else towards the mirror image of its pair. The points keep the
+#'     places that they would have on the whole curve; those beyond the mesh are missing. With a smaller `cut_scale` all have a place.
+#'   * Where one landmark of the pair that shares are measured between is missing (half a face), twice the distance of the other
+#'     from the mirror plane is taken: the plane across the directions between left and right, or, without a whole
+#'     pair, that through the landmarks of the middle.
+#'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
+#'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
 #' @references The paper, section 4.
 #' @examples
@@ -55,7 +74,7 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, cut_scale = 1,
+fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
@@ -65,18 +84,21 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   column <- list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
                  angles = check_count(column_angles, "column_angles"),
                  reach = check_number(column_reach, "column_reach", 0, open = TRUE))
+  scan <- specimen
+  specimen <- bridge_holes(scan, check_number(bridge, "bridge", 0, 1))
   tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
-  landmarks <- fit_scheme_landmarks(specimen, scheme)
-  fits <- fit_scheme_curves(specimen, scheme, settings, check_count(passes, "passes"), threads, cut_scale, tick)
+  landmarks <- fit_scheme_landmarks(scan, scheme)
+  given <- given_fits(specimen, scheme, curves, column)
+  fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
-  patches <- fit_scheme_patches(specimen, scheme, fits, store, column, tick)
+  patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- structure(
     list(id = specimen$id, points = shape_points(scheme$points, patches$store),
          status = shape_status(scheme, landmarks$reason, fits, patches$problems),
-         paths = lapply(fits, `[[`, "path"), scheme = scheme),
+         paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme),
     class = "shape"
   )
-  note_faults(shape, specimen)
+  note_faults(shape, scan)
 }
 
 progress_ticks <- function(progress, n, id) {
@@ -141,8 +163,8 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
                se = rep(NA_real_, length(part)), competing = rep(NA_real_, length(part)))
   }
-  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, !vapply(fits, function(fit) is.null(fit$path), NA),
-                  vapply(fits, `[[`, "", "reason"))
+  whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
+  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole, vapply(fits, `[[`, "", "reason"))
   measures <- c("length", "strength", "se", "competing")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(

@@ -2,7 +2,8 @@
 
 #' Fit the patches of a scheme
 #'
-#' @param specimen,scheme As in [fit_shape()].
+#' @param specimen,scan As in [fit_scheme_curves()].
+#' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
 #' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
@@ -10,7 +11,7 @@
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
 #'   `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
-fit_scheme_patches <- function(specimen, scheme, fits, store, column, tick) {
+fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick) {
   surface <- walkable(specimen)
   points <- scheme$points[scheme$points$level == "surface", ]
   block_of <- rep(seq_len(nrow(scheme$patches)), scheme$patches$n)
@@ -20,7 +21,10 @@ fit_scheme_patches <- function(specimen, scheme, fits, store, column, tick) {
     grid <- cbind(block_points(block), place = points$place[block_of == i])
     fit <- fit_block(block, grid, specimen, surface, scheme$curves, fits, store, column)
     store <- fit$store
-    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = fit$why)
+    lost <- grid$place[which(store[grid$place, "face"] > ncol(scan$mesh$it))]
+    store[lost, ] <- NA
+    why <- c(fit$why, if (length(lost)) sprintf("%d in a hole of the mesh", length(lost)))
+    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = why)
     tick()
   }
   list(store = store, problems = problems)
@@ -77,15 +81,24 @@ patch_reason <- function(problems, most = 3) {
 block_side <- function(text, resample, specimen, surface, curves, fits, store, column) {
   knots <- side_points(text)
   points <- store[curve_places(knots$curve, knots$point, curves), mesh_columns, drop = FALSE]
-  lost <- unique(knots$curve[is.na(points[, "x"])])
-  problem <- if (length(lost)) sprintf("%s is missing", toString(lost))
+  lost <- is.na(points[, "x"])
+  problem <- if (any(lost)) lost_points(knots, lost, fits)
   if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
-  if (length(lost)) return(list(points = spaced, problem = problem))
+  if (any(lost)) return(list(points = spaced, problem = problem))
   path <- side_path(knots, points, specimen, surface, fits, column)
   spaced[] <- columns_of(resample_path(specimen$mesh, path, resample))
   spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
+}
+
+#' What is missing of the curves of a side, in words
+#' @noRd
+lost_points <- function(knots, lost, fits) {
+  vapply(unique(knots$curve[lost]), function(curve) {
+    gone <- lost[knots$curve == curve]
+    if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
+  }, "", USE.NAMES = FALSE)
 }
 
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet

@@ -54,6 +54,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_border_loops
+List cpp_border_loops(IntegerMatrix twin);
+RcppExport SEXP _crestline_cpp_border_loops(SEXP twinSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_border_loops(twin));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_cut_axis
 List cpp_cut_axis(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to);
 RcppExport SEXP _crestline_cpp_cut_axis(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP) {
@@ -263,6 +274,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
     {"_crestline_cpp_cut_weights", (DL_FUNC) &_crestline_cpp_cut_weights, 9},

@@ -167,6 +167,14 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
 }
 
 // [[Rcpp::export]]
+List cpp_border_loops(IntegerMatrix twin) {
+  std::vector<std::vector<int>> loops = crestline::border_loops(from_zero(twin));
+  List out(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) out[i] = from_one(loops[i]);
+  return out;
+}
+
+// [[Rcpp::export]]
 List cpp_cut_axis(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
                   NumericVector to) {
   crestline::CutAxis axis = crestline::cut_axis(triangulation(vb, it, twin), surface_point(from),

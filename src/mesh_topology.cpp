@@ -77,4 +77,22 @@ Topology mesh_topology(const int* it, int m, int n) {
   return t;
 }
 
+std::vector<std::vector<int>> border_loops(const std::vector<int>& twin) {
+  std::vector<char> seen(twin.size(), 0);
+  std::vector<std::vector<int>> loops;
+  for (int seed = 0; seed < static_cast<int>(twin.size()); ++seed) {
+    if (twin[seed] >= 0 || seen[seed]) continue;
+    std::vector<int> loop;
+    for (int h = seed; !seen[h];) {
+      seen[h] = 1;
+      loop.push_back(h);
+      // Round the vertex at its end, triangle by triangle, to the next border.
+      h = next_half_edge(h);
+      while (twin[h] >= 0) h = next_half_edge(twin[h]);
+    }
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
 }  // namespace crestline

@@ -17,6 +17,9 @@ struct Topology {
 // Half edges of non-manifold edges have no twin: walks stop there as at a border.
 Topology mesh_topology(const int* it, int m, int n);
 
+// The border half edges of each loop of the border, in the order in which they follow one another.
+std::vector<std::vector<int>> border_loops(const std::vector<int>& twin);
+
 inline int face_of(int half_edge) { return half_edge / 3; }
 inline int next_half_edge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 

@@ -1,0 +1,175 @@
+# Curves of which a scheme keeps the part next to one end: how much that is, and what to do where the other end is not
+# on the mesh or cannot be reached.
+
+#' Cut off the curves that a scheme cuts, all of one specimen by one factor
+#'
+#' Where a curve between two landmarks is shorter than its share the factor is lowered until all are long enough, so
+#' that no two curves from one landmark keep it both. A curve that the mesh's edge ends before its far landmark costs
+#' only its own points.
+#' @noRd
+cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
+  cut <- which(!is.na(curves$cut_share))
+  spans <- lapply(cut, function(i) cut_span(curves[i, ], specimen, pairs))
+  wanted <- curves$cut_share[cut] * vapply(spans, `[[`, 0, "length")
+  whole <- vapply(fits[cut], function(fit) if (is.null(fit$followed) && !is.null(fit$path)) fit$length else NA_real_, 0)
+  factor <- min(cut_scale, whole / wanted, na.rm = TRUE)
+  shared <- if (factor < cut_scale) sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
+  for (k in seq_along(cut)) {
+    i <- cut[k]
+    if (is.null(fits[[i]]$path)) next
+    fits[[i]] <- if (is.na(wanted[k])) {
+      list(reason = spans[[k]]$note)
+    } else {
+      add_note(cut_curve(specimen$mesh, fits[[i]], factor * wanted[k], curves$n[i]), c(spans[[k]]$note, shared))
+    }
+  }
+  fits
+}
+
+#' A fit with more to say; one that failed has said why
+#' @noRd
+add_note <- function(fit, notes) {
+  if (is.null(fit$points) || !length(notes)) return(fit)
+  fit$reason <- paste(c(stats::na.omit(fit$reason), notes), collapse = "; ")
+  fit
+}
+
+#' The distance between two landmarks that a curve's share is of
+#'
+#' Where one of a left-right pair is missing: twice the distance of the other from the mirror plane.
+#' @return List: `length` (NA where it is not known), `note` (NULL where there is nothing to say).
+#' @noRd
+cut_span <- function(row, specimen, pairs) {
+  at <- landmark_places(specimen, c(row$cut_from, row$cut_to))
+  known <- !is.na(at[, 1])
+  if (all(known)) return(list(length = sqrt(sum((at[1, ] - at[2, ])^2))))
+  gone <- c(row$cut_from, row$cut_to)[!known]
+  plane <- if (any(known) && partner_of(row$cut_from, pairs, "landmarks") == row$cut_to) mirror_plane(specimen, pairs)
+  if (is.null(plane)) return(list(length = NA_real_, note = sprintf("%s is missing: where to cut it is not known", toString(gone))))
+  list(length = 2 * abs(sum(at[known, ] * plane$normal) - plane$offset),
+       note = sprintf("%s is missing: cut by the distance of its pair from the mirror plane", gone))
+}
+
+#' Positions of landmarks by name, NA where missing
+#' @noRd
+landmark_places <- function(specimen, names) {
+  unname(specimen$landmarks[match(names, rownames(specimen$landmarks)), , drop = FALSE])
+}
+
+#' The plane of symmetry of a specimen's landmarks
+#'
+#' Its normal is the mean direction from right to left of the pairs; without a whole pair that of the plane through
+#' the landmarks of the middle.
+#' @param flat Without a pair: greatest spread of the middle landmarks across their plane, as a share of their least
+#'   spread in it. More of it, or fewer than three landmarks, give no plane.
+#' @return List: `normal`, `offset`; NULL where there is none.
+#' @noRd
+mirror_plane <- function(specimen, pairs, flat = 0.5) {
+  pairs <- pairs[pairs$level == "landmarks", ]
+  left <- landmark_places(specimen, pairs$left)
+  right <- landmark_places(specimen, pairs$right)
+  whole <- !is.na(left[, 1] + right[, 1])
+  left <- left[whole, , drop = FALSE]
+  right <- right[whole, , drop = FALSE]
+  middle <- setdiff(rownames(specimen$landmarks), c(pairs$left, pairs$right))
+  middle <- rbind(stats::na.omit(landmark_places(specimen, middle)), (left + right) / 2)
+  if (any(whole)) {
+    normal <- unit_vector(colSums(left - right))
+  } else if (nrow(middle) >= 3) {
+    spread <- svd(sweep(middle, 2, colMeans(middle)), nu = 0)
+    if (spread$d[3] > flat * spread$d[2]) return(NULL)
+    normal <- spread$v[, 3]
+  } else {
+    return(NULL)
+  }
+  list(normal = normal, offset = mean(middle %*% normal))
+}
+
+#' What stands in for a far end that is not on the mesh or cannot be reached
+#'
+#' @param row Row of the curves table, a list.
+#' @return List: `end`, the place where the way towards the landmark leaves the mesh, one row; `name`, what it leads to.
+#'   `NULL` where nothing is known of it.
+#' @noRd
+far_end <- function(row, specimen, pairs) {
+  near <- known_point(specimen, row$to)
+  target <- if (!is.null(near)) far_target(row$from, specimen, pairs)
+  end <- if (!is.null(target)) way_out(specimen, near, target$at)
+  if (!is.null(end)) list(end = end, name = target$name)
+}
+
+#' Where a landmark is in space: its own co-ordinates, or the mirror image of its pair
+#' @noRd
+far_target <- function(name, specimen, pairs) {
+  own <- landmark_places(specimen, name)
+  if (!is.na(own[1])) return(list(at = as.vector(own), name = name))
+  partner <- partner_of(name, pairs, "landmarks")
+  at <- landmark_places(specimen, partner)
+  plane <- if (partner != name && !is.na(at[1])) mirror_plane(specimen, pairs)
+  if (is.null(plane)) return(NULL)
+  list(at = as.vector(at) - 2 * (sum(at * plane$normal) - plane$offset) * plane$normal,
+       name = paste("the mirror image of", partner))
+}
+
+#' The farthest place of the mesh on the way to a point in space
+#'
+#' Of the cuts through both the shortest, what the mesh lacks counted in, followed to where it comes nearest to the
+#' point.
+#' @param near One row, a place on the mesh.
+#' @param target Three co-ordinates.
+#' @param angles Number of planes, over a half turn.
+#' @param bend Length of what the mesh lacks, as a multiple of the straight distance. A quarter of a circle has 1.11, half of
+#'   one 1.57. With less than 1.3 cuts win that end early (on a face with its ear cut off), with more those that run
+#'   along the edge.
+#' @param inside As in [path_ends()].
+#' @return One row, a place on the mesh; NULL where no cut comes nearer than `near` is.
+#' @noRd
+way_out <- function(specimen, near, target, angles = 121, bend = 1.35, inside = 1e-6) {
+  surface <- walkable(specimen)
+  xyz <- surface$vb[1:3, , drop = FALSE]
+  weight <- unlist(near[c("w1", "w2", "w3")]) + inside
+  at <- as.vector(xyz[, surface$it[, near$face]] %*% weight) / sum(weight)
+  axis <- unit_vector(target - at)
+  across <- unit_vector(cross_product(axis, path_normals(specimen$mesh, near)[, 1]))
+  normals <- plane_normal(list(axis = axis, across = across), seq(-pi / 2, pi / 2, length.out = angles)[-1])
+  ways <- lapply(seq_len(ncol(normals)), function(i) {
+    level <- as.vector(normals[, i] %*% xyz) - sum(normals[, i] * at)
+    walk <- cpp_level_path(surface$vb, surface$it, surface$twin, near$face, 0, level, axis)$points
+    way_towards(walk, at, target, bend)
+  })
+  ways <- Filter(Negate(is.null), ways)
+  if (!length(ways)) return(NULL)
+  best <- ways[[which.min(vapply(ways, `[[`, 0, "length"))]]
+  stats::setNames(as.data.frame(t(best$end)), mesh_columns)
+}
+
+#' How far a walk leads towards a point: length to the place nearest to it and from there on, and that place
+#' @noRd
+way_towards <- function(walk, at, target, bend) {
+  gap <- row_lengths(sweep(rbind(at, walk[, 1:3]), 2, target))
+  best <- which.min(gap)
+  if (best == 1) return(NULL)
+  steps <- row_lengths(diff(rbind(at, walk[seq_len(best - 1), 1:3])))
+  list(length = sum(steps) + bend * gap[best], end = walk[best - 1, ])
+}
+
+#' The last part of a curve, of a given length, as n points; where the curve is shorter, those of them that it has
+#' @noRd
+cut_curve <- function(mesh, fit, length, n) {
+  step <- length / (n - 1)
+  placed <- min(n, floor(fit$length / step * (1 + sqrt(.Machine$double.eps))) + 1)
+  ended <- sprintf("it ends after %.3g of %.3g: %d of %d points missing", fit$length, length, n - placed, n)
+  if (placed < 2) return(list(reason = paste(c(stats::na.omit(fit$reason), ended), collapse = "; ")))
+  start <- max(fit$length - (placed - 1) * step, 0)
+  path <- part_of_path(mesh, fit$path, start, fit$length)
+  at <- resample_path(mesh, path, placed)
+  se <- rep(NA_real_, placed)
+  if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
+  points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
+  rownames(points) <- NULL
+  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se))
+  fit[names(cut)] <- cut
+  add_note(fit, if (placed < n) ended)
+}
+
+unit_vector <- function(x) x / sqrt(sum(x^2))
