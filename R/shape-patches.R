@@ -143,14 +143,15 @@ column_outside <- function(a, b, at, outward) {
 #' @param outside 3 x k: direction out of the surface, NA where it is not known.
 #' @param rows Points of a column, the ends among them.
 #' @param inside As in [path_ends()].
+#' @param rim Angle in radians between the normals at the ends and the outside above which the ends lie on a sharp rim.
 #' @return List: `points` (list of rows x 7 matrices), `problem` (NA where the column is there).
 #' @noRd
-fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6) {
+fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6, rim = pi / 4) {
   at <- c("face", "w1", "w2", "w3")
   same <- rowSums((from[, 1:3, drop = FALSE] - to[, 1:3, drop = FALSE])^2) == 0
   apart <- surface$piece[from[, "face"]] != surface$piece[to[, "face"]]
   found <- cpp_fit_columns(surface$vb, surface$it, surface$twin, from[, at, drop = FALSE], to[, at, drop = FALSE],
-                           outside, rep(rows, nrow(from)), c(column, inside = inside), chord_settings())
+                           outside, rep(rows, nrow(from)), c(column, inside = inside, rim = rim), chord_settings())
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
   why[same] <- "its ends are the same point"

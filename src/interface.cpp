@@ -268,7 +268,7 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
                      List chords) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
   crestline::ColumnSettings s{settings["angle"], settings["angles"], settings["reach"],
-                              settings["inside"], chord_settings(chords)};
+                              settings["rim"], settings["inside"], chord_settings(chords)};
   const char* words[] = {"arrived", "border", "round", "too far", "no axis"};
   CharacterVector end(rows.size());
   List points(rows.size());

@@ -45,7 +45,7 @@ Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const Sur
   if (axis.span == 0) return column;
   if (outside) {
     CutAxis outward = turned_out(axis, outside);
-    if (dot(axis.across, outward.across) < std::cos(settings.limit)) axis = outward;
+    if (dot(axis.across, outward.across) < std::cos(settings.rim)) axis = outward;
   }
   auto side = [&](const double* plane) { return outside ? outer_side(mesh, a.face, axis.axis, plane) : 0; };
   PlaneCut best{WalkEnd::border, INFINITY, {}}, middle = best;

@@ -3,3 +3,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 Rscript --vanilla -e 'Rcpp::compileAttributes("."); roxygen2::roxygenise(".")'
+# Its objects are without optimisation: none may be left for an installation to find.
+rm -f src/*.o src/*.so
