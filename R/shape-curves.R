@@ -7,8 +7,9 @@
 #' @param given Fits of curves that are not to be found, see [given_fits()].
 #' @param tick Called after every curve.
 #' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA
-#'   where the mesh ends before), `path`, `length`, `strength`, `se`, `competing`, `reason` (NA where there is nothing to
-#'   say) or, where it failed, of `reason` alone.
+#'   where the mesh ends before), `path`, `length`, `strength`, `contrast`, `se`, `competing`, `determined`, `cut` (of curves
+#'   that are cut off: their share of the length asked for), `reason` (NA where there is nothing to say) or, where it
+#'   failed, of `reason` alone.
 #' @noRd
 fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick) {
   curves <- scheme$curves
@@ -48,7 +49,9 @@ cut_instead <- function(row, problem, fit) {
   if (row$kind == "plane") return(failed)
   row$kind <- "plane"
   cut <- tryCatch(fit(row), crestline_error = function(e) failed)
-  if (!is.null(cut$path)) cut$reason <- paste("the shortest cut instead:", problem)
+  if (is.null(cut$path)) return(cut)
+  cut$reason <- paste("the shortest cut instead:", problem)
+  cut$determined <- FALSE
   cut
 }
 
@@ -93,8 +96,8 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
     fit_curved(row, specimen, sources[[as.character(row$radius)]], fits, settings, passes)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
-       strength = curve$strength, se = curve$se, competing = c(attr(curve$reference, "competing"), NA)[1],
-       reason = curve$reason)
+       strength = curve$strength, contrast = curve_contrast(curve), se = curve$se,
+       competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined, reason = curve$reason)
 }
 
 #' A ridge or valley with the constraints of its row

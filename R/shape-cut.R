@@ -20,7 +20,8 @@ cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
     fits[[i]] <- if (is.na(wanted[k])) {
       list(reason = spans[[k]]$note)
     } else {
-      add_note(cut_curve(specimen$mesh, fits[[i]], factor * wanted[k], curves$n[i]), c(spans[[k]]$note, shared))
+      part <- cut_curve(specimen$mesh, fits[[i]], factor * wanted[k], curves$n[i])
+      c(add_note(part, c(spans[[k]]$note, shared)), cut = factor / cut_scale)
     }
   }
   fits

@@ -44,8 +44,19 @@
 #'     across the curve, in the unit of the mesh; NA where there is none: landmarks, plane curves, insides of patches);
 #'   * `status`: data frame, a row a landmark, curve and patch: `part`, `level`, `kind` ("landmark", "ridge",
 #'     "valley", "plane", "patch"), `ok` (whether all its points are there), `reason` (text, NA where all is well), and
-#'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `se` (median), `competing` (how good the best other reference
-#'     path is, as a share of the one chosen: near 1, a rival; NA: none);
+#'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `contrast` (strength over the mean strength
+#'     beside the curve, in its window but farther than `settings$core` radii from it: 1, no more than its surroundings),
+#'     `se` (median), `competing` (how good the best other reference path is, as a share of the one chosen: near 1, a
+#'     rival; NA: none);
+#'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`, `level`, `missing`
+#'     (share of the points); of curves `determined` (by curvature, see [ridge_curve()]; NA where there is no point but
+#'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `bridged`
+#'     (share of its length that lies over holes); of patches `faults` (number of them, see [surface_faults()]); of both
+#'     `size` (a curve's length; of a patch the diameter of a disc with points as far from their centroid), `roughness`
+#'     (mean angle in degrees between the normals of its triangles and those at their corners), `edge` (mean edge of its
+#'     triangles), `border` (distance to the nearest border that is not bridged, but for the ends of a curve), `spike`
+#'     (distance within which there are four triangles with such an angle above 30 degrees); lengths in the unit of the
+#'     mesh, Inf where there is none;
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`.
 #'
@@ -98,7 +109,10 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
          paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme),
     class = "shape"
   )
-  note_faults(shape, scan)
+  faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
+  shape <- note_faults(shape, faults)
+  shape$checks <- shape_checks(shape, scan, specimen, fits, faults)
+  shape
 }
 
 progress_ticks <- function(progress, n, id) {
@@ -161,11 +175,12 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
   lines <- function(part, level, kind, ok, reason) {
     data.frame(part = part, level = rep(level, length(part)), kind = kind, ok = ok, reason = reason,
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
-               se = rep(NA_real_, length(part)), competing = rep(NA_real_, length(part)))
+               contrast = rep(NA_real_, length(part)), se = rep(NA_real_, length(part)),
+               competing = rep(NA_real_, length(part)))
   }
   whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
   curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole, vapply(fits, `[[`, "", "reason"))
-  measures <- c("length", "strength", "se", "competing")
+  measures <- c("length", "strength", "contrast", "se", "competing")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
     lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)), is.na(landmark_reasons),
@@ -179,8 +194,7 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
 
 #' The status with the faults of the model's triangles, each with the patch of its first corner
 #' @noRd
-note_faults <- function(shape, specimen) {
-  faults <- tryCatch(surface_faults(shape, specimen), crestline_error = function(e) NULL)
+note_faults <- function(shape, faults) {
   if (is.null(faults) || nrow(faults) == 0) return(shape)
   part <- shape$points$part[shape$points$level == "surface"][faults$v1]
   said <- vapply(split(faults$fault, part), function(fault) {

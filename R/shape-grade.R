@@ -1,0 +1,95 @@
+# From measures to grades: every check gives a level and a sentence.
+
+#' Grade the parts of one specimen
+#'
+#' @param parts As of [part_measures()].
+#' @param scores Scores of the lengths, by curve.
+#' @param limits [quality_limits()].
+#' @param scheme The scheme of the shape.
+#' @return Data frame with the columns of [quality()].
+#' @noRd
+grade_parts <- function(parts, scores, limits, scheme) {
+  curves <- parts$level == "curves"
+  parts$z[curves] <- scores[parts$part[curves]]
+  judged <- judge_parts(parts, limits, scheme)
+  level <- do.call(pmax, lapply(judged, `[[`, "level"))
+  bounds <- judge_bounds(parts, level, scheme)
+  judged <- c(judged, list(bounds))
+  level <- pmax(level, bounds$level)
+  why <- vapply(seq_along(level), function(i) {
+    said <- vapply(judged, function(check) if (check$level[i] > 0) check$text[i] else NA_character_, "")
+    said <- unique(stats::na.omit(sub("[.]$", "", c(parts$reason[i], said))))
+    if (length(said)) paste(said, collapse = "; ") else NA_character_
+  }, "")
+  parts$grade <- factor(grades[level + 1], grades, ordered = TRUE)
+  parts$why <- why
+  parts[quality_columns]
+}
+
+#' Every check of the parts of one specimen
+#'
+#' @return List of checks, each a list of `level` (0 green, 1 amber, 2 red) and `text`, both by part; the text is NA
+#'   where the part's own reason says it.
+#' @noRd
+judge_parts <- function(parts, limits, scheme) {
+  judge <- function(name, text, value = parts[[name]]) {
+    list(level = level_beyond(value, limits[[name]], name %in% small_is_bad),
+         text = rep_len(as.character(text), nrow(parts)))
+  }
+  own <- function(values) ifelse(parts$free, values, NA)
+  curved <- parts$kind %in% c("ridge", "valley")
+  its <- ifelse(parts$level == "curves", "length", "extent")
+  partner <- partner_of(parts$part, scheme$pairs, "curves")
+  partner <- ifelse(partner == parts$part, "its own mirror image", paste("the mirror image of", partner))
+  list(
+    judge("missing", NA),
+    list(level = ifelse(parts$determined %in% FALSE, match(limits$undetermined, grades) - 1, 0),
+         text = rep(NA_character_, nrow(parts))),
+    judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius), own(parts$se / parts$radius)),
+    judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing), own(parts$competing)),
+    judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast), own(parts$contrast)),
+    judge("z", sprintf("its length is off the others' (z = %.1f)", parts$z), abs(parts$z)),
+    judge("asymmetry", sprintf("it is off %s by %.0f %% of its length", partner, 100 * parts$asymmetry)),
+    judge("roughness", sprintf("the surface is rough there: %.0f degrees", parts$roughness)),
+    judge("coarse", sprintf("the mesh is coarse there: edges of %.2g radii", parts$coarse),
+          ifelse(curved, own(parts$coarse), NA)),
+    judge("bridged", sprintf("it runs over a hole for %s of its length", per_cent(parts$bridged))),
+    judge("border", sprintf("it runs by a border or hole, %s of its %s away", per_cent(parts$border), its)),
+    judge("spike", sprintf("it runs by a spike, %s of its %s away", per_cent(parts$spike), its)),
+    judge("cut", NA),
+    judge("faults", NA)
+  )
+}
+
+per_cent <- function(share, least = 0.1) {
+  ifelse(100 * share < least, sprintf("under %g %%", least), sprintf("%.1f %%", 100 * share))
+}
+
+#' 0, or 1 and 2 beyond the first and second limit; 0 where NA
+#' @noRd
+level_beyond <- function(value, limit, falling) {
+  if (falling) {
+    value <- -value
+    limit <- -limit
+  }
+  level <- (value > limit[1]) + (value > limit[2])
+  ifelse(is.na(level), 0, level)
+}
+
+#' Patches of which a bounding curve is there but not green
+#' @noRd
+judge_bounds <- function(parts, level, scheme) {
+  doubtful <- which(parts$level == "curves" & level > 0 & !is.na(parts$length))
+  text <- rep(NA_character_, nrow(parts))
+  for (i in which(parts$level == "surface")) {
+    found <- doubtful[parts$part[doubtful] %in% bounding_curves(parts$part[i], scheme)]
+    named <- sprintf("%s (%s)", parts$part[found], grades[level[found] + 1])
+    if (length(found)) text[i] <- paste("bounded by", shorten(named, 3))
+  }
+  list(level = as.integer(!is.na(text)), text = text)
+}
+
+bounding_curves <- function(patch, scheme) {
+  sides <- unlist(scheme$patches[scheme$patches$patch == patch, c("curve_a", "curve_b", "first_column")])
+  unique(unlist(lapply(stats::na.omit(sides), function(side) curve_parts(side)$curve)))
+}

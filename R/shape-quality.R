@@ -1,0 +1,156 @@
+# How far every part of a shape can be trusted: what was measured, a grade, and why.
+
+#' Quality of measured specimens
+#'
+#' Grades every landmark, curve and patch: green (nothing to say), amber (look at it), red (do not use it as it is). It
+#' judges by what the fit says of itself (curvature does not determine the curve, another path is as good, points are
+#' missing), by the mesh about the part (noise, spikes, holes, coarse triangles: see `checks` of [fit_shape()]), by the
+#' mirror image of its partner where the scheme has pairs, and, of several specimens, by the lengths of the others. A
+#' patch is at least amber where a curve that bounds it is not green: its points hang on that curve.
+#'
+#' What it cannot see: a landmark in the wrong place, unless lengths or symmetry tell; a smooth error
+#' of the scan; a feature that is not the one meant.
+#'
+#' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it has any, name the
+#'   specimens. `NULL` in the list is a specimen that could not be measured.
+#' @param limits [quality_limits()].
+#' @param others Further shapes of the same scheme, only to compare lengths with: what a single new specimen is judged
+#'   against.
+#' @return Data frame of class `shape_quality`, a row for each specimen and part:
+#'   * `specimen`, `part`, `level` ("landmarks", "curves", "surface"), `kind`, `length`, `strength`, `contrast`, `se`,
+#'     `competing`: as in `status` of [fit_shape()];
+#'   * `z`: robust z-score of a curve's length, relative to the specimen's size, against the others (by their median and
+#'     MAD); NA with fewer than `limits$others` others, and for curves that the scheme cuts off;
+#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner (its own, where it has none) between
+#'     their ends, as a share of its length; NA where the scheme has no pairs;
+#'   * `missing`, `cut`, `bridged`, `faults`, `roughness` (degrees): as in `checks` of [fit_shape()];
+#'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate; `border`, `spike`:
+#'     distances as shares of the part's size;
+#'   * `grade`: ordered factor green < amber < red;
+#'   * `why`: text, NA where there is nothing to say.
+#'
+#'   A specimen that could not be measured is one row with level "specimen", red. `print()` gives the counts and the
+#'   worst parts, `summary()` a data frame with a row for each specimen: `specimen`, and the number of parts that are
+#'   `green`, `amber`, `red`.
+#' @section Errors: of class `crestline_error`, when `x` holds no shapes.
+#' @seealso [quality_report()] for a page with pictures.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' graded <- quality(fit_shape(face, face_scheme()))
+#' graded
+#' graded[graded$grade > "green", c("part", "grade", "why")]
+#' }
+#' @export
+quality <- function(x, limits = quality_limits(), others = NULL) {
+  check_class(limits, "quality_limits", "limits", "quality_limits()")
+  shapes <- named_shapes(x)
+  measured <- Filter(Negate(is.null), shapes)
+  parts <- Map(part_measures, measured, names(measured))
+  scores <- sample_scores(measured, if (!is.null(others)) named_shapes(others, "others"), limits)
+  parts <- Map(function(part, name) grade_parts(part, scores[name, ], limits, measured[[name]]$scheme), parts, names(parts))
+  lost <- lapply(setdiff(names(shapes), names(measured)), lost_specimen)
+  table <- do.call(rbind, c(unname(parts), lost))
+  table <- table[order(match(table$specimen, names(shapes))), ]
+  rownames(table) <- NULL
+  structure(table, class = c("shape_quality", "data.frame"))
+}
+
+#' A list of shapes by name of specimen; every name once
+#' @noRd
+named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
+  if (inherits(x, "shape")) x <- list(x)
+  if (!is.list(x) || length(x) == 0) check_class(x, "shape", name, "fit_shape()", call)
+  for (shape in Filter(Negate(is.null), x)) check_class(shape, "shape", name, "fit_shape()", call)
+  given <- if (is.null(names(x))) character(length(x)) else names(x)
+  own <- vapply(x, function(shape) if (is.null(shape)) NA_character_ else shape$id, "")
+  own <- ifelse(is.na(own), paste("specimen", seq_along(x)), own)
+  stats::setNames(x, make.unique(ifelse(is.na(given) | given == "", own, given), sep = " "))
+}
+
+#' What is known of every part of one shape, before it is judged
+#'
+#' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`, `free` (whether a
+#'   curve has points between its landmarks), `radius` (of a curve) and `size`.
+#' @noRd
+part_measures <- function(shape, name) {
+  status <- shape$status
+  checks <- shape$checks
+  row <- match(status$part, shape$scheme$curves$curve)
+  row[status$level != "curves"] <- NA
+  asymmetry <- curve_asymmetry(shape)[row]
+  radius <- shape$scheme$curves$radius[row]
+  data.frame(
+    specimen = rep(name, nrow(status)),
+    status[c("part", "level", "kind", "length", "strength", "contrast", "se", "competing")],
+    z = NA_real_, asymmetry = unname(asymmetry) / checks$size, checks[c("missing", "cut", "bridged", "faults", "roughness")],
+    coarse = checks$edge / radius, border = checks$border / checks$size, spike = checks$spike / checks$size,
+    reason = status$reason, determined = checks$determined, free = shape$scheme$curves$n[row] > 2, radius = radius,
+    size = checks$size, row.names = NULL
+  )
+}
+
+#' Scores of the lengths of curves, specimens x curves
+#'
+#' A curve that the scheme cuts off is as long as the landmarks that say so want it: it has no score.
+#' @noRd
+sample_scores <- function(shapes, others, limits) {
+  others <- Filter(Negate(is.null), others)
+  all <- c(shapes, others)
+  lengths <- lapply(all, function(shape) {
+    curves <- shape$status[shape$status$level == "curves", ]
+    stats::setNames(ifelse(is.na(shape$scheme$curves$cut_share), curves$length, NA), curves$part)
+  })
+  curves <- unique(unlist(lapply(lengths, names)))
+  lengths <- matrix(vapply(lengths, function(x) x[curves], numeric(length(curves))), ncol = length(curves), byrow = TRUE)
+  scores <- length_scores(lengths, limits$others, limits$spread)
+  dimnames(scores) <- list(c(names(shapes), rep("", length(others))), curves)
+  scores[seq_along(shapes), , drop = FALSE]
+}
+
+#' A specimen that is not there
+#' @noRd
+lost_specimen <- function(name) {
+  empty <- stats::setNames(as.list(rep(NA_real_, length(quality_columns))), quality_columns)
+  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen", why = "it was not measured")
+  empty[names(said)] <- said
+  empty$grade <- factor("red", grades, ordered = TRUE)
+  empty$faults <- NA_integer_
+  as.data.frame(empty)
+}
+
+quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se", "competing", "z",
+                     "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse", "border", "spike", "grade",
+                     "why")
+
+#' @export
+summary.shape_quality <- function(object, ...) {
+  specimen <- factor(object$specimen, unique(object$specimen))
+  counts <- table(specimen, object$grade)
+  data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]), amber = as.vector(counts[, "amber"]),
+             red = as.vector(counts[, "red"]))
+}
+
+#' @export
+print.shape_quality <- function(x, most = 10, ...) {
+  counts <- summary(x)
+  counts <- counts[order(-counts$red, -counts$amber), ]
+  cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
+      paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
+  if (nrow(counts) > 1) {
+    shown <- utils::head(counts, most)
+    cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
+    if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
+  }
+  worst <- x[x$grade > "green", ]
+  worst <- worst[order(-as.integer(worst$grade)), ]
+  for (i in utils::head(seq_len(nrow(worst)), most)) {
+    of <- if (nrow(counts) > 1) paste0(" of ", worst$specimen[i])
+    line <- paste0("- ", worst$grade[i], ": ", worst$part[i], of, ": ", worst$why[i])
+    cat(strwrap(line, width = 80, exdent = 4), sep = "\n")
+  }
+  if (nrow(worst) > most) cat("- and", nrow(worst) - most, "more that are not green\n")
+  invisible(x)
+}

@@ -1,0 +1,98 @@
+# The quality of one specimen or many as a page for the browser.
+
+#' Write a page with the quality of measured specimens
+#'
+#' One HTML file that needs no other and no network: how many parts are green, amber and red in each specimen; for several
+#' specimens a matrix of them by their curves (patches, landmarks); pictures of the specimens with curves and points in
+#' the colours of their grades; and the table of [quality()], to be sorted and filtered, with the reasons.
+#'
+#' @inheritParams quality
+#' @param file Where to write, ending in ".html".
+#' @param specimens The `specimen`s that the shapes were measured on, for the pictures: one, or a list in any order
+#'   (they are told by their `id`). Shapes without one are drawn as their own surface.
+#' @param title Heading of the page.
+#' @param pictures How many specimens are drawn: the worst first.
+#' @param size Width and height of a specimen's picture in pixels.
+#' @return The path of the file, invisibly.
+#' @section Errors: of class `crestline_error`, as [quality()]; when the file has another ending or its folder is not
+#'   there; when a specimen has no shape.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' page <- tempfile(fileext = ".html")
+#' quality_report(fit_shape(face, face_scheme()), page, face)
+#' file.size(page)
+#' unlink(page)
+#' }
+#' @export
+quality_report <- function(x, file, specimens = NULL, limits = quality_limits(), others = NULL,
+                           title = "Quality of measured specimens", pictures = 12, size = c(1500, 640)) {
+  rlang::check_installed("htmltools", "to write a page.")
+  file <- check_page_file(file)
+  pictures <- check_count(pictures, "pictures", lower = 0)
+  shapes <- named_shapes(x)
+  table <- quality(shapes, limits, others)
+  specimens <- specimens_of(specimens, shapes)
+  counts <- summary(table)
+  counts$grade <- ifelse(counts$red > 0, "red", ifelse(counts$amber > 0, "amber", "green"))
+  drawn <- counts$specimen[order(-counts$red, -counts$amber)]
+  drawn <- utils::head(drawn[!vapply(shapes[drawn], is.null, NA)], pictures)
+  figures <- lapply(drawn, function(name) {
+    graded <- table[table$specimen == name, ]
+    report_figure(name, grade_picture(shapes[[name]], graded, specimens[[name]], size), graded, length(drawn) == 1)
+  })
+  tags <- htmltools::tags
+  page <- tags$body(
+    tags$header(tags$h1(title), report_sum(table, counts)), report_overview(counts), report_matrix(counts),
+    report_figures(figures), report_parts(table), report_limits(limits), report_data(table),
+    tags$script(htmltools::HTML(report_text("quality.js")))
+  )
+  write_report(page, title, file)
+  invisible(file)
+}
+
+#' The specimens by name of shape; NULL where there is none
+#' @noRd
+specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
+  if (is.null(specimens)) return(list())
+  if (inherits(specimens, "specimen")) specimens <- list(specimens)
+  for (specimen in specimens) check_class(specimen, "specimen", "specimens", "specimen() or read_specimen()", call)
+  id <- vapply(specimens, `[[`, "", "id")
+  own <- vapply(shapes, function(shape) if (is.null(shape)) NA_character_ else shape$id, "")
+  strange <- setdiff(id, own)
+  if (length(strange)) {
+    crestline_abort(sprintf("there is no shape of specimen %s.", shorten(strange)),
+                    "Give the specimens that the shapes were measured on; they are told by `id`.",
+                    stage = "page", call = call)
+  }
+  stats::setNames(specimens[match(own, id)], names(shapes))
+}
+
+#' A shape's pictures as the text of a data address; NULL where there is nothing to draw
+#' @noRd
+grade_picture <- function(shape, graded, specimen, size, resolution = 120) {
+  if (all(is.na(shape$points$x)) || (is.null(specimen) && is.null(own_surface(shape)))) return(NULL)
+  file <- tempfile(fileext = ".png")
+  on.exit(unlink(file))
+  type <- if (capabilities("cairo")) "cairo" else getOption("bitmapType")
+  grDevices::png(file, size[1], size[2], res = resolution, type = type)
+  tryCatch(draw_grades(shape, graded, specimen), finally = grDevices::dev.off())
+  bytes <- readBin(file, "raw", file.size(file))
+  paste0("data:image/png;base64,", gsub("\n", "", jsonlite::base64_enc(bytes), fixed = TRUE))
+}
+
+report_text <- function(name) {
+  file <- system.file("report", name, package = "crestline", mustWork = TRUE)
+  paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
+}
+
+write_report <- function(page, title, file) {
+  lines <- c(
+    "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\">",
+    "<meta name=\"viewport\" content=\"width=device-width\">", as.character(htmltools::tags$title(title)),
+    "<style>", report_text("quality.css"), "</style>", "</head>", as.character(page), "</html>"
+  )
+  writeLines(enc2utf8(lines), file, useBytes = TRUE)
+}

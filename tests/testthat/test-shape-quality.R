@@ -1,0 +1,220 @@
+# The ball of helper-shape.R, its four curves and patch, whole and spoiled.
+
+grade_in <- function(graded, part, level = "curves") {
+  as.character(graded$grade[graded$part == part & graded$level == level])
+}
+why_in <- function(graded, part, level = "curves") graded$why[graded$part == part & graded$level == level]
+
+# The ball without the vertices within `radius` of a place.
+without_disc <- function(at, radius) {
+  function(mesh) {
+    gone <- sqrt(colSums((mesh$vb[1:3, ] - at)^2)) < radius
+    mesh$it <- mesh$it[, colSums(matrix(gone[mesh$it], 3)) == 0]
+    mesh
+  }
+}
+
+spoiled_shape <- function(change, ...) fit_shape(quad_specimen(change), quad_scheme(), ..., progress = FALSE)
+
+middle_of <- function(shape, curve) {
+  at <- coords(shape, "curves")
+  colMeans(at[grep(paste0("^", curve, " "), rownames(at)), ])
+}
+
+test_that("a good shape is green throughout, with nothing to say", {
+  graded <- quality(quad_shape())
+  expect_s3_class(graded, c("shape_quality", "data.frame"), exact = TRUE)
+  expect_equal(names(graded)[c(1:10, 20:21)], c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
+                                               "competing", "z", "grade", "why"))
+  expect_equal(graded$part, c("a", "b", "c", "d", "bottom", "top", "left", "right", "quad"))
+  expect_equal(levels(graded$grade), c("green", "amber", "red"))
+  expect_true(is.ordered(graded$grade) && all(graded$grade == "green"))
+  expect_true(all(is.na(graded$why)) && all(is.na(graded$z)) && all(graded$specimen == "quad"))
+  expect_equal(graded$length, quad_shape()$status$length)
+  expect_output(print(graded), "9 parts: 9 green, 0 amber, 0 red", fixed = TRUE)
+})
+
+test_that("what is missing is red, with the reason", {
+  graded <- quality(quad_shape(landmarks = quad_corners()[c("a", "b", "d"), ]))
+  expect_equal(graded$part[graded$grade == "red"], c("c", "top", "right", "quad"))
+  expect_match(why_in(graded, "top"), "landmark c", fixed = TRUE)
+  expect_match(why_in(graded, "quad", "surface"), "24 of 35 points missing", fixed = TRUE)
+  expect_equal(graded$missing[graded$level == "surface"], 24 / 35)
+  lenient <- quality(quad_shape(landmarks = quad_corners()[c("a", "b", "d"), ]), quality_limits(missing = c(0.5, 1)))
+  expect_equal(grade_in(lenient, "quad", "surface"), "amber")
+})
+
+test_that("a curve that a hole pushes aside, and its patch, are graded; the others are not", {
+  whole <- quad_shape()
+  at <- middle_of(whole, "top") * 50 / sqrt(sum(middle_of(whole, "top")^2))
+  shape <- spoiled_shape(without_disc(at, 4), bridge = 0)
+  moved <- sqrt(rowSums((coords(shape, "curves") - coords(whole, "curves"))^2))
+  expect_gt(max(moved[grep("top", names(moved))]), 3)
+  graded <- quality(shape)
+  expect_equal(grade_in(graded, "top"), "red")
+  expect_match(why_in(graded, "top"), "border or hole", fixed = TRUE)
+  expect_gte(match(grade_in(graded, "quad", "surface"), c("green", "amber", "red")), 2)
+  expect_true(all(graded$grade[graded$part %in% c("bottom", "left", "right")] == "green"))
+})
+
+test_that("a hole that is bridged is told by the share of the curve over it, and its points are missing", {
+  whole <- quad_shape()
+  at <- middle_of(whole, "top") * 50 / sqrt(sum(middle_of(whole, "top")^2))
+  shape <- spoiled_shape(without_disc(at, 4))
+  gap <- row_lengths(diff(as.matrix(shape$paths$top[c("x", "y", "z")])))
+  row <- shape$checks[shape$checks$part == "top", ]
+  expect_equal(row$bridged, max(gap) / status_of(shape, "top")$length, tolerance = 0.01)
+  expect_equal(shape$checks$bridged[shape$checks$part %in% c("bottom", "left", "right")], c(0, 0, 0))
+  expect_true(is.infinite(row$border))
+  graded <- quality(shape)
+  expect_gt(row$missing, 0)
+  expect_true(grade_in(graded, "top") > "green")
+  expect_match(why_in(graded, "top"), "over a hole", fixed = TRUE)
+})
+
+test_that("the distance from a hole is that to the nearest vertex of its rim, the ends of the curve left out", {
+  whole <- quad_shape()
+  shape <- spoiled_shape(without_disc(c(0, 0, 50), 6), bridge = 0)
+  specimen <- quad_specimen(without_disc(c(0, 0, 50), 6))
+  edges <- cbind(specimen$mesh$it[1:2, ], specimen$mesh$it[2:3, ], specimen$mesh$it[c(3, 1), ])
+  key <- paste(pmin(edges[1, ], edges[2, ]), pmax(edges[1, ], edges[2, ]))
+  rim <- unique(as.vector(edges[, key %in% names(which(table(key) == 1))]))
+  path <- shape$paths$bottom
+  inner <- path$s >= 0.05 * max(path$s) & path$s <= 0.95 * max(path$s)
+  gap <- vapply(rim, function(v) {
+    min(colSums((t(as.matrix(path[inner, c("x", "y", "z")])) - specimen$mesh$vb[1:3, v])^2))
+  }, 0)
+  row <- shape$checks[shape$checks$part == "bottom", ]
+  expect_equal(row$border, sqrt(min(gap)), tolerance = 1e-10)
+  expect_equal(row$size, attr(path, "length"))
+  expect_equal(quality(shape)$border[5], row$border / row$size)
+  expect_true(all(is.infinite(whole$checks$border[5:9])))
+})
+
+test_that("a spike beside a curve is seen, noise is seen everywhere", {
+  whole <- quad_shape()
+  tip <- function(mesh) which.min(colSums((mesh$vb[1:3, ] - coords(whole, "curves")["top 4", ])^2))
+  spiked <- quality(spoiled_shape(function(mesh) {
+    mesh$vb[1:3, tip(mesh)] <- 1.3 * mesh$vb[1:3, tip(mesh)]
+    mesh
+  }))
+  expect_true(grade_in(spiked, "top") != "green")
+  expect_match(why_in(spiked, "top"), "spike", fixed = TRUE)
+  expect_equal(grade_in(spiked, "bottom"), "green")
+  noisy <- quality(spoiled_shape(function(mesh) with_seed(1, {
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] * rep(1 + 0.02 * stats::rnorm(ncol(mesh$vb)), each = 3)
+    mesh
+  })))
+  expect_true(all(noisy$grade[noisy$level == "curves"] > "green"))
+  expect_match(noisy$why[noisy$level == "curves"], "the surface is rough there", fixed = TRUE)
+})
+
+test_that("the bend of a triangle is the angle between its normal and its corners' mean", {
+  mesh <- grid_mesh(2)
+  tilt <- c(0, 30, 75) * pi / 180
+  for (angle in tilt) {
+    mesh$normals <- matrix(c(sin(angle), 0, cos(angle), 1), 4, 4)
+    expect_equal(face_bend(mesh), rep(angle * 180 / pi, 2))
+  }
+  mesh$vb[, 2] <- mesh$vb[, 1]
+  expect_equal(face_bend(mesh)[1], 0)
+})
+
+test_that("a patch's size is the diameter of the disc with points as far from their centroid", {
+  turn <- seq(0, 2 * pi, length.out = 101)[-1]
+  radius <- 7 * sqrt(seq(0.005, 0.995, length.out = 100))
+  disc <- expand.grid(radius = radius, turn = turn)
+  points <- data.frame(level = "surface", part = "disc", point = seq_len(nrow(disc)), x = disc$radius * cos(disc$turn),
+                       y = disc$radius * sin(disc$turn), z = 3, face = 1L)
+  shape <- list(points = points, status = data.frame(level = "surface", part = "disc"))
+  expect_equal(part_places(shape, list(), 1, 0)[[1]]$size, 14, tolerance = 1e-3)
+})
+
+test_that("grades do not depend on the unit or the pose", {
+  turn <- rbind(c(0, -1, 0), c(0.6, 0, -0.8), c(0.8, 0, 0.6))
+  specimen <- quad_specimen(without_disc(c(0, 0, 50), 6))
+  shape <- fit_shape(specimen, quad_scheme(), bridge = 0, progress = FALSE)
+  moved <- rbind(turn %*% specimen$mesh$vb[1:3, ] / 1000 + 0.2, 1)
+  mesh <- structure(list(vb = moved, it = specimen$mesh$it), class = "mesh3d")
+  small <- specimen(mesh, specimen$landmarks %*% t(turn) / 1000 + 0.2, id = "quad")
+  one <- quality(shape)
+  other <- quality(fit_shape(small, quad_scheme(), bridge = 0, progress = FALSE))
+  expect_equal(other$length, one$length / 1000, tolerance = tolerances$invariance)
+  same <- setdiff(names(one), "length")
+  expect_equal(other[same], one[same], tolerance = tolerances$invariance)
+})
+
+test_that("a patch is amber where a curve that bounds it is not green", {
+  shape <- quad_shape()
+  shape$checks$determined[shape$checks$part == "left"] <- FALSE
+  shape$status$reason[shape$status$part == "left"] <- "the curvature is faint."
+  graded <- quality(shape)
+  expect_equal(as.character(graded$grade[c(5:9)]), c("green", "green", "amber", "green", "amber"))
+  expect_equal(graded$why[7:9], c("the curvature is faint", NA, "bounded by left (amber)"))
+  expect_equal(grade_in(quality(shape, quality_limits(undetermined = "red")), "left"), "red")
+  expect_true(all(quality(shape, quality_limits(undetermined = "green"))$grade == "green"))
+})
+
+test_that("limits grade by their side, and can be switched off", {
+  expect_equal(level_beyond(c(0.5, 1, 1.5, 3, NA), c(1, 2), FALSE), c(0, 0, 1, 2, 0))
+  expect_equal(level_beyond(c(0.5, 1, 1.5, 3, NA), c(2, 1), TRUE), c(2, 1, 1, 0, 0))
+  shape <- quad_shape()
+  shape$status$competing[5] <- 0.99
+  expect_equal(grade_in(quality(shape), "bottom"), "amber")
+  expect_match(why_in(quality(shape), "bottom"), "another path is 99 % as good", fixed = TRUE)
+  expect_equal(grade_in(quality(shape, quality_limits(competing = c(Inf, Inf))), "bottom"), "green")
+  expect_crestline_error(quality_limits(length = c(1, 2)), "length")
+  expect_crestline_error(quality_limits(c(1, 2)), "Limits are")
+  expect_crestline_error(quality_limits(z = c(5, 3)), c("z", "no smaller"))
+  expect_crestline_error(quality_limits(border = c(0.01, 0.02)), "no greater")
+  expect_crestline_error(quality_limits(undetermined = "blue"), "amber")
+  expect_output(print(quality_limits()), "border     below 0.04, 0.005", fixed = TRUE)
+})
+
+test_that("several specimens are told by name, and one that failed is told too", {
+  shape <- quad_shape()
+  graded <- quality(list(shape, lost = NULL, second = shape, shape))
+  expect_equal(unique(graded$specimen), c("quad", "lost", "second", "quad 1"))
+  lost <- graded[graded$specimen == "lost", ]
+  expect_equal(c(lost$level, as.character(lost$grade)), c("specimen", "red"))
+  expect_equal(summary(graded)$green, c(9, 0, 9, 9))
+  expect_equal(summary(graded)$red, c(0, 1, 0, 0))
+  expect_output(print(graded), "lost: 0 amber, 1 red", fixed = TRUE)
+  expect_identical(as.data.frame(graded)[1:9, -1], as.data.frame(quality(shape))[, -1])
+  expect_crestline_error(quality(quad_specimen()), "fit_shape()")
+  expect_crestline_error(quality(list()), "fit_shape()")
+  expect_crestline_error(quality(shape, list(z = c(1, 2))), "quality_limits()")
+})
+
+test_that("a length that is off the others' is flagged, a large specimen is not", {
+  shape <- quad_shape()
+  sample <- lapply(1:8, function(i) {
+    curves <- shape$status$level == "curves"
+    wobble <- with_seed(i, exp(0.01 * stats::rnorm(sum(curves))))
+    shape$status$length[curves] <- shape$status$length[curves] * wobble * if (i == 3) 2 else 1
+    shape
+  })
+  sample[[5]]$status$length[6] <- 1.5 * sample[[5]]$status$length[6]
+  graded <- quality(sample)
+  expect_equal(which(graded$grade > "green" & graded$level == "curves"), 4 * 9 + 6)
+  expect_match(graded$why[4 * 9 + 6], "its length is off the others'", fixed = TRUE)
+  alone <- quality(sample[[5]], others = sample[-5])
+  expect_equal(alone$z, graded$z[37:45])
+  expect_true(all(is.na(quality(sample[1:5])$z)))
+})
+
+test_that("the real face: nothing red, and a hole in its cheek is seen", {
+  scan <- read_specimen(shared_data("scan_a", "surface.ply"), shared_data("scan_a", "landmarks.csv"), id = "scan_a")
+  whole <- fit_shape(scan, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
+  graded <- quality(whole)
+  expect_equal(sum(graded$grade == "red"), 0)
+  expect_lte(sum(graded$grade == "amber"), 5)
+  at <- coords(whole, "curves")["cheek-lip left 10", ]
+  mesh <- without_disc(at, 10)(structure(list(vb = scan$mesh$vb, it = scan$mesh$it), class = "mesh3d"))
+  holed <- specimen(mesh, scan$landmarks, id = "holed")
+  holed <- fit_shape(holed, face_scheme(), ridge_settings(error = FALSE), bridge = 0, progress = FALSE)
+  moved <- sqrt(rowSums((coords(holed, "curves") - coords(whole, "curves"))^2))
+  expect_gt(max(moved, na.rm = TRUE), 3)
+  after <- quality(holed)
+  expect_equal(as.character(after$grade[after$part == "cheek-lip left"]), "red")
+})
