@@ -42,6 +42,7 @@ normal_curvature <- function(curved, at, direction) {
 #' @param extension Length by which the cylinder goes beyond each landmark, as a share of the distance.
 #' @return A `keep_away` object for [reference_path()] and [ridge_curve()].
 #' @section Errors: of class `crestline_error` when a share is negative.
+#' @seealso [keep_side()]
 #' @examples
 #' keep_away("exL", "enL") # for the left brow ridge of a face
 #' @export
@@ -57,27 +58,76 @@ print.keep_away <- function(x, ...) {
   invisible(x)
 }
 
+#' A side to keep to
+#'
+#' Of two features that lie on both sides of a line between two landmarks, such as the ridges of the lower and of the
+#' upper eyelid, one is meant: strength counts as 0 on the other side. The border is the plane through both landmarks that is
+#' square to the plane of all three.
+#'
+#' @param from,to Names of landmarks, or positions, that the line joins.
+#' @param towards Name of a landmark, or a position, on the side that counts.
+#' @return A `keep_side` object, for the argument `keep_away` of [reference_path()] and [ridge_curve()].
+#' @section Errors: of class `crestline_error`, where it is used, when the three lie on one line.
+#' @seealso [keep_away()]
+#' @examples
+#' keep_side("exL", "enL", towards = "acL") # for the ridge of the left lower eyelid
+#' @export
+keep_side <- function(from, to, towards) {
+  structure(list(from = from, to = to, towards = towards), class = "keep_side")
+}
+
+#' @export
+print.keep_side <- function(x, ...) {
+  cat(sprintf("Keep to the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to), end_name(x$towards)))
+  invisible(x)
+}
+
 #' Which points lie in any of the regions
 #'
-#' @param regions `NULL`, a `keep_away`, or a list of them.
+#' @param regions `NULL`, a `keep_away` or `keep_side`, or a list of them.
 #' @param specimen Specimen or mesh on which landmarks are looked up.
 #' @param xyz n x 3.
 #' @return Logical n.
 #' @noRd
 is_kept_away <- function(regions, specimen, xyz) {
-  if (inherits(regions, "keep_away")) regions <- list(regions)
+  if (inherits(regions, c("keep_away", "keep_side"))) regions <- list(regions)
   inside <- logical(nrow(xyz))
   for (region in regions) {
-    check_class(region, "keep_away", "keep_away", "keep_away()")
-    ends <- rbind(end_point(specimen, region$from, "from"), end_point(specimen, region$to, "to"))
-    a <- unlist(ends[1, c("x", "y", "z")])
-    axis <- unlist(ends[2, c("x", "y", "z")]) - a
-    span <- sqrt(sum(axis^2))
-    relative <- sweep(xyz, 2, a)
-    along <- as.vector(relative %*% axis) / span
-    off <- sqrt(pmax(rowSums(relative^2) - along^2, 0))
-    inside <- inside | (off <= region$radius * span & along >= -region$extension * span &
-                          along <= (1 + region$extension) * span)
+    inside <- inside | if (inherits(region, "keep_side")) {
+      is_beyond(region, specimen, xyz)
+    } else {
+      check_class(region, "keep_away", "keep_away", "keep_away() or keep_side()")
+      is_in_cylinder(region, specimen, xyz)
+    }
   }
   inside
 }
+
+is_in_cylinder <- function(region, specimen, xyz) {
+  a <- region_point(specimen, region, "from")
+  axis <- region_point(specimen, region, "to") - a
+  span <- sqrt(sum(axis^2))
+  relative <- sweep(xyz, 2, a)
+  along <- as.vector(relative %*% axis) / span
+  off <- sqrt(pmax(rowSums(relative^2) - along^2, 0))
+  off <= region$radius * span & along >= -region$extension * span & along <= (1 + region$extension) * span
+}
+
+#' Points on the other side of a line
+#'
+#' @param flat Height of the third point above the line, as a share of its length, at which the three count as lying on a line.
+#' @noRd
+is_beyond <- function(region, specimen, xyz, flat = 1e-6) {
+  a <- region_point(specimen, region, "from")
+  axis <- region_point(specimen, region, "to") - a
+  third <- region_point(specimen, region, "towards") - a
+  up <- third - sum(third * axis) / sum(axis^2) * axis
+  if (sum(up^2) <= flat^2 * sum(axis^2)) {
+    crestline_abort(sprintf("%s lies on the line from %s to %s.", end_name(region$towards), end_name(region$from),
+                            end_name(region$to)),
+                    "Give keep_side() a landmark well beside that line.", stage = "regions", id = specimen$id)
+  }
+  as.vector(sweep(xyz, 2, a) %*% up) < 0
+}
+
+region_point <- function(specimen, region, end) unlist(end_point(specimen, region[[end]], end)[1, c("x", "y", "z")])

@@ -13,7 +13,7 @@
 #' @inheritParams plane_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for `"plane"`.
-#' @param keep_away `NULL`, or region(s) of [keep_away()] where strength counts as 0.
+#' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where strength counts as 0: one, or a list.
 #' @param curvature A `curvature` of the mesh at this radius, where it is already
 #'   known; otherwise it is estimated where the cuts may pass.
 #' @param reach Cuts stay within this share of the distance between the landmarks
@@ -218,7 +218,7 @@ warn_rival <- function(two, ends, id) {
   crestline_warn(
     sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
             ends$names[1], ends$names[2], degrees[1], degrees[2], two$criterion[1], two$criterion[2]),
-    "Look at both with plane_path(); keep_away() rules one out.",
+    "Look at both with plane_path(); keep_away() or keep_side() rules one out.",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )
 }

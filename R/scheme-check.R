@@ -5,7 +5,8 @@ check_scheme_landmarks <- function(landmarks, scheme) named_once(landmarks$landm
 
 check_scheme_curves <- function(curves, scheme) {
   known <- scheme$landmarks$landmark
-  landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to")
+  side <- c("keep_side_from", "keep_side_to", "keep_side_towards")
+  landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to", side)
   by_curvature <- curves$kind != "plane"
   empty <- function(column, where, why) problem(which(where & is.na(curves[[column]])), column, paste("is empty:", why))
   one <- function(a, b) problem(which(curves[[a]] == curves[[b]]), b, sprintf("is the same landmark as %s", a))
@@ -14,6 +15,7 @@ check_scheme_curves <- function(curves, scheme) {
     problem(grep("[][+|]", curves$curve), "curve", "a name may not hold [ ] + or |"),
     do.call(rbind, lapply(landmark_columns, function(column) unknown_names(curves[[column]], known, column, "landmark"))),
     one("from", "to"), one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
+    one(side[1], side[2]), one(side[1], side[3]), one(side[2], side[3]), whole_group(curves, side),
     empty("radius", by_curvature, "a ridge or valley needs it"),
     empty("width", by_curvature, "a ridge or valley needs it"),
     whole_group(curves, c("cut_share", "cut_from", "cut_to")), whole_group(curves, c("keep_away_from", "keep_away_to")),

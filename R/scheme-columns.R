@@ -26,6 +26,7 @@ scheme_columns <- list(
     cut_share = column("number", lower = 0, open = TRUE), cut_from = column("text"), cut_to = column("text"),
     keep_away_from = column("text"), keep_away_to = column("text"),
     keep_away_radius = column("number", lower = 0, open = TRUE), keep_away_extension = column("number", lower = 0),
+    keep_side_from = column("text"), keep_side_to = column("text"), keep_side_towards = column("text"),
     side_of = column("text"), side = column("choice", choices = c("left", "right")),
     trust_from = column("number", lower = 0, upper = 1), trust_to = column("number", lower = 0, upper = 1),
     angle_limit = column("number", lower = 0, upper = pi / 2), note = column("text")

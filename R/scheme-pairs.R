@@ -31,15 +31,17 @@ check_scheme_pairs <- function(pairs, scheme) {
 unlike_curves <- function(pairs, curves) {
   swap <- function(x, level) partner_of(x, pairs, level)
   mirror <- curves
-  for (column in c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to")) {
+  landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to", "keep_side_from",
+                        "keep_side_to", "keep_side_towards")
+  for (column in landmark_columns) {
     mirror[[column]] <- swap(curves[[column]], "landmarks")
   }
   mirror$side_of <- swap(curves$side_of, "curves")
   mirror$side <- unname(c(left = "right", right = "left")[curves$side])
   columns <- c("from", "to", "kind", "radius", "width", "n", "cut_share", "keep_away_radius", "keep_away_extension",
-               "side_of", "side", "trust_from", "trust_to", "angle_limit")
+               "keep_side_towards", "side_of", "side", "trust_from", "trust_to", "angle_limit")
   found <- unlike_pairs(pairs, "curves", curves$curve, curves, mirror, columns)
-  for (axis in c("cut", "keep_away")) {
+  for (axis in c("cut", "keep_away", "keep_side")) {
     ends <- paste0(axis, c("_from", "_to"))
     found <- rbind(found, unlike_pairs(pairs, "curves", curves$curve, unordered(curves, ends),
                                        unordered(mirror, ends), axis))

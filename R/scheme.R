@@ -16,6 +16,8 @@
 #'     distance between two landmarks (arc length; empty: the whole curve);
 #'   * `keep_away_from`, `keep_away_to`, `keep_away_radius` (0.7), `keep_away_extension` (0.2): a region where
 #'     strength counts as 0, see [keep_away()];
+#'   * `keep_side_from`, `keep_side_to`, `keep_side_towards`: strength counts as 0 beyond the line between two landmarks,
+#'     away from the third, see [keep_side()];
 #'   * `side_of`, `side`: strength counts as 0 unless it lies to the "left" or "right" of another curve (walked from
 #'     its `from` to its `to`, seen from outside);
 #'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length, where curvature is
@@ -146,7 +148,8 @@ print.curve_scheme <- function(x, ...) {
   line("landmarks: ", shorten(x$landmarks$landmark, 30))
   line("curves: ", paste(kinds, names(kinds), collapse = ", "))
   line("constraints: ", sum(!is.na(curves$cut_share)), " cut off, ", sum(!is.na(curves$keep_away_from)),
-       " kept away from a region, ", sum(!is.na(curves$side_of)), " held to a side, ",
+       " kept away from a region, ",
+       sum(!is.na(curves$side_of) | !is.na(curves$keep_side_from)), " held to a side, ",
        sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
        sum(!is.na(curves$angle_limit)), " limited in angle")
   line("surface: ", surface_line(x))

@@ -103,9 +103,7 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
 #' A ridge or valley with the constraints of its row
 #' @noRd
 fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
-  away <- if (!is.na(row$keep_away_from)) {
-    keep_away(row$keep_away_from, row$keep_away_to, row$keep_away_radius, row$keep_away_extension)
-  }
+  away <- kept_away(row)
   if (!is.na(row$side_of)) curvature <- on_side(curvature, row, specimen, fits[[row$side_of]])
   free <- is.na(row$angle_limit) && row$trust_from == 0 && row$trust_to == 1
   if (free) {
@@ -120,6 +118,14 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
   about <- about_curve(row, specimen, settings, passes)
   fit <- fit_passes(specimen, path, trusted(curvature, row, specimen, path), away, about)
   new_curve(specimen, fit$path, fit$reference, row$n, about, fit)
+}
+
+#' The regions of a row, NULL where it has none
+#' @noRd
+kept_away <- function(row) {
+  c(if (!is.na(row$keep_away_from)) {
+    list(keep_away(row$keep_away_from, row$keep_away_to, row$keep_away_radius, row$keep_away_extension))
+  }, if (!is.na(row$keep_side_from)) list(keep_side(row$keep_side_from, row$keep_side_to, row$keep_side_towards)))
 }
 
 about_curve <- function(row, specimen, settings, passes) {

@@ -52,3 +52,24 @@ test_that("keep_away() takes landmarks by name, and says which is missing", {
   expect_identical(is_kept_away(keep_away("a", "b", radius = 0.1), face, rbind(c(0, 1, 0), c(0, 9, 0))), c(TRUE, FALSE))
   expect_crestline_error(is_kept_away(keep_away("a", "eye"), face, diag(3)), "eye", id = "graph")
 })
+
+test_that("keep_side() keeps what lies beyond the line away, at any height above the plane of the three", {
+  mesh <- grid_mesh(11)
+  region <- keep_side(c(2, 5, 0), c(6, 5, 0), towards = c(9, 8, 0))
+  points <- rbind(c(4, 5.01, 0), c(4, 4.99, 0), c(-50, 5.01, 0), c(50, 4.99, 0), c(4, 5.01, 30), c(4, 4.99, -30))
+  expect_identical(is_kept_away(region, mesh, points), rep(c(FALSE, TRUE), 3))
+  turned <- keep_side(c(6, 5, 0), c(2, 5, 0), towards = c(0, 8, 0))
+  expect_identical(is_kept_away(turned, mesh, points), rep(c(FALSE, TRUE), 3))
+  other <- keep_side(c(2, 5, 0), c(6, 5, 0), towards = c(9, 2, 0))
+  expect_identical(is_kept_away(other, mesh, points), rep(c(TRUE, FALSE), 3))
+  both <- list(region, keep_away(c(4, 6, 0), c(5, 6, 0), radius = 0.5))
+  expect_identical(is_kept_away(both, mesh, rbind(c(4.5, 6, 0), c(4, 8, 0), c(4, 2, 0))), c(TRUE, FALSE, TRUE))
+  expect_output(print(region), "side of \\(2, 5, 0\\) - \\(6, 5, 0\\) where \\(9, 8, 0\\) lies")
+})
+
+test_that("keep_side() takes landmarks by name, and refuses three on one line", {
+  face <- graph_specimen(quote(0 * u), two_ends())
+  expect_identical(is_kept_away(keep_side("a", "b", c(0, 3, 0)), face, rbind(c(0, 1, 0), c(0, -1, 0))), c(FALSE, TRUE))
+  expect_crestline_error(is_kept_away(keep_side("a", "b", "eye"), face, diag(3)), "eye", id = "graph")
+  expect_crestline_error(is_kept_away(keep_side(c(-1, 0, 0), c(1, 0, 0), c(3, 0, 0)), face, diag(3)), "lies on the line", id = "graph")
+})

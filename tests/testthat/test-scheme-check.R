@@ -68,6 +68,10 @@ test_that("columns that go together", {
   expect_mistake(set_cell("curves", 1, "keep_away_from", "wideL"), "curves", 1, "keep_away_to", "go together")
   expect_mistake(set_cell("curves", 1, "keep_away_radius", 1), "curves", 1, "keep_away_radius", "keep_away_from is not")
   expect_mistake(set_cell("curves", 2, "side", NA), "curves", 2, "side", "go together")
+  beside <- c("keep_side_from", "keep_side_to", "keep_side_towards")
+  expect_mistake(set_cell("curves", 1, beside[1:2], list("wideL", "tip")), "curves", 1, "keep_side_towards", "go together")
+  expect_mistake(set_cell("curves", 1, beside, list("wideL", "tip", "tip")), "curves", 1, "keep_side_towards", "same landmark")
+  expect_mistake(set_cell("curves", 1, beside, list("wideL", "tip", "wide")), "curves", 1, "keep_side_towards", "no landmark \"wide\"")
   expect_mistake(set_cell("curves", 1, c("trust_from", "trust_to"), list(0.5, 0.5)), "curves", 1, "trust_to", "not above")
 })
 

@@ -24,6 +24,8 @@ test_that("partners that are no mirror images", {
   mirror_broken("curves", 3, "to", "wideR", "to is wideR, the partner's tip")
   mirror_broken("curves", 2, c("keep_away_from", "keep_away_to"), list("base", "wideL"),
                 "keep_away is NA NA, the partner's base wideR")
+  mirror_broken("curves", 2:3, c("keep_side_from", "keep_side_to", "keep_side_towards"), list("base", "tip", "wideL"),
+                "keep_side_towards is wideL, the partner's wideR")
   mirror_broken("patches", 2, "outward", "rows", c("row 3 (blade left)", "outward is rows, the partner's columns"))
   mirror_broken("patches", 2, c("columns", "n"), list("2:4", 9), "n is 9, the partner's 12")
   mirror_broken("patches", 2, "curve_a", "edge left[1:6]", "curve_a is edge left[1:6], the partner's edge right[1:6]")

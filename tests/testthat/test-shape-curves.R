@@ -21,6 +21,20 @@ test_that("side_of takes the ridge on that side of another curve", {
   expect_lt(on("right"), -2)
 })
 
+test_that("keep_side takes the ridge on that side of a line between landmarks", {
+  face <- arched_ridges(3, 3.2)
+  face$landmarks <- rbind(face$landmarks, up = c(0, 5, 5.5), down = c(0, -5, 5.7))
+  on <- function(towards) {
+    landmarks <- data.frame(landmark = rownames(face$landmarks))
+    curves <- data.frame(curve = "arch", from = "a", to = "b", kind = "ridge", radius = 3, width = 6, n = 9,
+                         keep_side_from = "a", keep_side_to = "b", keep_side_towards = towards)
+    shape <- fit_shape(face, curve_scheme(landmarks, curves, name = "ends"), progress = FALSE)
+    mean(coords(shape, "curves")[paste("arch", 4:6), "y"])
+  }
+  expect_gt(on("up"), 2)
+  expect_lt(on("down"), -2)
+})
+
 test_that("a curve comes after the one whose side it keeps to", {
   curves <- data.frame(curve = c("p", "q", "r"), side_of = c("q", "r", NA))
   expect_equal(fitting_order(curves), c(3, 2, 1))
