@@ -49,6 +49,10 @@ cpp_fit_columns <- function(vb, it, twin, from, to, outside, rows, settings, cho
     .Call(`_crestline_cpp_fit_columns`, vb, it, twin, from, to, outside, rows, settings, chords)
 }
 
+cpp_face_bend <- function(vb, normals, it) {
+    .Call(`_crestline_cpp_face_bend`, vb, normals, it)
+}
+
 cpp_vertices_in_box <- function(vb, low, high) {
     .Call(`_crestline_cpp_vertices_in_box`, vb, low, high)
 }

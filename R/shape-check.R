@@ -63,6 +63,7 @@ crossing_pairs <- function(xyz, it) {
   pairs <- overlapping_boxes(do.call(pmin, corner), do.call(pmax, corner))
   shared <- Reduce(`+`, lapply(1:3, function(i) is_corner(it, it[i, pairs[, 1]], pairs[, 2])))
   pairs <- pairs[shared < 2, , drop = FALSE]
+  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]) & straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
   pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
 }
 
@@ -87,6 +88,15 @@ overlapping_boxes <- function(low, high) {
 
 is_corner <- function(it, vertex, triangle) {
   it[1, triangle] == vertex | it[2, triangle] == vertex | it[3, triangle] == vertex
+}
+
+#' Whether one triangle lies on both sides of the other's plane
+#' @noRd
+straddles <- function(xyz, it, one, other) {
+  a <- xyz[it[1, other], , drop = FALSE]
+  normal <- cross_rows(xyz[it[2, other], , drop = FALSE] - a, xyz[it[3, other], , drop = FALSE] - a)
+  height <- lapply(1:3, function(i) row_products(normal, xyz[it[i, one], , drop = FALSE] - a))
+  do.call(pmin, height) < 0 & do.call(pmax, height) > 0
 }
 
 #' Whether an edge of one triangle, of those that do not end at the other, passes through the other

@@ -19,8 +19,9 @@ shape_checks <- function(shape, scan, specimen, fits, faults, ends = 0.05, crump
   status <- shape$status
   mesh <- scan$mesh
   places <- part_places(shape, fits, ncol(mesh$it), ends)
-  bend <- face_bend(mesh)
-  damage <- list(border = border_places(walkable(specimen)), spike = face_centres(mesh)[bend > crumpled, , drop = FALSE])
+  bend <- cpp_face_bend(mesh$vb, mesh$normals, mesh$it)
+  spiky <- list(vb = mesh$vb, it = mesh$it[, bend > crumpled, drop = FALSE])
+  damage <- list(border = border_places(walkable(specimen)), spike = face_centres(spiky))
   checks <- data.frame(part = status$part, level = status$level, missing = missing_share(shape), determined = NA,
                        cut = NA_real_, bridged = NA_real_, faults = NA_integer_, size = vapply(places, `[[`, 0, "size"))
   curves <- status$level == "curves"
@@ -100,16 +101,6 @@ local_mesh <- function(places, mesh, bend) {
     }, 0)
   }
   data.frame(roughness = mean_of(bend[face]), edge = mean_of(edge))
-}
-
-#' Angle in degrees between every triangle's normal and the mean of those at its corners; 0 without area
-#' @noRd
-face_bend <- function(mesh) {
-  own <- face_normals(mesh)
-  normal <- t(mesh$normals[1:3, , drop = FALSE])
-  mean <- normal[mesh$it[1, ], ] + normal[mesh$it[2, ], ] + normal[mesh$it[3, ], ]
-  cosine <- row_products(own, mean) / (row_lengths(own) * row_lengths(mean))
-  ifelse(is.na(cosine), 0, acos(pmin(pmax(cosine, -1), 1)) * 180 / pi)
 }
 
 face_centres <- function(mesh) Reduce(`+`, face_corners(mesh)) / 3

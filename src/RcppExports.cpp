@@ -201,6 +201,19 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_face_bend
+NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_face_bend(SEXP vbSEXP, SEXP normalsSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_face_bend(vb, normals, it));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_vertices_in_box
 IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high);
 RcppExport SEXP _crestline_cpp_vertices_in_box(SEXP vbSEXP, SEXP lowSEXP, SEXP highSEXP) {
@@ -283,6 +296,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
+    {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},

@@ -2,6 +2,7 @@
 #include <Rcpp.h>
 
 #include "curvature.h"
+#include "mesh_bend.h"
 #include "mesh_crop.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
@@ -283,6 +284,11 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
     checkUserInterrupt();
   }
   return List::create(_["end"] = end, _["points"] = points);
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatrix it) {
+  return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
 }
 
 // [[Rcpp::export]]

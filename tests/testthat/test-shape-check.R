@@ -35,9 +35,9 @@ test_that("a triangle that is there twice is doubled", {
 test_that("faults of the model are in the status of the patch, beside what was there", {
   shape <- quad_shape()
   shape$scheme$triangles <- rbind(shape$scheme$triangles, shape$scheme$triangles[5:6, ])
-  noted <- note_faults(shape, quad_specimen())
+  noted <- note_faults(shape, surface_faults(shape, quad_specimen()))
   expect_equal(status_of(noted, "quad")$reason, "2 doubled triangles")
   shape$status$reason[shape$status$part == "quad"] <- "before"
-  expect_equal(status_of(note_faults(shape, quad_specimen()), "quad")$reason, "before; 2 doubled triangles")
+  expect_equal(status_of(note_faults(shape, surface_faults(shape, quad_specimen())), "quad")$reason, "before; 2 doubled triangles")
   expect_true(status_of(noted, "quad")$ok)
 })

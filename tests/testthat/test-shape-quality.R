@@ -114,10 +114,10 @@ test_that("the bend of a triangle is the angle between its normal and its corner
   tilt <- c(0, 30, 75) * pi / 180
   for (angle in tilt) {
     mesh$normals <- matrix(c(sin(angle), 0, cos(angle), 1), 4, 4)
-    expect_equal(face_bend(mesh), rep(angle * 180 / pi, 2))
+    expect_equal(cpp_face_bend(mesh$vb, mesh$normals, mesh$it), rep(angle * 180 / pi, 2))
   }
   mesh$vb[, 2] <- mesh$vb[, 1]
-  expect_equal(face_bend(mesh)[1], 0)
+  expect_equal(cpp_face_bend(mesh$vb, mesh$normals, mesh$it)[1], 0)
 })
 
 test_that("a patch's size is the diameter of the disc with points as far from their centroid", {
