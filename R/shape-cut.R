@@ -21,7 +21,8 @@ cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
       list(reason = spans[[k]]$note)
     } else {
       part <- cut_curve(specimen$mesh, fits[[i]], factor * wanted[k], curves$n[i])
-      c(add_note(part, c(spans[[k]]$note, shared)), cut = factor / cut_scale)
+      guessed <- !is.null(spans[[k]]$note) || !is.null(fits[[i]]$followed)
+      c(add_note(part, c(spans[[k]]$note, shared)), cut = factor / cut_scale, guessed = guessed)
     }
   }
   fits

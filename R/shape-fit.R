@@ -50,7 +50,8 @@
 #'     rival; NA: none);
 #'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`, `level`, `missing`
 #'     (share of the points); of curves `determined` (by curvature, see [ridge_curve()]; NA where there is no point but
-#'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `bridged`
+#'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `guessed`
+#'     (of these: whether its way or its length had to do without a landmark on the mesh, see below), `bridged`
 #'     (share of its length that lies over holes); of patches `faults` (number of them, see [surface_faults()]); of both
 #'     `size` (a curve's length; of a patch the diameter of a disc with points as far from their centroid), `roughness`
 #'     (mean angle in degrees between the normals of its triangles and those at their corners), `edge` (mean edge of its

@@ -161,6 +161,7 @@ false_alarms <- function(shapes, name) {
              curves_red = mean(own$grade[own$level == "curves"] == "red"))
 }
 
+options(width = 200)
 rounded <- function(table) {
   numbers <- vapply(table, is.double, NA)
   table[numbers] <- lapply(table[numbers], round, 3)

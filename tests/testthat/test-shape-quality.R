@@ -153,6 +153,10 @@ test_that("a patch is amber where a curve that bounds it is not green", {
   expect_equal(graded$why[7:9], c("the curvature is faint", NA, "bounded by left (amber)"))
   expect_equal(grade_in(quality(shape, quality_limits(undetermined = "red")), "left"), "red")
   expect_true(all(quality(shape, quality_limits(undetermined = "green"))$grade == "green"))
+  shape$checks$determined <- NA
+  shape$checks$guessed[shape$checks$part == "left"] <- TRUE
+  expect_equal(grade_in(quality(shape), "left"), "amber")
+  expect_equal(grade_in(quality(shape, quality_limits(guessed = "red")), "left"), "red")
 })
 
 test_that("limits grade by their side, and can be switched off", {
