@@ -92,9 +92,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
-  column <- list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-                 angles = check_count(column_angles, "column_angles"),
-                 reach = check_number(column_reach, "column_reach", 0, open = TRUE))
+  column <- check_column(column_angle, column_angles, column_reach)
   scan <- specimen
   specimen <- bridge_holes(scan, check_number(bridge, "bridge", 0, 1))
   tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
@@ -113,6 +111,12 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   shape <- note_faults(shape, faults)
   shape$checks <- shape_checks(shape, scan, specimen, fits, faults)
   shape
+}
+
+check_column <- function(column_angle, column_angles, column_reach) {
+  list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
+       angles = check_count(column_angles, "column_angles"),
+       reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 
 progress_ticks <- function(progress, n, id) {

@@ -31,6 +31,20 @@ quad_shape <- function(scheme = quad_scheme(), ..., landmarks = quad_corners()) 
 
 status_of <- function(shape, part) shape$status[shape$status$part == part, ]
 
+# Two patches on the ball, the upper one turned by a quarter, joined by a strip that ends in triangles.
+two_patch_shape <- function() {
+  quad_shape(quad_scheme(function(tables) {
+    tables$curves <- rbind(tables$curves, data.frame(curve = "across", from = "a", to = "c", kind = "plane", n = 7))
+    tables$patches <- data.frame(
+      patch = c("low", "high"), n = c(18, 18), columns = c("2:7", "2:7"), rows = 4, rows_kept = "1:3",
+      curve_a = c("bottom[1:7]", "top[7:1]"), curve_b = c("across[1:7]", "across[7:1]"), outward = "columns"
+    )
+    tables$strips <- data.frame(part = "model", strip = "middle", rung = 1:7, a = paste0("low|", c(1, 1:6), " 3"),
+                                b = paste0("high|", c(6:1, 1), " 3"), outward = "rows")
+    tables
+  }))
+}
+
 # A scheme of curves between a and b of a graph_specimen().
 ends_scheme <- function(...) {
   curve_scheme(data.frame(landmark = c("a", "b")), data.frame(from = "a", to = "b", ..., n = 9), name = "ends")
