@@ -6,7 +6,8 @@
 #' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
-#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
+#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`; and after sliding `follow`: whether bounding curves of
+#'   another number of points take them from their own points' places, slid ones, in place of equal chords.
 #' @param tick Called after every block.
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
 #'   `missing` and `n` (numbers of points) and `why` (character).
@@ -86,8 +87,13 @@ block_side <- function(text, resample, specimen, surface, curves, fits, store, c
   if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (any(lost)) return(list(points = spaced, problem = problem))
-  path <- side_path(knots, points, specimen, surface, fits, column)
-  spaced[] <- columns_of(resample_path(specimen$mesh, path, resample))
+  if (isTRUE(column$follow) && length(unique(knots$curve)) == 1) {
+    placed <- follow_points(knots$point, fits[[knots$curve[1]]], resample, specimen$mesh)
+  } else {
+    path <- side_path(knots, points, specimen, surface, fits, column)
+    placed <- resample_path(specimen$mesh, path, resample)
+  }
+  spaced[] <- columns_of(placed)
   spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
 }
@@ -99,6 +105,13 @@ lost_points <- function(knots, lost, fits) {
     gone <- lost[knots$curve == curve]
     if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
   }, "", USE.NAMES = FALSE)
+}
+
+#' Places along a curve at even shares of the way from point to point, so that they go along when those slide
+#' @noRd
+follow_points <- function(point, fit, n, mesh) {
+  s <- stats::approx(seq_along(point), fit$points$s[point], seq(1, length(point), length.out = n))$y
+  place_along(mesh, fit$path, s)
 }
 
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet

@@ -11,6 +11,8 @@
 #include "plot_render.h"
 #include "ridge_surface.h"
 #include "shape_column.h"
+#include "template_slide.h"
+#include "template_surface.h"
 
 using namespace Rcpp;
 
@@ -118,6 +120,33 @@ std::string walk_end(crestline::WalkEnd end) {
     case crestline::WalkEnd::round: return "round";
     default: return "too far";
   }
+}
+
+// Matrices of columns s, x, y, z.
+std::vector<crestline::Track> tracks(const List& paths) {
+  std::vector<crestline::Track> out(paths.size());
+  for (int p = 0; p < paths.size(); ++p) {
+    NumericMatrix nodes = paths[p];
+    for (int i = 0; i < nodes.nrow(); ++i) {
+      out[p].s.push_back(nodes(i, 0));
+      for (int k = 1; k < 4; ++k) out[p].xyz.push_back(nodes(i, k));
+    }
+  }
+  return out;
+}
+
+// Columns point, path, s, before, after, rest; before and after 0 where there is none.
+std::vector<crestline::Slider> sliders_of(const NumericMatrix& rows) {
+  std::vector<crestline::Slider> out;
+  auto index = [&](int i, int column) { return static_cast<int>(rows(i, column)) - 1; };
+  for (int i = 0; i < rows.nrow(); ++i)
+    out.push_back({index(i, 0), index(i, 1), rows(i, 2), index(i, 3), index(i, 4), rows(i, 5)});
+  return out;
+}
+
+List slide_trace(const crestline::SlideTrace& trace) {
+  return List::create(_["energy"] = trace.energy, _["strain"] = trace.strain, _["longest"] = trace.longest,
+                      _["converged"] = trace.converged);
 }
 
 // Three values a row.
@@ -328,4 +357,31 @@ List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int
   NumericVector rgba(p.rgba.begin(), p.rgba.end());
   rgba.attr("dim") = IntegerVector::create(height, width, 4);
   return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
+}
+
+// [[Rcpp::export]]
+List cpp_slide_on_paths(NumericMatrix b, NumericMatrix x, List paths, NumericMatrix rows, double strain,
+                        double gap, double tolerance, int sweeps) {
+  NumericMatrix moved = clone(x);
+  std::vector<crestline::Slider> sliders = sliders_of(rows);
+  crestline::SlideTrace trace =
+      crestline::slide_on_paths(b.begin(), b.nrow(), moved.begin(), tracks(paths), sliders,
+                                {strain, gap, tolerance, sweeps}, [] { checkUserInterrupt(); });
+  NumericVector s(sliders.size());
+  for (std::size_t i = 0; i < sliders.size(); ++i) s[i] = sliders[i].s;
+  return List::create(_["x"] = moved, _["s"] = s, _["trace"] = slide_trace(trace));
+}
+
+// [[Rcpp::export]]
+List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x,
+                       NumericMatrix held, NumericMatrix places, double tolerance, int sweeps) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  NumericMatrix moved = clone(x), out(x.nrow(), 7);
+  std::vector<crestline::SurfacePoint> at;
+  for (int i = 0; i < x.nrow(); ++i) at.push_back(surface_point(places, i));
+  crestline::SlideTrace trace =
+      crestline::slide_on_mesh(mesh, b.begin(), b.nrow(), moved.begin(), held.begin(), at, tolerance, sweeps,
+                               [] { checkUserInterrupt(); });
+  for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
+  return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
 }
