@@ -57,7 +57,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
   rounds <- check_count(rounds, "rounds", lower = 0)
   template <- first_template(shapes, template, rounds)
   tick <- progress_ticks(progress, length(shapes), "the sample")
-  states <- lapply(shapes, slide_state)
+  states <- lapply(shapes, slide_state, settings)
   found <- mean_curves(states, template, settings, tolerance, rounds)
   plan <- slide_plan(found$template, settings)
   cuts <- Map(function(shape, state) {
@@ -114,7 +114,7 @@ first_template <- function(shapes, template, rounds, call = rlang::caller_env())
                     stage = "homologise", call = call)
   }
   first <- shapes[[which.max(vapply(shapes, function(shape) sum(!is.na(shape$points$x)), 0L))]]
-  if (has_pairs(first$scheme)) symmetrise(first) else template_shape(first, slide_state(first)$store[, c("x", "y", "z")], first$id)
+  if (has_pairs(first$scheme)) symmetrise(first) else template_shape(first, places_of(first), first$id)
 }
 
 #' Rounds of sliding curves and taking their mean as the template
@@ -124,6 +124,7 @@ first_template <- function(shapes, template, rounds, call = rlang::caller_env())
 #' @noRd
 mean_curves <- function(states, template, settings, tolerance, rounds) {
   table <- list()
+  moved <- Inf
   for (round in seq_len(rounds)) {
     plan <- slide_plan(template, settings)
     slid <- lapply(states, slide_curves, plan)
@@ -147,51 +148,74 @@ warn_moving <- function(rounds, moved) {
 }
 
 distance_slid <- function(states, slid) {
-  off <- Map(function(state, x) Map(function(curve, s) s - curve$s, state$curves, x$s), states, slid)
+  off <- Map(function(state, x) Map(function(curve, s) (s - curve$s)[curve$rows[, "point"]], state$curves, x$s), states, slid)
   sqrt(mean(unlist(off)^2))
 }
 
 #' Positions of landmarks and curve points, every curve re-parametrised by the sample's mean share of arc length
 #'
-#' @return List of matrices, a row a place (NA: surface).
+#' Shares are counted from the curve's last point, of the length that the scheme keeps, so that a cut end has its mean place too.
+#' @return List of matrices, a row a place.
 #' @noRd
 gauge_fixed <- function(states, slid) {
-  places <- rownames(states[[1]]$store)
-  core <- unique(unlist(lapply(states, function(state) lapply(state$curves, `[[`, "place")), use.names = FALSE))
-  core <- union(core, grep("^landmarks[|]", places, value = TRUE))
-  x <- lapply(slid, function(one) without_rows(one$x, !places %in% core))
+  x <- lapply(slid, `[[`, "x")
   for (name in unique(unlist(lapply(states, function(state) names(state$curves))))) {
     with <- which(vapply(states, function(state) name %in% names(state$curves), NA))
-    share <- vapply(with, function(i) slid[[i]]$s[[name]] / states[[i]]$curves[[name]]$length,
-                    numeric(states[[with[1]]]$curves[[name]]$n))
-    mean <- rowMeans(share)
+    curves <- lapply(states[with], function(state) state$curves[[name]])
+    even <- even_places(curves, lapply(slid[with], function(one) one$s[[name]]))
     for (i in seq_along(with)) {
-      curve <- states[[with[i]]]$curves[[name]]
-      even <- stats::approx(mean, share[, i], seq(0, 1, length.out = curve$n))$y
-      inner <- -c(1, curve$n)
-      x[[with[i]]][curve$place[inner], ] <- points_along(curve$path, even[inner] * curve$length)
+      at <- which(!is.na(even[[i]]))
+      x[[with[i]]][curves[[i]]$place[at], ] <- points_along(curves[[i]]$path, even[[i]][at])
     }
   }
   x
 }
 
-without_rows <- function(x, rows) {
-  x[rows, ] <- NA
-  x
+#' Arc lengths at which points stand evenly in the mean over specimens
+#'
+#' @param curves List of one curve's states.
+#' @param s List of its arc lengths after sliding.
+#' @return List of arc lengths, NA where missing and at fixed ends.
+#' @noRd
+even_places <- function(curves, s) {
+  n <- curves[[1]]$n
+  share <- mapply(function(curve, s) (attr(curve$path, "length") - s) / curve$kept, curves, s)
+  mean <- rowMeans(matrix(share, n), na.rm = TRUE)
+  aim <- seq(1, 0, length.out = n)
+  lapply(seq_along(curves), function(i) {
+    curve <- curves[[i]]
+    known <- !is.na(s[[i]])
+    at <- curve$rows[, "point"]
+    even <- rep(NA_real_, n)
+    if (sum(known) > 1) even[at] <- line_through(mean[known], s[[i]][known], aim[at])
+    pmin(pmax(even, 0), attr(curve$path, "length"))
+  })
+}
+
+#' Linear interpolation, going on straight beyond the first of decreasing x
+#' @noRd
+line_through <- function(x, y, at) {
+  inside <- stats::approx(rev(x), rev(y), at, rule = 2, ties = "ordered")$y
+  beyond <- at > x[1]
+  inside[beyond] <- y[1] + (at[beyond] - x[1]) * (y[2] - y[1]) / (x[2] - x[1])
+  inside
 }
 
 #' The mean, symmetric where the scheme has pairs, laid onto the template before
 #' @noRd
 mean_template <- function(before, x, scheme) {
-  mean <- procrustes_mean(x, before)
+  core <- rownames(before) %in% scheme$points$place[scheme$points$level != "surface"]
+  mean <- procrustes_mean(lapply(x, only_rows, core), only_rows(before, core))
   if (has_pairs(scheme)) mean <- symmetric_mean(mean, mirror_places(scheme), "mean")
   laid_onto(mean, before, scale = FALSE)
 }
 
+only_rows <- function(x, rows) replace(x, !rows, NA)
+
 #' The template with the mean of the specimens' surface points, each laid onto it by landmarks and curves
 #' @noRd
 with_mean_surface <- function(template, stores) {
-  xyz <- slide_state(template)$store[, c("x", "y", "z")]
+  xyz <- places_of(template)
   core <- !is.na(xyz[, 1])
   laid <- lapply(stores, function(store) {
     own <- store[, c("x", "y", "z")]

@@ -110,7 +110,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
     list(id = specimen$id, points = shape_points(scheme$points, patches$store),
          status = shape_status(scheme, landmarks$reason, fits, patches$problems),
          paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme,
-         tracks = curve_tracks(fits, scheme), column = column, specimen = scan),
+         tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan),
     class = "shape"
   )
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)

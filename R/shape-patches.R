@@ -157,7 +157,8 @@ column_outside <- function(a, b, at, outward) {
 #' @param rows Points of a column, the ends among them.
 #' @param inside As in [path_ends()].
 #' @param rim Angle in radians between the normals at the ends and the outside above which the ends lie on a sharp rim.
-#' @return List: `points` (list of rows x 7 matrices), `problem` (NA where the column is there).
+#' @return List: `points` (list of rows x 7 matrices), `cuts` (list of matrices s, x, y, z, face: what the points lie on),
+#'   `problem` (NA where the column is there).
 #' @noRd
 fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6, rim = pi / 4) {
   at <- c("face", "w1", "w2", "w3")
@@ -168,7 +169,7 @@ fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6,
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
   why[same] <- "its ends are the same point"
-  list(points = lapply(found$points, `colnames<-`, mesh_columns), problem = why)
+  list(points = lapply(found$points, `colnames<-`, mesh_columns), cuts = found$cuts, problem = why)
 }
 
 column_problems <- c(

@@ -3,7 +3,8 @@
 #' Slide the points of a shape until they are homologous to a template's
 #'
 #' Points of curves slide along their own curve, then points of patches over the surface, each to where the bending energy from
-#' the template (and a strain of the spacings) is least; landmarks and the ends of curves stay. One point at a time is taken to its exact
+#' the template (and a strain of the spacings) is least; landmarks stay, and the ends of curves with them. Where the scheme cuts a curve off there is
+#' no landmark: that end slides along the whole curve too. One point at a time is taken to its exact
 #' minimiser, in turn, until none moves: the energy never rises, and points keep their order and a gap. Points never leave
 #' the mesh.
 #'
@@ -42,7 +43,7 @@ slide <- function(shape, template, settings = slide_settings(), specimen = shape
   check_same_scheme(shape, template)
   specimen <- kept_specimen(shape, specimen)
   plan <- slide_plan(template, settings)
-  state <- slide_state(shape)
+  state <- slide_state(shape, settings)
   cut <- cut_between_slid(shape, state, slide_curves(state, plan), specimen)
   finish_slide(shape, cut, plan, specimen)
 }
@@ -62,33 +63,31 @@ kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
 #' The patches cut anew between slid curves
 #'
 #' @param curves As of [slide_curves()].
-#' @return List: `curves`, `fits` (see [slid_fits()]), `store` (all places).
+#' @return List: `curves`, `fits` (slid curves as [fit_scheme_patches()] takes them), `store` (all places).
 #' @noRd
 cut_between_slid <- function(shape, state, curves, specimen) {
-  fits <- slid_fits(state, curves$s)
-  store <- curves_placed(state, curves$s, specimen$mesh)
-  list(curves = curves, fits = fits, store = between_curves(cutting_of(shape, fits, specimen), store))
+  fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s, state$curves)
+  cutting <- cutting_of(shape, fits, specimen)
+  list(curves = curves, fits = fits, store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
 }
 
+#' @return List: `fits`, `column`, `specimen`, `bridged`, `scheme`, as [fit_scheme_patches()] takes them.
+#' @noRd
 cutting_of <- function(shape, fits, specimen) {
-  list(fits = fits, column = c(shape$column, follow = TRUE), specimen = specimen, scheme = shape$scheme)
+  list(fits = fits, column = c(shape$column, follow = TRUE), specimen = specimen,
+       bridged = bridge_holes(specimen, shape$column$bridge), scheme = shape$scheme)
 }
 
 #' Surface points slid, and the record
 #' @param cut As of [cut_between_slid()].
 #' @noRd
 finish_slide <- function(shape, cut, plan, specimen) {
-  surface <- slide_surface(cut$store, cutting_of(shape, cut$fits, specimen), plan)
-  shape <- with_places(shape, surface$store)
+  cutting <- cutting_of(shape, cut$fits, specimen)
+  surface <- slide_surface(cut$store, cutting, plan)
+  shape <- with_tracks(with_places(shape, surface$store), cut$curves$s, cutting)
   shape$sliding <- rbind(cut$curves$sliding, surface$sliding)
   shape$trace <- c(cut$curves$trace, surface$trace)
   shape
-}
-
-#' Slid curves as [fit_scheme_patches()] takes them
-#' @noRd
-slid_fits <- function(state, s) {
-  Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), s, state$curves[names(s)])
 }
 
 #' A shape with its points as in a store of places
@@ -100,49 +99,67 @@ with_places <- function(shape, store) {
   shape
 }
 
-#' The places of a shape, and the curves that can slide: each with its polyline and the places of its points there
-#'
-#' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves` (list by name, of those that are there:
-#'   `place`, `s`, `path` (`mesh_path`), `track` (matrix s, x, y, z), `length`, `n`).
+#' A shape with its curves' points at new places of their tracks; the paths of cut ends that have slid are as long as that
 #' @noRd
-slide_state <- function(shape) {
+with_tracks <- function(shape, s, cutting) {
+  for (name in names(s)) {
+    track <- shape$tracks[[name]]
+    moved <- !identical(min(s[[name]], na.rm = TRUE), min(track$s, na.rm = TRUE))
+    shape$tracks[[name]]$s <- s[[name]]
+    if (!moved) next
+    length <- attr(track$path, "length")
+    path <- part_of_path(cutting$bridged$mesh, track$path, min(s[[name]], na.rm = TRUE), length)
+    shape$paths[[name]] <- unbridged_path(path, cutting$specimen$mesh)
+    shape$status$length[shape$status$level == "curves" & shape$status$part == name] <- attr(path, "length")
+  }
+  shape
+}
+
+#' The places of a shape, and the curves that can slide
+#'
+#' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves` (list by name: `place`, `n`,
+#'   `s` (NA where missing), `path` (`mesh_path`), `track` (matrix s, x, y, z, face; face 0 over holes), `kept` (length that the scheme
+#'   keeps), `rows` (of [slider_rows()])).
+#' @noRd
+slide_state <- function(shape, settings) {
   points <- shape$points
   place <- shape$scheme$points$place
   first <- !duplicated(place)
   store <- columns_of(points, c(mesh_columns, "se"))[first, ]
   rownames(store) <- place[first]
   of_curve <- split(place[points$level == "curves"], points$part[points$level == "curves"])
-  names <- Filter(function(name) is_whole(shape$paths[[name]], store[of_curve[[name]], "x"]), names(shape$paths))
-  curves <- lapply(stats::setNames(names, names), function(name) {
-    curve_state(shape$paths[[name]], of_curve[[name]], store, name, shape$id)
-  })
+  curves <- Map(function(track, name) curve_state(track, of_curve[[name]], settings), shape$tracks, names(shape$tracks))
   list(id = shape$id, store = store, curves = curves)
 }
 
-is_whole <- function(path, x) !is.null(path) && !anyNA(x)
-
-curve_state <- function(path, place, store, name, id) {
-  track <- columns_of(path, c("s", "x", "y", "z"))
-  s <- path_places(track, store[place, c("x", "y", "z"), drop = FALSE])
-  s[c(1, length(s))] <- c(0, attr(path, "length"))
-  if (any(diff(s) <= 0)) {
-    crestline_abort(sprintf("the points of %s are not in order along it.", name), "Fit the shape again.", stage = "slide", id = id)
-  }
-  list(place = place, s = s, path = path, track = track, length = attr(path, "length"), n = length(s))
+curve_state <- function(track, place, settings) {
+  path <- track$path
+  n <- length(place)
+  nodes <- columns_of(path, c("s", "x", "y", "z", "face"))
+  nodes[track$off, "face"] <- 0
+  free_end <- track$cut && settings$cut_ends == "slide"
+  slides <- seq_len(n) < n & (seq_len(n) > 1 | free_end)
+  rows <- slider_rows(track$s, slides, track$kept / (n - 1), attr(path, "length"), settings)
+  list(place = place, n = n, s = track$s, path = path, track = nodes, kept = track$kept, rows = rows)
 }
 
-#' Arc lengths of the places of a polyline that are nearest to points
+#' Sliders of one path, as the kernel takes them
+#'
+#' @param s Arc lengths of its points in order, NA where missing.
+#' @param slides Which of them slide.
+#' @param spacing Spacing at rest between neighbours.
+#' @return Matrix with a row a slider; `point`: its number on the path.
 #' @noRd
-path_places <- function(track, xyz) {
-  a <- track[-nrow(track), , drop = FALSE]
-  step <- diff(track)
-  length2 <- pmax(rowSums(step[, -1, drop = FALSE]^2), .Machine$double.xmin)
-  apply(xyz, 1, function(p) {
-    rel <- rep(p, each = nrow(a)) - a[, -1, drop = FALSE]
-    share <- pmin(pmax(rowSums(rel * step[, -1, drop = FALSE]) / length2, 0), 1)
-    nearest <- which.min(rowSums((rel - share * step[, -1, drop = FALSE])^2))
-    a[nearest, 1] + share[nearest] * step[nearest, 1]
-  })
+slider_rows <- function(s, slides, spacing, length, settings) {
+  there <- which(!is.na(s))
+  at <- which(slides & !is.na(s))
+  before <- c(NA, there)[match(at, there)]
+  after <- c(there, NA)[match(at, there) + 1]
+  number <- function(point) match(point, at, nomatch = 0)
+  cbind(point = at, track = rep(1, length(at)), s = s[at], before = number(before), after = number(after),
+        low = ifelse(is.na(before), 0, s[before]), high = ifelse(is.na(after), length, s[after]),
+        rest_before = (at - before) * spacing, rest_after = (after - at) * spacing,
+        gap = rep(settings$gap * spacing, length(at)), tolerance = rep(settings$tolerance * spacing, length(at)))
 }
 
 #' Slide all curves of a specimen
@@ -159,20 +176,33 @@ slide_curves <- function(state, plan) {
     x[set$places, ] <- slid$x
     trace[[set$name]] <- slid$trace
   }
-  longest <- vapply(names(s), function(name) max(abs(s[[name]] - state$curves[[name]]$s)), 0)
+  longest <- vapply(names(s), function(name) max(0, abs(s[[name]] - state$curves[[name]]$s), na.rm = TRUE), 0)
   list(s = s, x = x, trace = lapply(trace, trace_table), sliding = sliding_table(trace, "curves", longest))
 }
 
 slide_set <- function(set, state, plan) {
   settings <- plan$settings
   curves <- state$curves[set$curves]
-  rows <- set$rows
-  rows[, "s"] <- unlist(lapply(curves, function(curve) curve$s[-c(1, curve$n)]))
-  rows[, "rest"] <- (vapply(curves, `[[`, 0, "length") / (vapply(curves, `[[`, 0L, "n") - 1))[rows[, "path"]]
-  slid <- cpp_slide_on_paths(set$b, state$store[set$places, c("x", "y", "z"), drop = FALSE], lapply(curves, `[[`, "track"), rows,
-                             settings$strain * mean(diag(set$b)), settings$gap, settings$tolerance, settings$sweeps)
-  s <- Map(function(curve, inner) c(0, inner, curve$length), curves, split(slid$s, factor(rows[, "path"], seq_along(curves))))
+  rows <- stack_rows(Map(function(curve, points) {
+    curve$rows[, "point"] <- points[curve$rows[, "point"]]
+    curve$rows
+  }, curves, set$points))
+  slid <- cpp_slide_on_tracks(set$b, state$store[set$places, c("x", "y", "z"), drop = FALSE], lapply(curves, `[[`, "track"),
+                              rows, settings$strain * mean(diag(set$b)), settings$sweeps)
+  own <- split(slid$s, factor(rows[, "track"], seq_along(curves)))
+  s <- Map(function(curve, own) replace(curve$s, curve$rows[, "point"], own), curves, own)
   list(s = s, x = slid$x, trace = c(slid$trace, points = nrow(rows)))
+}
+
+#' Sliders of several paths, their neighbours and tracks counted through
+#' @noRd
+stack_rows <- function(rows) {
+  offset <- cumsum(c(0, vapply(rows, nrow, 0L)))[seq_along(rows)]
+  do.call(rbind, unname(Map(function(rows, offset, track) {
+    rows[, "track"] <- track
+    for (side in c("before", "after")) rows[, side] <- ifelse(rows[, side] == 0, 0, rows[, side] + offset)
+    rows
+  }, rows, offset, seq_along(rows))))
 }
 
 trace_table <- function(trace) {
@@ -196,19 +226,12 @@ curves_placed <- function(state, s, mesh) {
   store <- state$store
   for (name in names(s)) {
     curve <- state$curves[[name]]
-    inner <- -c(1, curve$n)
-    if (curve$n < 3) next
-    placed <- place_along(mesh, curve$path, s[[name]][inner])
-    store[curve$place[inner], mesh_columns] <- columns_of(placed)
+    at <- curve$rows[, "point"]
+    if (!length(at)) next
+    store[curve$place[at], mesh_columns] <- columns_of(place_along(mesh, curve$path, s[[name]][at]))
     se <- store[curve$place, "se"]
-    if (!anyNA(se[inner])) store[curve$place[inner], "se"] <- approx_open(curve$s, se, s[[name]][inner])
+    known <- !is.na(se) & !is.na(curve$s)
+    if (sum(known) > 1) store[curve$place[at], "se"] <- stats::approx(curve$s[known], se[known], s[[name]][at], rule = 2)$y
   }
   store
-}
-
-#' Linear interpolation between those values that are not NA
-#' @noRd
-approx_open <- function(x, y, at) {
-  if (sum(!is.na(y)) < 2) return(rep(y[!is.na(y)][1], length(at)))
-  stats::approx(x, y, at, rule = 2)$y
 }

@@ -2,14 +2,15 @@
 
 #' The patches between slid curves
 #'
-#' @param cutting List: `fits` (curves as [fit_scheme_patches()] takes them), `column`, `specimen`, `scheme`.
+#' @param cutting As of [cutting_of()].
 #' @param store As of [curves_placed()].
 #' @return The store with all places of patches, those that could not be cut NA.
 #' @noRd
 between_curves <- function(cutting, store) {
   points <- cutting$scheme$points
   store[setdiff(points$place, points$place[points$level != "surface"]), ] <- NA
-  fit_scheme_patches(cutting$specimen, cutting$scheme, cutting$fits, store, cutting$column, function() NULL)$store
+  fit_scheme_patches(cutting$bridged, cutting$specimen, cutting$scheme, cutting$fits, store, cutting$column,
+                     function() NULL)$store
 }
 
 #' Slide the points inside patches
@@ -87,50 +88,73 @@ slide_free <- function(set, store, specimen, plan) {
 #' Slide a set along the cuts that its points were made on
 #' @noRd
 slide_transects <- function(set, store, cutting, plan) {
-  cuts <- transects(set, store, cutting)
-  settings <- plan$settings
-  slid <- cpp_slide_on_paths(set$b, store[set$places, c("x", "y", "z"), drop = FALSE], lapply(cuts, `[[`, "track"),
-                             stack_rows(lapply(cuts, `[[`, "rows")), 0, settings$gap, settings$tolerance, settings$sweeps)
-  at <- split(slid$s, rep(seq_along(cuts), lengths(lapply(cuts, `[[`, "place"))))
+  cuts <- transects(set, store, cutting, plan$settings)
+  if (!length(cuts)) return(list(store = store, trace = NULL))
+  rows <- stack_rows(lapply(cuts, `[[`, "rows"))
+  slid <- cpp_slide_on_tracks(set$b, store[set$places, c("x", "y", "z"), drop = FALSE], lapply(cuts, `[[`, "track"), rows, 0,
+                              plan$settings$sweeps)
+  at <- split(slid$s, rows[, "track"])
+  mesh <- cutting$specimen$mesh
   for (i in seq_along(cuts)) {
-    placed <- place_along(cutting$specimen$mesh, cuts[[i]]$path, at[[i]])
-    store[cuts[[i]]$place, mesh_columns] <- columns_of(placed)
+    track <- cuts[[i]]$track
+    store[cuts[[i]]$place, mesh_columns] <- cpp_place_along(mesh$vb, mesh$it, track[, 2:4], track[, 1], track[, 5], at[[i]])
   }
   list(store = store, trace = c(slid$trace, points = length(slid$s)))
 }
 
 #' The cuts that the free points of a set were made on
 #'
-#' @return List of cuts: `place` (of the free points, in order), `path`, `track` (matrix s, x, y, z), `rows` (matrix for the kernel).
+#' @return List of cuts: `place` (of the free points, in order), `track` and `rows` (as the kernel takes them).
 #' @noRd
-transects <- function(set, store, cutting) {
-  surface <- walkable(cutting$specimen)
+transects <- function(set, store, cutting, settings) {
+  surface <- walkable(cutting$bridged)
   patches <- cutting$scheme$patches
   places <- split(cutting$scheme$points$place[cutting$scheme$points$level == "surface"],
                   rep(seq_len(nrow(patches)), patches$n))
-  cuts <- list()
-  for (i in which(vapply(places, function(place) any(place %in% set$free), NA))) {
-    block <- patches[i, ]
-    grid <- cbind(block_points(block), place = places[[i]])
-    grid <- grid[grid$place %in% set$free, ]
-    side <- function(text, resample) {
-      block_side(text, resample, cutting$specimen, surface, cutting$scheme$curves, cutting$fits, store, cutting$column)$points
-    }
-    a <- side(block$curve_a, block$resample_a)
-    b <- side(block$curve_b, block$resample_b)
-    for (rows in split(grid, grid$column)) {
-      column <- rows$column[1]
-      path <- cut_between(a[column, ], b[column, ], cutting$specimen, surface, cutting$column)
-      cuts[[length(cuts) + 1]] <- transect(rows$place, path, store, set$places, length(cuts) + 1, block$rows)
-    }
-  }
-  cuts
+  each <- lapply(which(vapply(places, function(place) any(place %in% set$free), NA)), function(i) {
+    grid <- cbind(block_points(patches[i, ]), place = places[[i]])
+    block_transects(patches[i, ], grid[grid$place %in% set$free, ], set, store, surface, cutting, settings)
+  })
+  unlist(each, recursive = FALSE)
 }
 
-transect <- function(place, path, store, places, number, rows) {
-  track <- columns_of(path, c("s", "x", "y", "z"))
-  s <- path_places(track, store[place, c("x", "y", "z"), drop = FALSE])
-  list(place = place, path = path, track = track,
-       rows = cbind(point = match(place, places), path = number, s = s, link_rows(length(place)),
-                    rest = attr(path, "length") / (rows - 1)))
+#' The cuts of one block with free points
+#'
+#' @param grid Its free points, as of [block_points()] with their places.
+#' @noRd
+block_transects <- function(block, grid, set, store, surface, cutting, settings) {
+  side <- function(text, resample) {
+    block_side(text, resample, cutting$bridged, surface, cutting$scheme$curves, cutting$fits, store, cutting$column)$points
+  }
+  a <- side(block$curve_a, block$resample_a)
+  b <- side(block$curve_b, block$resample_b)
+  lapply(split(grid, grid$column), function(rows) {
+    column <- rows$column[1]
+    outside <- as.matrix(column_outside(a, b, column, block$outward))
+    made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside, block$rows, surface, cutting$column)
+    track <- made$cuts[[1]]
+    length <- track[nrow(track), 1]
+    s <- rep(NA_real_, block$rows)
+    s[c(1, rows$row, block$rows)] <- c(0, path_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length)
+    sliders <- slider_rows(s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length, settings)
+    sliders[, "point"] <- match(rows$place, set$places)
+    on_mesh <- track[, 5] <= ncol(cutting$specimen$mesh$it)
+    list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)), rows = sliders)
+  })
+}
+
+#' Arc lengths of the places of a polyline that are nearest to points
+#'
+#' @param track Matrix s, x, y, z, ...
+#' @noRd
+path_places <- function(track, xyz) {
+  a <- track[-nrow(track), 2:4, drop = FALSE]
+  step <- diff(track[, 2:4])
+  length2 <- pmax(rowSums(step^2), .Machine$double.xmin)
+  apply(xyz, 1, function(p) {
+    rel <- rep(p, each = nrow(a)) - a
+    share <- pmin(pmax(rowSums(rel * step) / length2, 0), 1)
+    nearest <- which.min(rowSums((rel - share * step)^2))
+    track[nearest, 1] + share[nearest] * (track[nearest + 1, 1] - track[nearest, 1])
+  })
 }

@@ -26,12 +26,8 @@
 #' @export
 symmetrise <- function(shape) {
   check_class(shape, "shape", "shape", "fit_shape()")
-  place <- shape$scheme$points$place
-  first <- !duplicated(place)
-  xyz <- as.matrix(shape$points[first, c("x", "y", "z")])
-  partner <- mirror_places(shape$scheme)
-  mean <- symmetric_mean(xyz, partner, shape$id)
-  template_shape(shape, structure(mean, dimnames = list(place[first], c("x", "y", "z"))), paste(shape$id, "symmetrised"))
+  mean <- symmetric_mean(places_of(shape), mirror_places(shape$scheme), shape$id)
+  template_shape(shape, mean, paste(shape$id, "symmetrised"))
 }
 
 #' @rdname symmetrise

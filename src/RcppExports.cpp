@@ -282,9 +282,9 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_slide_on_paths
-List cpp_slide_on_paths(NumericMatrix b, NumericMatrix x, List paths, NumericMatrix rows, double strain, double gap, double tolerance, int sweeps);
-RcppExport SEXP _crestline_cpp_slide_on_paths(SEXP bSEXP, SEXP xSEXP, SEXP pathsSEXP, SEXP rowsSEXP, SEXP strainSEXP, SEXP gapSEXP, SEXP toleranceSEXP, SEXP sweepsSEXP) {
+// cpp_slide_on_tracks
+List cpp_slide_on_tracks(NumericMatrix b, NumericMatrix x, List paths, NumericMatrix rows, double strain, int sweeps);
+RcppExport SEXP _crestline_cpp_slide_on_tracks(SEXP bSEXP, SEXP xSEXP, SEXP pathsSEXP, SEXP rowsSEXP, SEXP strainSEXP, SEXP sweepsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -293,10 +293,8 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< List >::type paths(pathsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type rows(rowsSEXP);
     Rcpp::traits::input_parameter< double >::type strain(strainSEXP);
-    Rcpp::traits::input_parameter< double >::type gap(gapSEXP);
-    Rcpp::traits::input_parameter< double >::type tolerance(toleranceSEXP);
     Rcpp::traits::input_parameter< int >::type sweeps(sweepsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_slide_on_paths(b, x, paths, rows, strain, gap, tolerance, sweeps));
+    rcpp_result_gen = Rcpp::wrap(cpp_slide_on_tracks(b, x, paths, rows, strain, sweeps));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -339,7 +337,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
     {"_crestline_cpp_tensor_moments", (DL_FUNC) &_crestline_cpp_tensor_moments, 3},
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
-    {"_crestline_cpp_slide_on_paths", (DL_FUNC) &_crestline_cpp_slide_on_paths, 8},
+    {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
     {NULL, NULL, 0}
 };

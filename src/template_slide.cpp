@@ -3,43 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "template_form.h"
+
 namespace crestline {
 
 namespace {
-
-// The configuration with its form's gradient b x, kept up to date.
-struct Configuration {
-  const double* b;
-  int n;
-  double* x;
-  std::vector<double> gradient;
-
-  Configuration(const double* b, int n, double* x) : b(b), n(n), x(x), gradient(3 * n) { refresh(); }
-
-  const double* column(int point) const { return b + static_cast<std::size_t>(n) * point; }
-
-  void refresh() {
-    std::fill(gradient.begin(), gradient.end(), 0.0);
-    for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) gradient[k * n + i] += column(j)[i] * x[k * n + j];
-  }
-
-  void move(int point, const double* to) {
-    const double* weight = column(point);
-    for (int k = 0; k < 3; ++k) {
-      double step = to[k] - x[k * n + point];
-      for (int i = 0; i < n; ++i) gradient[k * n + i] += weight[i] * step;
-      x[k * n + point] = to[k];
-    }
-  }
-
-  double energy() const {
-    double sum = 0;
-    for (int i = 0; i < 3 * n; ++i) sum += x[i] * gradient[i];
-    return sum;
-  }
-};
 
 struct Place {
   double s;
@@ -47,24 +15,24 @@ struct Place {
   double value;
 };
 
-// The function that one slider minimises: weight |x - centre|^2 + strain ((s - from - rest)^2 + (to - s - rest)^2).
+// What one slider minimises: weight |x - centre|^2 + before (s - low)^2 + after (high - s)^2, low and high being where the
+// spacings to its neighbours are at rest.
 struct Objective {
-  double weight, strain, centre[3], from, to, rest;
+  double weight, centre[3], before, low, after, high;
 
   double at(double s, const double* x) const {
     double off = 0;
     for (int k = 0; k < 3; ++k) off += (x[k] - centre[k]) * (x[k] - centre[k]);
-    double left = s - from - rest, right = to - s - rest;
-    return weight * off + strain * (left * left + right * right);
+    return weight * off + before * (s - low) * (s - low) + after * (high - s) * (high - s);
   }
 
-  // The minimiser on segment i of the path, within [low, high].
-  Place on_segment(const Track& path, int i, double low, double high) const {
-    const double *a = &path.xyz[3 * i], *z = a + 3;
-    double start = path.s[i], length = path.s[i + 1] - start, along = 0;
+  // The minimiser on the segment from node i, within [from, to].
+  Place on_segment(const Track& track, int i, double from, double to) const {
+    const double *a = &track.xyz[3 * i], *z = a + 3;
+    double start = track.s[i], length = track.s[i + 1] - start, along = 0;
     for (int k = 0; k < 3 && length > 0; ++k) along += (centre[k] - a[k]) * (z[k] - a[k]) / length;
-    double s = (weight * (start + along) + strain * (from + to)) / (weight + 2 * strain);
-    s = std::min(std::max(s, std::max(low, start)), std::min(high, path.s[i + 1]));
+    double s = (weight * (start + along) + before * low + after * high) / (weight + before + after);
+    s = std::min(std::max(s, std::max(from, start)), std::min(to, track.s[i + 1]));
     Place out;
     out.s = s;
     double share = length > 0 ? (s - start) / length : 0;
@@ -73,62 +41,62 @@ struct Objective {
     return out;
   }
 
-  Place minimiser(const Track& path, double low, double high) const {
-    int last = static_cast<int>(path.s.size()) - 2;
-    int i = static_cast<int>(std::upper_bound(path.s.begin(), path.s.end(), low) - path.s.begin()) - 1;
-    i = std::min(std::max(i, 0), last);
-    Place best = on_segment(path, i, low, high);
-    for (++i; i <= last && path.s[i] < high; ++i) {
-      Place here = on_segment(path, i, low, high);
-      if (here.value < best.value) best = here;
+  // The best place within [from, to] on the mesh, or `here` if there is no better one.
+  Place minimiser(const Track& track, double from, double to, Place here) const {
+    int last = static_cast<int>(track.s.size()) - 2;
+    int i = static_cast<int>(std::upper_bound(track.s.begin(), track.s.end(), from) - track.s.begin()) - 1;
+    for (i = std::min(std::max(i, 0), last); i <= last && (track.s[i] < to || track.s[i] <= from); ++i) {
+      if (track.face[i + 1] < 0) continue;
+      Place there = on_segment(track, i, from, to);
+      if (there.value < here.value) here = there;
     }
-    return best;
+    return here;
   }
 };
 
-double place_before(const std::vector<Slider>& sliders, const std::vector<Track>& paths, const Slider& p) {
-  return p.before < 0 ? paths[p.path].s.front() : sliders[p.before].s;
+double place_before(const std::vector<Slider>& sliders, const Slider& p) {
+  return p.before < 0 ? p.low : sliders[p.before].s;
 }
 
-double place_after(const std::vector<Slider>& sliders, const std::vector<Track>& paths, const Slider& p) {
-  return p.after < 0 ? paths[p.path].s.back() : sliders[p.after].s;
+double place_after(const std::vector<Slider>& sliders, const Slider& p) {
+  return p.after < 0 ? p.high : sliders[p.after].s;
 }
 
-// Every spacing once: those before each slider, and the last of each path.
-double strain_of(const std::vector<Slider>& sliders, const std::vector<Track>& paths, double weight) {
+// Every spacing once: those before each slider, and those after the last ones.
+double strain_of(const std::vector<Slider>& sliders, double weight) {
   double sum = 0;
   for (const Slider& p : sliders) {
-    double left = p.s - place_before(sliders, paths, p) - p.rest;
-    sum += left * left;
-    if (p.after >= 0) continue;
-    double right = place_after(sliders, paths, p) - p.s - p.rest;
-    sum += right * right;
+    double left = p.s - place_before(sliders, p) - p.rest_before;
+    double right = place_after(sliders, p) - p.s - p.rest_after;
+    if (!std::isnan(left)) sum += left * left;
+    if (p.after < 0 && !std::isnan(right)) sum += right * right;
   }
   return weight * sum;
 }
 
 // Slides one point; returns how far, as arc length.
-double slide_one(Configuration& form, const std::vector<Track>& paths, std::vector<Slider>& sliders, int j,
-                 const SlideSettings& settings) {
+double slide_one(QuadraticForm& form, const std::vector<Track>& tracks, std::vector<Slider>& sliders, int j,
+                 double strain) {
   Slider& p = sliders[j];
-  const Track& path = paths[p.path];
   Objective goal;
-  goal.weight = form.column(p.point)[p.point];
-  goal.strain = settings.strain;
-  if (!(goal.weight + goal.strain > 0)) return 0;
-  double here[3];
-  for (int k = 0; k < 3; ++k) {
-    int at = k * form.n + p.point;
-    here[k] = form.x[at];
-    goal.centre[k] = goal.weight > 0 ? here[k] - form.gradient[at] / goal.weight : here[k];
-  }
-  goal.from = place_before(sliders, paths, p);
-  goal.to = place_after(sliders, paths, p);
-  goal.rest = p.rest;
-  double gap = settings.gap * p.rest;
-  Place best = goal.minimiser(path, std::min(p.s, goal.from + gap), std::max(p.s, goal.to - gap));
-  if (!(best.value < goal.at(p.s, here))) return 0;
+  goal.weight = form.weight(p.point);
+  form.minimiser(p.point, goal.centre);
+  double from = place_before(sliders, p), to = place_after(sliders, p);
+  bool free_before = std::isnan(p.rest_before), free_after = std::isnan(p.rest_after);
+  goal.before = free_before ? 0 : strain;
+  goal.low = free_before ? 0 : from + p.rest_before;
+  goal.after = free_after ? 0 : strain;
+  goal.high = free_after ? 0 : to - p.rest_after;
+  if (!(goal.weight + goal.before + goal.after > 0)) return 0;
+  Place here;
+  here.s = p.s;
+  form.position(p.point, here.xyz);
+  here.value = goal.at(p.s, here.xyz);
+  from = std::min(p.s, from + (free_before ? 0 : p.gap));
+  to = std::max(p.s, to - (free_after ? 0 : p.gap));
+  Place best = goal.minimiser(tracks[p.track], from, to, here);
   double moved = std::fabs(best.s - p.s);
+  if (moved == 0) return 0;
   p.s = best.s;
   form.move(p.point, best.xyz);
   return moved;
@@ -136,14 +104,14 @@ double slide_one(Configuration& form, const std::vector<Track>& paths, std::vect
 
 }  // namespace
 
-SlideTrace slide_on_paths(const double* b, int n, double* x, const std::vector<Track>& paths,
-                          std::vector<Slider>& sliders, const SlideSettings& settings,
-                          const std::function<void()>& pause) {
-  Configuration form(b, n, x);
+SlideTrace slide_on_tracks(const double* b, int n, double* x, const std::vector<Track>& tracks,
+                           std::vector<Slider>& sliders, const SlideSettings& settings,
+                           const std::function<void()>& pause) {
+  QuadraticForm form(b, n, x, nullptr);
   SlideTrace trace;
   auto note = [&](double longest) {
-    trace.energy.push_back(form.energy());
-    trace.strain.push_back(strain_of(sliders, paths, settings.strain));
+    trace.energy.push_back(form.value());
+    trace.strain.push_back(strain_of(sliders, settings.strain));
     trace.longest.push_back(longest);
   };
   note(0);
@@ -151,9 +119,9 @@ SlideTrace slide_on_paths(const double* b, int n, double* x, const std::vector<T
     double longest = 0;
     trace.converged = true;
     for (std::size_t j = 0; j < sliders.size(); ++j) {
-      double moved = slide_one(form, paths, sliders, static_cast<int>(j), settings);
+      double moved = slide_one(form, tracks, sliders, static_cast<int>(j), settings.strain);
       longest = std::max(longest, moved);
-      if (moved > settings.tolerance * sliders[j].rest) trace.converged = false;
+      if (moved > sliders[j].tolerance) trace.converged = false;
     }
     form.refresh();
     note(longest);

@@ -3,49 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "template_form.h"
+
 namespace crestline {
 
 SlideTrace slide_on_mesh(const Triangulation& mesh, const double* b, int n, double* x, const double* held,
                          std::vector<SurfacePoint>& at, double tolerance, int sweeps,
                          const std::function<void()>& pause) {
   NearSearch search(mesh);
-  std::vector<double> gradient(3 * static_cast<std::size_t>(n));
-  auto column = [&](int j) { return b + static_cast<std::size_t>(n) * j; };
-  auto refresh = [&] {
-    std::copy(held, held + gradient.size(), gradient.begin());
-    for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) gradient[k * n + i] += column(j)[i] * x[k * n + j];
-  };
+  QuadraticForm form(b, n, x, held);
   SlideTrace trace;
   auto note = [&](double longest) {
-    double sum = 0;
-    for (std::size_t i = 0; i < gradient.size(); ++i) sum += x[i] * (gradient[i] + held[i]);
-    trace.energy.push_back(sum);
+    trace.energy.push_back(form.value());
     trace.strain.push_back(0);
     trace.longest.push_back(longest);
   };
-  refresh();
   note(0);
   while (!trace.converged && static_cast<int>(trace.longest.size()) <= sweeps) {
     double longest = 0;
     for (int j = 0; j < n; ++j) {
-      double weight = column(j)[j];
-      if (!(weight > 0)) continue;
-      double centre[3];
-      for (int k = 0; k < 3; ++k) centre[k] = x[k * n + j] - gradient[k * n + j] / weight;
-      ClosestPoint to = search.closest(at[j], centre);
-      double moved = 0;
-      for (int k = 0; k < 3; ++k) {
-        double step = to.xyz[k] - x[k * n + j];
-        moved += step * step;
-        for (int i = 0; i < n; ++i) gradient[k * n + i] += column(j)[i] * step;
-        x[k * n + j] = to.xyz[k];
-      }
+      if (!(form.weight(j) > 0)) continue;
+      double aim[3], here[3];
+      form.minimiser(j, aim);
+      form.position(j, here);
+      ClosestPoint to = search.closest(at[j], aim);
+      form.move(j, to.xyz);
       at[j] = to.at;
+      double moved = 0;
+      for (int k = 0; k < 3; ++k) moved += (to.xyz[k] - here[k]) * (to.xyz[k] - here[k]);
       longest = std::max(longest, std::sqrt(moved));
     }
-    refresh();
+    form.refresh();
     note(longest);
     trace.converged = longest < tolerance;
     pause();
