@@ -135,11 +135,19 @@ mean_curves <- function(states, template, settings, tolerance, rounds) {
     table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
                                  energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
                                  slide = distance_slid(states, slid))
-    template <- template_shape(template, after, "mean")
+    template <- template_shape(template, after, "mean", mean_error(states))
     if (max(moved) <= tolerance * plan$radius) break
   }
   if (rounds > 0 && max(moved) > tolerance * plan$radius) warn_moving(rounds, max(moved))
   list(template = template, convergence = do.call(rbind, table))
+}
+
+#' Root mean square of the standard errors of every place, NA where there is none
+#' @noRd
+mean_error <- function(states) {
+  variance <- vapply(states, function(state) state$store[, "se"]^2, states[[1]]$store[, "se"])
+  mean <- rowMeans(matrix(variance, nrow(states[[1]]$store)), na.rm = TRUE)
+  sqrt(ifelse(is.nan(mean), NA, mean))
 }
 
 warn_moving <- function(rounds, moved) {
@@ -225,5 +233,5 @@ with_mean_surface <- function(template, stores) {
   mean <- mean_of(laid)
   mean[core, ] <- xyz[core, ]
   if (has_pairs(template$scheme)) mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
-  template_shape(template, mean, "mean")
+  template_shape(template, mean, "mean", template$points$se[!duplicated(template$scheme$points$place)])
 }

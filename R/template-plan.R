@@ -2,15 +2,30 @@
 
 #' A template and settings, made ready for many specimens
 #'
-#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `radius` (RMS distance of landmarks and curve points from
-#'   their centre), `kept` (environment: sets by name and by what is missing).
+#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `radius` (RMS distance of landmarks and curve points
+#'   from their centre), `nugget` (of every place), `kept` (environment: sets by name and by what is missing).
 #' @noRd
 slide_plan <- function(template, settings) {
   points <- template$scheme$points
   xyz <- places_of(template)
   core <- xyz[points$level[!duplicated(points$place)] != "surface" & !is.na(xyz[, 1]), , drop = FALSE]
   radius <- sqrt(mean(rowSums(sweep(core, 2, colMeans(core))^2)))
-  list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius, kept = new.env(parent = emptyenv()))
+  list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
+       nugget = nugget_shares(template, settings), kept = new.env(parent = emptyenv()))
+}
+
+#' Nuggets of all places as multiples of the settings': 0 of landmarks, and 1, or as the template's standard errors squared
+#' @noRd
+nugget_shares <- function(template, settings) {
+  points <- template$scheme$points
+  first <- !duplicated(points$place)
+  share <- stats::setNames(rep(1, sum(first)), points$place[first])
+  variance <- template$points$se[first]^2
+  if (settings$nugget_by == "error" && !all(is.na(variance))) {
+    share <- ifelse(is.na(variance), share, variance / stats::median(variance, na.rm = TRUE))
+    names(share) <- points$place[first]
+  }
+  replace(share, landmark_keys(template$scheme), 0)
 }
 
 #' Positions of a shape's places
@@ -59,8 +74,7 @@ landmark_keys <- function(scheme) paste0("landmarks|", scheme$landmarks$landmark
 #' @param nugget In radii.
 #' @noRd
 set_energy <- function(places, plan, nugget) {
-  nuggets <- ifelse(places %in% landmark_keys(plan$scheme), 0, nugget * plan$radius)
-  b <- energy_matrix(plan$xyz[places, , drop = FALSE], nuggets, plan$settings$rank)
+  b <- energy_matrix(plan$xyz[places, , drop = FALSE], nugget * plan$radius * plan$nugget[places], plan$settings$rank)
   attr(b, "affine") <- NULL
   b
 }

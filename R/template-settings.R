@@ -14,6 +14,8 @@
 #'     `"own"` points (the paper); or `"all"` landmarks and curves;
 #'   * `nugget`: of curve points, in radii (20 mm on a face; landmarks have none), see [bending_energy()]: so that an error across a curve is not
 #'     bought off by moving along it;
+#'   * `nugget_by`: `"length"`, the same for all; `"error"`, this times the square of a point's standard error over the median
+#'     square, where the template has any (that of [homologise()] has: the sample's root mean square);
 #'   * `strain`: weight of the squared excess of spacings along a curve over equal ones, in means of the diagonal of the energy's matrix;
 #'   * `cut_ends`: where the scheme cuts a curve off there is no landmark; such an end `"slide"`s too, or must `"stay"` (the paper);
 #'   * `gap`: neighbours on a curve keep this share of equal spacing between them;
@@ -33,7 +35,7 @@
 #' @export
 slide_settings <- function(preset = c("crestline", "paper"), ...) {
   preset <- check_choice(preset, c("crestline", "paper"), "preset")
-  settings <- list(energy = "landmarks", nugget = 0.35, strain = 0.5, cut_ends = "slide", gap = 0.1, tolerance = 1e-5, sweeps = 1000,
+  settings <- list(energy = "landmarks", nugget = 0.35, nugget_by = "length", strain = 0.5, cut_ends = "slide", gap = 0.1, tolerance = 1e-5, sweeps = 1000,
                    surface = "mesh", surface_energy = "all", surface_nugget = 5, surface_tolerance = 1e-5,
                    surface_sweeps = 200, rank = 1e-6)
   paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect", surface_energy = "patch", surface_nugget = 0)
@@ -55,6 +57,7 @@ check_slide_settings <- function(settings) {
   check_count(settings$sweeps, "sweeps")
   check_count(settings$surface_sweeps, "surface_sweeps")
   check_choice(settings$energy, c("landmarks", "own", "all"), "energy")
+  check_choice(settings$nugget_by, c("length", "error"), "nugget_by")
   check_choice(settings$cut_ends, c("slide", "stay"), "cut_ends")
   check_choice(settings$surface, c("mesh", "transect", "between"), "surface")
   check_choice(settings$surface_energy, c("all", "patch"), "surface_energy")

@@ -135,7 +135,7 @@ block_transects <- function(block, grid, set, store, surface, cutting, settings)
     track <- made$cuts[[1]]
     length <- track[nrow(track), 1]
     s <- rep(NA_real_, block$rows)
-    s[c(1, rows$row, block$rows)] <- c(0, path_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length)
+    s[c(1, rows$row, block$rows)] <- c(0, track_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length)
     sliders <- slider_rows(s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length, settings)
     sliders[, "point"] <- match(rows$place, set$places)
     on_mesh <- track[, 5] <= ncol(cutting$specimen$mesh$it)
@@ -147,7 +147,7 @@ block_transects <- function(block, grid, set, store, surface, cutting, settings)
 #'
 #' @param track Matrix s, x, y, z, ...
 #' @noRd
-path_places <- function(track, xyz) {
+track_places <- function(track, xyz) {
   a <- track[-nrow(track), 2:4, drop = FALSE]
   step <- diff(track[, 2:4])
   length2 <- pmax(rowSums(step^2), .Machine$double.xmin)

@@ -84,13 +84,15 @@ symmetric_mean <- function(xyz, partner, id, by = rep(TRUE, nrow(xyz))) {
 #'
 #' @param shape The shape whose scheme it has.
 #' @param xyz Matrix with a row a place (row names).
+#' @param se Standard errors of the places.
 #' @noRd
-template_shape <- function(shape, xyz, id) {
+template_shape <- function(shape, xyz, id, se = NA_real_) {
   points <- shape$points[c("level", "part", "point")]
   points[mesh_columns] <- NA_real_
   points$face <- NA_integer_
-  points$se <- NA_real_
-  points[c("x", "y", "z")] <- as.data.frame(xyz[shape$scheme$points$place, ], row.names = FALSE)
+  row <- match(shape$scheme$points$place, rownames(xyz))
+  points$se <- rep_len(se, nrow(xyz))[row]
+  points[c("x", "y", "z")] <- as.data.frame(xyz[row, ], row.names = FALSE)
   status <- shape$status
   there <- tapply(!is.na(points$x), paste(points$level, points$part), all)
   status$ok <- as.vector(there[paste(status$level, status$part)])
