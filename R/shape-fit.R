@@ -59,7 +59,9 @@
 #'     (distance within which there are four triangles with such an angle above 30 degrees); lengths in the unit of the
 #'     mesh, Inf where there is none;
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
-#'   * `scheme`.
+#'   * `scheme`;
+#'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
+#'     shape small).
 #'
 #'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and [plot.shape()].
 #' @section What is missing: costs only its own points, which are NA; `status` says why.
@@ -94,8 +96,9 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
+  column$bridge <- check_number(bridge, "bridge", 0, 1)
   scan <- specimen
-  specimen <- bridge_holes(scan, check_number(bridge, "bridge", 0, 1))
+  specimen <- bridge_holes(scan, column$bridge)
   tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scheme, curves, column)
@@ -105,7 +108,8 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   shape <- structure(
     list(id = specimen$id, points = shape_points(scheme$points, patches$store),
          status = shape_status(scheme, landmarks$reason, fits, patches$problems),
-         paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme),
+         paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme,
+         tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan),
     class = "shape"
   )
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
