@@ -15,7 +15,8 @@
 #'   [read_landmarks()].
 #' @examples
 #' file <- tempfile(fileext = ".csv")
-#' lips <- list("upper lip" = rbind(c(0, 1, 2), c(1, 1, 3)), "lower lip" = rbind(c(0, 0, 2), c(1, 0, 3)))
+#' lips <- list("upper lip" = rbind(c(0, 1, 2), c(1, 1, 3)),
+#'              "lower lip" = rbind(c(0, 0, 2), c(1, 0, 3)))
 #' write_landmarks(NULL, file, curves = lips)
 #' read_curves(file, "lower lip")
 #' @export

@@ -35,14 +35,17 @@
 #' \donttest{
 #' mesh <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
-#' curves <- data.frame(curve = c("ab", "bc", "ac"), from = c("a", "b", "a"), to = c("b", "c", "c"), kind = "plane", n = 7)
+#' curves <- data.frame(curve = c("ab", "bc", "ac"), from = c("a", "b", "a"),
+#'                      to = c("b", "c", "c"), kind = "plane", n = 7)
 #' pairs <- data.frame(level = c("landmarks", "curves"), left = c("a", "bc"), right = c("b", "ac"))
 #' curves[2, c("from", "to")] <- c("b", "c")
-#' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, pairs = pairs, name = "triangle")
+#' landmarks <- data.frame(landmark = c("a", "b", "c"))
+#' scheme <- curve_scheme(landmarks, curves, pairs = pairs, name = "triangle")
 #' shapes <- lapply(1:3, function(i) {
 #'   one <- mesh
 #'   one$vb[1, ] <- one$vb[1, ] * (1 + i / 10)
-#'   fit_shape(specimen(one, corners %*% diag(c(1 + i / 10, 1, 1)), id = paste0("ball", i)), scheme, progress = FALSE)
+#'   own <- specimen(one, corners %*% diag(c(1 + i / 10, 1, 1)), id = paste0("ball", i))
+#'   fit_shape(own, scheme, progress = FALSE)
 #' })
 #' sample <- homologise(shapes)
 #' sample

@@ -127,6 +127,9 @@ quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", 
                      "why")
 
 #' @export
+as.data.frame.shape_quality <- function(x, ...) structure(x, class = "data.frame")
+
+#' @export
 summary.shape_quality <- function(object, ...) {
   specimen <- factor(object$specimen, unique(object$specimen))
   counts <- table(specimen, object$grade)
@@ -136,6 +139,7 @@ summary.shape_quality <- function(object, ...) {
 
 #' @export
 print.shape_quality <- function(x, most = 10, ...) {
+  if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
   counts <- summary(x)
   counts <- counts[order(-counts$red, -counts$amber), ]
   cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",

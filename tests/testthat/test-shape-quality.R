@@ -222,3 +222,10 @@ test_that("the real face: nothing red, and a hole in its cheek is seen", {
   after <- quality(holed)
   expect_equal(as.character(after$grade[after$part == "cheek-lip left"]), "red")
 })
+
+test_that("some of the columns print as the data frame that they are", {
+  graded <- quality(quad_shape())
+  expect_output(print(graded), "<shape_quality>", fixed = TRUE)
+  expect_output(print(graded[1:2, c("part", "grade")]), "part grade", fixed = TRUE)
+  expect_output(print(graded[0, c("part", "grade")]), "0 rows", fixed = TRUE)
+})
