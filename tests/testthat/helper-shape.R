@@ -49,3 +49,32 @@ two_patch_shape <- function() {
 ends_scheme <- function(...) {
   curve_scheme(data.frame(landmark = c("a", "b")), data.frame(from = "a", to = "b", ..., n = 9), name = "ends")
 }
+
+# The mirror image of a specimen in x, left and right exchanged in the landmarks' names; on request with the corners of every face
+# turned at random and the faces in another order.
+mirrored_specimen <- function(specimen, pairs, shuffled = FALSE) {
+  mesh <- specimen$mesh
+  mesh$vb[1, ] <- -mesh$vb[1, ]
+  mesh$it <- mesh$it[c(1, 3, 2), ]
+  mesh$normals <- NULL
+  if (shuffled) {
+    turn <- rep_len(0:2, ncol(mesh$it))
+    turned <- rbind(1 + turn, 1 + (turn + 1) %% 3, 1 + (turn + 2) %% 3)
+    mesh$it <- matrix(mesh$it[cbind(as.vector(turned), rep(seq_len(ncol(mesh$it)), each = 3))], 3)
+    mesh$it <- mesh$it[, order((seq_len(ncol(mesh$it)) * 7919) %% 104729)]
+  }
+  landmarks <- specimen$landmarks %*% diag(c(-1, 1, 1))
+  rownames(landmarks) <- partner_of(rownames(specimen$landmarks), pairs, "landmarks")
+  specimen(mesh, landmarks, id = paste(specimen$id, "mirrored"))
+}
+
+# Greatest distance of the points of a shape from those of its mirror image, left and right exchanged; all points must be
+# missing in both or in neither.
+mirror_gap <- function(shape, mirror, pairs) {
+  part <- mapply(function(part, level) partner_of(part, pairs, level), mirror$points$part, mirror$points$level)
+  key <- function(points, part) paste(points$level, part, points$point)
+  other <- mirror$points[match(key(shape$points, shape$points$part), key(mirror$points, part)), ]
+  gap <- as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(other[c("x", "y", "z")]) %*% diag(c(-1, 1, 1))
+  testthat::expect_identical(is.na(shape$points$x), is.na(other$x))
+  max(abs(gap), na.rm = TRUE)
+}
