@@ -37,7 +37,7 @@
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))
 #' @export
-quality_limits <- function(..., undetermined = "amber", guessed = "amber", others = 5, spread = 0.01) {
+quality_limits <- function(..., undetermined = "amber", guessed = "amber", others = 10, spread = 0.01) {
   limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
                  roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2), faults = c(0, Inf),
                  contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.07, 0.02))
