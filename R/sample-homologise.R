@@ -236,5 +236,6 @@ with_mean_surface <- function(template, stores) {
   mean <- mean_of(laid)
   mean[core, ] <- xyz[core, ]
   if (has_pairs(template$scheme)) mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
+  mean[core, ] <- xyz[core, ]
   template_shape(template, mean, "mean", template$points$se[!duplicated(template$scheme$points$place)])
 }
