@@ -99,11 +99,13 @@ quad_lattice <- function(corners, sides, factor, count) {
 #' The points of all sides, by side, from its smaller end to its greater
 #'
 #' @param cutter List of `specimen`, `surface`, `column`, `factor`.
+#' @param tolerance A point is on a curve that is no farther away, as a share of the mesh's diagonal.
 #' @return List: `points`; `cuts`, those that cuts alone would give; `curved`, by side, whether it follows a curve.
 #' @noRd
-divide_sides <- function(paths, at, ends, cutter) {
+divide_sides <- function(paths, at, ends, cutter, tolerance = 1e-6) {
   mesh <- cutter$specimen$mesh
-  curves <- edges_on_curves(paths, at, ends, 1e-6 * mesh_diagonal(mesh))
+  tolerance <- tolerance * mesh_diagonal(mesh)
+  curves <- edges_on_curves(paths, at, ends, tolerance)
   cuts <- cut_points(at, ends, cutter)
   points <- cuts
   inner <- seq_len(cutter$factor - 1)
@@ -111,7 +113,7 @@ divide_sides <- function(paths, at, ends, cutter) {
     part <- part_of_path(mesh, paths[[curves$curve[e]]], curves$from[e], curves$to[e])
     placed <- resample_path(mesh, part, cutter$factor + 1)
     # Over a hole a path is straight, and off the mesh.
-    if (any(row_lengths(columns_of(placed)[, 1:3] - points_along(part, placed$s)) > 1e-6 * mesh_diagonal(mesh))) {
+    if (any(row_lengths(columns_of(placed)[, 1:3] - points_along(part, placed$s)) > tolerance)) {
       curves$curve[e] <- NA
     } else {
       points[(e - 1) * length(inner) + inner, ] <- columns_of(placed)[inner + 1, ]

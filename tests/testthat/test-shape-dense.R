@@ -85,8 +85,8 @@ test_that("a triangle with a missing neighbour is divided too; across a hole tri
     mesh
   })
   shape <- fit_shape(hole, quad_scheme(), progress = FALSE)
-  expect_warning(dense <- shape_mesh(shape, specimen = hole, dense = 2, column_angle = 0.01), "triangles of the denser surface",
-                 class = "crestline_warning")
+  expect_warning(dense <- shape_mesh(shape, specimen = hole, dense = 2, column_angle = 0.01),
+                 "triangles of the denser surface", class = "crestline_warning")
   expect_gt(ncol(dense$it), 100)
   expect_false(anyNA(dense$vb))
 })
