@@ -57,7 +57,7 @@ read_image <- function(file, id) {
 #' @param colour One colour, one for each vertex, "patch", or a number for each vertex.
 #' @param palette,limits,missing Of numbers, see [write_mesh()].
 #' @noRd
-surface_colours <- function(mesh, colour, palette, limits = NULL, missing = "#BEBEBE") {
+surface_colours <- function(mesh, colour, palette = grDevices::hcl.colors(11, "Viridis"), limits = NULL, missing = "#BEBEBE") {
   if (identical(colour, "patch")) return(patch_colours(mesh))
   if (!is.numeric(colour)) return(check_colours(colour, ncol(mesh$vb), call = NULL))
   if (is.null(limits)) limits <- if (any(is.finite(colour))) range(colour[is.finite(colour)]) else 0:1

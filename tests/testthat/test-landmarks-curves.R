@@ -66,8 +66,8 @@ test_that("numbered points are a curve only where the numbers run from 1 without
   x <- xyz(1:24, name = c("lip 2", "lip 1", "P 1", "eye 1", "eye 3", "brow 10 1", "brow 10 2", "rim"))
   file <- shape_file("fcsv")
   write_landmarks(x, file)
-  expect_equal(read_curves(file), list(lip = structure(unname(x[2:1, ]), dimnames = list(NULL, c("x", "y", "z")), closed = FALSE),
-                                       "brow 10" = structure(unname(x[6:7, ]), dimnames = list(NULL, c("x", "y", "z")), closed = FALSE)))
+  expected <- list(lip = structure(xyz(4:6, 1:3), closed = FALSE), "brow 10" = structure(xyz(16:21), closed = FALSE))
+  expect_equal(read_curves(file), expected)
 })
 
 test_that("frames are passed on, and curves from a file take the place of a shape's own", {

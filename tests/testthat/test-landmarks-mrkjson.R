@@ -46,8 +46,9 @@ test_that("several lists are one specimen's: landmarks together, curves by name"
 })
 
 test_that("Angle lists are curves, missing control points stay in their place, ROI lists are left out", {
-  file <- json_markups(json_list(json_point("A-1"), json_point("A-2", '""', undefined), json_point("A-3"), type = "Angle", more = ', "name": "jaw"'),
-                       json_list(json_point("R"), type = "ROI"))
+  angle <- json_list(json_point("A-1"), json_point("A-2", '""', undefined), json_point("A-3"), type = "Angle",
+                     more = ', "name": "jaw"')
+  file <- json_markups(angle, json_list(json_point("R"), type = "ROI"))
   expect_warning(x <- read_landmarks(file), "ROI", class = "crestline_format_warning")
   expect_equal(attr(x, "curves"), list(jaw = structure(xyz(10, 20, 30, NA, NA, NA, 10, 20, 30), closed = FALSE)))
 })
