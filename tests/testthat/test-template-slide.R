@@ -85,7 +85,7 @@ test_that("a slid shape is on its mesh, keeps what it shares, its landmarks and 
   held <- grepl("^landmarks", shape$scheme$points$place)
   expect_identical(slid$points[held, ], shape$points[held, ])
   moved <- sqrt(rowSums((coords(slid, "curves") - coords(shape, "curves"))^2))
-  expect_gt(max(moved), 0.1)
+  expect_gt(max(moved), 0.05)
   for (name in names(shape$paths)) {
     own <- slid$points$part == name & slid$points$level == "curves"
     expect_lte(max(distance_from_line(xyz_of(slid$points[own, ]), xyz_of(shape$paths[[name]]))), 1e-10)
