@@ -78,6 +78,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
+  if (inherits(shapes, "shape_batch")) shapes <- Filter(Negate(is.null), as.list(shapes))
   if (inherits(shapes, "shape")) shapes <- list(shapes)
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise", call = call)
   if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")

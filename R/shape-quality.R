@@ -61,6 +61,7 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
 #' A list of shapes by name of specimen; every name once
 #' @noRd
 named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
+  if (inherits(x, "shape_batch")) x <- as.list(x)
   if (inherits(x, "shape")) x <- list(x)
   if (!is.list(x) || length(x) == 0) check_class(x, "shape", name, "fit_shape()", call)
   for (shape in Filter(Negate(is.null), x)) check_class(shape, "shape", name, "fit_shape()", call)

@@ -1,0 +1,213 @@
+# Many specimens by one scheme: in parallel as the user plans it, each result kept as it comes, a killed run gone on with.
+
+#' Measure many specimens
+#'
+#' [fit_shape()] for every specimen, over the package future.apply: the plan is yours,
+#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, a queue through future.batchtools;
+#' without one they are measured one after the other. What goes wrong with one specimen costs only that one, see
+#' [failures()].
+#'
+#' With `dir` every result is written there as it comes, whole or not at all, and read only when asked for, so that
+#' memory does not grow with the number of specimens. A run that was cut short goes on where it was: what is in `dir` is
+#' not measured again as long as its input (the files' or specimen's content), the scheme, the settings and the package's
+#' version are the same. Failures are tried again.
+#'
+#' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s.
+#' @param scheme A [curve_scheme()], such as [face_scheme()].
+#' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
+#' @param landmarks With mesh files: their landmark files, one for each; `NULL`: the file beside each mesh with its name
+#'   and an extension of [read_landmarks()].
+#' @param ... Further arguments of [fit_shape()], the same for all.
+#' @param chunk Specimens a future: the number that one worker takes before it reports.
+#' @param progress Whether to show a progress bar, see [progressr::with_progress()].
+#' @return Object of class `shape_batch`: a list of shapes by name of specimen (its id, or the file's name), `NULL` where it failed.
+#'   With `dir`, `x[[i]]` reads a shape from its file, and so does `as.list(x)` with all of them; `print(x)` counts.
+#' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of single specimens are kept, see
+#'   [failures()].
+#' @seealso [failures()], [homologise()]
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
+#' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane", n = 7)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "two sides")
+#' balls <- lapply(1:3, function(i) specimen(ball, corners, id = paste("ball", i)))
+#' shapes <- fit_shapes(balls, scheme)
+#' shapes
+#' shapes[["ball 2"]]
+#' @export
+fit_shapes <- function(x, scheme, dir = NULL, landmarks = NULL, ..., chunk = 1, progress = interactive()) {
+  rlang::check_installed(c("future.apply", "progressr"), "to measure many specimens.")
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  chunk <- check_count(chunk, "chunk")
+  jobs <- batch_jobs(x, landmarks)
+  files <- batch_files(names(jobs), dir)
+  tasks <- Map(function(job, file, name) list(job = job, file = file, name = name), jobs, files, names(jobs))
+  settings <- list(...)
+  run <- function() {
+    tick <- progressr::progressor(steps = length(tasks))
+    future.apply::future_lapply(tasks, function(task) {
+      result <- measure_job(task$job, scheme, settings, task$file)
+      tick(task$name)
+      result
+    }, future.chunk.size = chunk, future.packages = "crestline", future.seed = NULL)
+  }
+  results <- if (progress) progressr::with_progress(run()) else run()
+  names(results) <- names(jobs)
+  structure(results, files = files, class = "shape_batch")
+}
+
+#' What is to be measured: files or specimens, by name
+#' @noRd
+batch_jobs <- function(x, landmarks) {
+  if (inherits(x, "specimen")) x <- list(x)
+  if (is.character(x) && length(x)) {
+    if (is.null(landmarks)) landmarks <- vapply(x, landmarks_beside, "", USE.NAMES = FALSE)
+    if (length(landmarks) != length(x)) {
+      crestline_abort(sprintf("`landmarks` names %d files, `x` %d.", length(landmarks), length(x)),
+                      "Give one landmark file for each mesh.", stage = "arguments")
+    }
+    jobs <- Map(function(mesh, points) list(mesh = mesh, landmarks = points), x, landmarks, USE.NAMES = FALSE)
+    return(stats::setNames(jobs, make.unique(sub("[.][^.]*$", "", basename(x)), sep = " ")))
+  }
+  if (!is.list(x) || !length(x)) {
+    crestline_abort(sprintf("`x` is %s.", describe_value(x)), "Give paths of meshes, or a list of specimens.", stage = "arguments")
+  }
+  for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()")
+  stats::setNames(lapply(x, function(one) list(specimen = one)), make.unique(vapply(x, `[[`, "", "id"), sep = " "))
+}
+
+#' The landmark file beside a mesh, "" where there is none
+#' @noRd
+landmarks_beside <- function(file) {
+  stem <- sub("[.][^.]*$", "", file)
+  beside <- paste0(stem, ".", names(landmark_formats()))
+  c(beside[file.exists(beside)], "")[1]
+}
+
+#' Where the results go, NULL for memory; parts that a killed run left are cleared away
+#' @noRd
+batch_files <- function(names, dir) {
+  if (is.null(dir)) return(vector("list", length(names)))
+  if (!is.character(dir) || length(dir) != 1 || is.na(dir)) {
+    crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.", stage = "arguments")
+  }
+  dir.create(dir, recursive = TRUE, showWarnings = FALSE)
+  if (!dir.exists(dir)) {
+    crestline_abort(sprintf("the folder %s cannot be made.", dir), "Choose another, or check who may write there.", stage = "arguments")
+  }
+  unlink(list.files(dir, "^part-.*[.]tmp$", full.names = TRUE))
+  safe <- make.unique(gsub("[^[:alnum:]._ -]", "_", names), sep = " ")
+  as.list(file.path(normalizePath(dir), paste0(safe, ".rds")))
+}
+
+#' One specimen: what is kept of it, or measured now
+#'
+#' @param file Where it is kept, or `NULL`.
+#' @return With a file NULL; else the shape, or a failure (class `shape_failure`).
+#' @noRd
+measure_job <- function(job, scheme, settings, file) {
+  key <- tryCatch(job_key(job, scheme, settings), error = function(e) NULL)
+  if (!is.null(file)) {
+    kept <- read_kept(file)
+    if (!is.null(key) && identical(kept$key, key) && inherits(kept$result, "shape")) return(NULL)
+  }
+  result <- tryCatch(fit_job(job, scheme, settings), error = function(e) failure_of(e))
+  if (is.null(file)) return(result)
+  part <- tempfile("part-", dirname(file), ".tmp")
+  saveRDS(list(key = key, result = result), part)
+  file.rename(part, file)
+  NULL
+}
+
+#' What a result depends on, as one string
+#' @noRd
+job_key <- function(job, scheme, settings) {
+  input <- if (is.null(job$specimen)) {
+    rlang::hash_file(c(job$mesh, if (nzchar(job$landmarks)) job$landmarks))
+  } else {
+    job$specimen[c("mesh", "landmarks", "id")]
+  }
+  rlang::hash(list(input, unclass(scheme), lapply(settings, unclass), as.character(utils::packageVersion("crestline"))))
+}
+
+fit_job <- function(job, scheme, settings) {
+  quiet <- function(code) suppressWarnings(code, classes = "crestline_warning")
+  one <- job$specimen
+  if (is.null(one)) one <- quiet(read_specimen(job$mesh, if (nzchar(job$landmarks)) job$landmarks))
+  quiet(do.call(fit_shape, c(list(one, scheme), utils::modifyList(list(progress = FALSE), settings))))
+}
+
+failure_of <- function(e) {
+  own <- inherits(e, "crestline_error")
+  structure(list(stage = if (own) e$stage else "unforeseen", message = if (own) e$problem else conditionMessage(e),
+                 remedy = if (own) e$remedy else "Please report it, with the specimen if you may."), class = "shape_failure")
+}
+
+read_kept <- function(file) if (file.exists(file)) tryCatch(readRDS(file), error = function(e) NULL)
+
+#' What went wrong with the specimens of a batch
+#'
+#' @param x A `shape_batch`, as [fit_shapes()] returns it.
+#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what), `remedy` (what to do about it).
+#' @section Errors: of class `crestline_error`, when `x` is no batch.
+#' @examples
+#' bad <- tempfile(fileext = ".ply")
+#' writeLines("no mesh", bad)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b")), name = "one line",
+#'                        curves = data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7))
+#' failures(fit_shapes(bad, scheme))
+#' @export
+failures <- function(x) {
+  check_class(x, "shape_batch", "x", "fit_shapes()")
+  rows <- lapply(names(x), function(name) {
+    result <- batch_result(x, name)
+    if (inherits(result, "shape")) return(NULL)
+    if (is.null(result)) result <- list(stage = "keeping", message = "its file is not there or cannot be read", remedy = "Run fit_shapes() again.")
+    data.frame(id = name, stage = result$stage, message = result$message, remedy = result$remedy)
+  })
+  empty <- data.frame(id = character(), stage = character(), message = character(), remedy = character())
+  do.call(rbind, c(list(empty), rows))
+}
+
+#' Result of one specimen, from memory or its file
+#' @noRd
+batch_result <- function(x, i) {
+  all <- unclass(x)
+  i <- if (is.character(i)) match(i, names(all)) else i
+  file <- attr(x, "files")[[i]]
+  if (is.null(file)) all[[i]] else read_kept(file)$result
+}
+
+#' @export
+`[[.shape_batch` <- function(x, i, ...) {
+  if (length(i) != 1 || is.na(if (is.character(i)) match(i, names(x)) else i)) return(NULL)
+  result <- batch_result(x, i)
+  if (inherits(result, "shape")) result
+}
+
+#' @export
+`$.shape_batch` <- function(x, name) x[[name]]
+
+#' @export
+`[.shape_batch` <- function(x, i, ...) {
+  all <- unclass(x)
+  files <- stats::setNames(attr(x, "files"), names(all))
+  attr(all, "files") <- NULL
+  structure(all[i], files = unname(files[i]), class = "shape_batch")
+}
+
+#' @export
+as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x)), function(i) x[[i]]), names(x))
+
+#' @export
+print.shape_batch <- function(x, most = 8, ...) {
+  failed <- failures(x)
+  files <- unlist(attr(x, "files"))
+  cat("<shape_batch> ", amount(length(names(x)), "specimen"), ": ", length(names(x)) - nrow(failed), " measured, ", nrow(failed), " failed",
+      if (length(files)) paste0(", in ", dirname(files[1])), "\n", sep = "")
+  for (i in seq_len(min(most, nrow(failed)))) {
+    cat(strwrap(sprintf("- %s, %s: %s %s", failed$id[i], failed$stage[i], failed$message[i], failed$remedy[i]), width = 80, exdent = 4), sep = "\n")
+  }
+  if (nrow(failed) > most) cat("- and", nrow(failed) - most, "more in failures()\n")
+  invisible(x)
+}
