@@ -73,3 +73,11 @@ cpp_render_mesh <- function(xyz, rgb, it, width, height, samples) {
     .Call(`_crestline_cpp_render_mesh`, xyz, rgb, it, width, height, samples)
 }
 
+cpp_slide_on_tracks <- function(b, x, paths, rows, strain, sweeps) {
+    .Call(`_crestline_cpp_slide_on_tracks`, b, x, paths, rows, strain, sweeps)
+}
+
+cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweeps) {
+    .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
+}
+

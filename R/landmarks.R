@@ -11,9 +11,9 @@
 #' | `.csv` | tables | one | yes |
 #' | `.pts` | IDAV Landmark, Checkpoint | one | open, by number |
 #' | `.tps` | tpsDig and kin | several | yes |
-#' | `.nts`, `.dta` | NTSYS, IDAV Landmark | several | no |
-#' | `.landmarkAscii` | Amira, Avizo | several | no |
-#' | `.fcsv` | 3D Slicer | one | no |
+#' | `.nts`, `.dta` | NTSYS, IDAV Landmark | several | no; a shape's as points |
+#' | `.landmarkAscii` | Amira, Avizo | several | no; a shape's as points |
+#' | `.fcsv` | 3D Slicer | one | no; a shape's as points |
 #' | `.mrk.json` | 3D Slicer | one | yes |
 #'
 #' * `.csv`: a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
@@ -32,7 +32,11 @@
 #' * `.fcsv`: points in another state than "defined" are missing; names are the labels, else the ids.
 #' * `.mrk.json`: all lists of the file, Fiducial as landmarks (the list's name before the label where two
 #'   lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Lists of other
-#'   types are left out with a warning.
+#'   types are left out with a warning. Numbers stay in the file's unit.
+#'
+#' Of a `shape` landmarks and curves are written, with what is missing of them as missing points. Where the format
+#' has no curves their points are landmarks, named "curve point" as in [coords()], with a warning (`curves = list()` leaves
+#' them out). [read_curves()] gives curves back by name from either.
 #'
 #' @param file Path of the file.
 #' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the
@@ -44,10 +48,11 @@
 #' @param scale Whether the co-ordinates of a `.tps` file are multiplied by `SCALE=`. A file in which
 #'   only some specimens have one is refused.
 #' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z, a
-#'   [specimen()], NULL for no landmarks, or, where the format holds several specimens, a list of them.
+#'   [specimen()], a `shape` as [fit_shape()] returns it, NULL for no landmarks, or, where the format holds several
+#'   specimens, a list of them.
 #' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of data
-#'   frames with columns x, y, z, or of values of [ridge_curve()]. NULL: the attribute `curves` of
-#'   `x`, if any; `list()`: none.
+#'   frames with columns x, y, z, or of values of [ridge_curve()]. NULL: those of the shape, or the attribute
+#'   `curves` of `x`, if any; `list()`: none.
 #' @return `read_landmarks()`: k x 3 numeric matrix with row names and columns `x`, `y`, `z`, in the
 #'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA in all
 #'   three co-ordinates of a missing one. Where the file has curves, the attribute `curves`: named list of n x 3
@@ -78,6 +83,7 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   format <- landmark_format(file)
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
+  if (!format$curves && has_shape(x)) sets <- curves_as_points(sets, file)
   check_written(sets, format, file)
   format$write(sets, file, options)
   invisible(file)
@@ -101,8 +107,8 @@ landmark_formats <- function() {
 
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
 written_sets <- function(x, curves, file) {
-  if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, "specimen") || !is.list(x)) {
-    id <- if (inherits(x, "specimen")) x$id else "1"
+  if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) || !is.list(x)) {
+    id <- if (inherits(x, c("specimen", "shape"))) x$id else "1"
     return(stats::setNames(list(written_set(x, curves)), id))
   }
   if (!length(x) || !is.null(curves) && length(x) > 1) {
@@ -115,13 +121,14 @@ written_sets <- function(x, curves, file) {
 }
 
 specimen_names <- function(x) {
-  is_specimen <- vapply(x, inherits, TRUE, "specimen")
+  is_specimen <- vapply(x, inherits, TRUE, c("specimen", "shape"))
   if (all(is_specimen)) vapply(x, `[[`, "", "id") else as.character(seq_along(x))
 }
 
 written_set <- function(x, curves) {
-  if (is.null(curves)) curves <- attr(x, "curves")
+  if (is.null(curves)) curves <- if (inherits(x, "shape")) shape_curves(x) else attr(x, "curves")
   if (inherits(x, "specimen")) x <- x$landmarks
+  if (inherits(x, "shape")) x <- coords(x, "landmarks")
   x <- as_landmarks(x)
   curves <- as_curves(curves)
   if (length(curves)) structure(x, curves = curves) else x

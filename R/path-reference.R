@@ -12,7 +12,8 @@
 #' @param specimen A [specimen()] (or a `mesh3d` with positions for `from` and `to`).
 #' @inheritParams plane_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
-#' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for `"plane"`.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh; that of `curvature` where it is given; not
+#'   needed for `"plane"`.
 #' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where strength counts as 0: one, or a list.
 #' @param curvature A `curvature` of the mesh at this radius, where it is already
 #'   known; otherwise it is estimated where the cuts may pass.
@@ -43,7 +44,7 @@
 #' attr(path, "criterion")
 #' head(as.data.frame(path), 3)
 #' @export
-reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
+reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius = attr(curvature, "radius"),
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
                            spacing = 0.25, angles = 60, refined = 21, rival = 0.05,
                            distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
@@ -54,6 +55,7 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   rate <- if (type == "plane") {
     function(found) -found$length
   } else {
+    check_number(radius, "radius", lower = 0, open = TRUE)
     curvature <- known_curvature(curvature, specimen, radius, threads, order)
     strength <- path_strength(curvature, type, keep_away, specimen)
     function(found) cut_strength(surface, ends, axis, found, reach, spacing * radius, strength)

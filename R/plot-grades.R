@@ -76,7 +76,7 @@ draw_label <- function(scene, at, text, colour, size = 0.8) {
 
 #' The rotation that shows a shape from its front: the mean of its surface's normals to the viewer
 #'
-#' Upright by the left-right pairs of its landmarks (left on the viewer's right); without pairs the longest direction across
+#' Upright and level by the left-right pairs of its landmarks (left on the viewer's right); without pairs the longest direction across
 #' is up, towards positive y.
 #' @noRd
 shape_view <- function(shape) {
@@ -86,8 +86,9 @@ shape_view <- function(shape) {
   pairs <- shape$scheme$pairs[shape$scheme$pairs$level == "landmarks", ]
   across <- colMeans(landmarks[pairs$left, , drop = FALSE] - landmarks[pairs$right, , drop = FALSE], na.rm = TRUE)
   if (all(is.finite(across)) && any(across != 0)) {
+    across <- unit_vector(across)
     up <- unit_vector(cross_product(out, across))
-    return(unname(rbind(cross_product(up, out), up, out)))
+    return(unname(rbind(across, up, cross_product(across, up))))
   }
   flat <- points - tcrossprod(points %*% out, out)
   up <- svd(sweep(flat, 2, colMeans(flat)), nu = 0, nv = 1)$v[, 1]

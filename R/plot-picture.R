@@ -14,6 +14,7 @@
 #' @param margin Room about what is shown, a share of its size.
 #' @param around Points (as `x` of [draw_lines()]) that the picture is to hold, NULL for the whole mesh.
 #' @param tolerance How far behind the surface a point may lie and still be seen, a share of the diagonal of the mesh's box.
+#' @param inside Colour of the backs of triangles, NA for none: an open surface is looked through from behind.
 #' @return A list of these settings.
 #' @examples
 #' str(picture_settings(gloss = 0))
@@ -21,7 +22,8 @@
 picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.4, gloss = 0.1,
                              sharpness = 20,
                              resolution = max(150, grDevices::dev.size("px") / grDevices::dev.size("in")),
-                             samples = 3, margin = 0.02, around = NULL, tolerance = 0.005) {
+                             samples = 3, margin = 0.02, around = NULL, tolerance = 0.005,
+                             inside = NA) {
   if (!is.numeric(light) || length(light) != 3 || any(!is.finite(light)) || all(light == 0)) {
     crestline_abort("`light` is not a direction.", "Give three finite numbers, not all 0.", stage = "picture")
   }
@@ -31,7 +33,7 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
        sharpness = check_number(sharpness, "sharpness", 0),
        resolution = check_number(resolution, "resolution", 1), samples = check_count(samples, "samples"),
        margin = check_number(margin, "margin", 0),
-       around = if (!is.null(around)) point_matrix(around), tolerance = check_number(tolerance, "tolerance", 0))
+       around = if (!is.null(around)) point_matrix(around), tolerance = check_number(tolerance, "tolerance", 0), inside = inside)
 }
 
 picture_surface <- function(mesh, colour, rotation, settings) {
@@ -39,14 +41,27 @@ picture_surface <- function(mesh, colour, rotation, settings) {
   shown <- if (is.null(settings$around)) turned else rotation %*% t(settings$around)
   frame <- picture_frame(shown, settings)
   xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel, (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
-  rgb <- shade_vertices(colour, rotation %*% mesh$normals[1:3, , drop = FALSE], settings)
-  seen <- cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
+  normals <- rotation %*% mesh$normals[1:3, , drop = FALSE]
+  tolerance <- settings$tolerance * mesh_diagonal(mesh)
+  render <- function(xyz, rgb, it) cpp_render_mesh(xyz, rgb, it, frame$width, frame$height, settings$samples)
+  seen <- render(xyz, shade_vertices(colour, normals, settings), mesh$it)
+  if (!is.na(settings$inside)) seen <- seen_with_inside(seen, render, xyz, colour, normals, mesh$it, settings, tolerance)
   right <- frame$usr[1] + frame$width * frame$pixel
   bottom <- frame$usr[4] - frame$height * frame$pixel
   graphics::rasterImage(seen$rgba, frame$usr[1], bottom, right, frame$usr[4])
   structure(list(rotation = rotation, pixel = frame$pixel, depth = seen$depth, usr = frame$usr,
-                 plt = graphics::par("plt"), tolerance = settings$tolerance * mesh_diagonal(mesh)),
+                 plt = graphics::par("plt"), tolerance = tolerance),
             class = "picture_scene")
+}
+
+# Fronts and backs; where a back is seen, what lies on its front side is not, so that its depth is brought forward.
+seen_with_inside <- function(front, render, xyz, colour, normals, it, settings, tolerance) {
+  inside <- rep(settings$inside, ncol(xyz))
+  rgb <- cbind(shade_vertices(colour, normals, settings), shade_vertices(inside, -normals, settings))
+  both <- render(cbind(xyz, xyz), rgb, cbind(it, it[c(1, 3, 2), ] + ncol(xyz)))
+  back <- both$depth > front$depth
+  both$depth[back] <- both$depth[back] + 2 * tolerance
+  both
 }
 
 # A new plot, equal in scale, that just holds the turned points (3 x n); its limits, and the size of a pixel in their unit.

@@ -10,7 +10,7 @@
 #' @param parts Parts of the surface, as in [shape_mesh()].
 #' @param colour Colours of ridges, valleys and plane curves.
 #' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the shape's own surface:
-#'   its colour.
+#'   its colour, one for each vertex of [shape_mesh()], a number for each, or "patch" for a colour a patch.
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
 #' @param points Whether to draw the points of the curves.
@@ -40,9 +40,10 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
     plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, ...)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
-  if (patches && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.3)
-  for (i in which(x$status$level == "curves" & x$status$ok)) {
-    scene <- draw_shape_curve(scene, x, x$status$part[i], specimen, colour[[x$status$kind[i]]], band, points, width)
+  if (patches && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
+  kind <- stats::setNames(x$scheme$curves$kind, x$scheme$curves$curve)
+  for (name in names(Filter(Negate(is.null), x$paths))) {
+    scene <- draw_shape_curve(scene, x, name, specimen, colour[[kind[[name]]]], band, points, width)
   }
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
@@ -54,10 +55,11 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
 
 draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, width) {
   path <- x$paths[[name]]
-  own <- x$points[x$points$level == "curves" & x$points$part == name, ]
-  if (band && !is.null(specimen) && any(is.finite(own$se))) {
-    along <- stats::approx(seq(0, 1, length.out = nrow(own)), own$se, path$s / attr(path, "length"), rule = 2)$y
-    scene <- draw_curve_band(scene, list(path = path, points = data.frame(s = path$s, se = along)), specimen$mesh, colour)
+  own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
+  if (band && !is.null(specimen)) {
+    s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE], 1e-6 * mesh_diagonal(specimen$mesh))
+    on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
+    scene <- draw_curve_band(scene, on_curve, specimen$mesh, colour)
   }
   scene <- draw_lines(scene, path, colour, width, halo = "white")
   if (points) scene <- draw_points(scene, own, colour, 0.28 * width, "white")
@@ -65,9 +67,17 @@ draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, wid
 }
 
 #' The surface of a shape with the edges of its triangles
+#'
+#' @param inside Colour of its inside.
 #' @noRd
-draw_model <- function(mesh, colour, edges, engine, view, ...) {
-  scene <- draw_surface(mesh, colour, view, engine, ...)
+draw_model <- function(mesh, colour, edges, engine, view, ..., inside = "#8C7F76") {
+  colour <- surface_colours(mesh, colour)
+  # A model is open: what is seen of its inside is drawn, or one would look through it at the far side's edges.
+  scene <- if (engine == "picture") {
+    draw_surface(mesh, colour, view, engine, inside = inside, ...)
+  } else {
+    draw_surface(mesh, colour, view, engine, ...)
+  }
   if (is.na(edges)) scene else draw_edges(scene, mesh, edges, 0.5)
 }
 

@@ -23,10 +23,12 @@ shape_checks <- function(shape, scan, specimen, fits, faults, ends = 0.05, crump
   spiky <- list(vb = mesh$vb, it = mesh$it[, bend > crumpled, drop = FALSE])
   damage <- list(border = border_places(walkable(specimen)), spike = face_centres(spiky))
   checks <- data.frame(part = status$part, level = status$level, missing = missing_share(shape), determined = NA,
-                       cut = NA_real_, bridged = NA_real_, faults = NA_integer_, size = vapply(places, `[[`, 0, "size"))
+                       cut = NA_real_, guessed = NA, bridged = NA_real_, faults = NA_integer_,
+                       size = vapply(places, `[[`, 0, "size"))
   curves <- status$level == "curves"
   checks$determined[curves] <- ifelse(shape$scheme$curves$n > 2, fit_values(fits, "determined") > 0, NA)
   checks$cut[curves] <- fit_values(fits, "cut")
+  checks$guessed[curves] <- fit_values(fits, "guessed") > 0
   checks$bridged[curves] <- vapply(fits, function(fit) bridged_share(fit$path, ncol(mesh$it)), 0)
   patches <- status$level == "surface"
   group <- shape$points$part[shape$points$level == "surface"][faults$v1]

@@ -8,7 +8,8 @@
 #' @param tick Called after every curve.
 #' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA
 #'   where the mesh ends before), `path`, `length`, `strength`, `contrast`, `se`, `competing`, `determined`, `cut` (of curves
-#'   that are cut off: their share of the length asked for), `reason` (NA where there is nothing to say) or, where it
+#'   that are cut off: their share of the length asked for), `guessed` (of these: whether way or length did without a
+#'   landmark on the mesh), `reason` (NA where there is nothing to say) or, where it
 #'   failed, of `reason` alone.
 #' @noRd
 fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick) {

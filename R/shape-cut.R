@@ -21,7 +21,8 @@ cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
       list(reason = spans[[k]]$note)
     } else {
       part <- cut_curve(specimen$mesh, fits[[i]], factor * wanted[k], curves$n[i])
-      c(add_note(part, c(spans[[k]]$note, shared)), cut = factor / cut_scale)
+      guessed <- !is.null(spans[[k]]$note) || !is.null(fits[[i]]$followed)
+      c(add_note(part, c(spans[[k]]$note, shared)), cut = factor / cut_scale, guessed = guessed)
     }
   }
   fits
@@ -168,7 +169,8 @@ cut_curve <- function(mesh, fit, length, n) {
   if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
   points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
   rownames(points) <- NULL
-  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se))
+  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se),
+              track = list(path = fit$path, start = start, kept = length))
   fit[names(cut)] <- cut
   add_note(fit, if (placed < n) ended)
 }

@@ -50,7 +50,8 @@
 #'     rival; NA: none);
 #'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`, `level`, `missing`
 #'     (share of the points); of curves `determined` (by curvature, see [ridge_curve()]; NA where there is no point but
-#'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `bridged`
+#'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `guessed`
+#'     (of these: whether its way or its length had to do without a landmark on the mesh, see below), `bridged`
 #'     (share of its length that lies over holes); of patches `faults` (number of them, see [surface_faults()]); of both
 #'     `size` (a curve's length; of a patch the diameter of a disc with points as far from their centroid), `roughness`
 #'     (mean angle in degrees between the normals of its triangles and those at their corners), `edge` (mean edge of its
@@ -58,7 +59,9 @@
 #'     (distance within which there are four triangles with such an angle above 30 degrees); lengths in the unit of the
 #'     mesh, Inf where there is none;
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
-#'   * `scheme`.
+#'   * `scheme`;
+#'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
+#'     shape small).
 #'
 #'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and [plot.shape()].
 #' @section What is missing: costs only its own points, which are NA; `status` says why.
@@ -92,11 +95,10 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
-  column <- list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-                 angles = check_count(column_angles, "column_angles"),
-                 reach = check_number(column_reach, "column_reach", 0, open = TRUE))
+  column <- check_column(column_angle, column_angles, column_reach)
+  column$bridge <- check_number(bridge, "bridge", 0, 1)
   scan <- specimen
-  specimen <- bridge_holes(scan, check_number(bridge, "bridge", 0, 1))
+  specimen <- bridge_holes(scan, column$bridge)
   tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scheme, curves, column)
@@ -106,13 +108,20 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   shape <- structure(
     list(id = specimen$id, points = shape_points(scheme$points, patches$store),
          status = shape_status(scheme, landmarks$reason, fits, patches$problems),
-         paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme),
+         paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme,
+         tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan),
     class = "shape"
   )
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_faults(shape, faults)
   shape$checks <- shape_checks(shape, scan, specimen, fits, faults)
   shape
+}
+
+check_column <- function(column_angle, column_angles, column_reach) {
+  list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
+       angles = check_count(column_angles, "column_angles"),
+       reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 
 progress_ticks <- function(progress, n, id) {

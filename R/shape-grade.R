@@ -36,6 +36,9 @@ judge_parts <- function(parts, limits, scheme) {
     list(level = level_beyond(value, limits[[name]], name %in% small_is_bad),
          text = rep_len(as.character(text), nrow(parts)))
   }
+  flag <- function(bad, name) {
+    list(level = ifelse(bad, match(limits[[name]], grades) - 1, 0), text = rep(NA_character_, nrow(parts)))
+  }
   own <- function(values) ifelse(parts$free, values, NA)
   curved <- parts$kind %in% c("ridge", "valley")
   its <- ifelse(parts$level == "curves", "length", "extent")
@@ -43,8 +46,8 @@ judge_parts <- function(parts, limits, scheme) {
   partner <- ifelse(partner == parts$part, "its own mirror image", paste("the mirror image of", partner))
   list(
     judge("missing", NA),
-    list(level = ifelse(parts$determined %in% FALSE, match(limits$undetermined, grades) - 1, 0),
-         text = rep(NA_character_, nrow(parts))),
+    flag(parts$determined %in% FALSE, "undetermined"),
+    flag(parts$guessed %in% TRUE, "guessed"),
     judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius), own(parts$se / parts$radius)),
     judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing), own(parts$competing)),
     judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast), own(parts$contrast)),

@@ -27,6 +27,8 @@
 #'   * `spike`: distance within which there are four crumpled triangles (bent by more than 30 degrees), as a share of the
 #'     part's size.
 #' @param undetermined What curves are that curvature does not determine: "green", "amber" or "red".
+#' @param guessed What curves are whose way or length had to do without a landmark on the mesh (see [fit_shape()]):
+#'   "green", "amber" or "red".
 #' @param others Fewest other specimens for a z-score.
 #' @param spread Least spread of a length across specimens (as a share of it) that z-scores count with, so that a
 #'   sample of nearly equal specimens flags nobody.
@@ -35,10 +37,10 @@
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))
 #' @export
-quality_limits <- function(..., undetermined = "amber", others = 5, spread = 0.01) {
+quality_limits <- function(..., undetermined = "amber", guessed = "amber", others = 10, spread = 0.01) {
   limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
                  roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2), faults = c(0, Inf),
-                 contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.1, 0.02))
+                 contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.07, 0.02))
   change <- list(...)
   unknown <- setdiff(names(change), names(limits))
   if (length(unknown) || (length(change) && is.null(names(change)))) {
@@ -47,6 +49,7 @@ quality_limits <- function(..., undetermined = "amber", others = 5, spread = 0.0
   }
   for (name in names(change)) limits[[name]] <- check_limit(change[[name]], name, name %in% small_is_bad)
   structure(c(limits, list(undetermined = check_choice(undetermined, grades, "undetermined"),
+                           guessed = check_choice(guessed, grades, "guessed"),
                            others = check_count(others, "others", lower = 2),
                            spread = check_number(spread, "spread", lower = 0))),
             class = "quality_limits")
@@ -71,6 +74,7 @@ print.quality_limits <- function(x, ...) {
   pairs <- x[lengths(x) == 2]
   side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")
   cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1), vapply(pairs, `[`, 0, 2)), sep = "")
-  cat(sprintf("  not determined by curvature: %s; z-scores against at least %d others\n", x$undetermined, x$others))
+  cat(sprintf("  not determined by curvature: %s; without a landmark on the mesh: %s\n", x$undetermined, x$guessed))
+  cat(sprintf("  z-scores against at least %d others, with a spread of at least %g\n", x$others, x$spread))
   invisible(x)
 }

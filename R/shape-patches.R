@@ -6,7 +6,8 @@
 #' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
-#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
+#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`; and after sliding `follow`: whether bounding curves of
+#'   another number of points take them from their own points' places, slid ones, in place of equal chords.
 #' @param tick Called after every block.
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
 #'   `missing` and `n` (numbers of points) and `why` (character).
@@ -86,8 +87,13 @@ block_side <- function(text, resample, specimen, surface, curves, fits, store, c
   if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (any(lost)) return(list(points = spaced, problem = problem))
-  path <- side_path(knots, points, specimen, surface, fits, column)
-  spaced[] <- columns_of(resample_path(specimen$mesh, path, resample))
+  if (isTRUE(column$follow) && length(unique(knots$curve)) == 1) {
+    placed <- follow_points(knots$point, fits[[knots$curve[1]]], resample, specimen$mesh)
+  } else {
+    path <- side_path(knots, points, specimen, surface, fits, column)
+    placed <- resample_path(specimen$mesh, path, resample)
+  }
+  spaced[] <- columns_of(placed)
   spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
 }
@@ -99,6 +105,13 @@ lost_points <- function(knots, lost, fits) {
     gone <- lost[knots$curve == curve]
     if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
   }, "", USE.NAMES = FALSE)
+}
+
+#' Places along a curve at even shares of the way from point to point, so that they go along when those slide
+#' @noRd
+follow_points <- function(point, fit, n, mesh) {
+  s <- stats::approx(seq_along(point), fit$points$s[point], seq(1, length(point), length.out = n))$y
+  place_along(mesh, fit$path, s)
 }
 
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet
@@ -144,7 +157,8 @@ column_outside <- function(a, b, at, outward) {
 #' @param rows Points of a column, the ends among them.
 #' @param inside As in [path_ends()].
 #' @param rim Angle in radians between the normals at the ends and the outside above which the ends lie on a sharp rim.
-#' @return List: `points` (list of rows x 7 matrices), `problem` (NA where the column is there).
+#' @return List: `points` (list of rows x 7 matrices), `cuts` (list of matrices s, x, y, z, face: what the points lie on),
+#'   `problem` (NA where the column is there).
 #' @noRd
 fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6, rim = pi / 4) {
   at <- c("face", "w1", "w2", "w3")
@@ -155,7 +169,7 @@ fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6,
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
   why[same] <- "its ends are the same point"
-  list(points = lapply(found$points, `colnames<-`, mesh_columns), problem = why)
+  list(points = lapply(found$points, `colnames<-`, mesh_columns), cuts = found$cuts, problem = why)
 }
 
 column_problems <- c(

@@ -72,8 +72,8 @@ named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
 
 #' What is known of every part of one shape, before it is judged
 #'
-#' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`, `free` (whether a
-#'   curve has points between its landmarks), `radius` (of a curve) and `size`.
+#' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`, `guessed`,
+#'   `size`, `free` (whether a curve has points between its landmarks) and `radius` (of a curve).
 #' @noRd
 part_measures <- function(shape, name) {
   status <- shape$status
@@ -85,10 +85,11 @@ part_measures <- function(shape, name) {
   data.frame(
     specimen = rep(name, nrow(status)),
     status[c("part", "level", "kind", "length", "strength", "contrast", "se", "competing")],
-    z = NA_real_, asymmetry = unname(asymmetry) / checks$size, checks[c("missing", "cut", "bridged", "faults", "roughness")],
+    z = NA_real_, asymmetry = unname(asymmetry) / checks$size,
+    checks[c("missing", "cut", "bridged", "faults", "roughness")],
     coarse = checks$edge / radius, border = checks$border / checks$size, spike = checks$spike / checks$size,
-    reason = status$reason, determined = checks$determined, free = shape$scheme$curves$n[row] > 2, radius = radius,
-    size = checks$size, row.names = NULL
+    reason = status$reason, checks[c("determined", "guessed", "size")], free = shape$scheme$curves$n[row] > 2,
+    radius = radius, row.names = NULL
   )
 }
 
@@ -126,6 +127,9 @@ quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", 
                      "why")
 
 #' @export
+as.data.frame.shape_quality <- function(x, ...) structure(x, class = "data.frame")
+
+#' @export
 summary.shape_quality <- function(object, ...) {
   specimen <- factor(object$specimen, unique(object$specimen))
   counts <- table(specimen, object$grade)
@@ -135,6 +139,7 @@ summary.shape_quality <- function(object, ...) {
 
 #' @export
 print.shape_quality <- function(x, most = 10, ...) {
+  if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
   counts <- summary(x)
   counts <- counts[order(-counts$red, -counts$amber), ]
   cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",

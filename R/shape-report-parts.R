@@ -112,7 +112,8 @@ report_limits <- function(limits) {
   tags$section(tags$details(
     tags$summary("From what on a part is amber or red"),
     tags$table(class = "limits", tags$thead(head), tags$tbody(rows)),
-    tags$p(sprintf("A curve that curvature does not determine is %s.", limits$undetermined),
+    tags$p(sprintf("A curve that curvature does not determine is %s;", limits$undetermined),
+           sprintf("one whose way or length had to do without a landmark on the mesh is %s.", limits$guessed),
            "A patch is at least amber where a curve that bounds it is not green.")
   ))
 }

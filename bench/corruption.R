@@ -5,8 +5,8 @@
 # Every case spoils scan_a in one way, at random with the case's number as seed: holes, spikes, patches turned inside out,
 # noise, decimation, a cut in two. Landmarks stay where they still lie on the mesh, others are NA. Each is measured by
 # the face's scheme; an error of class crestline_error is a refusal, any other a crash. A point of a curve or patch
-# that lies more than 3 mm from the clean scan's is seen when its part is graded amber or red. Then the false alarms:
-# grades of good scans.
+# that lies more than 3 mm from the clean scan's is seen when its part is graded amber or red; needless is the share of
+# parts graded so among those with no point missing or more than 1 mm off. Then the false alarms: grades of good scans.
 
 library(crestline)
 
@@ -15,6 +15,7 @@ arguments <- commandArgs(TRUE)
 cases <- as.integer(c(arguments, 200)[1])
 folder <- arguments[2]
 off_limit <- 3 # mm
+still_limit <- 1 # mm: a part with no point farther off has not moved
 scheme <- face_scheme()
 
 # Specimens ---------------------------------------------------------------
@@ -117,7 +118,8 @@ positions <- function(shape) as.matrix(shape$points[c("x", "y", "z")])
 
 judged_case <- function(case, clean) {
   row <- data.frame(number = case$number, kind = case$kind, refused = inherits(case$shape, "crestline_error"),
-                    crashed = FALSE, points = 0, off = 0, seen = 0, amber = NA_real_, red = NA_real_, unseen = "")
+                    crashed = FALSE, points = 0, off = 0, seen = 0, amber = NA_real_, red = NA_real_,
+                    needless = NA_real_, unseen = "")
   if (!inherits(case$shape, "shape")) {
     row$crashed <- !row$refused
     row$unseen <- conditionMessage(case$shape)
@@ -132,6 +134,9 @@ judged_case <- function(case, clean) {
   row[c("points", "off", "seen")] <- c(sum(there), sum(far), sum(far & grade > "green"))
   whole <- graded$level != "landmarks" & graded$missing == 0
   row[c("amber", "red")] <- c(mean(graded$grade[whole] == "amber"), mean(graded$grade[whole] == "red"))
+  part <- paste(points$level, points$part)
+  still <- tapply(off, part, function(d) !anyNA(d) && max(d) <= still_limit)[paste(graded$level, graded$part)]
+  row$needless <- mean(graded$grade[whole & still] > "green")
   silent <- far & grade == "green"
   worst <- tapply(off[silent], points$part[silent], max)
   row$unseen <- toString(sprintf("%s by %.1f", names(worst), worst))
@@ -145,7 +150,8 @@ by_kind <- function(rows) {
     data.frame(kind = kind, cases = nrow(own), refused = sum(own$refused), crashed = sum(own$crashed),
                points = sum(fitted$points), off = sum(wrong$off), seen = sum(wrong$seen) / sum(wrong$off),
                cases_off = nrow(wrong), cases_seen = sum(wrong$seen >= 0.9 * wrong$off),
-               amber = mean(fitted$amber, na.rm = TRUE), red = mean(fitted$red, na.rm = TRUE))
+               amber = mean(fitted$amber, na.rm = TRUE), red = mean(fitted$red, na.rm = TRUE),
+               needless = mean(fitted$needless, na.rm = TRUE))
   }
   rows$kind <- factor(rows$kind, names(corruptions))
   rbind(do.call(rbind, Map(sums, split(rows, rows$kind), levels(rows$kind))), sums(rows, "all"))
@@ -161,6 +167,7 @@ false_alarms <- function(shapes, name) {
              curves_red = mean(own$grade[own$level == "curves"] == "red"))
 }
 
+options(width = 200)
 rounded <- function(table) {
   numbers <- vapply(table, is.double, NA)
   table[numbers] <- lapply(table[numbers], round, 3)

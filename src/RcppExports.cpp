@@ -282,6 +282,41 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_slide_on_tracks
+List cpp_slide_on_tracks(NumericMatrix b, NumericMatrix x, List paths, NumericMatrix rows, double strain, int sweeps);
+RcppExport SEXP _crestline_cpp_slide_on_tracks(SEXP bSEXP, SEXP xSEXP, SEXP pathsSEXP, SEXP rowsSEXP, SEXP strainSEXP, SEXP sweepsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type b(bSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type x(xSEXP);
+    Rcpp::traits::input_parameter< List >::type paths(pathsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type rows(rowsSEXP);
+    Rcpp::traits::input_parameter< double >::type strain(strainSEXP);
+    Rcpp::traits::input_parameter< int >::type sweeps(sweepsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_slide_on_tracks(b, x, paths, rows, strain, sweeps));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_slide_on_mesh
+List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x, NumericMatrix held, NumericMatrix places, double tolerance, int sweeps);
+RcppExport SEXP _crestline_cpp_slide_on_mesh(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP bSEXP, SEXP xSEXP, SEXP heldSEXP, SEXP placesSEXP, SEXP toleranceSEXP, SEXP sweepsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type b(bSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type x(xSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type held(heldSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type places(placesSEXP);
+    Rcpp::traits::input_parameter< double >::type tolerance(toleranceSEXP);
+    Rcpp::traits::input_parameter< int >::type sweeps(sweepsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_slide_on_mesh(vb, it, twin, b, x, held, places, tolerance, sweeps));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
@@ -302,6 +337,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
     {"_crestline_cpp_tensor_moments", (DL_FUNC) &_crestline_cpp_tensor_moments, 3},
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
+    {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
+    {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
     {NULL, NULL, 0}
 };
 

@@ -11,6 +11,8 @@
 #include "plot_render.h"
 #include "ridge_surface.h"
 #include "shape_column.h"
+#include "template_slide.h"
+#include "template_surface.h"
 
 using namespace Rcpp;
 
@@ -106,6 +108,17 @@ crestline::Track track(const NumericMatrix& xyz, const NumericVector& s, const I
   return out;
 }
 
+// Columns s, x, y, z, face.
+NumericMatrix track_rows(const crestline::Track& track) {
+  NumericMatrix out(track.s.size(), 5);
+  for (int i = 0; i < out.nrow(); ++i) {
+    out(i, 0) = track.s[i];
+    for (int k = 0; k < 3; ++k) out(i, 1 + k) = track.xyz[3 * i + k];
+    out(i, 4) = track.face[i] + 1;
+  }
+  return out;
+}
+
 crestline::ChordSettings chord_settings(const List& s) {
   return {s["tolerance"], s["iterations"], s["slowest"]};
 }
@@ -118,6 +131,36 @@ std::string walk_end(crestline::WalkEnd end) {
     case crestline::WalkEnd::round: return "round";
     default: return "too far";
   }
+}
+
+// Matrices of columns s, x, y, z, face (0: the segment that ends there is no part of the mesh).
+std::vector<crestline::Track> tracks(const List& paths) {
+  std::vector<crestline::Track> out(paths.size());
+  for (int p = 0; p < paths.size(); ++p) {
+    NumericMatrix nodes = paths[p];
+    for (int i = 0; i < nodes.nrow(); ++i) {
+      out[p].s.push_back(nodes(i, 0));
+      for (int k = 1; k < 4; ++k) out[p].xyz.push_back(nodes(i, k));
+      out[p].face.push_back(static_cast<int>(nodes(i, 4)) - 1);
+    }
+  }
+  return out;
+}
+
+// Columns point, track, s, before, after, low, high, rest_before, rest_after, gap, tolerance; point, track, before and after
+// counted from 1, before and after 0 where there is none.
+std::vector<crestline::Slider> sliders_of(const NumericMatrix& rows) {
+  std::vector<crestline::Slider> out;
+  auto index = [&](int i, int column) { return static_cast<int>(rows(i, column)) - 1; };
+  for (int i = 0; i < rows.nrow(); ++i)
+    out.push_back({index(i, 0), index(i, 1), rows(i, 2), index(i, 3), index(i, 4), rows(i, 5), rows(i, 6),
+                   rows(i, 7), rows(i, 8), rows(i, 9), rows(i, 10)});
+  return out;
+}
+
+List slide_trace(const crestline::SlideTrace& trace) {
+  return List::create(_["energy"] = trace.energy, _["strain"] = trace.strain, _["longest"] = trace.longest,
+                      _["converged"] = trace.converged);
 }
 
 // Three values a row.
@@ -272,7 +315,7 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
                               settings["rim"], settings["inside"], chord_settings(chords)};
   const char* words[] = {"arrived", "border", "round", "too far", "no axis"};
   CharacterVector end(rows.size());
-  List points(rows.size());
+  List points(rows.size()), cuts(rows.size());
   for (int i = 0; i < rows.size(); ++i) {
     const double* outer = ISNAN(outside(0, i)) ? nullptr : &outside(0, i);
     crestline::Column column = crestline::fit_column(mesh, surface_point(from, i),
@@ -281,9 +324,10 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
     NumericMatrix at(column.points.size(), 7);
     for (std::size_t r = 0; r < column.points.size(); ++r) fill_row(mesh, column.points[r], r, at);
     points[i] = at;
+    cuts[i] = track_rows(column.track);
     checkUserInterrupt();
   }
-  return List::create(_["end"] = end, _["points"] = points);
+  return List::create(_["end"] = end, _["points"] = points, _["cuts"] = cuts);
 }
 
 // [[Rcpp::export]]
@@ -328,4 +372,31 @@ List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int
   NumericVector rgba(p.rgba.begin(), p.rgba.end());
   rgba.attr("dim") = IntegerVector::create(height, width, 4);
   return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
+}
+
+// [[Rcpp::export]]
+List cpp_slide_on_tracks(NumericMatrix b, NumericMatrix x, List paths, NumericMatrix rows, double strain,
+                         int sweeps) {
+  NumericMatrix moved = clone(x);
+  std::vector<crestline::Slider> sliders = sliders_of(rows);
+  crestline::SlideTrace trace =
+      crestline::slide_on_tracks(b.begin(), b.nrow(), moved.begin(), tracks(paths), sliders, {strain, sweeps},
+                                 [] { checkUserInterrupt(); });
+  NumericVector s(sliders.size());
+  for (std::size_t i = 0; i < sliders.size(); ++i) s[i] = sliders[i].s;
+  return List::create(_["x"] = moved, _["s"] = s, _["trace"] = slide_trace(trace));
+}
+
+// [[Rcpp::export]]
+List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x,
+                       NumericMatrix held, NumericMatrix places, double tolerance, int sweeps) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  NumericMatrix moved = clone(x), out(x.nrow(), 7);
+  std::vector<crestline::SurfacePoint> at;
+  for (int i = 0; i < x.nrow(); ++i) at.push_back(surface_point(places, i));
+  crestline::SlideTrace trace =
+      crestline::slide_on_mesh(mesh, b.begin(), b.nrow(), moved.begin(), held.begin(), at, tolerance, sweeps,
+                               [] { checkUserInterrupt(); });
+  for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
+  return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
 }

@@ -39,7 +39,7 @@ int outer_side(const Triangulation& mesh, int face, const double* axis, const do
 
 Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to,
                   const double* outside, int rows, const ColumnSettings& settings) {
-  Column column{ColumnEnd::no_axis, {}};
+  Column column{ColumnEnd::no_axis, {}, {}};
   SurfacePoint a = moved_inside(from, settings.inside), b = moved_inside(to, settings.inside);
   CutAxis axis = cut_axis(mesh, a, b);
   if (axis.span == 0) return column;
@@ -66,7 +66,8 @@ Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const Sur
   }
   plane_normal(axis, best_angle, normal);
   best = plane_cut(mesh, {a, b, normal, side(normal), settings.reach * axis.span, true});
-  Track track = track_of(mesh, best, from, to);
+  column.track = track_of(mesh, best, from, to);
+  const Track& track = column.track;
   column.end = ColumnEnd::arrived;
   column.points.push_back(from);
   std::vector<double> s = equal_chords(track, rows, settings.chords).s;

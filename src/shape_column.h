@@ -21,6 +21,7 @@ enum class ColumnEnd { arrived, border, round, too_far, no_axis };
 struct Column {
   ColumnEnd end;                     // unless arrived: how the plane at angle 0 ended
   std::vector<SurfacePoint> points;  // rows of them, the ends as given
+  Track track;                       // the cut that they lie on
 };
 
 // outside: direction out of the surface between the ends where it is known, else null. On a sharp rim the

@@ -59,7 +59,7 @@ run_demo <- function(folder, picture_radius = 7) {
   files <- file.path(folder, c("curves.csv", "points.csv", "model.ply", "face.png", "face.html", "quality.html"))
   utils::write.csv(shape$status[shape$status$level == "curves", ], files[1], row.names = FALSE)
   utils::write.csv(as.data.frame(shape), files[2], row.names = FALSE)
-  Rvcg::vcgPlyWrite(shape_mesh(shape), sub("[.]ply$", "", files[3]))
+  write_mesh(shape, files[3])
   bending <- curvature(face$mesh, radius = picture_radius)
   write_picture(files[4], shape, face, bending)
   write_page(files[5], face, shape, curvature = bending, view = face_view(face$landmarks),

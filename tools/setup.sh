@@ -61,6 +61,7 @@ install_from_cran() {
   flags=$(mktemp)
   printf '%s = -g0 -O2\n' CFLAGS CXXFLAGS CXX11FLAGS CXX14FLAGS CXX17FLAGS > "$flags"
   case " $* " in *" Rvcg "*) say "    Rvcg has to be compiled: about 5 minutes on two free cores" ;; esac
+  case " $* " in *" Morpho "*) say "    Morpho has to be compiled: about 2 minutes" ;; esac
   step "from CRAN, on $(cores) cores: $*" \
     env -u MAKELEVEL -u MFLAGS MAKEFLAGS="-j$(cores)" R_MAKEVARS_USER="$flags" Rscript tools/packages.R install
   rm -f "$flags"

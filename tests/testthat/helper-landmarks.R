@@ -18,7 +18,7 @@ hard_landmarks <- function() {
 
 hard_curves <- function() {
   list("upper lip, left" = structure(xyz(1 / 3, 2, -3, NA, NA, NA, 0.1, 1e-9, 5), closed = FALSE),
-       "rim \"R\"" = structure(xyz(1, 2, 3, 1 / 7, 5, 6, 7, 8, 9), closed = TRUE),
+       "rim \"R\"" = structure(xyz(1, 2, 3, 1 / 7, 5, 6, NA, NA, NA, 7, 8, 9), closed = TRUE),
        single = structure(xyz(-9, 1, 1e5), closed = FALSE))
 }
 

@@ -24,10 +24,15 @@ test_that("parameters may come in any order and number, and colours among them",
   expect_equal(read_landmarks(landmark_file("landmarkAscii", amira_head, amira_one, eol = "\r\n")), expected)
 })
 
-test_that("two sets are two specimens", {
-  x <- read_landmarks(amira_file(amira_head, "Markers { float[3] Coordinates } @1", "Markers { float[3] Coordinates2 } @2", "",
-                                 "@1", "1 2 3", "4 5 6", "", "@2", "7 8 9", "10 11 12"))
-  expect_equal(x, list("1" = xyz(1:6, name = 1:2), "2" = xyz(7:12, name = 1:2)))
+test_that("two sets are two specimens, whatever stands between head and data", {
+  two <- c("Markers { float[3] Coordinates } @1", "Markers { float[3] Coordinates2 } @2", "", "# Data section follows")
+  data <- c("@1", "1.000000000000000e+00 2.000000000000000e+00 3.000000000000000e+00", "4 5 6", "", "@2", "7 8 9", "10 11 12")
+  parameters <- c("Parameters {", "    NumSets 2,", "    ContentType \"LandmarkSet\"", "}")
+  many <- c("Parameters {", sprintf("    Colour%d 1 0 0,", 1:120), "    ContentType \"LandmarkSet\",", "    NumSets 2", "}")
+  for (head in list(character(), parameters, many)) {
+    x <- read_landmarks(amira_file(amira_head, head, two, data))
+    expect_equal(x, list("1" = xyz(1:6, name = 1:2), "2" = xyz(7:12, name = 1:2)))
+  }
 })
 
 test_that("what cannot be written or read is refused with file, line and remedy", {

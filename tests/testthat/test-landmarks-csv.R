@@ -53,6 +53,11 @@ test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(csv_file(""), "cannot be read")
 })
 
+test_that("semicolons and decimal commas are refused, not misread", {
+  expect_refused(csv_file("name;x;y;z", "a;1,5;2;3"), c("no column x, y, z", "commas between"))
+  expect_refused(csv_file("name,x,y,z", 'a,"1,5",2,3'), c('"1,5" is not a number', "decimal point"), line = 2)
+})
+
 test_that("blanks at the ends of a name stay when it is quoted", {
   expect_round_trip(xyz(1, 2, 3, name = " a "), "csv")
 })

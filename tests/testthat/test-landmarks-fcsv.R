@@ -49,6 +49,28 @@ test_that("other columns in another order are found by their names; any number o
   expect_equal(rownames(read_landmarks(fcsv_file(fcsv_row("no header")))), "no header")
 })
 
+test_that("what is written names its frame in a word, the columns, and the state of every point", {
+  for (frame in c("LPS", "RAS")) {
+    file <- fcsv_file("")
+    write_landmarks(xyz(1, 2, 3, NA, NA, NA, name = c("a, b", "c")), file, frame = frame)
+    line <- readLines(file)
+    expect_equal(line[2], paste("# CoordinateSystem =", frame))
+    expect_equal(line[1:3], fcsv_head(frame))
+    field <- lapply(line[4:5], function(text) scan(text = text, what = "", sep = ",", quiet = TRUE))
+    expect_equal(lengths(field), c(16L, 16L))
+    expect_equal(vapply(field, `[`, "", 12), c("a, b", "c"))
+    expect_equal(vapply(field, `[`, "", 15), c("2", "0"))
+  }
+})
+
+test_that("descriptions with commas do not move the state, and lines may end as on Windows", {
+  lines <- c(fcsv_head("1"), fcsv_row("a", end = ',"left, of two",node,3,1'), fcsv_row("b", end = ',"say ""x""",,2,1'))
+  for (eol in c("\n", "\r\n")) {
+    x <- read_landmarks(landmark_file("fcsv", lines, eol = eol))
+    expect_equal(x, xyz(NA, NA, NA, 10, 20, 30, name = c("a", "b")))
+  }
+})
+
 test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(fcsv_file(fcsv_head(), "1,2"), "too few fields", line = 4)
   expect_refused(fcsv_file(fcsv_head(), fcsv_row("a"), fcsv_row("b", "1,two,3")), '"two"', line = 5)

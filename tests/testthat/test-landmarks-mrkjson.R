@@ -45,6 +45,14 @@ test_that("several lists are one specimen's: landmarks together, curves by name"
   expect_equal(unname(vapply(curves, nrow, 0L)), c(2, 1, 2))
 })
 
+test_that("Angle lists are curves, missing control points stay in their place, ROI lists are left out", {
+  angle <- json_list(json_point("A-1"), json_point("A-2", '""', undefined), json_point("A-3"), type = "Angle",
+                     more = ', "name": "jaw"')
+  file <- json_markups(angle, json_list(json_point("R"), type = "ROI"))
+  expect_warning(x <- read_landmarks(file), "ROI", class = "crestline_format_warning")
+  expect_equal(attr(x, "curves"), list(jaw = structure(xyz(10, 20, 30, NA, NA, NA, 10, 20, 30), closed = FALSE)))
+})
+
 test_that("lists that share labels are told apart by their names", {
   x <- read_landmarks(json_markups(json_list(json_point("F-1"), more = ', "name": "left"'), json_list(json_point("F-1"), more = ', "name": "right"')))
   expect_equal(rownames(x), c("left F-1", "right F-1"))
@@ -57,8 +65,9 @@ test_that("an only list without a name has the file's", {
 
 test_that("points that are not defined are missing, and numbers stay numbers", {
   x <- read_landmarks(json_markups(json_list(json_point("a", '""', undefined), json_point("b"), json_point("c", '""', ', "positionStatus": "missing"'),
-                                             json_point("d", "[0, 0, 0]", ', "positionStatus": "preview"'))))
-  expect_equal(x, xyz(NA, NA, NA, 10, 20, 30, rep(NA, 6), name = c("a", "b", "c", "d")))
+                                             json_point("d", "[0, 0, 0]", ', "positionStatus": "preview"'),
+                                             json_point("e", "null", undefined))))
+  expect_equal(x, xyz(NA, NA, NA, 10, 20, 30, rep(NA, 9), name = c("a", "b", "c", "d", "e")))
   expect_type(x, "double")
 })
 
@@ -78,7 +87,9 @@ test_that("each list's frame counts; without one it is LPS", {
 test_that("units may be a word or DICOM's triple; different ones are refused", {
   triple <- json_list(json_point("a"), more = ', "coordinateUnits": ["mm", "UCUM", "millimeter"]')
   expect_equal(nrow(read_landmarks(json_markups(triple, json_list(json_point("b"))))), 2)
-  expect_refused(json_markups(triple, json_list(json_point("b"), more = ', "coordinateUnits": "um"')), "different units: mm, um")
+  micron <- json_list(json_point("b"), more = ', "coordinateUnits": "um"')
+  expect_refused(json_markups(triple, micron), "different units: mm, um")
+  expect_equal(read_landmarks(json_markups(micron)), xyz(10, 20, 30, name = "b"))
 })
 
 test_that("names: label, else id, else number; other types are left out with a warning", {

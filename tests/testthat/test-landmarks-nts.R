@@ -32,6 +32,12 @@ test_that("only the code itself is missing, and reading leaves the options alone
   expect_equal(getOption("warn"), 1)
 })
 
+test_that("the code of a missing point is what the header says, and need not occur", {
+  x <- read_landmarks(nts_file("1 1L 9 1 -999 DIM=3", "a", "-999 -999 -999", "9999 9999 9999", "1 2 3"))
+  expect_equal(x, xyz(NA, NA, NA, 9999, 9999, 9999, 1, 2, 3, name = 1:3))
+  expect_false(anyNA(read_landmarks(nts_file("1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5 6"))))
+})
+
 test_that("a header that declares nothing missing keeps the code in single co-ordinates", {
   x <- read_landmarks(nts_file("1 1L 6 0 9999 DIM=3", "a", "9999 9999 9999", "1 9999 3"))
   expect_equal(x, xyz(NA, NA, NA, 1, 9999, 3, name = 1:2))

@@ -17,6 +17,14 @@ test_that("names may hold blanks, the header further lines, and curves are not l
                                        C.1 = structure(xyz(2, 2, 2), closed = FALSE)))
 })
 
+test_that("the last point counts, with a line end behind it or without, and points of patches keep their names", {
+  lines <- "Version 1.0\n3\nS000 1 2 3\nP000-000 4 5 6\nS001 7 8 9"
+  expected <- xyz(1:9, name = c("S000", "P000-000", "S001"))
+  expect_equal(read_landmarks(landmark_file("pts", lines, eol = "")), expected)
+  expect_equal(read_landmarks(pts_file(lines)), expected)
+  expect_equal(read_landmarks(pts_file(lines, "", "")), expected)
+})
+
 test_that("names of landmarks stay, whatever they begin with, even when given twice", {
   x <- read_landmarks(pts_file("Version 1.0", "4", "pn 1 2 3", "Condyle 4 5 6", "sn 7 8 9", "sn 7 8 9"))
   expect_equal(rownames(x), c("pn", "Condyle", "sn", "sn"))

@@ -16,6 +16,12 @@ test_that("LM3= and CURVES= are read, the lengths of curves kept, equal or not",
   expect_equal(x$b["1", "z"], -3)
 })
 
+test_that("POINTS= without a head, as in old files, are open curves", {
+  x <- read_landmarks(tps_file("LM3=1", "1 2 3", "POINTS=2", "4 5 6", "7 8 9", "OUTLINES=1", "POINTS=1", "1 1 1"))
+  expect_equal(attr(x, "curves"), list("curve 1" = structure(xyz(4:9), closed = FALSE),
+                                       "curve 2" = structure(xyz(1, 1, 1), closed = TRUE)))
+})
+
 test_that("two-dimensional records lie in the plane z = 0, more than 99 landmarks and without IMAGE or ID", {
   x <- read_landmarks(tps_file("LM=120", paste(1:120, 5), "OUTLINES=1", "POINTS=1", "7 8"))
   expect_equal(x[c("1", "120"), ], xyz(1, 5, 0, 120, 5, 0, name = c("1", "120")))

@@ -35,6 +35,8 @@ test_that("colours behind the co-ordinates are kept", {
   lines <- paste(corners, c("1 0 0", "0 1 0", "0 0 1", "1 1 1"))
   s <- read_specimen(obj_file(lines, "f 1 2 3 4"))
   expect_equal(s$mesh$material$color, c("#FF0000", "#00FF00", "#0000FF", "#FFFFFF"))
+  bytes <- paste(corners, c("255 0 0", "0 255 0", "0 0 255", "255 255 255"))
+  expect_equal(read_specimen(obj_file(bytes, "f 1 2 3 4"))$mesh$material$color, s$mesh$material$color)
 })
 
 # A picture of 2 x 2 blocks of 4 pixels: red green above, blue white below.

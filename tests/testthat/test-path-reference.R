@@ -51,6 +51,13 @@ test_that("`longest` holds a cut to the length of the shortest", {
   }
 })
 
+test_that("the radius is that of the curvature that is given, else it is asked for", {
+  bent <- bent_ridge()
+  curved <- curvature(bent, 4)
+  expect_equal(reference_path(bent, "a", "b", "ridge", curvature = curved), reference_path(bent, "a", "b", "ridge", 4, curvature = curved))
+  expect_crestline_error(reference_path(bent, "a", "b", "ridge"), c("`radius` is NULL", "finite number"))
+})
+
 test_that("curvature that is given is used, and the same as estimated on the way", {
   bent <- bent_ridge()
   given <- reference_path(bent, "a", "b", "ridge", 4, curvature = curvature(bent, 4))

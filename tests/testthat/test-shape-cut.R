@@ -49,6 +49,9 @@ test_that("without one of the pair that shares are of, the mirror plane gives th
   whole <- mirror_shape()
   half <- mirror_shape(c("b", "c"))
   expect_equal(status_of(half, "left")$length, status_of(whole, "left")$length, tolerance = 1e-9)
+  of_left <- function(shape, name) shape$checks[shape$checks$part == "left", name]
+  expect_equal(c(of_left(whole, "guessed"), of_left(half, "guessed")), c(FALSE, TRUE))
+  expect_equal(c(of_left(whole, "cut"), of_left(mirror_shape(share = 1e3), "cut") < 1), c(1, 1))
   expect_match(status_of(half, "left")$reason, "c is missing: cut by the distance of its pair from the mirror plane", fixed = TRUE)
   expect_equal(curve_at(half, "left"), curve_at(whole, "left"), tolerance = 1e-9)
   lost <- mirror_shape(c("b", "c", "low"))
@@ -61,6 +64,7 @@ test_that("a far landmark that is missing is made up for by the mirror image of 
   shape <- mirror_shape("a")
   expect_lte(max(abs(curve_at(shape, "left") - curve_at(whole, "left"))), 0.05)
   expect_true(status_of(shape, "left")$ok)
+  expect_equal(shape$checks$guessed[shape$checks$part %in% c("left", "right", "top")], c(NA, TRUE, FALSE))
   expect_match(status_of(shape, "left")$reason, "landmark a is missing .*: followed towards the mirror image of b")
   expect_identical(curve_at(shape, "right"), curve_at(whole, "right"))
   none <- mirror_shape(c("a", "b"))

@@ -109,16 +109,52 @@ test_that("progress is shown on request, and changes nothing", {
 test_that("the mirrored specimen, its landmarks renamed, gives the mirrored points", {
   pairs <- data.frame(level = c("landmarks", "landmarks", "curves"), left = c("a", "d", "left"), right = c("b", "c", "right"))
   scheme <- quad_scheme(function(tables) c(tables[1:2], list(pairs = pairs)))
-  specimen <- quad_specimen()
-  mesh <- specimen$mesh
-  mesh$vb[1, ] <- -mesh$vb[1, ]
-  mesh$it <- mesh$it[c(1, 3, 2), ]
-  mesh$normals <- NULL
-  landmarks <- specimen$landmarks[c("b", "a", "d", "c"), ] %*% diag(c(-1, 1, 1))
-  rownames(landmarks) <- c("a", "b", "c", "d")
-  mirror <- fit_shape(specimen(mesh, landmarks, id = "mirror"), scheme, progress = FALSE)
+  mirror <- fit_shape(mirrored_specimen(quad_specimen(), pairs), scheme, progress = FALSE)
   at <- coords(mirror, "curves") %*% diag(c(-1, 1, 1))
-  whole <- coords(fit_shape(specimen, scheme, progress = FALSE), "curves")
+  whole <- coords(fit_shape(quad_specimen(), scheme, progress = FALSE), "curves")
   expect_equal(unname(at[paste("left", 1:5), ]), unname(whole[paste("right", 1:5), ]), tolerance = 1e-7)
   expect_equal(unname(at[paste("top", 1:7), ]), unname(whole[paste("top", 7:1), ]), tolerance = 1e-7)
+})
+
+test_that("the whole model of a face is that of its mirror image, whatever the order of corners and faces", {
+  face <- humface_specimen()
+  pairs <- face_scheme()$pairs
+  fit <- function(specimen) fit_shape(specimen, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
+  whole <- fit(face)
+  size <- mesh_diagonal(face$mesh)
+  for (shuffled in c(FALSE, TRUE)) {
+    expect_lte(mirror_gap(whole, fit(mirrored_specimen(face, pairs, shuffled)), pairs), tolerances$invariance * size)
+  }
+  face$landmarks["tL", ] <- NA
+  face$landmarks["enR", ] <- NA
+  expect_lte(mirror_gap(fit(face), fit(mirrored_specimen(face, pairs)), pairs), tolerances$invariance * size)
+})
+
+test_that("points of one place of a face agree exactly, and what is missing has a reason and costs nothing else", {
+  face <- humface_specimen()
+  whole <- fit_shape(face, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
+  middle <- face$landmarks["acL", ] + c(12, 0, 0)
+  torn <- face$mesh
+  kept <- colSums((torn$vb[1:3, ] - middle)^2) > 6^2
+  torn$it <- torn$it[, kept[torn$it[1, ]] & kept[torn$it[2, ]] & kept[torn$it[3, ]]]
+  torn$normals <- NULL
+  landmarks <- face$landmarks
+  landmarks["st", ] <- NA
+  landmarks <- landmarks[rownames(landmarks) != "tR", ]
+  shape <- fit_shape(specimen(torn, landmarks, id = "torn"), face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
+  columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
+  for (one in list(whole, shape)) {
+    first <- match(one$scheme$points$place, one$scheme$points$place)
+    expect_identical(unname(as.matrix(one$points[columns])), unname(as.matrix(one$points[first, columns])))
+  }
+  part <- paste(shape$points$level, shape$points$part)
+  lost <- tapply(is.na(shape$points$x), part, any)
+  expect_equal(unname(lost[paste(shape$status$level, shape$status$part)]), !shape$status$ok, ignore_attr = TRUE)
+  expect_true(all(nzchar(shape$status$reason[!shape$status$ok])))
+  expect_true(all(c("st", "tR", "mid-line lip left", "cheek-nose left") %in% shape$status$part[!shape$status$ok]))
+  gap <- sqrt(rowSums((as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(whole$points[c("x", "y", "z")]))^2))
+  followed <- unique(part[grepl("followed|right", shape$status$reason[match(part, paste(shape$status$level, shape$status$part))])])
+  expect_lte(max(gap[!grepl("right", part)], na.rm = TRUE), 0.5)
+  expect_lte(max(gap, na.rm = TRUE), 4)
+  expect_gt(mean(!is.na(gap)), 0.8)
 })

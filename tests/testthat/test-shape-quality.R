@@ -153,6 +153,10 @@ test_that("a patch is amber where a curve that bounds it is not green", {
   expect_equal(graded$why[7:9], c("the curvature is faint", NA, "bounded by left (amber)"))
   expect_equal(grade_in(quality(shape, quality_limits(undetermined = "red")), "left"), "red")
   expect_true(all(quality(shape, quality_limits(undetermined = "green"))$grade == "green"))
+  shape$checks$determined <- NA
+  shape$checks$guessed[shape$checks$part == "left"] <- TRUE
+  expect_equal(grade_in(quality(shape), "left"), "amber")
+  expect_equal(grade_in(quality(shape, quality_limits(guessed = "red")), "left"), "red")
 })
 
 test_that("limits grade by their side, and can be switched off", {
@@ -188,7 +192,7 @@ test_that("several specimens are told by name, and one that failed is told too",
 
 test_that("a length that is off the others' is flagged, a large specimen is not", {
   shape <- quad_shape()
-  sample <- lapply(1:8, function(i) {
+  sample <- lapply(1:12, function(i) {
     curves <- shape$status$level == "curves"
     wobble <- with_seed(i, exp(0.01 * stats::rnorm(sum(curves))))
     shape$status$length[curves] <- shape$status$length[curves] * wobble * if (i == 3) 2 else 1
@@ -200,7 +204,7 @@ test_that("a length that is off the others' is flagged, a large specimen is not"
   expect_match(graded$why[4 * 9 + 6], "its length is off the others'", fixed = TRUE)
   alone <- quality(sample[[5]], others = sample[-5])
   expect_equal(alone$z, graded$z[37:45])
-  expect_true(all(is.na(quality(sample[1:5])$z)))
+  expect_true(all(is.na(quality(sample[1:10])$z)))
 })
 
 test_that("the real face: nothing red, and a hole in its cheek is seen", {
@@ -217,4 +221,11 @@ test_that("the real face: nothing red, and a hole in its cheek is seen", {
   expect_gt(max(moved, na.rm = TRUE), 3)
   after <- quality(holed)
   expect_equal(as.character(after$grade[after$part == "cheek-lip left"]), "red")
+})
+
+test_that("some of the columns print as the data frame that they are", {
+  graded <- quality(quad_shape())
+  expect_output(print(graded), "<shape_quality>", fixed = TRUE)
+  expect_output(print(graded[1:2, c("part", "grade")]), "part grade", fixed = TRUE)
+  expect_output(print(graded[0, c("part", "grade")]), "0 rows", fixed = TRUE)
 })

@@ -1,0 +1,79 @@
+# Curves in landmark files: those of a shape, as curves or as named points, and back by name.
+
+#' Read curves from a landmark file, by name
+#'
+#' The curves of a file that [write_landmarks()] or other programs wrote. Where the format has no curves, points named
+#' "curve 1", "curve 2", ... are those of a curve, as `write_landmarks()` writes a shape's.
+#'
+#' @param file Path of the file, see [read_landmarks()].
+#' @param curves Names of the curves that are wanted, in this order; NULL for all.
+#' @param ... Further arguments of [read_landmarks()].
+#' @return Named list of n x 3 matrices with columns `x`, `y`, `z`, NA in missing points, each with the attribute `closed`;
+#'   of a file of several specimens a named list of such lists. [fit_shape()] takes such curves in place of its
+#'   own.
+#' @section Errors: of class `crestline_landmark_error`, when a curve is not in the file (near names are given), and as
+#'   [read_landmarks()].
+#' @examples
+#' file <- tempfile(fileext = ".csv")
+#' lips <- list("upper lip" = rbind(c(0, 1, 2), c(1, 1, 3)),
+#'              "lower lip" = rbind(c(0, 0, 2), c(1, 0, 3)))
+#' write_landmarks(NULL, file, curves = lips)
+#' read_curves(file, "lower lip")
+#' @export
+read_curves <- function(file, curves = NULL, ...) {
+  sets <- read_landmarks(file, ...)
+  of_set <- function(set) chosen_curves(curves_of_set(set), curves, file)
+  if (is.list(sets)) lapply(sets, of_set) else of_set(sets)
+}
+
+curves_of_set <- function(set) {
+  curves <- attr(set, "curves")
+  if (!is.null(curves)) return(curves)
+  part <- regmatches(rownames(set), regexec("^(.*\\S) ([1-9][0-9]*)$", rownames(set)))
+  row <- which(lengths(part) == 3)
+  name <- vapply(part[row], `[`, "", 2)
+  number <- as.numeric(vapply(part[row], `[`, "", 3))
+  rows <- lapply(stats::setNames(nm = unique(name)), function(one) row[name == one][order(number[name == one])])
+  whole <- vapply(names(rows), function(one) identical(sort(number[name == one]), as.numeric(seq_along(rows[[one]]))), NA)
+  lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
+}
+
+chosen_curves <- function(found, curves, file) {
+  if (is.null(curves)) return(found)
+  absent <- setdiff(curves, names(found))
+  if (length(absent)) {
+    remedy <- if (length(found)) near_names(absent[1], names(found)) else "The file has no curves."
+    refuse_landmark_file(file, sprintf("there is no curve %s", shorten(absent)), remedy)
+  }
+  found[curves]
+}
+
+#' The curves of a shape as [read_landmarks()] has them
+#' @noRd
+shape_curves <- function(x) {
+  points <- x$points[x$points$level == "curves", ]
+  lapply(stats::setNames(nm = unique(points$part)), function(name) {
+    landmark_curve(as.matrix(points[points$part == name, c("x", "y", "z")]))
+  })
+}
+
+has_shape <- function(x) inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
+
+#' Sets whose curves are landmarks named "curve point", as in [coords()]
+#' @noRd
+curves_as_points <- function(sets, file) {
+  curves <- lapply(sets, attr, "curves")
+  if (!any(lengths(curves) > 0)) return(sets)
+  crestline_warn(
+    sprintf("%s: the format has no curves: their points are written as landmarks, \"%s 1\" and so on.", basename(file),
+            unlist(lapply(curves, names))[1]),
+    "read_curves() gives them back; curves = list() leaves them out.", stage = "landmarks",
+    class = "crestline_format_warning"
+  )
+  Map(function(set, curves) {
+    names <- paste(rep(names(curves), vapply(curves, nrow, 0L)), unlist(lapply(curves, function(x) seq_len(nrow(x)))))
+    points <- do.call(rbind, c(list(set), unname(curves)))
+    rownames(points) <- c(rownames(set), names)
+    as_landmarks(points)
+  }, sets, curves)
+}

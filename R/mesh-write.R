@@ -1,0 +1,132 @@
+# Meshes to files: the format by the file's extension, one file of code a format.
+
+#' Write a mesh, or the surface of a shape
+#'
+#' A PLY, OBJ or STL file that other programs open and [read_specimen()] reads back: the same vertices in the same order,
+#' to the last bit, the same triangles and colours. STL is the exception, see below.
+#'
+#' | extension | numbers | colours of vertices | values of vertices |
+#' |---|---|---|---|
+#' | `.ply` | double precision | yes | property `quality` |
+#' | `.obj` | as many digits as give them back | yes, behind the co-ordinates | no |
+#' | `.stl` | single precision, with `ascii` as in `.obj` | no | no |
+#'
+#' * `.ply`: binary (little endian) or ascii. MeshLab and CloudCompare show `quality` as a scalar field. The mesh of
+#'   [shape_mesh()] has a property `row` too: the row of every vertex in `coords(shape, "surface")`, 0 for the
+#'   points between them, since the format has no names of points: `rownames(coords(shape, "surface"))[row]` are these.
+#' * `.obj`: text, colours as numbers from 0 to 1.
+#' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the triangles.
+#'
+#' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer takes meshes for LPS unless told otherwise, as
+#' [write_landmarks()] does.
+#'
+#' @param x A `shape` (its surface, see [shape_mesh()]), a [specimen()], or a `mesh3d` such as a denser surface of
+#'   [shape_mesh()].
+#' @param file Path of the file, ending in `.ply`, `.obj` or `.stl`.
+#' @param colour Colours of the vertices: NULL for the natural ones, if any; one colour or one for each vertex; numbers, one
+#'   for each vertex (with a shape, also one for each of its surface points), which `palette` turns into colours; "patch"
+#'   for a colour a patch (strips between patches grey); or "se" for the standard errors of a shape's surface points (NA
+#'   inside patches).
+#' @param parts Of a shape: parts of the surface, as in [shape_mesh()].
+#' @param palette Colours from the least number to the greatest, with even steps between.
+#' @param limits The numbers at the ends of the palette; the range of the numbers unless given. Numbers beyond have the
+#'   colour of the end.
+#' @param missing Colour where the number is NA.
+#' @param ascii Whether `.ply` and `.stl` are written as text, not binary.
+#' @return `file`, invisibly.
+#' @section Errors: of class `crestline_error`, for an unknown extension, a file that cannot be written, a mesh without
+#'   triangles, or colours that do not fit. A warning of class `crestline_format_warning` tells when STL leaves out colours
+#'   that were asked for.
+#' @seealso [shape_mesh()], [write_landmarks()] for the points, [write_page()] for the browser
+#' @examples
+#' file <- tempfile(fileext = ".ply")
+#' ball <- Rvcg::vcgSphere(2)
+#' write_mesh(ball, file, colour = ball$vb[3, ])
+#' read_specimen(file)
+#' unlink(file)
+#' @export
+write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevices::hcl.colors(11, "Viridis"),
+                       limits = NULL, missing = "#BEBEBE", ascii = FALSE) {
+  write <- mesh_writer(file)
+  shape <- if (inherits(x, "shape")) x
+  mesh <- if (is.null(shape)) written_mesh(x) else shape_mesh(shape, parts)
+  painted <- painted_mesh(mesh, colour, shape, palette, limits, missing)
+  write(painted, file, isTRUE(ascii))
+  if (!is.null(colour) && identical(file_extension(file), "stl")) {
+    crestline_warn(sprintf("%s: .stl has no colours: they are left out.", basename(file)), "Write a .ply or .obj file.",
+                   stage = "writing", class = "crestline_format_warning")
+  }
+  invisible(file)
+}
+
+mesh_writers <- function() list(ply = write_ply, obj = write_obj, stl = write_stl)
+
+mesh_writer <- function(file) {
+  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, "writing")
+  writer <- mesh_writers()[[file_extension(file)]]
+  if (is.null(writer)) {
+    refuse_writing(file, "the format is not known by its extension",
+                   paste0("Known: ", paste0(".", names(mesh_writers()), collapse = ", "), "."))
+  }
+  writer
+}
+
+refuse_writing <- function(file, reason, remedy) {
+  crestline_abort(sprintf("%s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
+                  class = "crestline_mesh_error", call = NULL)
+}
+
+#' A mesh of triangles, each corner a vertex that is there, with the attributes of [shape_mesh()]
+#' @noRd
+written_mesh <- function(x) {
+  mesh <- if (inherits(x, "specimen")) x$mesh else x
+  check_class(mesh, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
+  for (step in list(as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices)) mesh <- step(mesh, NULL)$mesh
+  if (!ncol(mesh$it)) {
+    refuse_mesh("the mesh has no triangles.", "Pass it through specimen(), which mends what it can.", NULL)
+  }
+  structure(mesh, row = attr(x, "row"), group = attr(x, "group"))
+}
+
+#' What the formats hold of a mesh
+#'
+#' @param shape The `shape` whose surface it is, or NULL.
+#' @return List: `xyz` (n x 3), `it` (m x 3), `rgb` (n x 3, 0 to 255; NULL where there is no colour), `value` (n numbers or
+#'   NULL), `row` (n rows of surface points or NULL).
+#' @noRd
+painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
+  n <- ncol(mesh$vb)
+  row <- attr(mesh, "row")
+  if (identical(colour, "se")) colour <- shape_errors(shape)
+  by_row <- is.numeric(colour) && !is.null(shape) && length(colour) == sum(shape$points$level == "surface")
+  if (by_row) colour <- colour[row]
+  value <- if (is.numeric(colour)) check_values(colour, n)
+  hex <- if (is.null(colour)) vertex_colours(mesh) else surface_colours(mesh, colour, palette, limits, missing)
+  list(xyz = t(mesh$vb[1:3, , drop = FALSE]), it = matrix(as.integer(t(mesh$it)), ncol = 3), value = value, row = row,
+       rgb = if (!is.null(hex)) t(grDevices::col2rgb(hex)))
+}
+
+check_values <- function(x, n) {
+  if (length(x) != n) {
+    crestline_abort(sprintf("`colour` has %d numbers for %d vertices.", length(x), n), "Give one for each vertex.",
+                    stage = "writing", call = NULL)
+  }
+  x
+}
+
+shape_errors <- function(shape) {
+  if (is.null(shape)) {
+    crestline_abort("`colour` is \"se\", but `x` is no shape.", "Give a shape, or numbers of your own.", stage = "writing",
+                    call = NULL)
+  }
+  as.numeric(shape$points$se[shape$points$level == "surface"])
+}
+
+# Bytes, or lines of text.
+write_content <- function(content, file) {
+  connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
+    refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
+  })
+  on.exit(close(connection))
+  if (is.raw(content)) writeBin(content, connection) else writeLines(content, connection, useBytes = TRUE)
+}

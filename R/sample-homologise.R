@@ -1,0 +1,241 @@
+# Many shapes made homologous: slid against a template that is their own mean.
+
+#' Make the shapes of a sample homologous
+#'
+#' Slides all shapes against a template, takes their Procrustes mean as the next template, and repeats until the mean
+#' stands still; then the patches. So the answer does not depend on the specimen it began with.
+#'
+#' Sliding all points of a curve the same way in every specimen changes next to nothing in the energies, so the mean would
+#' wander along its curves for ever. The gauge is therefore fixed: for the mean, every curve is re-parametrised such that, over the sample, its
+#' points stand at equal shares of arc length. Points of patches have the mean of the cuts between the slid curves as their template.
+#'
+#' The template is made symmetric in every round ([symmetrise()]) where the scheme has left-right pairs.
+#'
+#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s. Cut ends are homologous only if
+#'   all were measured with the same `cut_scale`.
+#' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points, symmetrised.
+#' @param settings [slide_settings()].
+#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them by id, or a function that gives the specimen of an
+#'   id (so that only one at a time is in memory).
+#' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about 0.01 mm on a face).
+#' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
+#' @param progress Whether to show a progress bar.
+#' @return Object of class `shape_sample`, a list:
+#'   * `shapes`: the slid shapes, named by id, each as of [slide()] (without its specimen);
+#'   * `template`: the `shape` that they were slid against: `slide(shape, template)` gives the shape again;
+#'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the template), `largest` (unit of the mesh),
+#'     `energy` (mean over specimens of the sum over curves), `slide` (RMS distance that curve points have slid);
+#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`.
+#'
+#'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
+#' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is not there.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
+#' @references The paper, section 4; departures: [slide_settings()], and the gauge.
+#' @examples
+#' \donttest{
+#' mesh <- Rvcg::vcgSphere(4)
+#' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
+#' curves <- data.frame(curve = c("ab", "bc", "ac"), from = c("a", "b", "a"),
+#'                      to = c("b", "c", "c"), kind = "plane", n = 7)
+#' pairs <- data.frame(level = c("landmarks", "curves"), left = c("a", "bc"), right = c("b", "ac"))
+#' curves[2, c("from", "to")] <- c("b", "c")
+#' landmarks <- data.frame(landmark = c("a", "b", "c"))
+#' scheme <- curve_scheme(landmarks, curves, pairs = pairs, name = "triangle")
+#' shapes <- lapply(1:3, function(i) {
+#'   one <- mesh
+#'   one$vb[1, ] <- one$vb[1, ] * (1 + i / 10)
+#'   own <- specimen(one, corners %*% diag(c(1 + i / 10, 1, 1)), id = paste0("ball", i))
+#'   fit_shape(own, scheme, progress = FALSE)
+#' })
+#' sample <- homologise(shapes)
+#' sample
+#' dim(as.array(sample, "curves"))
+#' }
+#' @export
+homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL, tolerance = 2e-4, rounds = 20,
+                       progress = interactive()) {
+  shapes <- check_shapes(shapes)
+  check_class(settings, "slide_settings", "settings", "slide_settings()")
+  tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
+  rounds <- check_count(rounds, "rounds", lower = 0)
+  template <- first_template(shapes, template, rounds)
+  tick <- progress_ticks(progress, length(shapes), "the sample")
+  states <- lapply(shapes, slide_state, settings)
+  found <- mean_curves(states, template, settings, tolerance, rounds)
+  plan <- slide_plan(found$template, settings)
+  cuts <- Map(function(shape, state) {
+    cut_between_slid(shape, state, slide_curves(state, plan), specimen_of(shape, specimens))
+  }, shapes, states)
+  if (rounds > 0) {
+    found$template <- with_mean_surface(found$template, lapply(cuts, `[[`, "store"))
+    plan <- slide_plan(found$template, settings)
+  }
+  slid <- Map(function(shape, cut) {
+    tick()
+    finish_slide(shape, cut, plan, specimen_of(shape, specimens))
+  }, shapes, cuts)
+  new_sample(slid, found$template, found$convergence)
+}
+
+check_shapes <- function(shapes, call = rlang::caller_env()) {
+  if (inherits(shapes, "shape")) shapes <- list(shapes)
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise", call = call)
+  if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")
+  wrong <- which(!vapply(shapes, inherits, NA, "shape"))
+  if (length(wrong)) {
+    fail(sprintf("element %d of `shapes` is %s.", wrong[1], describe_value(shapes[[wrong[1]]])),
+         "Give shapes only, as fit_shape() returns them: leave out what failed.")
+  }
+  ids <- vapply(shapes, `[[`, "", "id")
+  if (anyDuplicated(ids)) {
+    fail(sprintf("two shapes have the id \"%s\".", ids[anyDuplicated(ids)]), "Give every specimen an `id` of its own.")
+  }
+  for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
+  stats::setNames(shapes, ids)
+}
+
+#' @param specimens As in [homologise()].
+#' @noRd
+specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
+  specimen <- if (is.null(specimens)) shape$specimen else
+    if (is.function(specimens)) specimens(shape$id) else specimens[[shape$id]]
+  kept_specimen(shape, specimen, call)
+}
+
+has_pairs <- function(scheme) any(scheme$pairs$level != "surface")
+
+#' The template to begin with: the given one, or the first of the shapes with the most points
+#' @noRd
+first_template <- function(shapes, template, rounds, call = rlang::caller_env()) {
+  if (!is.null(template)) {
+    check_class(template, "shape", "template", "symmetrise() or homologise()", call)
+    check_same_scheme(shapes[[1]], template, call)
+    return(template)
+  }
+  if (rounds == 0) {
+    crestline_abort("there is no `template`, and `rounds` is 0.", "Give the template of the old sample, or let it be found.",
+                    stage = "homologise", call = call)
+  }
+  first <- shapes[[which.max(vapply(shapes, function(shape) sum(!is.na(shape$points$x)), 0L))]]
+  if (has_pairs(first$scheme)) symmetrise(first) else template_shape(first, places_of(first), first$id)
+}
+
+#' Rounds of sliding curves and taking their mean as the template
+#'
+#' @param states List of [slide_state()]s.
+#' @return List: `template`, `convergence`.
+#' @noRd
+mean_curves <- function(states, template, settings, tolerance, rounds) {
+  table <- list()
+  moved <- Inf
+  for (round in seq_len(rounds)) {
+    plan <- slide_plan(template, settings)
+    slid <- lapply(states, slide_curves, plan)
+    before <- plan$xyz
+    after <- mean_template(before, gauge_fixed(states, slid), template$scheme)
+    moved <- sqrt(rowSums((after - before)^2))
+    moved <- moved[!is.na(moved)]
+    table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
+                                 energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
+                                 slide = distance_slid(states, slid))
+    template <- template_shape(template, after, "mean", mean_error(states))
+    if (max(moved) <= tolerance * plan$radius) break
+  }
+  if (rounds > 0 && max(moved) > tolerance * plan$radius) warn_moving(rounds, max(moved))
+  list(template = template, convergence = do.call(rbind, table))
+}
+
+#' Root mean square of the standard errors of every place, NA where there is none
+#' @noRd
+mean_error <- function(states) {
+  variance <- vapply(states, function(state) state$store[, "se"]^2, states[[1]]$store[, "se"])
+  mean <- rowMeans(matrix(variance, nrow(states[[1]]$store)), na.rm = TRUE)
+  sqrt(ifelse(is.nan(mean), NA, mean))
+}
+
+warn_moving <- function(rounds, moved) {
+  crestline_warn(sprintf("after %d rounds the mean still moves, by %.2g at most.", rounds, moved),
+                 "Give more `rounds`, or a larger `tolerance`.", stage = "homologise", class = "crestline_not_converged")
+}
+
+distance_slid <- function(states, slid) {
+  off <- Map(function(state, x) Map(function(curve, s) (s - curve$s)[curve$rows[, "point"]], state$curves, x$s), states, slid)
+  sqrt(mean(unlist(off)^2))
+}
+
+#' Positions of landmarks and curve points, every curve re-parametrised by the sample's mean share of arc length
+#'
+#' Shares are counted from the curve's last point, of the length that the scheme keeps, so that a cut end has its mean place too.
+#' @return List of matrices, a row a place.
+#' @noRd
+gauge_fixed <- function(states, slid) {
+  x <- lapply(slid, `[[`, "x")
+  for (name in unique(unlist(lapply(states, function(state) names(state$curves))))) {
+    with <- which(vapply(states, function(state) name %in% names(state$curves), NA))
+    curves <- lapply(states[with], function(state) state$curves[[name]])
+    even <- even_places(curves, lapply(slid[with], function(one) one$s[[name]]))
+    for (i in seq_along(with)) {
+      at <- which(!is.na(even[[i]]))
+      x[[with[i]]][curves[[i]]$place[at], ] <- points_along(curves[[i]]$path, even[[i]][at])
+    }
+  }
+  x
+}
+
+#' Arc lengths at which points stand evenly in the mean over specimens
+#'
+#' @param curves List of one curve's states.
+#' @param s List of its arc lengths after sliding.
+#' @return List of arc lengths, NA where missing and at fixed ends.
+#' @noRd
+even_places <- function(curves, s) {
+  n <- curves[[1]]$n
+  share <- mapply(function(curve, s) (attr(curve$path, "length") - s) / curve$kept, curves, s)
+  mean <- rowMeans(matrix(share, n), na.rm = TRUE)
+  aim <- seq(1, 0, length.out = n)
+  lapply(seq_along(curves), function(i) {
+    curve <- curves[[i]]
+    known <- !is.na(s[[i]])
+    at <- curve$rows[, "point"]
+    even <- rep(NA_real_, n)
+    if (sum(known) > 1) even[at] <- line_through(mean[known], s[[i]][known], aim[at])
+    pmin(pmax(even, 0), attr(curve$path, "length"))
+  })
+}
+
+#' Linear interpolation, going on straight beyond the first of decreasing x
+#' @noRd
+line_through <- function(x, y, at) {
+  inside <- stats::approx(rev(x), rev(y), at, rule = 2, ties = "ordered")$y
+  beyond <- at > x[1]
+  inside[beyond] <- y[1] + (at[beyond] - x[1]) * (y[2] - y[1]) / (x[2] - x[1])
+  inside
+}
+
+#' The mean, symmetric where the scheme has pairs, laid onto the template before
+#' @noRd
+mean_template <- function(before, x, scheme) {
+  core <- rownames(before) %in% scheme$points$place[scheme$points$level != "surface"]
+  mean <- procrustes_mean(lapply(x, only_rows, core), only_rows(before, core))
+  if (has_pairs(scheme)) mean <- symmetric_mean(mean, mirror_places(scheme), "mean")
+  laid_onto(mean, before, scale = FALSE)
+}
+
+only_rows <- function(x, rows) replace(x, !rows, NA)
+
+#' The template with the mean of the specimens' surface points, each laid onto it by landmarks and curves
+#' @noRd
+with_mean_surface <- function(template, stores) {
+  xyz <- places_of(template)
+  core <- !is.na(xyz[, 1])
+  laid <- lapply(stores, function(store) {
+    own <- store[, c("x", "y", "z")]
+    fit <- superimposition(own[core, ], xyz[core, ], scale = TRUE)
+    fit(own)
+  })
+  mean <- mean_of(laid)
+  mean[core, ] <- xyz[core, ]
+  if (has_pairs(template$scheme)) mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
+  mean[core, ] <- xyz[core, ]
+  template_shape(template, mean, "mean", template$points$se[!duplicated(template$scheme$points$place)])
+}

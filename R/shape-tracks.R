@@ -1,0 +1,22 @@
+# Where the points of a shape's curves can slide: the whole curve as it was found, before it was cut off.
+
+#' Tracks of curves
+#'
+#' @param fits As of [fit_scheme_curves()].
+#' @param faces Number of faces that are not bridges.
+#' @return List by name of the curves that were found: `path` (`mesh_path`, uncut, over bridges where there are holes), `s` (arc length
+#'   there of each of the curve's points, NA where missing), `kept` (length that the scheme keeps), `cut` (whether the first point
+#'   stands where the scheme cuts the curve off, and not at a landmark), `off` (rows of the path that end a segment over a bridge).
+#' @noRd
+curve_tracks <- function(fits, scheme, faces) {
+  found <- Filter(function(fit) !is.null(fit$path) && !is.null(fit$points), fits)
+  cut <- !is.na(scheme$curves$cut_share[match(names(found), scheme$curves$curve)])
+  Map(function(fit, cut) {
+    path <- if (is.null(fit$track)) fit$path else fit$track$path
+    path <- structure(as.data.frame(path)[c("s", mesh_columns)], length = attr(path, "length"),
+                      class = c("mesh_path", "data.frame"))
+    s <- ifelse(is.na(fit$points$x), NA, fit$points$s + if (is.null(fit$track)) 0 else fit$track$start)
+    list(path = path, s = s, kept = if (is.null(fit$track)) fit$length else fit$track$kept, cut = cut,
+         off = which(path$face > faces))
+  }, found, cut)
+}

@@ -1,0 +1,160 @@
+# Left and right of a shape: its relabelled reflection, the symmetric mean of both, and how far the two differ.
+
+#' A perfectly symmetric shape, and how far a shape is from symmetric
+#'
+#' `symmetrise()` gives the mean of a shape and of its reflection with left and right relabelled, laid onto it by rotation
+#' (Procrustes superimposition of all places, without scaling): reflected and relabelled it is itself. It is a template for
+#' [slide()], not a measurement: its points lie on no mesh. A point that is missing takes its partner's reflection.
+#'
+#' `asymmetry()` measures the distances of the shape's points from the symmetric mean, half of those from
+#' their partners' reflections: for one specimen the asymmetric component of object symmetry.
+#'
+#' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left and right.
+#' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`, `se` all NA, and no paths.
+#' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places that have a partner.
+#' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures, *Evolution* 56, 1909-1920; the
+#'   paper, section 4.
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' shape <- fit_shape(face, face_scheme())
+#' symmetrise(shape)
+#' head(asymmetry(shape))
+#' }
+#' @export
+symmetrise <- function(shape) {
+  check_class(shape, "shape", "shape", "fit_shape()")
+  mean <- symmetric_mean(places_of(shape), mirror_places(shape$scheme), shape$id)
+  template_shape(shape, mean, paste(shape$id, "symmetrised"))
+}
+
+#' @rdname symmetrise
+#' @param by "part": a row a part; "point": a row a point.
+#' @return `asymmetry()`: data frame `level` ("overall", "landmarks", "curves", "surface"), `part` (landmark, curve, patch), `points` (their number,
+#'   those that coincide counted once), `rms`, `largest`, in the unit of the mesh, NA where nothing has a partner;
+#'   by point: `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` in the shape's own axes.
+#' @export
+asymmetry <- function(shape, by = c("part", "point")) {
+  by <- check_choice(by, c("part", "point"), "by")
+  off <- as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(symmetrise(shape)$points[c("x", "y", "z")])
+  points <- shape$points[c("level", "part", "point")]
+  distance <- sqrt(rowSums(off^2))
+  if (by == "point") return(cbind(points, distance = distance, dx = off[, 1], dy = off[, 2], dz = off[, 3]))
+  place <- shape$scheme$points$place
+  row <- function(level, part, at) {
+    d <- distance[at][!duplicated(place[at]) & !is.na(distance[at])]
+    data.frame(level = level, part = part, points = length(d), rms = if (length(d)) sqrt(mean(d^2)) else NA_real_,
+               largest = if (length(d)) max(d) else NA_real_)
+  }
+  parts <- unique(points[c("level", "part")])
+  each <- Map(function(level, part) row(level, part, points$level == level & points$part == part), parts$level, parts$part)
+  found <- rbind(row("overall", "all", rep(TRUE, length(place))), do.call(rbind, unname(each)))
+  rownames(found) <- NULL
+  found
+}
+
+#' Mean of a configuration and its reflection, partners exchanged; NA where a point and its partner are missing
+#'
+#' The best orthogonal matrix between a configuration and its own relabelling is symmetric, so the mean is exactly its
+#' own reflection.
+#'
+#' @param by Rows that the reflection is fitted by.
+#' @noRd
+symmetric_mean <- function(xyz, partner, id, by = rep(TRUE, nrow(xyz))) {
+  known <- !is.na(xyz[, 1]) & !is.na(xyz[partner, 1])
+  both <- known & by
+  if (all(partner == seq_along(partner)) || sum(both) < 3) {
+    crestline_abort("too little of it has a left and a right.", "Give the scheme pairs (see `?curve_scheme`), or check what is missing.",
+                    stage = "symmetry", id = id, call = NULL)
+  }
+  centre <- colMeans(xyz[both, , drop = FALSE])
+  centred <- sweep(xyz, 2, centre)
+  overlap <- crossprod(centred[both, , drop = FALSE], centred[partner[both], , drop = FALSE])
+  axes <- eigen((overlap + t(overlap)) / 2, symmetric = TRUE)
+  reflection <- axes$vectors %*% (c(1, 1, -1) * t(axes$vectors))
+  mirrored <- centred[partner, , drop = FALSE] %*% reflection
+  mean <- (centred + mirrored) / 2
+  mean[!known, ] <- ifelse(is.na(centred[!known, ]), mirrored[!known, ], centred[!known, ])
+  sweep(mean, 2, centre, `+`)
+}
+
+#' A shape of positions alone
+#'
+#' @param shape The shape whose scheme it has.
+#' @param xyz Matrix with a row a place (row names).
+#' @param se Standard errors of the places.
+#' @noRd
+template_shape <- function(shape, xyz, id, se = NA_real_) {
+  points <- shape$points[c("level", "part", "point")]
+  points[mesh_columns] <- NA_real_
+  points$face <- NA_integer_
+  row <- match(shape$scheme$points$place, rownames(xyz))
+  points$se <- rep_len(se, nrow(xyz))[row]
+  points[c("x", "y", "z")] <- as.data.frame(xyz[row, ], row.names = FALSE)
+  status <- shape$status
+  there <- tapply(!is.na(points$x), paste(points$level, points$part), all)
+  status$ok <- as.vector(there[paste(status$level, status$part)])
+  status$reason <- NA_character_
+  status[c("length", "strength", "se", "competing")] <- NA_real_
+  structure(list(id = id, points = points, status = status, paths = list(), scheme = shape$scheme), class = "shape")
+}
+
+#' Partner of every place of a scheme, in the order of its first appearance
+#'
+#' @return Integer vector, an involution.
+#' @noRd
+mirror_places <- function(scheme) {
+  points <- scheme$points
+  mirrored <- c(partner_of(points$part[points$level == "landmarks"], scheme$pairs, "landmarks"),
+                mirror_curve_rows(scheme), mirror_surface_rows(scheme))
+  level <- points$level
+  name <- c(paste(level, points$part, points$point, sep = "|"))
+  mirrored[level == "landmarks"] <- paste("landmarks", mirrored[level == "landmarks"], "1", sep = "|")
+  place <- unique(points$place)
+  first <- !duplicated(points$place)
+  match(points$place[match(mirrored[first], name)], place)
+}
+
+#' Names of the points that curve points are mirrored to: a curve whose ends are exchanged runs backwards
+#' @noRd
+mirror_curve_rows <- function(scheme) {
+  curves <- scheme$curves
+  partner <- partner_of(curves$curve, scheme$pairs, "curves")
+  start <- curves$from[match(partner, curves$curve)]
+  backwards <- partner_of(curves$from, scheme$pairs, "landmarks") != start
+  unlist(lapply(seq_len(nrow(curves)), function(i) {
+    point <- seq_len(curves$n[i])
+    paste("curves", partner[i], if (backwards[i]) rev(point) else point, sep = "|")
+  }))
+}
+
+#' Names of the points that surface points are mirrored to
+#'
+#' The partner's block has the same rows; its columns run the other way where its bounding curve does.
+#' @noRd
+mirror_surface_rows <- function(scheme) {
+  patches <- scheme$patches
+  partner <- partner_of(patches$patch, scheme$pairs, "surface")
+  key <- function(patch) paste(patch, patches$block, sep = "|")
+  unlist(lapply(seq_len(nrow(patches)), function(i) {
+    other <- patches[match(key(partner)[i], key(patches$patch)), ]
+    from <- block_points(patches[i, ])
+    to <- block_points(other)
+    mirrored <- mirror_side(patches$curve_a[i], scheme)
+    own <- do.call(paste, c(side_points(other$curve_a), sep = "|"))
+    last <- if (is.na(other$resample_a)) length(own) else other$resample_a
+    column <- if (identical(mirrored, own)) from$column else last + 1 - from$column
+    paste("surface", other$patch, to$point[match(paste(column, from$row), paste(to$column, to$row))], sep = "|")
+  }))
+}
+
+#' Names "curve|point" of the points that a bounding curve's points are mirrored to
+#' @noRd
+mirror_side <- function(text, scheme) {
+  points <- scheme$points[scheme$points$level == "curves", ]
+  own <- side_points(text)
+  mirrored <- mirror_curve_rows(scheme)[match(paste(own$curve, own$point), paste(points$part, points$point))]
+  sub("^curves[|]", "", mirrored)
+}

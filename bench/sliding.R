@@ -1,0 +1,265 @@
+# Sliding: does it make points homologous, does it keep its promises, what does it cost.
+#
+#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [spread] [starts] [morpho]
+#
+# random: 1,000 random curves against random templates. The others use the 23 simpop faces, in dense correspondence: every
+# point is carried to the shared topology, and its RMS distance from the mean over faces taken, along its curve and in all.
+# morpho needs the package Morpho.
+
+library(crestline)
+
+inner <- function(name) getFromNamespace(name, "crestline")
+shared <- Sys.getenv("CRESTLINE_SHARED")
+wanted <- commandArgs(TRUE)
+if (!length(wanted)) wanted <- c("random", "spread", "starts", "morpho")
+
+# ---- random curves ----
+
+wiggly_track <- function(nodes) {
+  turn <- apply(matrix(rnorm(3 * nodes), nodes), 2, cumsum) / sqrt(nodes) + outer(seq_len(nodes), c(1, 0, 0)) / 10
+  step <- sqrt(rowSums(diff(turn)^2))
+  cbind(s = c(0, cumsum(step)), turn, face = 1)
+}
+
+at_length <- function(track, s) sapply(2:4, function(k) approx(track[, 1], track[, k], s)$y)
+
+# One random curve slid against another with four landmarks held; the worst of each promise.
+slide_random <- function(seed, settings) {
+  set.seed(seed)
+  n <- sample(12:40, 1)
+  track <- wiggly_track(sample(60:400, 1))
+  template <- rbind(at_length(wiggly_track(200), seq(0, 1, length.out = n)), matrix(rnorm(12), 4))
+  template[seq_len(n), ] <- at_length(other <- wiggly_track(200), seq(0, max(other[, 1]), length.out = n))
+  length <- max(track[, 1])
+  s <- c(0, sort(runif(n - 2, 0, length)), length)
+  x <- rbind(at_length(track, s), matrix(rnorm(12), 4))
+  b <- inner("energy_matrix")(template, rep(c(settings$nugget, 0), c(n, 4)), 1e-6)
+  rows <- inner("slider_rows")(s, seq_len(n) %in% 2:(n - 1), length / (n - 1), length, settings)
+  strain <- settings$strain * mean(diag(b))
+  slid <- inner("cpp_slide_on_tracks")(b, x, list(track), rows, strain, settings$sweeps)
+  after <- c(0, slid$s, length)
+  total <- slid$trace$energy + slid$trace$strain
+  data.frame(order = min(diff(after)) > 0, rise = max(diff(total)) / total[1],
+             off = max(abs(slid$x[seq_len(n), ] - at_length(track, after))),
+             better = brute_force(b, slid$x, track, after, strain, length / (n - 1), settings),
+             sweeps = length(total) - 1, converged = slid$trace$converged)
+}
+
+# How much lower the sum gets, relatively, by moving one point over a fine grid between its neighbours.
+brute_force <- function(b, x, track, s, strain, rest, settings, grid = 2001) {
+  n <- length(s)
+  value <- function(x, s) sum(x * (b %*% x)) + strain * sum((diff(s) - rest)^2)
+  best <- value(x, s)
+  gain <- vapply(sample(2:(n - 1), 3), function(j) {
+    low <- min(s[j], s[j - 1] + settings$gap * rest)
+    high <- max(s[j], s[j + 1] - settings$gap * rest)
+    try <- seq(low, high, length.out = grid)
+    places <- at_length(track, try)
+    gradient <- b[j, -j] %*% x[-j, ]
+    own <- b[j, j] * rowSums(places^2) + 2 * places %*% t(gradient) +
+      strain * ((try - s[j - 1] - rest)^2 + (s[j + 1] - try - rest)^2)
+    here <- b[j, j] * sum(x[j, ]^2) + 2 * sum(x[j, ] * gradient) +
+      strain * ((s[j] - s[j - 1] - rest)^2 + (s[j + 1] - s[j] - rest)^2)
+    here - min(own)
+  }, 0)
+  max(gain) / best
+}
+
+random <- function(n = 1000) {
+  for (preset in c("crestline", "paper")) {
+    settings <- slide_settings(preset, tolerance = 1e-7, sweeps = 20000)
+    found <- do.call(rbind, lapply(seq_len(n), slide_random, settings))
+    cat(sprintf("%d random curves, \"%s\": in order %d; energy rises by %.1e at most; off the path %.1e; better by brute force %.1e; sweeps %g (median), %d converged\n",
+                n, preset, sum(found$order), max(found$rise), max(found$off), max(found$better), median(found$sweeps),
+                sum(found$converged)))
+  }
+}
+
+# ---- faces ----
+
+simpop_mesh <- function(id) Rvcg::vcgImport(file.path(shared, "simpop", paste0(id, ".ply")), silent = TRUE, clean = FALSE)
+
+simpop_landmarks <- function() {
+  table <- read.csv(file.path(shared, "simpop", "landmarks.csv"))
+  lapply(split(table, table$id), function(rows) `rownames<-`(as.matrix(rows[c("x", "y", "z")]), rows$landmark))
+}
+
+# The faces, perhaps with noise along the normals and landmarks moved (RMS distance, then put on the surface), mm.
+specimens <- function(noise = 0, moved = 0) {
+  set.seed(1)
+  Map(function(landmarks, id) {
+    mesh <- Rvcg::vcgUpdateNormals(simpop_mesh(id), silent = TRUE)
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] * rep(rnorm(ncol(mesh$vb), 0, noise), each = 3)
+    mesh$normals <- NULL
+    suppressWarnings(specimen(mesh, landmarks + rnorm(length(landmarks), 0, moved / sqrt(3)), id = id))
+  }, simpop_landmarks(), names(simpop_landmarks()))
+}
+
+# All curves are cut at the share that every face has.
+fitted <- function(faces, scale = 0.82) {
+  lapply(faces, function(face) suppressWarnings(fit_shape(face, face_scheme(), cut_scale = scale, progress = FALSE)))
+}
+
+stores <- function(shapes) lapply(shapes, function(shape) inner("slide_state")(shape, slide_settings())$store)
+
+mean_mesh <- function() {
+  vertices <- lapply(names(simpop_landmarks()), function(id) t(simpop_mesh(id)$vb[1:3, ]))
+  inner("procrustes_mean")(vertices, vertices[[1]])
+}
+
+# Places x 3 x faces on the mean mesh.
+carried <- function(stores, it, mean) {
+  simplify2array(lapply(stores, function(store) {
+    corner <- function(i) store[, paste0("w", i)] * mean[it[i, store[, "face"]], , drop = FALSE]
+    `rownames<-`(corner(1) + corner(2) + corner(3), rownames(store))
+  }))
+}
+
+# By curve: spread along and across of the points between its ends, mm.
+curve_spread <- function(at, scheme) {
+  rows <- lapply(with(scheme$curves, curve[n > 2]), function(name) {
+    place <- with(scheme$points, place[level == "curves" & part == name])
+    n <- length(place)
+    middle <- apply(at[place, , ], 1:2, mean)
+    tangent <- middle[c(2:n, n), ] - middle[c(1, 1:(n - 1)), ]
+    tangent <- tangent / sqrt(rowSums(tangent^2))
+    off <- sweep(at[place, , ], 1:2, middle)[2:(n - 1), , , drop = FALSE]
+    along <- apply(off, 3, function(d) rowSums(d * tangent[2:(n - 1), , drop = FALSE]))
+    total <- apply(off, 3, function(d) rowSums(d^2))
+    data.frame(curve = name, points = n - 2, along = sqrt(mean(along^2)), across = sqrt(mean(total - along^2)))
+  })
+  do.call(rbind, rows)
+}
+
+pooled <- function(x, weight) sqrt(sum(x^2 * weight) / sum(weight))
+
+surface_spread <- function(at, scheme) {
+  free <- setdiff(scheme$points$place, inner("bound_places")(scheme))
+  sqrt(mean(apply(sweep(at[free, , ], 1:2, apply(at[free, , ], 1:2, mean)), 3, function(d) rowSums(d^2))))
+}
+
+# The warp on the landmarks: the template's points carried by the thin-plate spline, then the nearest place of the curve as it
+# was found (uncut) and, for surface points, of the mesh.
+warped <- function(shape, template) {
+  store <- stores(list(shape))[[1]]
+  from <- coords(template, "landmarks")
+  to <- coords(shape, "landmarks")
+  at <- inner("places_of")(template)
+  kernel <- function(x) -sqrt(outer(rowSums(x^2), rowSums(from^2), `+`) - 2 * x %*% t(from))
+  distance <- -as.matrix(dist(from))
+  system <- rbind(cbind(distance, 1, from), cbind(rbind(1, t(from)), matrix(0, 4, 4)))
+  weight <- solve(system, rbind(to, matrix(0, 4, 3)))
+  image <- cbind(kernel(at), 1, at) %*% weight
+  image[is.nan(image[, 1]), ] <- store[is.nan(image[, 1]), 1:3]
+  surface <- setdiff(rownames(store), with(shape$scheme$points, place[level != "surface"]))
+  store[surface, 1:7] <- as.matrix(inner("surface_points")(shape$specimen$mesh, image[surface, ]))
+  for (name in names(shape$tracks)) {
+    place <- with(shape$scheme$points, place[level == "curves" & part == name])
+    place <- place[grepl("^curves", place)]
+    if (!length(place)) next
+    path <- shape$tracks[[name]]$path
+    s <- inner("track_places")(as.matrix(path[c("s", "x", "y", "z")]), image[place, , drop = FALSE])
+    store[place, 1:7] <- as.matrix(inner("place_along")(shape$specimen$mesh, path, s)[-1])
+  }
+  store
+}
+
+spread_table <- function(shapes, label) {
+  scheme <- shapes[[1]]$scheme
+  it <- shapes[[1]]$specimen$mesh$it
+  mean <- mean_mesh()
+  before <- curve_spread(carried(stores(shapes), it, mean), scheme)
+  sockets <- grepl("socket", before$curve)
+  line <- function(name, stores, seconds = NA) {
+    at <- carried(stores, it, mean)
+    curves <- curve_spread(at, scheme)
+    rest <- curves[!sockets, ]
+    data.frame(what = name, along = pooled(curves$along, curves$points), across = pooled(curves$across, curves$points),
+               along_without_sockets = pooled(rest$along, rest$points), better = sum(curves$along < before$along),
+               surface = surface_spread(at, scheme), seconds = seconds)
+  }
+  slid <- function(name, ...) {
+    time <- system.time(sample <- suppressWarnings(homologise(shapes, settings = slide_settings(...), progress = FALSE)))
+    list(line = line(name, stores(sample$shapes), time[["user.self"]]), sample = sample)
+  }
+  ours <- slid("default")
+  table <- rbind(
+    line("as fitted, equal chords", stores(shapes)), slid("the paper's energies", "paper")$line,
+    slid("cut ends stay", cut_ends = "stay")$line,
+    slid("no nugget, no strain", nugget = 0, strain = 0)$line,
+    slid("one energy of all curves", energy = "all")$line,
+    line("warp on the landmarks", lapply(shapes, warped, ours$sample$template)), ours$line,
+    slid("nugget by standard error", nugget_by = "error")$line,
+    slid("surface between slid curves, not slid", surface = "between")$line,
+    slid("surface along transects, one energy", surface = "transect")$line
+  )
+  cat("\n", label, "\n", sep = "")
+  print(format(table, digits = 3), row.names = FALSE)
+  by_curve <- merge(before, curve_spread(carried(stores(ours$sample$shapes), it, mean), scheme), by = c("curve", "points"),
+                    suffixes = c("", "_slid"), sort = FALSE)
+  print(format(by_curve, digits = 2), row.names = FALSE)
+  ours$sample
+}
+
+spread <- function() {
+  spread_table(fitted(specimens()), "Spread over 23 faces, mm")
+  spread_table(fitted(specimens(0.2, 1)), "The same with 0.2 mm noise and landmarks moved by 1 mm")
+}
+
+# Convergence, time, and whether the answer depends on the start.
+starts <- function() {
+  faces <- specimens()
+  fitting <- system.time(shapes <- fitted(faces))[["user.self"]]
+  sliding <- system.time(sample <- homologise(shapes, progress = FALSE))[["user.self"]]
+  cat(sprintf("\n23 faces: fitted in %.1f s, homologised in %.1f s\n", fitting, sliding))
+  print(sample$convergence, digits = 3)
+  reference <- inner("places_of")(sample$template)
+  for (first in c(12, 23)) {
+    other <- homologise(shapes[c(first, seq_along(shapes)[-first])], progress = FALSE)
+    laid <- inner("laid_onto")(inner("places_of")(other$template), reference, FALSE)
+    gap <- sqrt(rowSums((laid - reference)^2))
+    cat(sprintf("begun with face %d: template differs by %.4f mm (RMS), %.4f at most\n", first, sqrt(mean(gap^2)), max(gap)))
+  }
+}
+
+# The same free surface points against the same template, at Morpho's own criterion: the bending energy of the 907 places.
+morpho <- function() {
+  if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
+  shapes <- fitted(specimens())
+  sample <- homologise(shapes, progress = FALSE)
+  scheme <- sample$template$scheme
+  place <- unique(with(scheme$points, place[level == "surface"]))
+  free <- match(setdiff(place, inner("bound_places")(scheme)), place)
+  template <- inner("places_of")(sample$template)[place, ]
+  matrix_time <- system.time(b <- inner("energy_matrix")(template, rep(0, length(place)), 1e-6))[["user.self"]]
+  settings <- slide_settings(surface = "between")
+  compared <- lapply(shapes, function(shape) {
+    face <- shape$specimen
+    store <- stores(list(slide(shape, sample$template, settings)))[[1]]
+    set <- list(places = place, free = place[free], b = b)
+    plan <- list(settings = slide_settings(surface_sweeps = 1000), radius = 57)
+    time <- system.time(own <- inner("slide_free")(set, store, face, plan)$store)[["user.self"]]
+    x <- store[place, 1:3]
+    their_time <- system.time(theirs <- Morpho::relaxLM(x, template, SMvector = free, surp = free, mesh = face$mesh,
+                                                        silent = TRUE))[["user.self"]]
+    on <- inner("surface_points")(face$mesh, theirs)
+    store[place, 1:7] <- as.matrix(on)
+    energy <- function(x) sum(x * (b %*% x))
+    list(theirs = store, ours = own, row = data.frame(
+      energy_start = energy(x), energy_ours = energy(own[place, 1:3]), energy_morpho = energy(theirs), seconds_ours = time,
+      seconds_morpho = their_time, off_mesh_morpho = max(sqrt(rowSums((theirs - as.matrix(on[1:3]))^2)))))
+  })
+  rows <- do.call(rbind, lapply(compared, `[[`, "row"))
+  cat(sprintf("\nMorpho::relaxLM, %d free of %d places, 23 faces: our energy is lower on %d, by %.2g to %.2g relatively; ", length(free),
+              length(place), sum(rows$energy_ours <= rows$energy_morpho), min(1 - rows$energy_ours / rows$energy_morpho),
+              max(1 - rows$energy_ours / rows$energy_morpho)))
+  cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n", mean(rows$seconds_ours),
+              matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
+  it <- shapes[[1]]$specimen$mesh$it
+  at <- function(which) surface_spread(carried(lapply(compared, `[[`, which), it, mean_mesh()), scheme)
+  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, ours %.3f\n", at("theirs"), at("ours"),
+              surface_spread(carried(stores(sample$shapes), it, mean_mesh()), scheme)))
+}
+
+sections <- list(random = random, spread = spread, starts = starts, morpho = morpho)
+for (name in wanted) sections[[name]]()

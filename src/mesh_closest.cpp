@@ -1,0 +1,87 @@
+#include "mesh_closest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crestline {
+
+namespace {
+
+double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+void measure(const Triangulation& mesh, ClosestPoint& p, const double* to) {
+  position(mesh, p.at, p.xyz);
+  p.distance2 = 0;
+  for (int k = 0; k < 3; ++k) p.distance2 += (p.xyz[k] - to[k]) * (p.xyz[k] - to[k]);
+}
+
+// The closest point of the edge from corner c on.
+ClosestPoint on_edge(const Triangulation& mesh, int face, int c, const double* to) {
+  const double *a = corner(mesh, vertex_at(mesh, 3 * face + c)), *b = corner(mesh, vertex_at(mesh, 3 * face + (c + 1) % 3));
+  double edge[3], rel[3];
+  for (int k = 0; k < 3; ++k) {
+    edge[k] = b[k] - a[k];
+    rel[k] = to[k] - a[k];
+  }
+  double length2 = dot(edge, edge);
+  double share = length2 > 0 ? std::min(std::max(dot(rel, edge) / length2, 0.0), 1.0) : 0;
+  ClosestPoint out{{face, {0, 0, 0}}, {0, 0, 0}, 0};
+  out.at.w[c] = 1 - share;
+  out.at.w[(c + 1) % 3] = share;
+  measure(mesh, out, to);
+  return out;
+}
+
+}  // namespace
+
+ClosestPoint closest_on_face(const Triangulation& mesh, int face, const double* to) {
+  const double *corners[3];
+  for (int i = 0; i < 3; ++i) corners[i] = corner(mesh, vertex_at(mesh, 3 * face + i));
+  const double *a = corners[0], *b = corners[1], *c = corners[2];
+  double u[3], v[3], w[3];
+  for (int k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+    w[k] = to[k] - a[k];
+  }
+  double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
+  double det = uu * vv - uv * uv;
+  if (det > 0) {
+    double w2 = (vv * wu - uv * wv) / det, w3 = (uu * wv - uv * wu) / det;
+    if (w2 >= 0 && w3 >= 0 && w2 + w3 <= 1) {
+      ClosestPoint inside{{face, {1 - w2 - w3, w2, w3}}, {0, 0, 0}, 0};
+      measure(mesh, inside, to);
+      return inside;
+    }
+  }
+  ClosestPoint best = on_edge(mesh, face, 0, to);
+  for (int e = 1; e < 3; ++e) {
+    ClosestPoint here = on_edge(mesh, face, e, to);
+    if (here.distance2 < best.distance2) best = here;
+  }
+  return best;
+}
+
+ClosestPoint NearSearch::closest(const SurfacePoint& from, const double* to) {
+  ClosestPoint best{from, {0, 0, 0}, 0};
+  measure(mesh_, best, to);
+  double reach2 = best.distance2;
+  ++search_;
+  queue_.assign(1, from.face);
+  seen_[from.face] = search_;
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    int face = queue_[i];
+    ClosestPoint here = closest_on_face(mesh_, face, to);
+    if (here.distance2 < best.distance2) best = here;
+    if (here.distance2 > reach2) continue;
+    for (int c = 0; c < 3; ++c) {
+      int across = twin_of(mesh_, 3 * face + c);
+      if (across < 0 || seen_[face_of(across)] == search_) continue;
+      seen_[face_of(across)] = search_;
+      queue_.push_back(face_of(across));
+    }
+  }
+  return best;
+}
+
+}  // namespace crestline

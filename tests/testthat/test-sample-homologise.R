@@ -1,0 +1,92 @@
+shapes <- paired_sample()
+sample <- homologise(shapes, progress = FALSE)
+
+test_that("the sample has arrays of all levels, and says what moved", {
+  expect_s3_class(sample, "shape_sample")
+  expect_equal(dim(as.array(sample, "landmarks")), c(6, 3, 4))
+  expect_equal(dim(as.array(sample, "curves")), c(50, 3, 4))
+  expect_equal(dim(as.array(sample, "surface")), c(63, 3, 4))
+  expect_equal(dimnames(as.array(sample, "curves"))[[3]], paste0("ball", 1:4))
+  expect_identical(as.array(sample, "curves")[, , "ball2"], coords(sample$shapes$ball2, "curves"))
+  expect_equal(nrow(as.data.frame(sample)), 4 * nrow(shapes[[1]]$points))
+  expect_equal(sample$convergence$round, seq_len(nrow(sample$convergence)))
+  expect_equal(nrow(sample$missing), 0)
+  expect_output(print(sample), "4 specimens")
+  expect_crestline_error(as.array(sample, "patches"), "surface")
+})
+
+test_that("every point is on its specimen's mesh, and slide() against the template gives it again", {
+  for (i in seq_along(shapes)) {
+    expect_on_mesh(sample$shapes[[i]]$points, shapes[[i]]$specimen$mesh)
+    again <- slide(shapes[[i]], sample$template)
+    expect_identical(again$points, sample$shapes[[i]]$points)
+  }
+})
+
+test_that("the template converges in a few rounds, to one that does not depend on the start", {
+  expect_lte(nrow(sample$convergence), 5)
+  other <- homologise(rev(shapes), progress = FALSE)
+  laid <- laid_onto(places_of(other$template), places_of(sample$template), FALSE)
+  expect_lte(max(abs(laid - places_of(sample$template))), 0.01)
+})
+
+test_that("the template is symmetric and its curves are evenly spaced in the mean", {
+  at <- places_of(sample$template)
+  mirrored <- at[mirror_places(sample$template$scheme), ] %*% diag(c(-1, 1, 1))
+  expect_lte(max(abs(laid_onto(mirrored, at, FALSE) - at)), 1e-10)
+  share <- vapply(sample$shapes, function(shape) shape$tracks$middle$s / shape$tracks$middle$kept, numeric(7))
+  expect_equal(unname(rowMeans(share)), seq(0, 1, length.out = 7), tolerance = 1e-3)
+})
+
+test_that("new specimens slide against the old template without changing it", {
+  new <- paired_shape(c(1.05, 1.05, 1.15), "new")
+  joined <- homologise(list(new), sample$template, rounds = 0, progress = FALSE)
+  expect_identical(joined$template$points, sample$template$points)
+  expect_null(joined$convergence)
+  expect_identical(joined$shapes$new$points, slide(new, sample$template)$points)
+})
+
+test_that("specimens may come from a list or a function", {
+  faces <- lapply(shapes, `[[`, "specimen")
+  names(faces) <- vapply(faces, `[[`, "", "id")
+  light <- lapply(shapes, function(shape) {
+    shape$specimen <- NULL
+    shape
+  })
+  expect_crestline_error(homologise(light, progress = FALSE), "does not keep its specimen", id = "ball1")
+  from_list <- homologise(light, specimens = faces, progress = FALSE)
+  from_function <- homologise(light, specimens = function(id) faces[[id]], progress = FALSE)
+  expect_identical(as.array(from_list, "surface"), as.array(sample, "surface"))
+  expect_identical(as.array(from_function, "surface"), as.array(sample, "surface"))
+})
+
+test_that("missing points are NA, listed, and do not spoil the rest", {
+  corners <- paired_corners()
+  corners["highL", ] <- NA
+  gone <- paired_shape(c(1.2, 1, 1.1), "ball2", landmarks = corners)
+  part <- homologise(replace(shapes, 2, list(gone)), progress = FALSE)
+  expect_identical(is.na(as.array(part, "curves")[, 1, "ball2"]), is.na(coords(gone, "curves")[, 1]))
+  expect_setequal(part$missing$part[part$missing$level == "curves"], c("side left", "roof left"))
+  expect_true(all(part$missing$id == "ball2"))
+  expect_false(anyNA(part$template$points$x))
+  expect_lte(max(abs(as.array(part, "curves")[, , c(1, 3, 4)] - as.array(sample, "curves")[, , c(1, 3, 4)])), 1)
+})
+
+test_that("a scheme without pairs has a template that need not be symmetric", {
+  scheme <- paired_scheme(function(tables) tables[c("landmarks", "curves", "patches")])
+  plain <- homologise(paired_sample(scheme = scheme), progress = FALSE)
+  expect_equal(unname(dim(as.array(plain, "surface"))), c(63, 3, 4))
+})
+
+test_that("what is no sample is refused, and a mean that still moves is told of", {
+  expect_crestline_error(homologise(list()), "list")
+  expect_crestline_error(homologise(list(shapes[[1]], 3)), "element 2")
+  expect_crestline_error(homologise(shapes[c(1, 1)]), c("ball1", "two shapes"))
+  expect_crestline_error(homologise(list(shapes[[1]], quad_shape())), c("quad", "paired"))
+  expect_crestline_error(homologise(shapes, rounds = 0), "template")
+  expect_warning(homologise(shapes, rounds = 1, progress = FALSE), class = "crestline_not_converged")
+})
+
+test_that("the paper's settings go through too", {
+  expect_s3_class(suppressWarnings(homologise(shapes, settings = slide_settings("paper"), progress = FALSE)), "shape_sample")
+})
