@@ -4,8 +4,8 @@
 #
 # For every curve that face_scheme() finds by curvature: RMS and largest distance (mm) of the authors' points from
 # our curve, mean strength along ours over that along theirs (principal curvature, the same estimates for both;
-# trapezoid over 200 places), median standard error (mm), whether it counts as determined. For every plane curve: the same distances,
-# and how far the authors' own points lie from the mesh they are compared on.
+# trapezoid over 200 places), median standard error (mm), whether it counts as determined. For every plane curve: the same
+# distances, and how far the authors' own points lie from the mesh they are compared on.
 
 library(crestline)
 
@@ -99,7 +99,7 @@ cat("By curvature, settings \"", preset, "\"\n", sep = "")
 show(found)
 both <- found[found$authors != "plane", ]
 lips <- grepl("lip", both$curve)
-cat(sprintf("those that the authors find by curvature: mean RMS %.2f mm, lips at most %.2f mm; strength ratio %.3f in the mean, %.3f at least\n\n",
-            mean(both$rms), max(both$rms[lips]), mean(both$strength_ratio), min(both$strength_ratio)))
+cat(sprintf("those that the authors find by curvature: mean RMS %.2f mm, lips at most %.2f mm; ", mean(both$rms), max(both$rms[lips])))
+cat(sprintf("strength ratio %.3f in the mean, %.3f at least\n\n", mean(both$strength_ratio), min(both$strength_ratio)))
 cat("Plane curves\n")
 show(do.call(rbind, lapply(cases, each, TRUE, by_plane)))

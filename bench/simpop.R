@@ -2,10 +2,10 @@
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/simpop.R
 #
-# All faces have the same 7,160 vertices and triangles, so that a point of a face, given by triangle and weights, is a place of
-# the mean mesh (mean of the faces after rotation and shift). The spread of a curve's points: RMS distance (mm) of
-# these places from their mean over the faces, along and across the mean curve, ends left out. Every curve is found as the scheme
-# has it; as the shortest cut, without constraints; and as a ridge and a valley, with those of its row. Curves from
+# All faces have the same 7,160 vertices and triangles, so that a point of a face, given by triangle and weights, is a
+# place of the mean mesh (mean of the faces after rotation and shift). The spread of a curve's points: RMS distance (mm)
+# of these places from their mean over the faces, along and across the mean curve, ends left out. Every curve is found as
+# the scheme has it; as the shortest cut, without constraints; and as a ridge and a valley, with those of its row. Curves from
 # the ear are cut at the smallest share that any face allows. Strength: mean along the curve of the principal curvature at
 # the row's radius, the same estimates for all ways. "pays": where curvature is used, the spread across is no larger
 # than that of the shortest cut, or at most 0.6 mm with at least 1.2 times the strength.
@@ -118,7 +118,8 @@ table <- data.frame(
   curve = scheme$curves$curve, kind, fitted = found$scheme$fitted, along = found$scheme$along, across,
   strength = ifelse(kind == "valley", found$scheme$valley, ifelse(kind == "ridge", found$scheme$ridge, NA)),
   cut_along = found$plane$along, cut_across = found$plane$across, gain = used, undetermined = found$scheme$undetermined,
-  ridge_across = found$ridge$across, ridge_gain = gain("ridge", rep("ridge", length(kind))), ridge_undetermined = found$ridge$undetermined,
+  ridge_across = found$ridge$across, ridge_gain = gain("ridge", rep("ridge", length(kind))),
+  ridge_undetermined = found$ridge$undetermined,
   valley_across = found$valley$across, valley_gain = gain("valley", rep("valley", length(kind))),
   valley_undetermined = found$valley$undetermined,
   pays = ifelse(kind == "plane", "", across <= found$plane$across | (across <= pays_below & used >= pays_strength))
