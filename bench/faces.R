@@ -99,7 +99,8 @@ cat("By curvature, settings \"", preset, "\"\n", sep = "")
 show(found)
 both <- found[found$authors != "plane", ]
 lips <- grepl("lip", both$curve)
-cat(sprintf("those that the authors find by curvature: mean RMS %.2f mm, lips at most %.2f mm; ", mean(both$rms), max(both$rms[lips])))
+cat(sprintf("those that the authors find by curvature: mean RMS %.2f mm, lips at most %.2f mm; ",
+            mean(both$rms), max(both$rms[lips])))
 cat(sprintf("strength ratio %.3f in the mean, %.3f at least\n\n", mean(both$strength_ratio), min(both$strength_ratio)))
 cat("Plane curves\n")
 show(do.call(rbind, lapply(cases, each, TRUE, by_plane)))

@@ -4,11 +4,11 @@
 #
 # All faces have the same 7,160 vertices and triangles, so that a point of a face, given by triangle and weights, is a
 # place of the mean mesh (mean of the faces after rotation and shift). The spread of a curve's points: RMS distance (mm)
-# of these places from their mean over the faces, along and across the mean curve, ends left out. Every curve is found as
-# the scheme has it; as the shortest cut, without constraints; and as a ridge and a valley, with those of its row. Curves from
-# the ear are cut at the smallest share that any face allows. Strength: mean along the curve of the principal curvature at
-# the row's radius, the same estimates for all ways. "pays": where curvature is used, the spread across is no larger
-# than that of the shortest cut, or at most 0.6 mm with at least 1.2 times the strength.
+# of these places from their mean over the faces, along and across the mean curve, ends left out. Every curve is found
+# as the scheme has it; as the shortest cut, without constraints; and as a ridge and a valley, with those of its row.
+# Curves from the ear are cut at the smallest share that any face allows. Strength: mean along the curve of the
+# principal curvature at the row's radius, the same estimates for all ways. "pays": where curvature is used, the spread
+# across is no larger than that of the shortest cut, or at most 0.6 mm with at least 1.2 times the strength.
 
 library(crestline)
 
