@@ -87,7 +87,7 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
   half <- min(width, settings$window * radius)
   coordinates <- path_coordinates(specimen, path, half, margin = radius)
   strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings)
-  scale <- core_strength(coordinates, strength, settings$core * radius)
+  scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
   stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE, path = path)
   if (!is.finite(scale) || scale <= 0) {
     stages$reason <- sprintf("there is no %s curvature by the reference path", type)
@@ -162,8 +162,17 @@ thinned_rows <- function(coordinates, most) {
   list(rows = inside[first], cell = cell)
 }
 
-core_strength <- function(coordinates, strength, distance) {
-  value <- strength$value[strength$rows[abs(coordinates$d[strength$rows]) <= distance]]
+#' Mean strength near a path
+#'
+#' @param trusted Arc lengths of the part of the path that counts; NULL: all of it.
+#' @noRd
+core_strength <- function(coordinates, strength, distance, trusted = NULL) {
+  near <- abs(coordinates$d[strength$rows]) <= distance
+  if (!is.null(trusted)) {
+    s <- coordinates$s[strength$rows]
+    near <- near & s >= trusted[1] & s <= trusted[2]
+  }
+  value <- strength$value[strength$rows[near]]
   value[is.na(value)] <- 0
   if (length(value)) mean(value) else NA_real_
 }

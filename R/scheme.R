@@ -20,8 +20,8 @@
 #'     away from the third, see [keep_side()];
 #'   * `side_of`, `side`: strength counts as 0 unless it lies to the "left" or "right" of another curve (walked from
 #'     its `from` to its `to`, seen from outside);
-#'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length, where curvature is
-#'     believed;
+#'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length, where it and curvature are
+#'     believed; from there to the landmarks the path is the shortest cut;
 #'   * `angle_limit`: greatest angle in radians (at most pi / 2) between the plane of a cut and the mean of the
 #'     surface normals at the ends, see [plane_path()];
 #'   * `note`, and any further columns, which are kept.

@@ -117,6 +117,7 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
     limited_reference(row, specimen, curvature, away, settings)
   }
   about <- about_curve(row, specimen, settings, passes)
+  path <- trusted_path(row, specimen, path)
   fit <- fit_passes(specimen, path, trusted(curvature, row, specimen, path), away, about)
   new_curve(specimen, fit$path, fit$reference, row$n, about, fit)
 }
@@ -161,12 +162,29 @@ on_side <- function(curvature, row, specimen, other) {
   without_curvature(curvature, near$vertex[wrong])
 }
 
+#' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
+#'
+#' @return `mesh_path` with the attribute `trusted`, the arc lengths of that part.
+#' @noRd
+trusted_path <- function(row, specimen, path) {
+  range <- c(row$trust_from, row$trust_to) * attr(path, "length")
+  at <- place_along(as_mesh(specimen), path, range)
+  parts <- list(
+    if (row$trust_from > 0) reference_path(specimen, path[1, ], at[1, ], "plane"),
+    part_of_path(as_mesh(specimen), path, range[1], range[2]),
+    if (row$trust_to < 1) reference_path(specimen, at[2, ], path[nrow(path), ], "plane")
+  )
+  lengths <- vapply(parts, function(part) if (is.null(part)) 0 else attr(part, "length"), 0)
+  points <- do.call(rbind, lapply(Filter(Negate(is.null), parts), columns_of))
+  path_through(points, trusted = cumsum(lengths)[1:2], type = attr(path, "type"), competing = attr(path, "competing"))
+}
+
 #' Curvature with none beside the parts of a path that are not trusted
 #' @noRd
 trusted <- function(curvature, row, specimen, path) {
   near <- path_coordinates(specimen, path, row$width, margin = row$radius)
-  share <- near$s / attr(path, "length")
-  without_curvature(curvature, near$vertex[share < row$trust_from | share > row$trust_to])
+  range <- attr(path, "trusted")
+  without_curvature(curvature, near$vertex[near$s < range[1] | near$s > range[2]])
 }
 
 without_curvature <- function(curvature, vertex) {

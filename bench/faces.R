@@ -2,17 +2,17 @@
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/faces.R [preset]
 #
-# For every ridge and valley: RMS and largest distance (mm) of the authors' points from our curve, mean
-# strength along ours over that along theirs (principal curvature, the same estimates for both; trapezoid
-# over 200 places), median standard error (mm), converged, determined. For every plane curve that does not end at the
-# ear: the same distances, and how far the authors' own points lie from the mesh they are compared on.
+# For every curve that face_scheme() finds by curvature: RMS and largest distance (mm) of the authors' points from
+# our curve, mean strength along ours over that along theirs (principal curvature, the same estimates for both;
+# trapezoid over 200 places), median standard error (mm), whether it counts as determined. For every plane curve: the same
+# distances, and how far the authors' own points lie from the mesh they are compared on.
 
 library(crestline)
 
 shared <- Sys.getenv("CRESTLINE_SHARED")
 preset <- c(commandArgs(TRUE), "crestline")[1]
 settings <- ridge_settings(preset)
-curves <- read.csv(file.path(dirname(shared), "spec", "face_curves.csv"))
+scheme <- face_scheme()
 
 distance_to_path <- function(points, path) {
   track <- as.matrix(path[c("x", "y", "z")])
@@ -41,41 +41,52 @@ mean_strength <- function(face, curved, type, points) {
 face_of <- function(id) {
   folder <- file.path(shared, id)
   face <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"), id = id))
-  list(face = face, reference = read.csv(file.path(folder, "reference_curves.csv")),
-       curved = lapply(c("5" = 5, "10" = 10), function(r) curvature(face, r, settings$order)))
+  case <- list(face = face, reference = read.csv(file.path(folder, "reference_curves.csv")),
+               curved = lapply(c("5" = 5, "10" = 10), function(r) curvature(face, r, settings$order)))
+  case$ears <- "tL" %in% rownames(face$landmarks)
+  case$curves <- scheme$curves
+  if (!case$ears) case <- with_brow_ends(case)
+  case$shape <- fit_shape(case$face, curve_scheme(scheme$landmarks, case$curves), settings, progress = FALSE)
+  case
+}
+
+# Where there are no ears (the template), the brows start where the authors' do, and no other curve from the ear is found.
+with_brow_ends <- function(case) {
+  ends <- rbind(tL = authors_points(case, "brow ridge left")[1, ], tR = authors_points(case, "brow ridge right")[1, ])
+  ends[] <- as.matrix(crestline:::surface_points(case$face$mesh, ends)[c("x", "y", "z")])
+  case$face$landmarks <- rbind(case$face$landmarks, ends)
+  case$curves <- case$curves[is.na(case$curves$cut_share) | startsWith(case$curves$curve, "brow"), ]
+  case$curves[c("cut_share", "cut_from", "cut_to")] <- NA
+  case
 }
 
 authors_points <- function(case, curve) {
   as.matrix(case$reference[case$reference$curve == curve, c("x", "y", "z")])
 }
 
-# An end without a landmark (the template has no ears) is the authors' own.
-end_of <- function(case, name, point) if (name %in% rownames(case$face$landmarks)) name else point
-
 by_curvature <- function(case, row) {
   theirs <- authors_points(case, row$curve)
-  side <- substring(row$from, nchar(row$from))
-  region <- if (startsWith(row$curve, "brow")) keep_away(paste0("ex", side), paste0("en", side))
-  curved <- case$curved[[as.character(row$radius_mm)]]
-  ours <- suppressWarnings(ridge_curve(case$face, end_of(case, row$from, theirs[1, ]), row$to, row$kind, row$radius_mm,
-                                       row$half_width_mm, row$n, region, settings, curvature = curved))
-  track <- as.matrix(ours$path[c("x", "y", "z")])
-  if (!is.na(row$ear_cut)) track <- track[which.min(rowSums(sweep(track, 2, theirs[1, ])^2)):nrow(track), ]
-  d <- distance_to_path(theirs, ours$path)
-  data.frame(face = case$face$id, curve = row$curve, rms = sqrt(mean(d^2)), max = max(d),
-             strength_ratio = mean_strength(case$face, curved, row$kind, track) /
-               mean_strength(case$face, curved, row$kind, theirs),
-             se = ours$se, converged = ours$converged, determined = ours$determined)
+  curved <- case$curved[[as.character(row$radius)]]
+  path <- case$shape$paths[[row$curve]]
+  d <- distance_to_path(theirs, path)
+  status <- case$shape$status[case$shape$status$part == row$curve, ]
+  strength <- function(points) mean_strength(case$face, curved, row$kind, points)
+  data.frame(face = case$face$id, curve = row$curve, authors = row$authors_kind, rms = sqrt(mean(d^2)), max = max(d),
+             strength_ratio = strength(as.matrix(as.data.frame(path)[c("x", "y", "z")])) / strength(theirs), se = status$se,
+             determined = case$shape$checks$determined[case$shape$checks$part == row$curve])
 }
 
 by_plane <- function(case, row) {
   theirs <- authors_points(case, row$curve)
-  d <- distance_to_path(theirs, suppressWarnings(reference_path(case$face, row$from, row$to, "plane")))
+  d <- distance_to_path(theirs, case$shape$paths[[row$curve]])
   off <- sqrt(rowSums((theirs - as.matrix(crestline:::surface_points(case$face$mesh, theirs)[1:3]))^2))
   data.frame(face = case$face$id, curve = row$curve, rms = sqrt(mean(d^2)), max = max(d), authors_off_mesh = max(off))
 }
 
-each <- function(case, rows, f) do.call(rbind, lapply(split(rows, factor(rows$curve, rows$curve)), function(row) f(case, row)))
+each <- function(case, plane, f) {
+  rows <- case$curves[(case$curves$kind == "plane") == plane, ]
+  do.call(rbind, lapply(seq_len(nrow(rows)), function(i) f(case, rows[i, ])))
+}
 show <- function(table) {
   numbers <- vapply(table, is.numeric, NA)
   table[numbers] <- lapply(table[numbers], round, 3)
@@ -83,11 +94,13 @@ show <- function(table) {
 }
 
 cases <- lapply(c("scan_a", "template_male"), face_of)
-found <- do.call(rbind, lapply(cases, each, curves[curves$kind != "plane", ], by_curvature))
-cat("Ridges and valleys, settings \"", preset, "\"\n", sep = "")
+found <- do.call(rbind, lapply(cases, each, FALSE, by_curvature))
+cat("By curvature, settings \"", preset, "\"\n", sep = "")
 show(found)
-lips <- grepl("lip", found$curve)
-cat(sprintf("mean RMS %.2f mm, lips at most %.2f mm; strength ratio %.3f in the mean, %.3f at least\n\n", mean(found$rms),
-            max(found$rms[lips]), mean(found$strength_ratio), min(found$strength_ratio)))
-cat("Plane curves that do not end at the ear\n")
-show(do.call(rbind, lapply(cases, each, curves[curves$kind == "plane" & is.na(curves$ear_cut), ], by_plane)))
+both <- found[found$authors != "plane", ]
+lips <- grepl("lip", both$curve)
+cat(sprintf("those that the authors find by curvature: mean RMS %.2f mm, lips at most %.2f mm; ",
+            mean(both$rms), max(both$rms[lips])))
+cat(sprintf("strength ratio %.3f in the mean, %.3f at least\n\n", mean(both$strength_ratio), min(both$strength_ratio)))
+cat("Plane curves\n")
+show(do.call(rbind, lapply(cases, each, TRUE, by_plane)))

@@ -22,16 +22,25 @@ mirrored <- function(text) {
   gsub("#", "R", text)
 }
 
+constraints <- c("keep_away_from", "keep_away_to", "keep_away_radius", "keep_away_extension", "keep_side_from", "keep_side_to",
+                 "keep_side_towards", "side_of", "side", "trust_from", "trust_to", "angle_limit")
+
+# The choices of both sides of the face: choices.csv speaks of the left one, and leaves out the side in the names of curves and
+# paired landmarks.
 choices_by_side <- function() {
   choices <- spec("choices.csv")
-  each <- lapply(c("left", "right"), function(side) {
-    sided <- choices[!startsWith(choices$curve, "mid-line"), ]
-    sided$curve <- paste(sided$curve, side)
-    ends <- c("keep_away_from", "keep_away_to")
-    sided[ends] <- lapply(sided[ends], function(x) ifelse(is.na(x), NA, paste0(x, toupper(substr(side, 1, 1)))))
-    sided
-  })
-  rbind(do.call(rbind, each), choices[startsWith(choices$curve, "mid-line"), ])
+  landmarks <- spec("landmarks.csv")
+  paired <- sub("L$", "", grep("L$", landmarks$landmark, value = TRUE))
+  middle <- startsWith(choices$curve, "mid-line")
+  left <- choices[!middle, ]
+  ends <- grep("_(from|to|towards)$", grep("^keep", constraints, value = TRUE), value = TRUE)
+  left[ends] <- lapply(left[ends], function(x) ifelse(x %in% paired, paste0(x, "L"), x))
+  left$curve <- paste(left$curve, "left")
+  left$side_of <- ifelse(is.na(left$side_of) | startsWith(left$side_of, "mid-line"), left$side_of, paste(left$side_of, "left"))
+  right <- left
+  sided <- c("curve", ends, "side_of", "side")
+  right[sided] <- lapply(left[sided], mirrored)
+  rbind(left, right, choices[middle, ])
 }
 
 face_curves <- function() {
@@ -40,12 +49,12 @@ face_curves <- function() {
   stopifnot(choice$curve %in% curves$curve)
   at <- match(curves$curve, choice$curve)
   cut <- !is.na(curves$ear_cut)
+  chosen <- function(column, authors) ifelse(is.na(choice[[column]][at]), authors, choice[[column]][at])
   data.frame(
-    curves[c("curve", "from", "to")], kind = ifelse(is.na(at), curves$kind, choice$kind[at]),
-    radius = curves$radius_mm, width = curves$half_width_mm, n = curves$n,
+    curves[c("curve", "from", "to")], kind = chosen("kind", curves$kind), radius = chosen("radius", curves$radius_mm),
+    width = chosen("width", curves$half_width_mm), n = curves$n,
     cut_share = curves$ear_cut, cut_from = ifelse(cut, "enL", NA), cut_to = ifelse(cut, "enR", NA),
-    choice[at, c("keep_away_from", "keep_away_to", "keep_away_radius", "keep_away_extension")],
-    authors_kind = curves$kind, note = choice$note[at]
+    choice[at, constraints], authors_kind = curves$kind, note = choice$note[at]
   )
 }
 

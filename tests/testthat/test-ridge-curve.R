@@ -94,6 +94,9 @@ test_that("nu0 is the mean strength near the reference path, places without curv
   window <- data.frame(d = c(0, 0.5, -1, 1.1, 0), inside = c(TRUE, TRUE, TRUE, TRUE, FALSE))
   expect_equal(core_strength(window, list(value = c(3, NA, 6, 100, 100), rows = which(window$inside)), 1), 3)
   expect_true(is.na(core_strength(window[4:5, ], list(value = c(1, 1)), 1)))
+  window$s <- 1:5
+  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100), rows = 1:4), 1, trusted = c(2, 3)), 3)
+  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100), rows = 1:4), 1, trusted = c(3, 5)), 6)
   curve <- of_bent()
   near <- curve$coordinates$vertex[abs(curve$coordinates$d) <= 0.3 * 4 & curve$coordinates$inside]
   expect_equal(curve$scale, mean(-curvature(bent_ridge(), 4, order = curve$settings$order)$k2[near]), tolerance = 0.05)

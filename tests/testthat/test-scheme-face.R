@@ -63,16 +63,20 @@ test_that("left and right pair completely and both ways, points and triangles to
   expect_setequal(turned(reflected), turned(v))
 })
 
-test_that("brows keep away from the eye, curves from the ear are cut", {
+test_that("brows keep away from the eye, eye sockets below it, curves from the ear are cut", {
   brow <- face$curves[grepl("^brow", face$curves$curve), ]
   expect_equal(brow$keep_away_from, c("exL", "exR"))
-  expect_equal(brow$keep_away_radius, c(0.7, 0.7))
+  expect_equal(brow$keep_away_radius, c(0.6, 0.6))
+  socket <- face$curves[grepl("^lower eye", face$curves$curve), ]
+  expect_equal(socket$keep_side_from, c("exL", "exR"))
+  expect_equal(socket$keep_side_towards, c("acL", "acR"))
+  expect_lt(max(socket$trust_to), 1)
   expect_equal(is.na(face$curves$cut_share), !face$curves$from %in% c("tL", "tR", "oiL", "oiR"))
 })
 
 test_that("where the kind differs from the authors', the note says why", {
   differs <- face$curves$kind != face$curves$authors_kind
-  expect_equal(face$curves$curve[differs], c("philtrum ridge left", "philtrum ridge right"))
+  expect_equal(face$curves$curve[differs], paste(rep(c("philtrum ridge", "philtrum lip"), each = 2), c("left", "right")))
   expect_true(all(nzchar(face$curves$note[differs])) && !anyNA(face$curves$note[differs]))
   expect_true(all(face$curves$authors_kind %in% c("ridge", "valley", "plane")))
 })

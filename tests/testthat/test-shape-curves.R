@@ -54,8 +54,8 @@ test_that("angle_limit holds cuts and reference paths near the surface's normal"
 test_that("outside the trusted part of the path there is no curvature", {
   face <- straight_ridge()
   curved <- curvature(face, 6, "adaptive cubic")
-  path <- plane_path(face, "a", "b")
   row <- data.frame(width = 6, radius = 6, trust_from = 0.25, trust_to = 0.75)
+  path <- trusted_path(row, face, plane_path(face, "a", "b"))
   half <- trusted(known_curvature(curved, face), row, face, path)(seq_along(curved$k2))
   x <- face$mesh$vb[1, ] / attr(path, "length")
   near <- abs(face$mesh$vb[2, ]) < 2
@@ -63,6 +63,19 @@ test_that("outside the trusted part of the path there is no curvature", {
   expect_identical(half$k2[near & abs(x) < 0.2], curved$k2[near & abs(x) < 0.2])
   scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
   expect_true(status_of(fit_shape(face, scheme, progress = FALSE), "crest")$ok)
+})
+
+test_that("outside its trusted part the path is the shortest cut", {
+  face <- graph_specimen(quote(0 * u), two_ends(c(-10, 10), c(0, 0)))
+  corners <- rbind(c(-10, 0, 0), c(-10, 6, 0), c(10, 6, 0), c(10, 0, 0))
+  legs <- lapply(1:3, function(i) columns_of(plane_path(face, corners[i, ], corners[i + 1, ])))
+  detour <- path_through(do.call(rbind, legs))
+  path <- trusted_path(data.frame(trust_from = 8 / 32, trust_to = 24 / 32), face, detour)
+  expect_path_on_mesh(path, face$mesh)
+  expect_equal(attr(path, "length"), 16 + 2 * sqrt(2^2 + 6^2), tolerance = 1e-6)
+  expect_equal(diff(attr(path, "trusted")), 16, tolerance = 1e-6)
+  whole <- trusted_path(data.frame(trust_from = 0, trust_to = 1), face, detour)
+  expect_equal(columns_of(whole), columns_of(detour))
 })
 
 test_that("where a ridge cannot be estimated the shortest cut stands in, and says so", {
