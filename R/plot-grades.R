@@ -46,8 +46,9 @@ draw_graded_points <- function(scene, points, graded, size = 0.35) {
 #' The worst curves on top, with their names below their middles
 #'
 #' @param most No names where more curves than this are not green: they would hide the picture.
+#' @param seen Share of a curve that is to be seen for its name to be there.
 #' @noRd
-draw_graded_curves <- function(scene, shape, graded, width, most = 12) {
+draw_graded_curves <- function(scene, shape, graded, width, most = 12, seen = 0.6) {
   paths <- Filter(Negate(is.null), shape$paths)
   grade <- grade_of(graded, "curves", names(paths))
   for (name in names(grade_colours)) {
@@ -57,17 +58,18 @@ draw_graded_curves <- function(scene, shape, graded, width, most = 12) {
   }
   doubtful <- names(paths)[grade != "green"]
   for (name in if (length(doubtful) <= most) doubtful) {
+    if (mean(visible_points(scene, paths[[name]])) < seen) next
     middle <- matrix(points_along(paths[[name]], attr(paths[[name]], "length") / 2), 1)
     draw_label(scene, middle, name, grade_colours[[grade_of(graded, "curves", name)]])
   }
 }
 
 draw_label <- function(scene, at, text, colour, size = 0.8) {
-  if (!visible_points(scene, at)) return(invisible())
   at <- drop(view_points(scene, at))
   on_scene(scene, {
-    at[2] <- at[2] - 2 * graphics::strheight(text, cex = size)
     half <- c(1.05 * graphics::strwidth(text, cex = size, font = 2), 1.6 * graphics::strheight(text, cex = size)) / 2
+    at[2] <- at[2] - 2 * graphics::strheight(text, cex = size)
+    at[1:2] <- pmax(pmin(at[1:2], scene$usr[c(2, 4)] - half), scene$usr[c(1, 3)] + half)
     graphics::rect(at[1] - half[1], at[2] - half[2], at[1] + half[1], at[2] + half[2],
                    col = "#FFFFFFC8", border = NA)
     graphics::text(at[1], at[2], text, cex = size, col = colour, font = 2)

@@ -47,7 +47,7 @@ report_matrix <- function(counts) {
                  tags$option(value = "landmarks", "landmarks"))
   tags$section(
     tags$h2("Specimens by ", tags$select(id = "matrix-level", `aria-label` = "level", levels)),
-    tags$p(class = "note", "Rest the pointer on a cell for its reason; a click lists it below."),
+    tags$p(class = "note", "Rest the pointer on a cell for its reason; a click lists it below. A cross: not there."),
     tags$div(class = "scroll", tags$table(id = "matrix"))
   )
 }
@@ -96,7 +96,7 @@ report_parts <- function(table) {
     tags$div(class = "scroll", tags$table(id = "table")), tags$button(id = "more", "show more"),
     tags$p(class = "note", "Lengths and standard errors (se) in the unit of the mesh, strength in 1 / unit; z: robust",
            "z-score of the length against the other specimens; asymmetry: distance from the mirror image of the partner,",
-           "as a share of the length. A click on a heading sorts.")
+           "as a share of the length; missing: share of its points. A click on a heading sorts.")
   )
 }
 
@@ -138,7 +138,7 @@ quality_meanings <- list(
 #' @noRd
 report_data <- function(table, digits = 3) {
   columns <- c("specimen", "part", "level", "kind", "grade", "length", "strength", "contrast", "se", "competing", "z",
-               "asymmetry", "why")
+               "asymmetry", "missing", "why")
   shown <- lapply(as.list(table)[columns], function(x) if (is.numeric(x)) signif(x, digits) else as.character(x))
   shown <- lapply(shown, function(x) if (is.numeric(x)) ifelse(is.finite(x), x, NA) else x)
   json <- jsonlite::toJSON(shown, na = "null", digits = NA)

@@ -118,8 +118,8 @@ positions <- function(shape) as.matrix(shape$points[c("x", "y", "z")])
 
 judged_case <- function(case, clean) {
   row <- data.frame(number = case$number, kind = case$kind, refused = inherits(case$shape, "crestline_error"),
-                    crashed = FALSE, points = 0, off = 0, seen = 0, amber = NA_real_, red = NA_real_,
-                    needless = NA_real_, unseen = "")
+                    crashed = FALSE, points = 0, off = 0, seen = 0, parts = 0, parts_off = 0, parts_seen = 0,
+                    amber = NA_real_, red = NA_real_, needless = NA_real_, unseen = "")
   if (!inherits(case$shape, "shape")) {
     row$crashed <- !row$refused
     row$unseen <- conditionMessage(case$shape)
@@ -135,6 +135,8 @@ judged_case <- function(case, clean) {
   whole <- graded$level != "landmarks" & graded$missing == 0
   row[c("amber", "red")] <- c(mean(graded$grade[whole] == "amber"), mean(graded$grade[whole] == "red"))
   part <- paste(points$level, points$part)
+  counted <- function(chosen) length(unique(part[chosen]))
+  row[c("parts", "parts_off", "parts_seen")] <- c(counted(there), counted(far), counted(far & grade > "green"))
   still <- tapply(off, part, function(d) !anyNA(d) && max(d) <= still_limit)[paste(graded$level, graded$part)]
   row$needless <- mean(graded$grade[whole & still] > "green")
   silent <- far & grade == "green"
@@ -147,9 +149,11 @@ by_kind <- function(rows) {
   sums <- function(own, kind) {
     fitted <- own[!own$refused & !own$crashed, ]
     wrong <- fitted[fitted$off > 0, ]
+    share <- function(seen, off) sum(fitted[[seen]]) / sum(fitted[[off]])
     data.frame(kind = kind, cases = nrow(own), refused = sum(own$refused), crashed = sum(own$crashed),
-               points = sum(fitted$points), off = sum(wrong$off), seen = sum(wrong$seen) / sum(wrong$off),
-               cases_off = nrow(wrong), cases_seen = sum(wrong$seen >= 0.9 * wrong$off),
+               points = sum(fitted$points), off = sum(fitted$off), seen = share("seen", "off"),
+               parts_off = sum(fitted$parts_off), parts_seen = share("parts_seen", "parts_off"),
+               cases_off = nrow(wrong), cases_seen = mean(wrong$seen >= 0.9 * wrong$off),
                amber = mean(fitted$amber, na.rm = TRUE), red = mean(fitted$red, na.rm = TRUE),
                needless = mean(fitted$needless, na.rm = TRUE))
   }
@@ -191,8 +195,14 @@ rows <- lapply(seq_len(cases), function(number) {
   cat(sprintf("%3d %-10s %s\n", number, case$kind, said))
   row
 })
+rows <- do.call(rbind, rows)
+half <- ifelse(rows$number <= cases / 2, "first", "second")
 cat("\nCorruptions\n")
-rounded(by_kind(do.call(rbind, rows)))
+rounded(by_kind(rows))
+for (name in unique(half)) {
+  cat("\nThe", name, "half of them\n")
+  rounded(by_kind(rows[half == name, ]))
+}
 
 simpop <- simpop_faces()
 alone <- lapply(simpop, measured)

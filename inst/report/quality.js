@@ -5,7 +5,8 @@
   const order = { green: 0, amber: 1, red: 2 };
   const rows = data.part.map((_, i) => Object.fromEntries(Object.keys(data).map(key => [key, data[key][i]])));
   const specimens = [...new Set(data.specimen)];
-  const columns = Object.keys(data).filter(key => key !== "level" && (specimens.length > 1 || key !== "specimen"));
+  const columns = Object.keys(data).filter(key => key !== "level" && (specimens.length > 1 || key !== "specimen") &&
+    data[key].some(value => value !== null));
   const numeric = new Set(columns.filter(key => data[key].some(value => typeof value === "number")));
   const at = id => document.getElementById(id);
   const step = 300;
@@ -74,6 +75,10 @@
     at("parts").scrollIntoView({ behavior: "smooth" });
   }
 
+  function gone(row) {
+    return row.missing === 1 || (row.level === "curves" && row.length === null);
+  }
+
   function matrix() {
     const level = at("matrix-level").value, here = rows.filter(row => row.level === level);
     const parts = [...new Set(here.map(row => row.part))];
@@ -86,7 +91,7 @@
       const line = element("tr");
       line.append(element("th", "", specimen));
       parts.forEach(part => {
-        const row = cells.get(specimen + "\n" + part), made = element("td", row ? row.grade : "");
+        const row = cells.get(specimen + "\n" + part), made = element("td", row ? row.grade + (gone(row) ? " gone" : "") : "");
         if (row) {
           made.title = specimen + ", " + part + ": " + row.grade + (row.why ? "\n" + row.why : "");
           made.onclick = () => list(specimen, part);

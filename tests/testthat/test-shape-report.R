@@ -31,6 +31,7 @@ test_that("a page is one file with the table, the pictures and the limits, and a
   expect_equal(data$grade, as.character(graded$grade))
   expect_equal(data$why, graded$why)
   expect_equal(data$length, signif(graded$length, 3))
+  expect_equal(data$missing == 1, is.na(match(data$part, shape$points$part[!is.na(shape$points$x)])))
   for (name in names(Filter(function(limit) length(limit) == 2, quality_limits()))) expect_match(html, sprintf("<td>%s</td>", name), fixed = TRUE)
 })
 
