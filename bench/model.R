@@ -3,8 +3,10 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/model.R [picture.png]
 #
 # Curves: RMS distance (mm) of the authors' points from our curve ("rms", "max"); the same after their points are put on
-# the mesh ("on_mesh"); RMS of their distance from the mesh ("off"). Ear-ended curves are compared where both are. Surface:
-# RMS (mm) of our points from theirs of the same name, by patch: from their own curves, and from ours.
+# the mesh ("on_mesh"); RMS of their distance from the mesh ("off"). Ear-ended curves are compared where both are. Of plane
+# curves above 0.1 mm also "best": "rms" of the cut that fits their points best, of the planes through their ends, up to
+# 30 degrees from the surface's normal. Surface: RMS (mm) of our points from theirs of the same name, by patch: from their own
+# curves, and from ours; the picture shows both.
 
 library(crestline)
 
@@ -50,6 +52,14 @@ with_ear_ends <- function(case) {
   case
 }
 
+# The least distance of a curve's points from any plane cut through its ends.
+best_cut <- function(face, row, points) {
+  min(vapply((-30:30) * pi / 180, function(angle) {
+    cut <- tryCatch(plane_path(face, points[1, ], row$to, angle, reach = 1), crestline_error = function(e) NULL)
+    if (is.null(cut)) Inf else rms(distance_to_path(points, cut))
+  }, 0))
+}
+
 compare_curves <- function(case) {
   shape <- fit_shape(case$face, case$scheme, settings, progress = FALSE)
   rows <- lapply(case$scheme$curves$curve, function(curve) {
@@ -59,10 +69,11 @@ compare_curves <- function(case) {
     off <- lengths_of(theirs - on)
     inside <- off < 2
     path <- shape$paths[[curve]]
-    if (is.null(path)) return(data.frame(curve, kind = row$kind, ear = !is.na(row$cut_share), rms = NA, max = NA, on_mesh = NA, off = NA, points = 0))
     raw <- distance_to_path(theirs[inside, ], path)
+    searched <- row$kind == "plane" && rms(raw) > 0.1
     data.frame(curve, kind = row$kind, ear = !is.na(row$cut_share), rms = rms(raw), max = max(raw),
-               on_mesh = rms(distance_to_path(on[inside, ], path)), off = rms(off[inside]), points = sum(inside))
+               on_mesh = rms(distance_to_path(on[inside, ], path)), off = rms(off[inside]),
+               best = if (searched) best_cut(case$face, row, theirs[inside, ]) else NA, points = sum(inside))
   })
   do.call(rbind, rows)
 }
@@ -90,14 +101,23 @@ for (case in list(scan, with_ear_ends(case_of("template_male")))) {
   show(found)
   by <- ifelse(found$kind != "plane", "ridges and valleys", ifelse(found$ear, "plane, to the ear", "plane"))
   show(do.call(rbind, lapply(split(found, by), function(x) {
-    data.frame(curves = nrow(x), missing = sum(is.na(x$rms)), median = median(x$rms, na.rm = TRUE), worst = max(x$rms, na.rm = TRUE),
-               worst_on_mesh = max(x$on_mesh, na.rm = TRUE), which = x$curve[which.max(x$rms)])
+    data.frame(curves = nrow(x), median = median(x$rms), worst = max(x$rms), worst_on_mesh = max(x$on_mesh),
+               which = x$curve[which.max(x$rms)])
   })))
 }
 
 theirs <- compare_surface(scan, scan$curves)
 ours <- compare_surface(scan)
-cat(sprintf("\n922 points of scan_a: from their curves RMS %.4f mm (worst %.3f), from ours %.3f (worst %.2f)\n", theirs$all[1],
-            theirs$all[2], ours$all[1], ours$all[2]))
+cat(sprintf("\n922 points of scan_a: from their curves RMS %.4f mm (worst %.3f), from ours %.3f (worst %.2f)\n",
+            theirs$all[1], theirs$all[2], ours$all[1], ours$all[2]))
 show(data.frame(patch = names(ours$patches), from_theirs = theirs$patches, from_ours = ours$patches))
-if (!is.na(picture)) saveRDS(list(theirs = theirs$shape, ours = ours$shape, face = scan$face), paste0(picture, ".rds"))
+
+# Three views of the model from their curves (above) and from ours.
+if (!is.na(picture)) {
+  grDevices::png(picture, 1800, 1300, res = 110)
+  graphics::par(mfrow = c(2, 3), mar = c(0, 0, 2, 0))
+  for (found in list(theirs, ours)) {
+    for (view in c("front", "left", "right")) plot(found$shape, surface = "patch", engine = "picture", view = view)
+  }
+  invisible(grDevices::dev.off())
+}
