@@ -5,30 +5,35 @@
 #' Slides all shapes against a template, takes their Procrustes mean as the next template, and repeats until the mean
 #' stands still; then the patches. So the answer does not depend on the specimen it began with.
 #'
-#' Sliding all points of a curve the same way in every specimen changes next to nothing in the energies, so the mean would
-#' wander along its curves for ever. The gauge is therefore fixed: for the mean, every curve is re-parametrised such that, over the sample, its
-#' points stand at equal shares of arc length. Points of patches have the mean of the cuts between the slid curves as their template.
+#' Sliding all points of a curve the same way in every specimen changes next to nothing in the energies, so the mean
+#' would wander along its curves for ever. The gauge is therefore fixed: for the mean, every curve is re-parametrised
+#' such that, over the sample, its points stand at equal shares of arc length. Points of patches have the mean of the
+#' cuts between the slid curves as their template.
 #'
 #' The template is made symmetric in every round ([symmetrise()]) where the scheme has left-right pairs.
 #'
-#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s. Cut ends are homologous only if
-#'   all were measured with the same `cut_scale`.
-#' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points, symmetrised.
+#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s. Cut ends are
+#'   homologous only if all were measured with the same `cut_scale`.
+#' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
+#'   symmetrised.
 #' @param settings [slide_settings()].
-#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them by id, or a function that gives the specimen of an
-#'   id (so that only one at a time is in memory).
-#' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about 0.01 mm on a face).
+#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them by id, or a function
+#'   that gives the specimen of an id (so that only one at a time is in memory).
+#' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about
+#'   0.01 mm on a face).
 #' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `shape_sample`, a list:
 #'   * `shapes`: the slid shapes, named by id, each as of [slide()] (without its specimen);
 #'   * `template`: the `shape` that they were slid against: `slide(shape, template)` gives the shape again;
-#'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the template), `largest` (unit of the mesh),
-#'     `energy` (mean over specimens of the sum over curves), `slide` (RMS distance that curve points have slid);
+#'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the template), `largest`
+#'     (unit of the mesh), `energy` (mean over specimens of the sum over curves), `slide` (RMS distance that curve
+#'     points have slid);
 #'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`.
 #'
 #'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
-#' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is not there.
+#' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
+#'   not there.
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
 #' @references The paper, section 4; departures: [slide_settings()], and the gauge.
 #' @examples
@@ -160,13 +165,15 @@ warn_moving <- function(rounds, moved) {
 }
 
 distance_slid <- function(states, slid) {
-  off <- Map(function(state, x) Map(function(curve, s) (s - curve$s)[curve$rows[, "point"]], state$curves, x$s), states, slid)
+  of_curve <- function(curve, s) (s - curve$s)[curve$rows[, "point"]]
+  off <- Map(function(state, x) Map(of_curve, state$curves, x$s), states, slid)
   sqrt(mean(unlist(off)^2))
 }
 
 #' Positions of landmarks and curve points, every curve re-parametrised by the sample's mean share of arc length
 #'
-#' Shares are counted from the curve's last point, of the length that the scheme keeps, so that a cut end has its mean place too.
+#' Shares are counted from the curve's last point, of the length that the scheme keeps, so that a cut end has its mean
+#' place too.
 #' @return List of matrices, a row a place.
 #' @noRd
 gauge_fixed <- function(states, slid) {

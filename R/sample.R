@@ -26,8 +26,8 @@ missing_parts <- function(shapes) {
 #' @param x A `shape_sample`, as [homologise()] returns it.
 #' @param level "landmarks", "curves" or "surface".
 #' @param ... Ignored.
-#' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y, z and specimens; NA where missing;
-#'   in the unit of the meshes, where each specimen lies.
+#' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y, z and specimens; NA
+#'   where missing; in the unit of the meshes, where each specimen lies.
 #' @section Errors: of class `crestline_error`, for another level.
 #' @seealso [homologise()], with an example
 #' @exportS3Method
@@ -53,7 +53,8 @@ print.shape_sample <- function(x, ...) {
   points <- x$template$points
   count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level), 0L)
   cat("<shape_sample> ", amount(length(x$shapes), "specimen"), ", by the scheme ", x$template$scheme$name, "\n", sep = "")
-  cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ", count[["surface"]], " surface points\n", sep = "")
+  cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ", count[["surface"]],
+      " surface points\n", sep = "")
   if (!is.null(x$convergence)) {
     last <- x$convergence[nrow(x$convergence), ]
     cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n", amount(last$round, "round"),

@@ -2,10 +2,10 @@
 
 #' Bending energy of the deformation of a template
 #'
-#' The 3-D thin-plate spline (kernel `-|r|`) that takes the template to a configuration X bends by
-#' E(X) = tr X' B X, B = Z (Z' (K + N) Z)^-1 Z': K holds -|r| between the template's points, Z spans what is orthogonal
-#' to the affine functions on them, N is the diagonal of the nugget. The matrix B depends on the template only, so it is worked
-#' out once for all specimens. E is 0 for every affine image of the template and does not change when X is moved or turned.
+#' The 3-D thin-plate spline (kernel `-|r|`) that takes the template to a configuration X bends by E(X) = tr X' B X, B =
+#' Z (Z' (K + N) Z)^-1 Z': K holds -|r| between the template's points, Z spans what is orthogonal to the affine
+#' functions on them, N is the diagonal of the nugget. The matrix B depends on the template only, so it is worked out
+#' once for all specimens. E is 0 for every affine image of the template and does not change when X is moved or turned.
 #'
 #' Affine functions are counted by rank: points on a plane have three of them, points on a line two, so a flat template has
 #' the energy of its own plane. A nugget smooths in place of interpolating: the larger it is, the less the spline follows
@@ -17,9 +17,10 @@
 #'   of a matrix coincide.
 #' @param level "landmarks", "curves" or "surface", where `template` is a shape.
 #' @param tolerance Singular values below this share of the largest count as none, where affine functions are counted.
-#' @return A function of class `bending_energy`: `energy(x)` is the energy of a configuration, a k x 3 matrix (rows as in
-#'   the template) or a shape of the same scheme, in the unit of the mesh; points that are NA in `x` are left out of
-#'   template and energy both. Attributes: `matrix` (B, k x k, 0 in rows that are left out; 1 / unit), `affine` (number of affine functions).
+#' @return A function of class `bending_energy`: `energy(x)` is the energy of a configuration, a k x 3 matrix (rows as
+#'   in the template) or a shape of the same scheme, in the unit of the mesh; points that are NA in `x` are left out of
+#'   template and energy both. Attributes: `matrix` (B, k x k, 0 in rows that are left out; 1 / unit), `affine` (number
+#'   of affine functions).
 #' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two points at one place without
 #'   a nugget; a configuration of other points.
 #' @references The paper, section 4. Bookstein (1989) Principal warps, *IEEE Transactions on Pattern Analysis and Machine
@@ -67,7 +68,8 @@ energy_points <- function(x, level) {
     return(replace(unname(coords(x, level)), duplicated(place), NA))
   }
   if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
-    crestline_abort(sprintf("a configuration is %s.", describe_value(x)), "Give a k x 3 matrix, or a shape.", stage = "energy")
+    crestline_abort(sprintf("a configuration is %s.", describe_value(x)), "Give a k x 3 matrix, or a shape.",
+                    stage = "energy")
   }
   unname(x)
 }
@@ -87,13 +89,16 @@ energy_matrix <- function(xyz, nugget, tolerance) {
   centred <- sweep(at, 2, colMeans(at))
   functions <- svd(cbind(1, centred / max(sqrt(mean(rowSums(centred^2))), .Machine$double.xmin)))
   affine <- sum(functions$d > tolerance * functions$d[1])
-  if (length(there) > affine) b[there, there] <- bending_matrix(at, nugget[there], functions$u[, seq_len(affine), drop = FALSE])
+  if (length(there) > affine) {
+    b[there, there] <- bending_matrix(at, nugget[there], functions$u[, seq_len(affine), drop = FALSE])
+  }
   structure(b, affine = affine)
 }
 
 #' B where there is something to bend
 #'
-#' In the frame of a Householder basis whose first columns span the affine functions, K + N loses its first rows and columns.
+#' In the frame of a Householder basis whose first columns span the affine functions, K + N loses its first rows and
+#' columns.
 #' @noRd
 bending_matrix <- function(xyz, nugget, functions) {
   frame <- qr(functions)

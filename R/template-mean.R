@@ -27,8 +27,8 @@ laid_onto <- function(x, y, scale) superimposition(x, y, scale)(x)
 
 #' Procrustes mean: of sizes made equal, at their mean size, laid onto a reference
 #'
-#' A point that is missing from a configuration takes no part in its fit; the mean of a point is over those that have it. Where points are missing, the
-#' size of a configuration is judged by the points that it has.
+#' A point that is missing from a configuration takes no part in its fit; the mean of a point is over those that have
+#' it. Where points are missing, the size of a configuration is judged by the points that it has.
 #'
 #' @param x List of k x 3 matrices.
 #' @param reference k x 3: where the mean is laid, and the first guess of it.

@@ -2,8 +2,8 @@
 
 #' A template and settings, made ready for many specimens
 #'
-#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `radius` (RMS distance of landmarks and curve points
-#'   from their centre), `nugget` (of every place), `kept` (environment: sets by name and by what is missing).
+#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `radius` (RMS distance of landmarks and curve
+#'   points from their centre), `nugget` (of every place), `kept` (environment: sets by name and by what is missing).
 #' @noRd
 slide_plan <- function(template, settings) {
   points <- template$scheme$points
@@ -49,8 +49,8 @@ kept <- function(plan, key, make) {
 #' The sets of curves that slide in one energy: one a curve, or one of all
 #'
 #' @param state As of [slide_state()].
-#' @return List of sets: `name`, `curves`, `places` (rows of `b`), `points` (list by curve: the row of each of its points, NA
-#'   where missing), `b`. A curve that has nothing to slide, or points that the template lacks, is in none.
+#' @return List of sets: `name`, `curves`, `places` (rows of `b`), `points` (list by curve: the row of each of its
+#'   points, NA where missing), `b`. A curve that has nothing to slide, or points that the template lacks, is in none.
 #' @noRd
 curve_sets <- function(state, plan) {
   slides <- function(curve) nrow(curve$rows) > 0 && !anyNA(plan$xyz[curve$place[!is.na(curve$s)], 1])

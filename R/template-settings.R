@@ -3,25 +3,29 @@
 #' All tuning constants of [slide()] in one place. The preset `"crestline"` is what makes points of many specimens
 #' homologous by measurement; `"paper"` reproduces the choices of the paper.
 #'
-#' The constants of `"crestline"` were chosen by how far each point, carried to the shared topology of 23 simulated faces in dense
-#' correspondence, spreads along its curve (`bench/README.md`, "Sliding"); optima are flat. The bending energy that is reached tells
-#' nothing about it: with the paper's energies it is lowest, and the spread larger than without sliding.
+#' The constants of `"crestline"` were chosen by how far each point, carried to the shared topology of 23 simulated
+#' faces in dense correspondence, spreads along its curve (`bench/README.md`, "Sliding"); optima are flat. The bending
+#' energy that is reached tells nothing about it: with the paper's energies it is lowest, and the spread larger than
+#' without sliding.
 #'
 #' @param preset `"crestline"` or `"paper"`.
-#' @param ... Settings to change, by name; print a preset to see its values. A radius is the root mean square distance of the
-#'   template's landmarks and curve points from their centre, so nothing depends on the unit.
-#'   * `energy`: which points share a bending energy: a curve and all `"landmarks"`, which stay where they are; each curve's
-#'     `"own"` points (the paper); or `"all"` landmarks and curves;
-#'   * `nugget`: of curve points, in radii (20 mm on a face; landmarks have none), see [bending_energy()]: so that an error across a curve is not
-#'     bought off by moving along it;
-#'   * `nugget_by`: `"length"`, the same for all; `"error"`, this times the square of a point's standard error over the median
-#'     square, where the template has any (that of [homologise()] has: the sample's root mean square);
-#'   * `strain`: weight of the squared excess of spacings along a curve over equal ones, in means of the diagonal of the energy's matrix;
-#'   * `cut_ends`: where the scheme cuts a curve off there is no landmark; such an end `"slide"`s too, or must `"stay"` (the paper);
+#' @param ... Settings to change, by name; print a preset to see its values. A radius is the root mean square distance
+#'   of the template's landmarks and curve points from their centre, so nothing depends on the unit.
+#'   * `energy`: which points share a bending energy: a curve and all `"landmarks"`, which stay where they are; each
+#'     curve's `"own"` points (the paper); or `"all"` landmarks and curves;
+#'   * `nugget`: of curve points, in radii (20 mm on a face; landmarks have none), see [bending_energy()]: so that an
+#'     error across a curve is not bought off by moving along it;
+#'   * `nugget_by`: `"length"`, the same for all; `"error"`, this times the square of a point's standard error over the
+#'     median square, where the template has any (that of [homologise()] has: the sample's root mean square);
+#'   * `strain`: weight of the squared excess of spacings along a curve over equal ones, in means of the diagonal of the
+#'     energy's matrix;
+#'   * `cut_ends`: where the scheme cuts a curve off there is no landmark; such an end `"slide"`s too, or must `"stay"`
+#'     (the paper);
 #'   * `gap`: neighbours on a curve keep this share of equal spacing between them;
-#'   * `tolerance`: done when no point slides further than this share of its spacing; `sweeps`: most sweeps over the points;
-#'   * `surface`: the points inside patches slide freely on the `"mesh"`, along their `"transect"` (the paper), or not at all
-#'     and stay `"between"` the slid curves;
+#'   * `tolerance`: done when no point slides further than this share of its spacing; `sweeps`: most sweeps over the
+#'     points;
+#'   * `surface`: the points inside patches slide freely on the `"mesh"`, along their `"transect"` (the paper), or not
+#'     at all and stay `"between"` the slid curves;
 #'   * `surface_energy`: of `"all"` points (curves and landmarks held), or of each `"patch"` (the paper);
 #'   * `surface_nugget`: of curve and surface points there, in radii (300 mm on a face);
 #'   * `surface_tolerance` (radii) and `surface_sweeps`, as those of curves;
@@ -35,10 +39,11 @@
 #' @export
 slide_settings <- function(preset = c("crestline", "paper"), ...) {
   preset <- check_choice(preset, c("crestline", "paper"), "preset")
-  settings <- list(energy = "landmarks", nugget = 0.35, nugget_by = "length", strain = 0.5, cut_ends = "slide", gap = 0.1, tolerance = 1e-5, sweeps = 1000,
-                   surface = "mesh", surface_energy = "all", surface_nugget = 5, surface_tolerance = 1e-5,
-                   surface_sweeps = 200, rank = 1e-6)
-  paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect", surface_energy = "patch", surface_nugget = 0)
+  settings <- list(energy = "landmarks", nugget = 0.35, nugget_by = "length", strain = 0.5, cut_ends = "slide", gap = 0.1,
+                   tolerance = 1e-5, sweeps = 1000, surface = "mesh", surface_energy = "all", surface_nugget = 5,
+                   surface_tolerance = 1e-5, surface_sweeps = 200, rank = 1e-6)
+  paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
+                surface_energy = "patch", surface_nugget = 0)
   if (preset == "paper") settings[names(paper)] <- paper
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))

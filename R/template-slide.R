@@ -2,27 +2,28 @@
 
 #' Slide the points of a shape until they are homologous to a template's
 #'
-#' Points of curves slide along their own curve, then points of patches over the surface, each to where the bending energy from
-#' the template (and a strain of the spacings) is least; landmarks stay, and the ends of curves with them. Where the scheme cuts a curve off there is
-#' no landmark: that end slides along the whole curve too. One point at a time is taken to its exact
-#' minimiser, in turn, until none moves: the energy never rises, and points keep their order and a gap. Points never leave
-#' the mesh.
+#' Points of curves slide along their own curve, then points of patches over the surface, each to where the bending
+#' energy from the template (and a strain of the spacings) is least; landmarks stay, and the ends of curves with them.
+#' Where the scheme cuts a curve off there is no landmark: that end slides along the whole curve too. One point at a
+#' time is taken to its exact minimiser, in turn, until none moves: the energy never rises, and points keep their order
+#' and a gap. Points never leave the mesh.
 #'
 #' What is in the template but not in the shape, or the other way round, is left out of the energy; points that are missing
 #' stay NA. Points that coincide by construction still do.
 #'
-#' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of patches that lie on curves without being points of
-#' theirs go along: at the same share of the way between their neighbours.
+#' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of patches that lie on
+#' curves without being points of theirs go along: at the same share of the way between their neighbours.
 #'
 #' @param shape A `shape`, as of [fit_shape()].
 #' @param template A `shape` of the same scheme, such as of [symmetrise()], or the `template` of [homologise()].
 #' @param settings [slide_settings()].
 #' @param specimen The [specimen()] that the shape was measured on.
 #' @return The `shape` with its points slid (`se` goes along), and besides:
-#'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve, "curves", "surface", or the patch): `level`, `points` (that
-#'     slide), `sweeps`, `converged`, `energy_before`, `energy_after` (unit of the mesh), `longest` (largest distance that a point has
-#'     slid, along its curve, or straight);
-#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`, `longest` (slide of that sweep).
+#'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve, "curves", "surface", or the
+#'     patch): `level`, `points` (that slide), `sweeps`, `converged`, `energy_before`, `energy_after` (unit of the
+#'     mesh), `longest` (largest distance that a point has slid, along its curve, or straight);
+#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`, `longest` (slide of
+#'     that sweep).
 #' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen.
 #' @references The paper, section 4. Where the default departs from it: `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
@@ -56,8 +57,9 @@ check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
   if (inherits(specimen, "specimen")) return(specimen)
-  crestline_abort(if (is.null(specimen)) "the shape does not keep its specimen." else sprintf("`specimen` is %s.", describe_value(specimen)),
-                  "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)
+  problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
+    sprintf("`specimen` is %s.", describe_value(specimen))
+  crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)
 }
 
 #' The patches cut anew between slid curves
@@ -117,9 +119,9 @@ with_tracks <- function(shape, s, cutting) {
 
 #' The places of a shape, and the curves that can slide
 #'
-#' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves` (list by name: `place`, `n`,
-#'   `s` (NA where missing), `path` (`mesh_path`), `track` (matrix s, x, y, z, face; face 0 over holes), `kept` (length that the scheme
-#'   keeps), `rows` (of [slider_rows()])).
+#' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves` (list by name:
+#'   `place`, `n`, `s` (NA where missing), `path` (`mesh_path`), `track` (matrix s, x, y, z, face; face 0 over holes),
+#'   `kept` (length that the scheme keeps), `rows` (of [slider_rows()])).
 #' @noRd
 slide_state <- function(shape, settings) {
   points <- shape$points

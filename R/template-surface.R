@@ -76,9 +76,9 @@ slide_free <- function(set, store, specimen, plan) {
   free <- match(set$free, set$places)
   x <- store[set$places, c("x", "y", "z"), drop = FALSE]
   held <- set$b[free, -free, drop = FALSE] %*% x[-free, , drop = FALSE]
-  slid <- cpp_slide_on_mesh(surface$vb, surface$it, surface$twin, set$b[free, free, drop = FALSE], x[free, , drop = FALSE], held,
-                            store[set$free, c("face", "w1", "w2", "w3"), drop = FALSE], settings$surface_tolerance * plan$radius,
-                            settings$surface_sweeps)
+  slid <- cpp_slide_on_mesh(surface$vb, surface$it, surface$twin, set$b[free, free, drop = FALSE],
+                            x[free, , drop = FALSE], held, store[set$free, c("face", "w1", "w2", "w3"), drop = FALSE],
+                            settings$surface_tolerance * plan$radius, settings$surface_sweeps)
   rest <- quadratic_form(set$b[-free, -free, drop = FALSE], x[-free, , drop = FALSE])
   slid$trace$energy <- slid$trace$energy + rest
   store[set$free, mesh_columns] <- slid$points

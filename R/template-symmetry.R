@@ -10,10 +10,11 @@
 #' their partners' reflections: for one specimen the asymmetric component of object symmetry.
 #'
 #' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left and right.
-#' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`, `se` all NA, and no paths.
+#' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`, `se` all NA, and no
+#'   paths.
 #' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places that have a partner.
-#' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures, *Evolution* 56, 1909-1920; the
-#'   paper, section 4.
+#' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures, *Evolution* 56,
+#'   1909-1920; the paper, section 4.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -32,9 +33,10 @@ symmetrise <- function(shape) {
 
 #' @rdname symmetrise
 #' @param by "part": a row a part; "point": a row a point.
-#' @return `asymmetry()`: data frame `level` ("overall", "landmarks", "curves", "surface"), `part` (landmark, curve, patch), `points` (their number,
-#'   those that coincide counted once), `rms`, `largest`, in the unit of the mesh, NA where nothing has a partner;
-#'   by point: `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` in the shape's own axes.
+#' @return `asymmetry()`: data frame `level` ("overall", "landmarks", "curves", "surface"), `part` (landmark, curve,
+#'   patch), `points` (their number, those that coincide counted once), `rms`, `largest`, in the unit of the mesh, NA
+#'   where nothing has a partner; by point: `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` in
+#'   the shape's own axes.
 #' @export
 asymmetry <- function(shape, by = c("part", "point")) {
   by <- check_choice(by, c("part", "point"), "by")
@@ -66,8 +68,8 @@ symmetric_mean <- function(xyz, partner, id, by = rep(TRUE, nrow(xyz))) {
   known <- !is.na(xyz[, 1]) & !is.na(xyz[partner, 1])
   both <- known & by
   if (all(partner == seq_along(partner)) || sum(both) < 3) {
-    crestline_abort("too little of it has a left and a right.", "Give the scheme pairs (see `?curve_scheme`), or check what is missing.",
-                    stage = "symmetry", id = id, call = NULL)
+    crestline_abort("too little of it has a left and a right.",
+                    "Give the scheme pairs (see `?curve_scheme`), or check what is missing.", stage = "symmetry", id = id, call = NULL)
   }
   centre <- colMeans(xyz[both, , drop = FALSE])
   centred <- sweep(xyz, 2, centre)

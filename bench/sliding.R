@@ -1,17 +1,17 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [spread] [starts] [morpho]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho]
 #
-# random: 1,000 random curves against random templates. The others use the 23 simpop faces, in dense correspondence: every
-# point is carried to the shared topology, and its RMS distance from the mean over faces taken, along its curve and in all.
-# morpho needs the package Morpho.
+# random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean() on spheres. The others
+# use the 23 simpop faces, in dense correspondence: every point is carried to the shared topology, and its RMS distance from
+# the mean over faces taken, along its curve and in all; noise: with noise and moved landmarks. morpho needs Morpho.
 
 library(crestline)
 
 inner <- function(name) getFromNamespace(name, "crestline")
 shared <- Sys.getenv("CRESTLINE_SHARED")
 wanted <- commandArgs(TRUE)
-if (!length(wanted)) wanted <- c("random", "spread", "starts", "morpho")
+if (!length(wanted)) wanted <- c("random", "mean", "starts", "spread", "noise", "morpho")
 
 # ---- random curves ----
 
@@ -69,9 +69,48 @@ random <- function(n = 1000) {
   for (preset in c("crestline", "paper")) {
     settings <- slide_settings(preset, tolerance = 1e-7, sweeps = 20000)
     found <- do.call(rbind, lapply(seq_len(n), slide_random, settings))
-    cat(sprintf("%d random curves, \"%s\": in order %d; energy rises by %.1e at most; off the path %.1e; better by brute force %.1e; sweeps %g (median), %d converged\n",
-                n, preset, sum(found$order), max(found$rise), max(found$off), max(found$better), median(found$sweeps),
+    cat(sprintf("%d random curves, \"%s\": in order %d; energy rises by %.1e at most; off the path %.1e; ", n, preset,
+                sum(found$order), max(found$rise), max(found$off)))
+    cat(sprintf("better by brute force %.1e; sweeps %g (median), %d converged\n", max(found$better), median(found$sweeps),
                 sum(found$converged)))
+  }
+}
+
+# ---- means on spheres ----
+
+# Errors of distances between 20 vertices and all others further than 0.2 rad.
+distance_errors <- function(ball) {
+  from <- sample(ncol(ball$vb), 20)
+  found <- inner("geodesic_distances")(ball, inner("surface_points")(ball, t(ball$vb[1:3, from])))
+  edges <- vapply(from, function(v) Rvcg::vcgDijkstra(ball, v), numeric(ncol(ball$vb)))
+  arc <- acos(pmin(pmax(crossprod(ball$vb[1:3, ], ball$vb[1:3, from]), -1), 1))
+  for (one in list(list("ours", found), list("over edges", edges))) {
+    error <- (one[[2]] / arc - 1)[arc > 0.2]
+    cat(sprintf("  distances, %s: %.2f %% on average, %.2f to %.2f %%\n", one[[1]], 100 * mean(error), 100 * min(error),
+                100 * max(error)))
+  }
+}
+
+# Distance, in edges, between the mean of two weighted points and the place that divides their arc.
+mean_error <- function(ball) {
+  turn <- qr.Q(qr(matrix(rnorm(9), 3)))
+  span <- runif(1, 0.3, 2.2)
+  weights <- runif(2, 0.2, 1)
+  on_arc <- function(angle) cos(angle) * turn[, 1] + sin(angle) * turn[, 2]
+  found <- unlist(frechet_mean(ball, rbind(on_arc(0), on_arc(span)), weights)[1:3])
+  truth <- on_arc(span * weights[2] / sum(weights))
+  acos(sum(found * truth) / sqrt(sum(found^2))) / sqrt(4 * pi / ncol(ball$vb))
+}
+
+means <- function() {
+  set.seed(1)
+  for (subdivision in 3:5) {
+    ball <- Rvcg::vcgSphere(subdivision)
+    ball$vb[1:3, ] <- t(t(ball$vb[1:3, ]) / sqrt(colSums(ball$vb[1:3, ]^2)))
+    cat(sprintf("sphere of %d vertices\n", ncol(ball$vb)))
+    distance_errors(ball)
+    off <- replicate(60, mean_error(ball))
+    cat(sprintf("  mean of two points: off by %.3f edges (RMS), %.3f at most\n", sqrt(mean(off^2)), max(off)))
   }
 }
 
@@ -138,8 +177,8 @@ surface_spread <- function(at, scheme) {
   sqrt(mean(apply(sweep(at[free, , ], 1:2, apply(at[free, , ], 1:2, mean)), 3, function(d) rowSums(d^2))))
 }
 
-# The warp on the landmarks: the template's points carried by the thin-plate spline, then the nearest place of the curve as it
-# was found (uncut) and, for surface points, of the mesh.
+# The warp on the landmarks: the template's points carried by the thin-plate spline, then the nearest place of the curve as
+# it was found (uncut) and, for surface points, of the mesh.
 warped <- function(shape, template) {
   store <- stores(list(shape))[[1]]
   from <- coords(template, "landmarks")
@@ -170,13 +209,16 @@ spread_table <- function(shapes, label) {
   mean <- mean_mesh()
   before <- curve_spread(carried(stores(shapes), it, mean), scheme)
   sockets <- grepl("socket", before$curve)
+  whole <- before$curve %in% with(scheme$curves, curve[is.na(cut_share)])
   line <- function(name, stores, seconds = NA) {
     at <- carried(stores, it, mean)
     curves <- curve_spread(at, scheme)
     rest <- curves[!sockets, ]
+    ends <- curves[whole, ]
     data.frame(what = name, along = pooled(curves$along, curves$points), across = pooled(curves$across, curves$points),
-               along_without_sockets = pooled(rest$along, rest$points), better = sum(curves$along < before$along),
-               surface = surface_spread(at, scheme), seconds = seconds)
+               total = pooled(sqrt(curves$along^2 + curves$across^2), curves$points),
+               along_without_sockets = pooled(rest$along, rest$points), along_uncut = pooled(ends$along, ends$points),
+               better = sum(curves$along < before$along), surface = surface_spread(at, scheme), seconds = seconds)
   }
   slid <- function(name, ...) {
     time <- system.time(sample <- suppressWarnings(homologise(shapes, settings = slide_settings(...), progress = FALSE)))
@@ -194,17 +236,16 @@ spread_table <- function(shapes, label) {
     slid("surface along transects, one energy", surface = "transect")$line
   )
   cat("\n", label, "\n", sep = "")
-  print(format(table, digits = 3), row.names = FALSE)
+  print(format(table, digits = 3), row.names = FALSE, width = 200)
   by_curve <- merge(before, curve_spread(carried(stores(ours$sample$shapes), it, mean), scheme), by = c("curve", "points"),
                     suffixes = c("", "_slid"), sort = FALSE)
   print(format(by_curve, digits = 2), row.names = FALSE)
   ours$sample
 }
 
-spread <- function() {
-  spread_table(fitted(specimens()), "Spread over 23 faces, mm")
-  spread_table(fitted(specimens(0.2, 1)), "The same with 0.2 mm noise and landmarks moved by 1 mm")
-}
+spread <- function() spread_table(fitted(specimens()), "Spread over 23 faces, mm")
+
+noise <- function() spread_table(fitted(specimens(0.2, 1)), "Spread with 0.2 mm noise and landmarks moved by 1 mm")
 
 # Convergence, time, and whether the answer depends on the start.
 starts <- function() {
@@ -214,6 +255,9 @@ starts <- function() {
   cat(sprintf("\n23 faces: fitted in %.1f s, homologised in %.1f s\n", fitting, sliding))
   print(sample$convergence, digits = 3)
   reference <- inner("places_of")(sample$template)
+  mirrored <- reference[inner("mirror_places")(sample$template$scheme), ] %*% diag(c(-1, 1, 1))
+  cat(sprintf("template from its relabelled reflection: %.1e mm at most\n",
+              max(abs(inner("laid_onto")(mirrored, reference, FALSE) - reference))))
   for (first in c(12, 23)) {
     other <- homologise(shapes[c(first, seq_along(shapes)[-first])], progress = FALSE)
     laid <- inner("laid_onto")(inner("places_of")(other$template), reference, FALSE)
@@ -250,16 +294,16 @@ morpho <- function() {
       seconds_morpho = their_time, off_mesh_morpho = max(sqrt(rowSums((theirs - as.matrix(on[1:3]))^2)))))
   })
   rows <- do.call(rbind, lapply(compared, `[[`, "row"))
-  cat(sprintf("\nMorpho::relaxLM, %d free of %d places, 23 faces: our energy is lower on %d, by %.2g to %.2g relatively; ", length(free),
-              length(place), sum(rows$energy_ours <= rows$energy_morpho), min(1 - rows$energy_ours / rows$energy_morpho),
-              max(1 - rows$energy_ours / rows$energy_morpho)))
-  cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n", mean(rows$seconds_ours),
-              matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
+  gain <- 1 - rows$energy_ours / rows$energy_morpho
+  cat(sprintf("\nMorpho::relaxLM, %d free of %d places, 23 faces: our energy is lower on %d, by %.2g to %.2g relatively; ",
+              length(free), length(place), sum(gain >= 0), min(gain), max(gain)))
+  cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n",
+              mean(rows$seconds_ours), matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
   it <- shapes[[1]]$specimen$mesh$it
   at <- function(which) surface_spread(carried(lapply(compared, `[[`, which), it, mean_mesh()), scheme)
-  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, ours %.3f\n", at("theirs"), at("ours"),
-              surface_spread(carried(stores(sample$shapes), it, mean_mesh()), scheme)))
+  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, ours %.3f\n", at("theirs"),
+              at("ours"), surface_spread(carried(stores(sample$shapes), it, mean_mesh()), scheme)))
 }
 
-sections <- list(random = random, spread = spread, starts = starts, morpho = morpho)
+sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho)
 for (name in wanted) sections[[name]]()

@@ -317,6 +317,19 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_geodesic_distances
+NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places);
+RcppExport SEXP _crestline_cpp_geodesic_distances(SEXP vbSEXP, SEXP itSEXP, SEXP placesSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type places(placesSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_geodesic_distances(vb, it, places));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
@@ -339,6 +352,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
+    {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {NULL, NULL, 0}
 };
 

@@ -4,6 +4,7 @@
 #include "curvature.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
+#include "mesh_geodesic.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -399,4 +400,16 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
                                [] { checkUserInterrupt(); });
   for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places) {
+  int n = vb.ncol();
+  NumericMatrix out(n, places.nrow());
+  for (int i = 0; i < places.nrow(); ++i) {
+    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i));
+    std::copy(d.begin(), d.end(), out.begin() + static_cast<R_xlen_t>(n) * i);
+    checkUserInterrupt();
+  }
+  return out;
 }

@@ -32,8 +32,8 @@ struct SlideTrace {
   bool converged = false;
 };
 
-// Minimises trace(x' b x) + strain over the sliders' places, cyclically, until all are at rest; b: n x n, symmetric, positive
-// semi-definite; x: n x 3, column major, changed in place. Each step is the exact minimiser over one point between its
+// Minimises trace(x' b x) + strain over the sliders' places, cyclically, until all are at rest; b: n x n, symmetric,
+// positive semi-definite; x: n x 3, column major, changed in place. Each step is the exact minimiser over one point between its
 // neighbours, and is taken only if it lowers the sum. A point that is nearer to a neighbour than the gap at the start may
 // stay there, but comes no nearer.
 SlideTrace slide_on_tracks(const double* b, int n, double* x, const std::vector<Track>& tracks,

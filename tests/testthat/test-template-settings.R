@@ -1,7 +1,8 @@
 test_that("presets differ where the paper does", {
   paper <- slide_settings("paper")
   expect_equal(paper[c("energy", "nugget", "strain", "cut_ends", "surface", "surface_energy")],
-               list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect", surface_energy = "patch"))
+               list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
+                     surface_energy = "patch"))
   expect_equal(slide_settings(strain = 2)$strain, 2)
   expect_output(print(slide_settings()), "nugget = 0.35")
 })

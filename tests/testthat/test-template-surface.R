@@ -68,7 +68,8 @@ test_that("the energy of a shape's free points is least: moving any on the mesh 
   for (i in seq_along(set$free)) {
     place <- set$free[i]
     nudged <- x
-    nudged[place, ] <- unlist(surface_points(shape$specimen$mesh, x[place, , drop = FALSE] + with_seed(i, stats::rnorm(3, 0, 0.2)))[1:3])
+    aside <- x[place, , drop = FALSE] + with_seed(i, stats::rnorm(3, 0, 0.2))
+    nudged[place, ] <- unlist(surface_points(shape$specimen$mesh, aside)[1:3])
     expect_gte(quadratic_form(set$b, nudged), least * (1 - 1e-9))
   }
 })

@@ -1,0 +1,100 @@
+# The mean of points on a surface by geodesic distances.
+
+#' The mean of points on a surface
+#'
+#' The point of the surface whose weighted sum of squared geodesic distances to the given points is least (Frechet mean).
+#'
+#' Geodesic distances are worked out triangle by triangle (see References): exact on a plane, 1 % too long where they
+#' bend round a hole; on spheres of 642, 2,562 and 10,242 vertices 0.6, 0.26 and 0.13 % short on average, 2.6, 1.5 and
+#' 0.8 % at most. Paths over edges alone, as of `Rvcg::vcgDijkstra()`, are 7 % too long on all of them, 22 % at most,
+#' and differently so by direction, so that they do not determine a mean. The vertex with the least sum is found, and
+#' from there the least of a quadratic in the tangent plane: on these spheres within 0.07 of an edge of the true mean
+#' (`bench/README.md`, "Sliding").
+#'
+#' @param mesh A `mesh3d` of triangles, or a [specimen()].
+#' @param points k x 3 matrix, in the unit of the mesh; taken to the closest places of the surface.
+#' @param weights k numbers of at least 0; `NULL`: all the same.
+#' @param rings Rings of vertices about the least one that the quadratic is fitted to.
+#' @return Data frame of one row: `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (a place on the mesh), and `variance`
+#'   (weighted mean of squared geodesic distances at the least vertex, unit squared). Where several places have the same
+#'   least sum, one of them.
+#' @section Errors: of class `crestline_error`: points that are no k x 3 matrix of numbers or lie on separate pieces of
+#'   the mesh; weights that are negative, all 0, or of another number.
+#' @references The paper, section 3. Novotni and Klein (2002) Computing geodesic distances on triangular meshes,
+#'   *Journal of WSCG* 10, 341-347.
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' corners <- rbind(c(1, 0, 0), c(0, 1, 0), c(0, 0, 1))
+#' frechet_mean(ball, corners)
+#' frechet_mean(ball, corners[1:2, ], weights = c(2, 1)) # 30 degrees from the first
+#' @export
+frechet_mean <- function(mesh, points, weights = NULL, rings = 3) {
+  mesh <- as_mesh(mesh)
+  points <- check_mean_points(points)
+  weights <- check_weights(weights, nrow(points))
+  rings <- check_count(rings, "rings")
+  total <- as.vector(geodesic_distances(mesh, surface_points(mesh, points))^2 %*% weights)
+  if (!any(is.finite(total))) {
+    crestline_abort("the points lie on separate pieces of the mesh.", "Give points that a path on the surface can join.",
+                    stage = "mean")
+  }
+  best <- which.min(total)
+  near <- vertices_within(mesh, best, rings)
+  at <- least_of_quadratic(t(mesh$vb[1:3, near]), total[near], match(best, near))
+  cbind(surface_points(mesh, at), variance = total[best])
+}
+
+check_mean_points <- function(points, call = rlang::caller_env()) {
+  if (!is.matrix(points) || !is.numeric(points) || ncol(points) != 3 || !nrow(points) || !all(is.finite(points))) {
+    crestline_abort(sprintf("`points` is %s.", describe_value(points)), "Give a k x 3 matrix of finite numbers.",
+                    stage = "arguments", call = call)
+  }
+  points
+}
+
+#' Weights that sum to 1
+#' @noRd
+check_weights <- function(weights, k, call = rlang::caller_env()) {
+  if (is.null(weights)) weights <- rep(1, k)
+  if (!is.numeric(weights) || length(weights) != k || !all(is.finite(weights)) || any(weights < 0) || !any(weights > 0)) {
+    crestline_abort(sprintf("`weights` is %s.", describe_value(weights)),
+                    sprintf("Give %s of at least 0, not all 0.", amount(k, "number")), stage = "arguments", call = call)
+  }
+  weights / sum(weights)
+}
+
+#' Vertices that so many edges lead to from one, itself among them
+#' @noRd
+vertices_within <- function(mesh, vertex, rings) {
+  for (ring in seq_len(rings)) {
+    touched <- colSums(matrix(mesh$it %in% vertex, 3)) > 0
+    vertex <- unique(c(vertex, mesh$it[, touched]))
+  }
+  vertex
+}
+
+#' Where the quadratic of least squares through values at points of a surface is least
+#'
+#' In the plane of the points' two largest axes about the best one; that point itself where there is no least within the
+#' points' reach.
+#'
+#' @param xyz k x 3.
+#' @param value k numbers.
+#' @param best Row of the least.
+#' @return Matrix 1 x 3.
+#' @noRd
+least_of_quadratic <- function(xyz, value, best) {
+  here <- xyz[best, , drop = FALSE]
+  centred <- sweep(xyz, 2, here)
+  axes <- svd(centred, nu = 0)$v[, 1:2]
+  scale <- sqrt(mean(rowSums(centred^2)))
+  u <- centred %*% axes / scale
+  terms <- cbind(1, u, u^2 / 2, u[, 1] * u[, 2])
+  if (nrow(u) < ncol(terms) || qr(terms)$rank < ncol(terms)) return(here)
+  fit <- qr.solve(terms, value - value[best])
+  bend <- matrix(fit[c(4, 6, 6, 5)], 2)
+  if (any(eigen(bend, TRUE, only.values = TRUE)$values <= 0)) return(here)
+  step <- -solve(bend, fit[2:3])
+  if (sqrt(sum(step^2)) > max(sqrt(rowSums(u^2)))) return(here)
+  here + scale * as.vector(axes %*% step)
+}
