@@ -32,7 +32,9 @@ fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads,
 #' A curve; where no cut joins its ends and it is to be cut off, as much of it as the mesh has
 #' @noRd
 fit_or_follow <- function(row, specimen, pairs, fit) {
-  attempt <- function(row) tryCatch(fit(row), crestline_error = function(e) cut_instead(row, sub("\\.$", "", e$problem), fit))
+  attempt <- function(row) {
+    tryCatch(fit(row), crestline_error = function(e) cut_instead(row, sub("\\.$", "", e$problem), fit))
+  }
   found <- attempt(row)
   far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, specimen, pairs)
   if (is.null(far)) return(found)
