@@ -32,12 +32,14 @@ fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads,
 #' A curve; where no cut joins its ends and it is to be cut off, as much of it as the mesh has
 #' @noRd
 fit_or_follow <- function(row, specimen, pairs, fit) {
-  attempt <- function(row) tryCatch(fit(row), crestline_error = function(e) cut_instead(row, e$problem, fit))
+  attempt <- function(row) {
+    tryCatch(fit(row), crestline_error = function(e) cut_instead(row, sub("\\.$", "", e$problem), fit))
+  }
   found <- attempt(row)
   far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, specimen, pairs)
   if (is.null(far)) return(found)
   row$from <- far$end
-  followed <- sprintf("%s: followed towards %s as far as the mesh goes", sub("\\.$", "", found$reason), far$name)
+  followed <- sprintf("%s: followed towards %s as far as the mesh goes", found$reason, far$name)
   found <- attempt(row)
   found$followed <- followed
   add_note(found, followed)

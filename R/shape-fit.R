@@ -138,7 +138,7 @@ fit_scheme_landmarks <- function(specimen, scheme) {
   points <- matrix(NA_real_, length(names), length(mesh_columns), dimnames = list(names, mesh_columns))
   reason <- stats::setNames(rep(NA_character_, length(names)), names)
   for (name in names) {
-    found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) e$problem)
+    found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) sub("\\.$", "", e$problem))
     if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else reason[name] <- found
   }
   list(points = points, reason = reason)

@@ -21,9 +21,9 @@ scheme <- face_scheme()
 
 moved_landmarks <- function(face) {
   direction <- matrix(rnorm(length(face$landmarks)), ncol = 3)
-  face$landmarks[] <- face$landmarks + step * direction / sqrt(rowSums(direction^2))
-  face$landmarks[] <- as.matrix(crestline:::surface_points(face$mesh, face$landmarks)[c("x", "y", "z")])
-  face
+  moved <- face$landmarks + step * direction / sqrt(rowSums(direction^2))
+  moved[] <- as.matrix(crestline:::surface_points(face$mesh, moved)[c("x", "y", "z")])
+  suppressWarnings(specimen(face$mesh, moved, id = face$id))
 }
 
 model <- function(face) fit_shape(face, scheme, ridge_settings(error = FALSE), progress = FALSE)

@@ -54,8 +54,9 @@ with_ear_ends <- function(case) {
 
 # The least distance of a curve's points from any plane cut through its ends.
 best_cut <- function(face, row, points) {
+  start <- crestline:::surface_points(face$mesh, points[1, , drop = FALSE])
   min(vapply((-30:30) * pi / 180, function(angle) {
-    cut <- tryCatch(plane_path(face, points[1, ], row$to, angle, reach = 1), crestline_error = function(e) NULL)
+    cut <- tryCatch(plane_path(face, start, row$to, angle, reach = 1), crestline_error = function(e) NULL)
     if (is.null(cut)) Inf else rms(distance_to_path(points, cut))
   }, 0))
 }
