@@ -16,6 +16,7 @@
 #' @param points Whether to draw the points of the curves.
 #' @param patches Whether to draw the points of the surface, small, on the specimen.
 #' @param width Line width of curves.
+#' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
 #' @param engine,view,... As in [plot.specimen()] and [draw_surface()].
 #' @return The scene of [draw_surface()], invisibly.
 #' @seealso [fit_shape()]
@@ -32,12 +33,13 @@
 plot.shape <- function(x, specimen = NULL, parts = "model",
                        colour = c(ridge = "#A0002A", valley = "#16218C", plane = "#202020"),
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index", edges = "#00000070", band = TRUE,
-                       points = TRUE, patches = points, width = 2, engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
+                       points = TRUE, patches = points, width = 2, legend = TRUE,
+                       engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
   scene <- if (is.null(specimen)) {
     draw_model(shape_mesh(x, parts), surface, edges, engine, view, ...)
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-    plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, ...)
+    plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, legend = legend, ...)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
   if (patches && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
@@ -47,7 +49,7 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
   }
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
-  if (engine == "picture" && !is.null(specimen)) {
+  if (legend && engine == "picture" && !is.null(specimen)) {
     on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = width, bty = "n", cex = 0.8))
   }
   invisible(scene)

@@ -81,7 +81,7 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_plane_cuts
-DataFrame cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach);
+List cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach);
 RcppExport SEXP _crestline_cpp_plane_cuts(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
@@ -99,7 +99,7 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_cut_weights
-DataFrame cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, double step);
+List cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, double step);
 RcppExport SEXP _crestline_cpp_cut_weights(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP stepSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;

@@ -230,7 +230,7 @@ List cpp_cut_axis(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Numeri
 }
 
 // [[Rcpp::export]]
-DataFrame cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+List cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
                          NumericVector to, NumericMatrix normals, IntegerVector sides, double reach) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
   int n = sides.size();
@@ -243,11 +243,11 @@ DataFrame cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin,
     end[i] = walk_end(cut.end);
     checkUserInterrupt();
   }
-  return DataFrame::create(_["length"] = length, _["end"] = end);
+  return List::create(_["length"] = length, _["end"] = end);
 }
 
 // [[Rcpp::export]]
-DataFrame cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+List cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
                           NumericVector to, NumericMatrix normals, IntegerVector sides, double reach,
                           double step) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
@@ -265,7 +265,7 @@ DataFrame cpp_cut_weights(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin
     }
     checkUserInterrupt();
   }
-  return DataFrame::create(_["cut"] = cut_of, _["vertex"] = vertex, _["weight"] = weight);
+  return List::create(_["cut"] = cut_of, _["vertex"] = vertex, _["weight"] = weight);
 }
 
 // [[Rcpp::export]]

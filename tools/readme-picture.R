@@ -1,19 +1,13 @@
-# The picture of README.md: Rvcg's humface with its curves, plain from the front, by shape index from the subject's left.
+# The picture of README.md: Rvcg's humface with its curves, over shape index, and the surface model between them.
 # Run from the project's root, crestline being installed: Rscript tools/readme-picture.R
 
 library(crestline)
 
-demo_file <- function(name) system.file("extdata", name, package = "crestline", mustWork = TRUE)
-
 read_face <- function() {
   data <- new.env()
   utils::data("humface", package = "Rvcg", envir = data)
-  specimen(data$humface, read_landmarks(demo_file("humface_landmarks.csv")), id = "humface")
-}
-
-find_curve <- function(row, face) {
-  region <- if (!is.na(row$keep_from)) keep_away(row$keep_from, row$keep_to)
-  ridge_curve(face, row$from, row$to, row$kind, radius = row$radius, width = row$half_width, n = row$n, keep_away = region)
+  file <- system.file("extdata", "humface_landmarks.csv", package = "crestline", mustWork = TRUE)
+  specimen(data$humface, read_landmarks(file), id = "humface")
 }
 
 # The rotation that sets the face upright, seen from `round` radians towards its left.
@@ -29,14 +23,14 @@ upright_view <- function(landmarks, round) {
 
 draw_readme <- function(file, radius = 7) {
   face <- read_face()
-  rows <- utils::read.csv(demo_file("demo_curves.csv"), na.strings = "")
-  curves <- lapply(split(rows, seq_len(nrow(rows))), find_curve, face = face)
-  grDevices::png(file, width = 940, height = 550, res = 80, type = "cairo")
+  shape <- fit_shape(face, face_scheme(), progress = FALSE)
+  grDevices::png(file, width = 1100, height = 520, res = 80, type = "cairo")
   on.exit(grDevices::dev.off())
-  graphics::layout(t(1:2), widths = c(1, 1.22))
-  plot_curves(curves, face, "plain", points = FALSE, legend = FALSE, engine = "picture", view = upright_view(face$landmarks, 0))
-  plot_curves(curves, face, "shape index", points = FALSE, engine = "picture", view = upright_view(face$landmarks, 0.65),
-              curvature = curvature(face, radius))
+  graphics::layout(t(1:3), widths = c(1, 1, 1.24))
+  view <- function(round) upright_view(face$landmarks, round)
+  plot(shape, face, surface = "plain", patches = FALSE, band = FALSE, engine = "picture", view = view(0), legend = FALSE)
+  plot(shape, points = FALSE, engine = "picture", view = view(0.35))
+  plot(shape, face, patches = FALSE, engine = "picture", view = view(0.65), curvature = curvature(face, radius))
 }
 
 draw_readme(file.path("man", "figures", "README-face.png"))
