@@ -97,7 +97,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
   column$bridge <- check_number(bridge, "bridge", 0, 1)
-  scan <- specimen
+  scan <- with_located(specimen)
   specimen <- bridge_holes(scan, column$bridge)
   tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)

@@ -104,6 +104,35 @@ landmark_point <- function(specimen, name, tolerance = 0.01) {
   check_landmarks(landmarks, specimen$mesh, id, tolerance * mesh_diagonal(specimen$mesh), character())$located
 }
 
+#' A specimen whose landmarks that were changed since are located once, for many uses
+#'
+#' Those that cannot be (missing, off the surface) are left for [landmark_point()] to tell of.
+#' @noRd
+with_located <- function(specimen) {
+  before <- specimen$geometry
+  at <- specimen$landmarks
+  known <- match(rownames(at), rownames(before$landmarks))
+  changed <- vapply(seq_along(known), function(i) {
+    is.na(known[i]) || !identical(unname(at[i, ]), unname(before$landmarks[known[i], ]))
+  }, NA)
+  for (name in rownames(at)[changed & !is.na(at[, 1])]) {
+    found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) NULL)
+    if (is.null(found)) next
+    row <- match(name, rownames(before$landmarks))
+    if (is.na(row)) row <- nrow(before$landmarks) + 1
+    before$landmarks <- with_row(before$landmarks, row, at[name, ], name)
+    before$located[row, ] <- found
+  }
+  specimen$geometry <- before
+  specimen
+}
+
+with_row <- function(x, row, values, name) {
+  if (row > nrow(x)) return(rbind(x, matrix(values, 1, dimnames = list(name, colnames(x)))))
+  x[row, ] <- values
+  x
+}
+
 near_names <- function(name, known) {
   if (!length(known)) return("The specimen has no landmarks: give them to specimen() or read_specimen().")
   near <- if (is.character(name) && length(name) == 1 && !is.na(name)) {

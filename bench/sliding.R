@@ -1,6 +1,6 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise]
 #
 # random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean() on spheres. The others
 # use the 23 simpop faces, in dense correspondence: every point is carried to the shared topology, and its RMS distance from
@@ -11,7 +11,7 @@ library(crestline)
 inner <- function(name) getFromNamespace(name, "crestline")
 shared <- Sys.getenv("CRESTLINE_SHARED")
 wanted <- commandArgs(TRUE)
-if (!length(wanted)) wanted <- c("random", "mean", "starts", "spread", "noise", "morpho")
+if (!length(wanted)) wanted <- c("random", "mean", "starts", "spread", "noise", "morpho", "morpho-noise")
 
 # ---- random curves ----
 
@@ -267,9 +267,9 @@ starts <- function() {
 }
 
 # The same free surface points against the same template, at Morpho's own criterion: the bending energy of the 907 places.
-morpho <- function() {
+morpho <- function(noise = 0, moved = 0) {
   if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
-  shapes <- fitted(specimens())
+  shapes <- fitted(specimens(noise, moved))
   sample <- homologise(shapes, progress = FALSE)
   scheme <- sample$template$scheme
   place <- unique(with(scheme$points, place[level == "surface"]))
@@ -295,8 +295,8 @@ morpho <- function() {
   })
   rows <- do.call(rbind, lapply(compared, `[[`, "row"))
   gain <- 1 - rows$energy_ours / rows$energy_morpho
-  cat(sprintf("\nMorpho::relaxLM, %d free of %d places, 23 faces: our energy is lower on %d, by %.2g to %.2g relatively; ",
-              length(free), length(place), sum(gain >= 0), min(gain), max(gain)))
+  cat(sprintf("\nMorpho::relaxLM, noise %g mm, %d free of %d places: our energy is lower on %d faces, by %.2g to %.2g; ",
+              noise, length(free), length(place), sum(gain >= 0), min(gain), max(gain)))
   cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n",
               mean(rows$seconds_ours), matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
   it <- shapes[[1]]$specimen$mesh$it
@@ -305,5 +305,6 @@ morpho <- function() {
               at("ours"), surface_spread(carried(stores(sample$shapes), it, mean_mesh()), scheme)))
 }
 
-sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho)
+sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho,
+                 "morpho-noise" = function() morpho(0.2, 1))
 for (name in wanted) sections[[name]]()

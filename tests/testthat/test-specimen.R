@@ -71,3 +71,17 @@ test_that("id must be one string", {
   expect_crestline_error(specimen(ball_mesh(), id = c("a", "b")), "id")
   expect_equal(specimen(ball_mesh(), id = 7)$id, "7")
 })
+
+test_that("landmarks changed since are located once, and used as if they had been given so", {
+  ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
+  ball$landmarks["top", ] <- c(0, 0.6, 0.8)
+  ball$landmarks <- rbind(ball$landmarks, side = c(0, 1, 0), off = c(9, 9, 9), gone = NA)
+  located <- with_located(ball)
+  for (name in c("top", "front", "side")) {
+    expect_identical(landmark_point(located, name), landmark_point(ball, name), ignore_attr = TRUE)
+    expect_true(name %in% rownames(located$geometry$landmarks))
+  }
+  expect_identical(located$landmarks, ball$landmarks)
+  expect_crestline_error(landmark_point(located, "off"), "off", id = "ball")
+  expect_crestline_error(landmark_point(located, "gone"), "missing (NA)", id = "ball")
+})
