@@ -18,7 +18,8 @@
 #' @param landmarks With mesh files: their landmark files, one for each; `NULL`: the file beside each mesh with its name
 #'   and an extension of [read_landmarks()].
 #' @param ... Further arguments of [fit_shape()], the same for all.
-#' @param chunk Specimens a future: the number that one worker takes before it reports.
+#' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
+#'   given some four times.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
 #' @return Object of class `shape_batch`: a list of shapes by name of specimen (its id, or the file's name), `NULL` where it failed.
 #'   With `dir`, `x[[i]]` reads a shape from its file, and so does `as.list(x)` with all of them; `print(x)` counts.
@@ -28,18 +29,19 @@
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
-#' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane", n = 7)
+#' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane",
+#'                      n = 7)
 #' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "two sides")
 #' balls <- lapply(1:3, function(i) specimen(ball, corners, id = paste("ball", i)))
 #' shapes <- fit_shapes(balls, scheme)
 #' shapes
 #' shapes[["ball 2"]]
 #' @export
-fit_shapes <- function(x, scheme, dir = NULL, landmarks = NULL, ..., chunk = 1, progress = interactive()) {
-  rlang::check_installed(c("future.apply", "progressr"), "to measure many specimens.")
+fit_shapes <- function(x, scheme, dir = NULL, landmarks = NULL, ..., chunk = NULL, progress = interactive()) {
+  rlang::check_installed(c("future", "future.apply", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
-  chunk <- check_count(chunk, "chunk")
   jobs <- batch_jobs(x, landmarks)
+  chunk <- if (is.null(chunk)) ceiling(length(jobs) / (4 * future::nbrOfWorkers())) else check_count(chunk, "chunk")
   files <- batch_files(names(jobs), dir)
   tasks <- Map(function(job, file, name) list(job = job, file = file, name = name), jobs, files, names(jobs))
   settings <- list(...)
@@ -153,8 +155,8 @@ read_kept <- function(file) if (file.exists(file)) tryCatch(readRDS(file), error
 #' @examples
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
-#' scheme <- curve_scheme(data.frame(landmark = c("a", "b")), name = "one line",
-#'                        curves = data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7))
+#' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b")), curve, name = "one line")
 #' failures(fit_shapes(bad, scheme))
 #' @export
 failures <- function(x) {
