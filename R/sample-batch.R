@@ -64,10 +64,14 @@ batch_task <- function(job, file, name, scheme, settings) {
 is_kept <- function(task) !is.null(task$key) && identical(read_kept(task$file, "key"), task$key)
 
 #' All tasks, by the user's plan
+#'
+#' @param poll Seconds between two looks at workers that are busy, where the user has set no other: future's own 0.01
+#'   takes a tenth of a core, of which nothing is left when there are as many workers as cores.
 #' @return List of what [measure_task()] returns.
 #' @noRd
-measure_tasks <- function(tasks, scheme, settings, chunk) {
+measure_tasks <- function(tasks, scheme, settings, chunk, poll = 0.05) {
   if (is.null(chunk)) chunk <- ceiling(length(tasks) / (4 * future::nbrOfWorkers()))
+  rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll))
   tick <- progressr::progressor(steps = length(tasks))
   future.apply::future_lapply(tasks, function(task) {
     result <- measure_task(task, scheme, settings)

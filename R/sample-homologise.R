@@ -12,7 +12,8 @@
 #'
 #' The template is made symmetric in every round ([symmetrise()]) where the scheme has left-right pairs.
 #'
-#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s. Cut ends are
+#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s, or a `shape_batch`
+#'   of [fit_shapes()]: what failed is left out, and of one in files a single scan at a time is in memory. Cut ends are
 #'   homologous only if all were measured with the same `cut_scale`.
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
@@ -59,6 +60,7 @@
 #' @export
 homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL, tolerance = 2e-4, rounds = 20,
                        progress = interactive()) {
+  if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
@@ -83,7 +85,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
-  if (inherits(shapes, "shape_batch")) shapes <- Filter(Negate(is.null), as.list(shapes))
+  if (inherits(shapes, "shape_batch")) shapes <- measured(shapes)
   if (inherits(shapes, "shape")) shapes <- list(shapes)
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise", call = call)
   if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")
@@ -98,6 +100,22 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
   }
   for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
   stats::setNames(shapes, ids)
+}
+
+#' The shapes of a batch; of one in files without their specimens, which are read again when they are needed
+#' @noRd
+measured <- function(batch) {
+  bare <- !is.null(specimens_in_files(batch))
+  shapes <- lapply(names(batch), function(name) {
+    shape <- batch[[name]]
+    if (bare) shape$specimen <- NULL
+    shape
+  })
+  Filter(Negate(is.null), shapes)
+}
+
+specimens_in_files <- function(x) {
+  if (inherits(x, "shape_batch") && length(unlist(attr(x, "files")))) function(id) x[[id]]$specimen
 }
 
 #' @param specimens As in [homologise()].

@@ -43,7 +43,7 @@ pids <- function(workers) {
 }
 
 seconds_with <- function(workers, files) {
-  future::plan(if (workers > 1) "multisession" else "sequential", workers = workers)
+  if (workers > 1) future::plan("multisession", workers = workers) else future::plan("sequential")
   invisible(fit_shapes(files[seq_len(workers)], scheme))
   processes <- pids(workers)
   before <- vapply(processes, cpu_of, 0)

@@ -131,6 +131,7 @@ test_that("a batch goes into quality(), homologise() and lapply()", {
   expect_named(Filter(Negate(is.null), lapply(shapes, function(shape) shape$id)), paste("ball", 1:3))
   sample <- homologise(shapes, tolerance = 1e-3)
   expect_identical(dim(as.array(sample, "curves"))[3], 3L)
+  expect_identical(sample, homologise(Filter(Negate(is.null), as.list(shapes)), tolerance = 1e-3))
 })
 
 test_that("arguments that serve no specimen are refused", {
