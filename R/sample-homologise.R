@@ -146,10 +146,14 @@ first_template <- function(shapes, template, rounds, call = rlang::caller_env())
 
 #' Rounds of sliding curves and taking their mean as the template
 #'
+#' On noisy scans a point may have two places of least energy and take one and the other in turn, and the mean with it:
+#' then half a step is made.
+#'
 #' @param states List of [slide_state()]s.
+#' @param stalled Half a step where the largest movement is still this share of that of the round before.
 #' @return List: `template`, `convergence`.
 #' @noRd
-mean_curves <- function(states, template, settings, tolerance, rounds) {
+mean_curves <- function(states, template, settings, tolerance, rounds, stalled = 0.9) {
   table <- list()
   moved <- Inf
   for (round in seq_len(rounds)) {
@@ -157,8 +161,10 @@ mean_curves <- function(states, template, settings, tolerance, rounds) {
     slid <- lapply(states, slide_curves, plan)
     before <- plan$xyz
     after <- mean_template(before, gauge_fixed(states, slid), template$scheme)
+    last <- max(moved)
     moved <- sqrt(rowSums((after - before)^2))
     moved <- moved[!is.na(moved)]
+    if (max(moved) >= stalled * last) after <- (before + after) / 2
     table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
                                  energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
                                  slide = distance_slid(states, slid))
