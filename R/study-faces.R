@@ -9,23 +9,24 @@
 #'
 #' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, turned and shifted where the scan asks for it.
 #' v is the random field of the face (its values have the covariance \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance
-#' r, summed over the rows of `variation`), e the effect, g = -1/2 in the first group and 1/2 in the second, c the centre of the
-#' template's vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 + size\_effect)} and standard deviation `size_sd`.
-#' The effect e is a sum of bumps, each along one direction, that are 0 beyond their radius: the default ones, at brow
-#' and cheek ([face_effect()]), reach no landmark. With the same `seed`, faces with another effect, size or scan have the
-#' same random fields, and more faces begin with the same ones.
+#' r, summed over the rows of `variation`), e the effect, g = -1/2 in the first group and 1/2 in the second, c the centre
+#' of the template's vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 + size\_effect)} and standard
+#' deviation `size_sd`. The effect e is a sum of bumps, each along one direction, that are 0 beyond their radius: the
+#' default ones, at brow and cheek ([face_effect()]), reach no landmark. With the same `seed`, faces with another effect,
+#' size or scan have the same random fields, and more faces begin with the same ones.
 #'
 #' @param n Number of faces; they are of the first and of the second group by turns.
-#' @param effect Difference of the groups' means in the middle of each place, in the unit of the template (mm for the default one),
-#'   times the place's `share`; one number, or one for each `part` by name. 0: no difference of shape.
+#' @param effect Difference of the groups' means in the middle of each place, in the unit of the template (mm for the
+#'   default one), times the place's `share`; one number, or one for each `part` by name. 0: no difference of shape.
 #' @param size_effect Difference of the groups' sizes as a share: 0.03 makes the second group 3 % larger.
 #' @param places Data frame, a row a bump: `part` (name), `x, y, z` (centre, taken to the closest place of the template),
-#'   `radius` (unit of the template), `share` (factor of `effect`, signed), and, if wanted, `dx, dy, dz` (direction; else outward along
-#'   the template's normal).
+#'   `radius` (unit of the template), `share` (factor of `effect`, signed), and, if wanted, `dx, dy, dz` (direction; else
+#'   outward along the template's normal).
 #' @param template A [specimen()] with landmarks; `NULL`: `humface` of the package Rvcg with the landmarks of this
 #'   package (left is the subject's own left). Another template needs `places` of its own.
 #' @param groups Names of the two groups.
-#' @param variation Data frame `range`, `sd` (unit of the template): random fields, summed; without a row: no variation of shape.
+#' @param variation Data frame `range`, `sd` (unit of the template): random fields, summed; without a row: no variation
+#'   of shape.
 #' @param size_sd Standard deviation of log size within groups.
 #' @param waves Number of waves that each random field is the sum of.
 #' @param scan [scan_settings()]; `NULL`: no specimens, only the truth, in milliseconds.
@@ -75,7 +76,8 @@ simulate_faces <- function(n, effect = 1.5, size_effect = 0.03, places = NULL, t
   scanned <- scan_faces(template, deformations, scan, seeds[2, ], progress)
   structure(
     list(specimens = lapply(scanned, `[[`, "specimen"),
-         covariates = data.frame(id = id, group = factor(groups[side + 3 / 2], groups), size = vapply(drawn, `[[`, 0, "size")),
+         covariates = data.frame(id = id, group = factor(groups[side + 3 / 2], groups),
+                                 size = vapply(drawn, `[[`, 0, "size")),
          vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places, effect = effect,
          size_effect = size_effect, deformations = deformations, scan = scan),
     class = "simulated_faces"
@@ -136,7 +138,8 @@ humface_specimen <- function() {
 }
 
 check_variation <- function(variation, call = rlang::caller_env()) {
-  ok <- is.data.frame(variation) && all(c("range", "sd") %in% names(variation)) && all(variation$range > 0) && all(variation$sd >= 0)
+  ok <- is.data.frame(variation) && all(c("range", "sd") %in% names(variation)) && all(variation$range > 0) &&
+    all(variation$sd >= 0)
   if (!isTRUE(ok)) {
     crestline_abort("`variation` has no ranges above 0 with standard deviations.",
                     "Give data.frame(range = , sd = ), in the unit of the template.", stage = "arguments", call = call)
@@ -146,7 +149,8 @@ check_variation <- function(variation, call = rlang::caller_env()) {
 
 check_groups <- function(groups, call = rlang::caller_env()) {
   if (!is.character(groups) || length(groups) != 2 || anyNA(groups) || groups[1] == groups[2]) {
-    crestline_abort(sprintf("`groups` is %s.", describe_value(groups)), "Give the names of two groups.", stage = "arguments", call = call)
+    crestline_abort(sprintf("`groups` is %s.", describe_value(groups)), "Give the names of two groups.",
+                    stage = "arguments", call = call)
   }
   groups
 }
@@ -156,14 +160,15 @@ print.simulated_faces <- function(x, ...) {
   count <- table(x$covariates$group)
   cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "), ", from the template ",
       x$template$id, "\n", sep = "")
-  step <- tapply(x$places$share, factor(x$places$part, names(x$effect)), function(share) share[which.max(abs(share))]) * x$effect
+  share <- split(x$places$share, factor(x$places$part, names(x$effect)))
+  step <- vapply(share, function(own) own[which.max(abs(own))], 0) * x$effect
   cat(sprintf("  %s is %+.3g %% in size", names(count)[2], 100 * x$size_effect),
       if (length(step)) paste0(", ", paste(sprintf("%s %+.3g", names(step), step), collapse = ", ")), "\n", sep = "")
   cat("  size ", paste(format(range(x$covariates$size), digits = 3), collapse = " to "), "\n", sep = "")
   if (is.null(x$scan)) cat("  the truth only, no specimens\n") else {
     vertices <- range(vapply(x$specimens, function(s) ncol(s$mesh$vb), 0L))
-    cat("  scanned with noise ", x$scan$noise, ", ", x$scan$holes, " holes each, ", paste(unique(vertices), collapse = " to "),
-        " vertices", if (x$scan$remesh) " of their own", "\n", sep = "")
+    cat("  scanned with noise ", x$scan$noise, ", ", x$scan$holes, " holes each, ",
+        paste(unique(vertices), collapse = " to "), " vertices", if (x$scan$remesh) " of their own", "\n", sep = "")
   }
   invisible(x)
 }

@@ -28,7 +28,8 @@ scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NU
   }
   structure(
     list(noise = check_number(noise, "noise", 0), noise_range = check_number(noise_range, "noise_range", 0), remesh = remesh,
-         edge = if (!is.null(edge)) check_number(edge, "edge", 0, open = TRUE), edge_sd = check_number(edge_sd, "edge_sd", 0),
+         edge = if (!is.null(edge)) check_number(edge, "edge", 0, open = TRUE),
+         edge_sd = check_number(edge_sd, "edge_sd", 0),
          crease = check_number(crease, "crease", 0, 180), holes = check_count(holes, "holes", lower = 0),
          hole_radius = check_number(hole_radius, "hole_radius", 0, open = TRUE),
          landmark_error = check_number(landmark_error, "landmark_error", 0), turn = check_number(turn, "turn", 0),
@@ -52,7 +53,7 @@ remeshed <- function(mesh, scan) {
 
 mean_edge <- function(mesh) {
   corner <- face_corners(mesh)
-  mean(c(row_lengths(corner[[1]] - corner[[2]]), row_lengths(corner[[2]] - corner[[3]]), row_lengths(corner[[3]] - corner[[1]])))
+  mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
 }
 
 #' A mesh with its vertices moved along their normals
@@ -60,7 +61,8 @@ mean_edge <- function(mesh) {
 #' @noRd
 with_noise <- function(mesh, places, scan) {
   n <- ncol(mesh$vb)
-  height <- if (scan$noise_range > 0) random_field(scan$noise_range, scan$noise, 1)(places) else stats::rnorm(n, 0, scan$noise)
+  smooth <- scan$noise_range > 0
+  height <- if (smooth) random_field(scan$noise_range, scan$noise, 1)(places) else stats::rnorm(n, 0, scan$noise)
   if (scan$noise == 0) return(mesh)
   normal <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals[1:3, ]
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normal * rep(height, each = 3)
@@ -78,7 +80,8 @@ outside_holes <- function(mesh, landmarks, scan) {
   room <- kept
   for (i in seq_len(nrow(landmarks))) room <- room & !within(landmarks[i, ], 2 * scan$hole_radius)
   if (!any(room)) {
-    crestline_abort("there is no room for a hole between the landmarks.", "Give a smaller `hole_radius`.", stage = "simulation")
+    crestline_abort("there is no room for a hole between the landmarks.", "Give a smaller `hole_radius`.",
+                    stage = "simulation")
   }
   for (centre in which(room)[sample.int(sum(room), scan$holes, replace = TRUE)]) {
     kept[within(xyz[centre, ], scan$hole_radius)] <- FALSE

@@ -26,7 +26,8 @@ test_that("the true points are the vertices and the landmarks of scans without n
 })
 
 test_that("the difference of groups at the vertices is the given effect", {
-  faces <- simulate_faces(2, effect = c(brow = 2, cheek = 1), size_effect = 0, size_sd = 0, variation = still, scan = clean, seed = 1)
+  faces <- simulate_faces(2, effect = c(brow = 2, cheek = 1), size_effect = 0, size_sd = 0, variation = still, scan = clean,
+                          seed = 1)
   effect <- true_effect(faces, t(faces$template$mesh$vb[1:3, ]))
   expect_equal(vertices_of(faces, 2) - vertices_of(faces, 1), unname(effect), tolerance = 1e-10)
   middle <- true_effect(faces, faces$places[c("x", "y", "z")])
@@ -41,7 +42,9 @@ test_that("effect and size leave the random fields as they are", {
   without <- simulate_faces(6, effect = 0, size_effect = 0, scan = NULL, seed = 5)
   at <- face_effect()[c("x", "y", "z")]
   centre <- rowMeans(with$template$mesh$vb[1:3, ])
-  unsized <- function(faces, i) sweep(sweep(true_points(faces, at)[, , i], 2, centre) / faces$covariates$size[i], 2, centre, `+`)
+  unsized <- function(faces, i) {
+    sweep(sweep(true_points(faces, at)[, , i], 2, centre) / faces$covariates$size[i], 2, centre, `+`)
+  }
   for (i in 1:4) {
     g <- c(female = -1 / 2, male = 1 / 2)[[as.character(with$covariates$group[i])]]
     expect_equal(unsized(with, i) - unsized(without, i), g * true_effect(with, at), tolerance = 1e-10)
@@ -50,7 +53,8 @@ test_that("effect and size leave the random fields as they are", {
 })
 
 test_that("sizes have the given ratio and spread", {
-  faces <- simulate_faces(2000, effect = 0, size_effect = 0.05, size_sd = 0.04, scan = NULL, variation = still, waves = 1, seed = 1)
+  faces <- simulate_faces(2000, effect = 0, size_effect = 0.05, size_sd = 0.04, scan = NULL, variation = still, waves = 1,
+                          seed = 1)
   log_size <- split(log(faces$covariates$size), faces$covariates$group)
   expect_lt(abs(mean(log_size$male) - mean(log_size$female) - log(1.05)), 4 * 0.04 * sqrt(2 / 1000))
   expect_lt(abs(sd(log_size$male) - 0.04), 4 * 0.04 / sqrt(2000))
@@ -112,7 +116,8 @@ test_that("answers do not depend on the unit", {
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] / 1000
   places <- face_effect()
   places[c("x", "y", "z", "radius")] <- places[c("x", "y", "z", "radius")] / 1000
-  metres <- simulate_faces(1, effect = 2e-3, seed = 7, places = places, template = specimen(mesh, faces$template$landmarks / 1000),
+  template <- specimen(mesh, faces$template$landmarks / 1000)
+  metres <- simulate_faces(1, effect = 2e-3, seed = 7, places = places, template = template,
                            variation = data.frame(range = c(60, 20), sd = c(2, 0.5)) / 1000,
                            scan = scan_settings(noise = 1e-4, holes = 1, hole_radius = 0.005, remesh = FALSE))
   expect_equal(metres$specimens[[1]]$mesh$vb[1:3, ] * 1000, faces$specimens[[1]]$mesh$vb[1:3, ], tolerance = 1e-8)

@@ -2,7 +2,8 @@ test_that("values of a random field have the stated variance and covariance, for
   # 4,000 draws: the standard error of a covariance is at most sd^2 sqrt(3 / 4000) = 0.027 sd^2, four of them 0.11.
   at <- rbind(c(0, 0, 0), c(10, 0, 0), c(0, 14, 14), c(60, 0, 0))
   for (waves in c(3, 100)) {
-    drawn <- with_seed(1, vapply(1:4000, function(i) random_field(range = 20, sd = 2, columns = 1, waves = waves)(at), at[, 1]))
+    draw <- function(i) random_field(range = 20, sd = 2, columns = 1, waves = waves)(at)
+    drawn <- with_seed(1, vapply(1:4000, draw, at[, 1]))
     expected <- 4 * exp(-as.matrix(dist(at))^2 / (2 * 20^2))
     expect_lt(max(abs(tcrossprod(drawn) / 4000 - expected)), 0.11 * 4)
     expect_lt(max(abs(rowMeans(drawn))), 4 * 2 / sqrt(4000))
