@@ -54,7 +54,8 @@ plot_part_errors <- function(x, most, palette, ...) {
   graphics::axis(2, at, parts$part, tick = FALSE, cex.axis = scale, line = -0.6)
   graphics::axis(4, at, sprintf("%.2f", parts$icc), tick = FALSE, cex.axis = scale, line = -0.6)
   graphics::mtext("ICC", 4, line = 0.4, at = nrow(parts) + 1, cex = 0.8)
-  graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA, inset = c(0, -0.05), pch = c(21, 15), pt.bg = palette[length(palette) / 2],
+  graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA, inset = c(0, -0.05),
+                   pch = c(21, 15), pt.bg = palette[length(palette) / 2],
                    col = c("grey20", "grey88"), pt.cex = c(1, 1.6), bty = "n", cex = 0.8)
 }
 
