@@ -85,3 +85,7 @@ cpp_geodesic_distances <- function(vb, it, places) {
     .Call(`_crestline_cpp_geodesic_distances`, vb, it, places)
 }
 
+cpp_align <- function(x, size, weight, reference, scaling, tolerance, rounds) {
+    .Call(`_crestline_cpp_align`, x, size, weight, reference, scaling, tolerance, rounds)
+}
+
