@@ -6,8 +6,8 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R killed
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R memory [copies = 250]
 #
-# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in turn; the CPU seconds that the
-# processes took tell how busy the machine was else. "plans": the same line with each plan, and whether shapes are identical;
+# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in turn; how long
+# the processes waited for a core tells how busy the machine was else (Linux). "plans": the same line with each plan, and whether shapes are identical;
 # Slurm where `sbatch` and future.batchtools are there. "killed": the run is killed (kill -9) once some results are there, and
 # started again: how many were measured twice, how many are missing; three files are damaged first. "memory": resident memory of
 # the process after 25 and after all of many copies of one face.
@@ -31,8 +31,10 @@ laid_out <- function(dir, ids = sub("[.]ply$", "", list.files(shared, "[.]ply$")
   list.files(dir, "[.]ply$", full.names = TRUE)
 }
 
-# User and system seconds that a process has taken.
-cpu_of <- function(pid) sum(as.numeric(strsplit(readLines(sprintf("/proc/%d/stat", pid)), " ")[[1]][14:15])) / 100
+# Seconds that a process has run, and has waited for a core because others ran.
+times_of <- function(pid) {
+  as.numeric(strsplit(readLines(sprintf("/proc/%d/schedstat", pid)), " ")[[1]][1:2]) / 1e9
+}
 
 pids <- function(workers) {
   if (workers == 1) return(Sys.getpid())
@@ -42,16 +44,21 @@ pids <- function(workers) {
   }, future.chunk.size = 1)))
 }
 
+# What a run takes, and what it would without other work on the machine: of the slowest worker the time that it ran or had nothing
+# to do, but not that in which it waited for a core.
 seconds_with <- function(workers, files) {
   if (workers > 1) future::plan("multisession", workers = workers) else future::plan("sequential")
   invisible(fit_shapes(files[seq_len(workers)], scheme))
   processes <- pids(workers)
-  before <- vapply(processes, cpu_of, 0)
+  before <- vapply(processes, times_of, c(0, 0))
   seconds <- system.time(shapes <- fit_shapes(files, scheme))[["elapsed"]]
-  cpu <- vapply(processes, cpu_of, 0) - before
+  took <- vapply(processes, times_of, c(0, 0)) - before
   stopifnot(nrow(failures(shapes)) == 0)
-  cat(sprintf("%d: %.2f s; CPU %s\n", workers, seconds, paste(sprintf("%.2f", cpu), collapse = " ")))
-  seconds
+  slowest <- if (workers == 1) 1 else 1 + which.max(seconds - took[2, -1])
+  cat(sprintf("%d: %.2f s, %.2f without waiting for a core; processes ran %s, waited %s\n", workers, seconds,
+              seconds - took[2, slowest], paste(sprintf("%.2f", took[1, ]), collapse = " "),
+              paste(sprintf("%.2f", took[2, ]), collapse = " ")))
+  c(seconds, seconds - took[2, slowest])
 }
 
 resident <- function() as.numeric(gsub("[^0-9]", "", grep("VmRSS", readLines("/proc/self/status"), value = TRUE))) / 1024
@@ -60,7 +67,8 @@ dir <- tempfile("batch-")
 if (mode == "speed") {
   files <- laid_out(dir)
   for (pair in seq_len(as.integer(c(commandArgs(TRUE)[-1], 3)[1]))) {
-    cat(sprintf("ratio %.2f\n", seconds_with(1, files) / seconds_with(2, files)))
+    ratio <- seconds_with(1, files) / seconds_with(2, files)
+    cat(sprintf("ratio %.2f, without waiting %.2f\n", ratio[1], ratio[2]))
   }
 } else if (mode == "plans") {
   Sys.setenv(RGL_USE_NULL = "TRUE", USER = Sys.info()[["user"]])

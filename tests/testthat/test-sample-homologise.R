@@ -90,3 +90,36 @@ test_that("what is no sample is refused, and a mean that still moves is told of"
 test_that("the paper's settings go through too", {
   expect_s3_class(suppressWarnings(homologise(shapes, settings = slide_settings("paper"), progress = FALSE)), "shape_sample")
 })
+
+with_humface <- function() {
+  kept <- new.env()
+  utils::data("humface", package = "Rvcg", envir = kept)
+  kept$humface
+}
+
+# humface pushed about smoothly, with noise on mesh and landmarks.
+noisy_faces <- function(n, scheme) {
+  face <- list(mesh = with_humface(), landmarks = humface_specimen()$landmarks)
+  lapply(seq_len(n), function(i) with_seed(i, {
+    centre <- face$landmarks[sample.int(nrow(face$landmarks), 6), ]
+    push <- matrix(stats::rnorm(18, sd = 2), 6)
+    noise <- stats::rnorm(ncol(face$mesh$vb))
+    moved <- function(xyz) {
+      xyz + exp(-(outer(rowSums(xyz^2), rowSums(centre^2), `+`) - 2 * xyz %*% t(centre)) / (2 * 30^2)) %*% push
+    }
+    mesh <- face$mesh
+    mesh$vb[1:3, ] <- t(moved(t(mesh$vb[1:3, ]))) + t(t(mesh$normals[1:3, ]) * 0.2 * noise)
+    mesh$normals <- NULL
+    landmarks <- moved(face$landmarks) + noise[seq_along(face$landmarks)] * 0.5 / sqrt(3)
+    fit_shape(specimen(mesh, landmarks, id = paste("face", i), tolerance = 3), scheme, ridge_settings(error = FALSE), progress = FALSE)
+  }))
+}
+
+test_that("a mean that takes two places in turn, as with these noisy scans, comes to rest between them", {
+  whole <- face_scheme()
+  curves <- subset(whole$curves, grepl("^nasal|^mid-line (nas|lip|phil|upper|lower|col)|^(upper|lower) lip", curve))
+  pairs <- subset(whole$pairs, level != "surface" & (left %in% curves$curve | left %in% whole$landmarks$landmark))
+  shapes <- noisy_faces(8, curve_scheme(whole$landmarks, curves, pairs = pairs, name = "nose and mouth"))
+  expect_no_warning(sample <- homologise(shapes, progress = FALSE), class = "crestline_not_converged")
+  expect_lte(nrow(sample$convergence), 6)
+})
