@@ -152,6 +152,11 @@ test_that("a sample gives its levels, in the template's pose", {
     overlap <- crossprod(sweep(template, 2, colMeans(template)), aligned$mean)
     expect_equal(unname(overlap), unname(t(overlap)), tolerance = 1e-8)
   }
+  model <- align(sample, "model")
+  expect_equal(nrow(model$mean), length(unique(sample$template$scheme$points$place)))
+  same <- align(as.array(sample, "landmarks"))
+  expect_lt(apart(align(every_place(sample)[grepl("^landmarks", rownames(model$mean)), , ])$mean, same$mean), 1e-10)
+  expect_equal(unname(every_place(sample)[model$triangles, , ]), unname(as.array(sample, "surface")[aligned$triangles, , ]))
   mesh <- shape_at(shape_pca(aligned), 1, 0, "mesh")
   expect_equal(ncol(mesh$it), ncol(shape_mesh(sample$template)$it))
 })
