@@ -111,11 +111,11 @@ agree_on_p <- function(name, x, group, iter = 999) {
 agreement <- function() {
   data <- list(simulated = list(x = many_shapes(60, 40), group = rep(1:2, 20)))
   data("boneData", package = "Morpho", envir = environment())
-  data$boneData <- list(x = boneLM, group = substr(dimnames(boneLM)[[3]], 5, 6))
+  data$boneData <- list(x = boneLM, group = substr(dimnames(boneLM)[[3]], 12, 13))
   if (have("geomorph")) {
     for (name in c("scallops", "pupfish")) data(list = name, package = "geomorph", envir = environment())
     data$scallops <- list(x = scallops$coorddata, group = scallops$ind)
-    data$pupfish <- list(x = pupfish$coords, group = pupfish$Sex)
+    data$pupfish <- list(x = sweep(pupfish$coords, 3, pupfish$CS, `*`), group = pupfish$Sex)
   }
   print(format(do.call(rbind, Map(function(name, one) agree_on(name, one$x), names(data), data)), digits = 2), row.names = FALSE)
   if (!have("RRPP")) return(invisible())
