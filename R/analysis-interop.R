@@ -1,0 +1,112 @@
+# To geomorph, RRPP and Morpho, and back.
+
+#' A sample for geomorph, RRPP and Morpho
+#'
+#' For what [compare_groups()] does not do: covariates, interactions, nested designs, pairwise comparisons, allometry. Neither
+#' package is needed to make these objects.
+#'
+#' `as_geomorph()` makes what `geomorph::geomorph.data.frame()` does, ready for `procD.lm(coords ~ size * sex, data = )`; `as_rrpp()`
+#' what `RRPP::rrpp.data.frame()` does, the co-ordinates as a matrix, for `lm.rrpp(coords ~ size * sex, data = )`; `as_morpho()` an
+#' object of the class of `Morpho::procSym()` with what its functions on such objects use. `as_aligned()` goes the other way.
+#'
+#' @param sample A `shape_sample`, an `aligned`, or an array, k x 3 x n.
+#' @param level Level of a `shape_sample`, as in [align()].
+#' @param data Data frame of covariates, a row a specimen, or `NULL`; where it has a column `id` or row names that are the
+#'   specimens' names, they are matched.
+#' @param ... Passed to [align()]: `scale`, `weights`, `missing`.
+#' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned), `size` (centroid sizes), and the
+#'   columns of `data`. `as_rrpp()`: list of class `rrpp.data.frame`: `coords` (n x 3k, a row a specimen: x, y, z of the first
+#'   point, then of the second, as `geomorph::two.d.array()` has them), `size`, and the columns of `data`. `as_morpho()`: list
+#'   of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata` (after), `mshape`, `PCs`, `PCscores`, `eigenvalues`, `Variance`, `rho`.
+#' @section Errors: of class `crestline_error`: `data` that lacks a specimen, or has a column `coords` or `size`.
+#' @seealso [compare_groups()]; `vignette("interop")`
+#' @examples
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
+#' shapes <- shapes + rnorm(120, sd = 0.05)
+#' frame <- as_geomorph(shapes, data = data.frame(sex = rep(c("F", "M"), 5)))
+#' str(frame)
+#' as_aligned(frame)
+#' @export
+as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+  aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
+  columns <- covariates(data, dimnames(aligned$coords)[[3]])
+  structure(c(list(coords = aligned$coords, size = aligned$size), columns), class = "geomorph.data.frame")
+}
+
+#' @rdname as_geomorph
+#' @export
+as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+  frame <- as_geomorph(sample, level, data, ...)
+  coords <- frame$coords
+  flat <- matrix(aperm(coords, c(3, 2, 1)), dim(coords)[3])
+  dimnames(flat) <- list(dimnames(coords)[[3]], as.vector(t(outer(dimnames(coords)[[1]], dimnames(coords)[[2]], paste))))
+  frame$coords <- flat
+  structure(frame, class = "rrpp.data.frame")
+}
+
+#' @rdname as_geomorph
+#' @export
+as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model"), ...) {
+  aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
+  pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
+  variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share, "Cumulative %" = 100 * cumsum(pca$share))
+  rotated <- before_projection(aligned)
+  cosine <- apply(rotated, 3, function(one) sum(one * aligned$mean) / sqrt(sum(one^2) * sum(aligned$mean^2)))
+  structure(list(size = aligned$size, rotated = rotated, mshape = aligned$mean, PCs = unname(pca$rotation), PCscores = pca$x,
+                 eigenvalues = pca$sdev^2, Variance = variance, orpdata = aligned$coords, rho = stats::setNames(acos(pmin(1, cosine)), names(aligned$size))),
+            class = "nosymproc", CSinit = !isFALSE(aligned$scale), scale = identical(aligned$scale, "full"), orp = aligned$tangent, sizeshape = FALSE)
+}
+
+#' The configurations that were projected onto the tangent space: a unit shape's own part along the mean is the cosine of the
+#' angle between them, or its square with full scaling
+#' @noRd
+before_projection <- function(aligned) {
+  if (!aligned$tangent) return(aligned$coords)
+  off <- sqrt(colSums(matrix(sweep(aligned$coords, 1:2, aligned$mean)^2 * aligned$weights, length(aligned$mean))))
+  full <- identical(aligned$scale, "full")
+  along <- if (full) (1 + sqrt(pmax(1 - 4 * off^2, 0))) / 2 else sqrt(pmax(1 - off^2, 0))
+  aligned$coords + array(outer(as.vector(aligned$mean), along - 1), dim(aligned$coords))
+}
+
+#' @rdname as_geomorph
+#' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or `Morpho::procSym()` returns, or an array of
+#'   aligned configurations.
+#' @param size Centroid sizes; `NULL`: those that `x` has (`size`, `Csize`), else of `coords`.
+#' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
+#' @export
+as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
+  coords <- if (inherits(x, "nosymproc")) x$orpdata else if (is.list(x)) x$coords else x
+  coords <- named_array(check_array(coords, rlang::current_env()))
+  n <- dim(coords)[3]
+  if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
+  own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
+  if (is.null(size)) size <- own
+  if (!is.numeric(size) || length(size) != n) {
+    crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
+  }
+  scaled <- max(own) / min(own) < max(size) / min(size)
+  structure(list(coords = coords, mean = apply(coords, 1:2, mean), size = stats::setNames(as.vector(size), dimnames(coords)[[3]]),
+                 weights = rep(1, dim(coords)[1]), scale = scaled, tangent = FALSE, level = level,
+                 missing = data.frame(id = character(), point = character(), action = character()), moved = numeric(),
+                 triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())), class = "aligned")
+}
+
+#' Columns of covariates in the order of the specimens
+#' @noRd
+covariates <- function(data, ids, call = rlang::caller_env()) {
+  if (is.null(data)) return(list())
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments", call = call)
+  if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
+  clash <- intersect(names(data), c("coords", "size"))
+  if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]), "Rename it: the sample's own has that name.")
+  names <- if (!is.null(data$id)) as.character(data$id) else if (all(ids %in% rownames(data))) rownames(data)
+  if (!is.null(names)) {
+    absent <- setdiff(ids, names)
+    if (length(absent)) fail(sprintf("`data` has no row for %s.", shorten(absent)), "Add it, or leave the specimen out.")
+    data <- data[match(ids, names), , drop = FALSE]
+  }
+  if (nrow(data) != length(ids)) {
+    fail(sprintf("`data` has %d rows for %d specimens.", nrow(data), length(ids)), "Give a row for each, or a column `id`.")
+  }
+  as.list(data)
+}

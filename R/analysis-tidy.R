@@ -1,0 +1,72 @@
+# Results as tidy tables, for those who have generics or broom.
+
+#' Tidy tables of comparisons, components and alignments
+#'
+#' Methods for the generics `tidy()` and `glance()` of the package generics, which broom re-exports.
+#'
+#' @param x A `group_comparison`, `shape_pca` or `aligned`.
+#' @param what Of a `group_comparison`: "tests" or "points".
+#' @param ... Ignored.
+#' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test), `statistic`, `p.value`,
+#'   `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point), `estimate` (`distance` along the normal, or the
+#'   displacement where there is none), `statistic`, `p.value`, `adj.p.value`. Of components: `PC`, `std.dev`, `percent`, `cumulative`
+#'   (shares, as in broom). Of an alignment: a row a specimen, as `as.data.frame()`.
+#'   `glance()`: one row. Of a comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of the mean shape's). Of
+#'   components: `nobs`, `points`, `components`, `variance` (total). Of an alignment: `nobs`, `points`, `size` (mean),
+#'   `distance` (root mean square from the mean), `missing`.
+#' @examplesIf requireNamespace("generics", quietly = TRUE)
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
+#' aligned <- align(shapes + rnorm(120, sd = 0.05))
+#' generics::tidy(shape_pca(aligned))
+#' generics::glance(compare_groups(aligned, rep(1:2, 5), n_perm = 99, components = 2))
+#' @name tidy.group_comparison
+NULL
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::tidy
+tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
+  what <- check_choice(what, c("tests", "points"), "what")
+  table <- x[[what]]
+  if (is.null(table)) {
+    crestline_abort(sprintf("there are no %s.", what), "Compare with more `tests`.", stage = "comparison")
+  }
+  if (what == "points") {
+    estimate <- ifelse(is.na(table$distance), table$displacement, table$distance)
+    return(data.frame(level = table$level, term = table$point, estimate = estimate, statistic = table$statistic,
+                      p.value = table$p_value, adj.p.value = table$p_adjusted))
+  }
+  data.frame(level = table$level, term = table$test, statistic = table$statistic, p.value = table$p_value,
+             adj.p.value = table$p_adjusted, p.value.parametric = table$p_parametric)
+}
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::glance
+glance.group_comparison <- function(x, ...) {
+  shape <- x$tests$p_value[startsWith(as.character(x$tests$test), "mean shape")]
+  data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned), permutations = x$n_perm, exact = x$exact,
+             p.value = if (length(shape)) min(shape) else NA_real_)
+}
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::tidy
+tidy.shape_pca <- function(x, ...) {
+  data.frame(PC = seq_along(x$sdev), std.dev = x$sdev, percent = x$share, cumulative = cumsum(x$share))
+}
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::glance
+glance.shape_pca <- function(x, ...) {
+  data.frame(nobs = nrow(x$x), points = nrow(x$mean), components = length(x$sdev), variance = sum(x$sdev^2))
+}
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::tidy
+tidy.aligned <- function(x, ...) as.data.frame(x)
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::glance
+glance.aligned <- function(x, ...) {
+  table <- as.data.frame(x)
+  data.frame(nobs = nrow(table), points = nrow(x$mean), size = mean(table$size), distance = sqrt(mean(table$distance^2)),
+             missing = nrow(x$missing))
+}
