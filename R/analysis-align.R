@@ -12,11 +12,11 @@
 #'
 #' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array (k x 2 x n for flat
 #'   configurations) of homologous points, NA where missing.
-#' @param level "landmarks", "curves" or "surface"; of an array only a name.
+#' @param level "landmarks", "curves", "surface", or "model": every place of the three once; of an array only a name.
 #' @param scale `TRUE`: to unit centroid size (partial Procrustes); `"full"`: by the factor that brings each nearest to the
 #'   mean (full Procrustes); `FALSE`: sizes are kept, size and shape together.
 #' @param weights `NULL`: all points count alike. "area": every point by the area of the surface that is nearest to it, a
-#'   third of its triangles' on the mean (level "surface", or with `triangles`); points without triangles count
+#'   third of its triangles' on the mean (levels "surface" and "model", or with `triangles`); points without triangles count
 #'   0. "places": points that coincide, such as the common end of two curves, count as one. Or k numbers, none negative.
 #' @param missing What to do with missing points: "estimate", "drop" or "stop" (an error).
 #' @param tangent Whether scaled configurations are projected onto the space tangent to the sphere of shapes at the mean.
@@ -49,7 +49,7 @@
 #' aligned
 #' head(as.data.frame(aligned))
 #' @export
-align <- function(sample, level = c("landmarks", "curves", "surface"), scale = TRUE, weights = NULL,
+align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
                   rounds = 200) {
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
@@ -103,12 +103,13 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
-    level <- check_choice(level, c("landmarks", "curves", "surface"), "level", call)
+    level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
-    coords <- as.array(sample, level)
-    if (level == "surface" && is.null(triangles)) triangles <- model_triangles(scheme)
-    reference <- coords(sample$template, level)
-    places <- scheme$points$place[scheme$points$level == level]
+    whole <- level == "model"
+    coords <- if (whole) every_place(sample) else as.array(sample, level)
+    if (level %in% c("surface", "model") && is.null(triangles)) triangles <- model_triangles(scheme, whole)
+    reference <- if (whole) places_of(sample$template) else coords(sample$template, level)
+    places <- if (whole) rownames(reference) else scheme$points$place[scheme$points$level == level]
   } else {
     coords <- named_array(check_array(sample, call))
     level <- if (is.character(level) && length(level) == 1) level else "points"
@@ -123,9 +124,23 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
        places = places, level = level)
 }
 
-model_triangles <- function(scheme) {
-  own <- scheme$triangles[scheme$triangles$part == "model", c("v1", "v2", "v3")]
-  if (nrow(own)) unname(t(as.matrix(own)))
+sample_levels <- c("landmarks", "curves", "surface", "model")
+
+#' Array of every place of a sample's shapes once
+#' @noRd
+every_place <- function(sample) {
+  each <- lapply(sample$shapes, places_of)
+  array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(names(each))))
+}
+
+#' Triangles of a scheme between its surface points, or between all its places
+#' @noRd
+model_triangles <- function(scheme, by_place) {
+  own <- t(as.matrix(scheme$triangles[scheme$triangles$part == "model", c("v1", "v2", "v3")]))
+  if (!ncol(own)) return(NULL)
+  place <- scheme$points$place
+  if (by_place) own[] <- match(place[scheme$points$level == "surface"], unique(place))[own]
+  unname(own)
 }
 
 check_triangles <- function(triangles, k, call) {

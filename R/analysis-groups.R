@@ -19,7 +19,7 @@
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same specimens, named by level;
 #'   or an `aligned`.
 #' @param group Factor of n, or what makes one; with names, matched by the specimens' names.
-#' @param level Levels of a `shape_sample`.
+#' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
 #' @param components How many principal components: a whole number, or a share of the variance below 1. Never more than
 #'   n - groups - 1.
@@ -29,7 +29,7 @@
 #' @param exact Most regroupings that are enumerated instead of drawn at random.
 #' @param permutations Orders to use in place of random ones: n x B matrix or list (as of `RRPP:::perm.index()`), each an order
 #'   of the specimens that takes the place of the observed one.
-#' @param scale,weights,missing As in [align()]; "area" is for the level "surface", the others then have none.
+#' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `group_comparison`, a list:
 #'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of regroupings, the observed one
@@ -120,11 +120,11 @@ comparison_ticks <- function(progress, n) {
 aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
   if (inherits(sample, "aligned")) return(stats::setNames(list(sample), sample$level))
   as_aligned <- function(one, level) {
-    areas <- identical(weights, "area") && inherits(one, "shape_sample") && level != "surface"
+    areas <- identical(weights, "area") && inherits(one, "shape_sample") && !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (inherits(sample, "shape_sample")) {
-    for (one in level) check_choice(one, c("landmarks", "curves", "surface"), "level", call)
+    for (one in level) check_choice(one, sample_levels, "level", call)
     return(lapply(stats::setNames(nm = level), function(one) as_aligned(sample, one)))
   }
   if (is.list(sample) && length(sample) && !is.null(names(sample))) {

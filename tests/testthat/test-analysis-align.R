@@ -66,7 +66,8 @@ test_that("full scaling gives the principal axis of the turned shapes", {
 test_that("mean and size are geomorph's", {
   skip_if_not_installed("geomorph")
   x <- posed_sample(k = 30, sd = 0.02)
-  theirs <- geomorph::gpagen(x, print.progress = FALSE, tol = 0)
+  # With PrinAxes = TRUE theirs may be the mirror image.
+  theirs <- geomorph::gpagen(x, print.progress = FALSE, tol = 0, PrinAxes = FALSE)
   aligned <- align(x)
   expect_lt(apart(aligned$mean, theirs$consensus), 1e-8)
   expect_equal(unname(aligned$size), unname(theirs$Csize), tolerance = 1e-12)
@@ -152,6 +153,11 @@ test_that("a sample gives its levels, in the template's pose", {
     overlap <- crossprod(sweep(template, 2, colMeans(template)), aligned$mean)
     expect_equal(unname(overlap), unname(t(overlap)), tolerance = 1e-8)
   }
+  model <- align(sample, "model")
+  expect_equal(nrow(model$mean), length(unique(sample$template$scheme$points$place)))
+  same <- align(as.array(sample, "landmarks"))
+  expect_lt(apart(align(every_place(sample)[grepl("^landmarks", rownames(model$mean)), , ])$mean, same$mean), 1e-10)
+  expect_equal(unname(every_place(sample)[model$triangles, , ]), unname(as.array(sample, "surface")[aligned$triangles, , ]))
   mesh <- shape_at(shape_pca(aligned), 1, 0, "mesh")
   expect_equal(ncol(mesh$it), ncol(shape_mesh(sample$template)$it))
 })

@@ -1,0 +1,67 @@
+# Two mean surfaces laid over each other, transparent, in two colours.
+
+#' The mean shapes of the groups as meshes, of the sample's mean size
+#' @noRd
+group_meshes <- function(x, level) {
+  aligned <- x$aligned[[level]]
+  size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
+  lapply(stats::setNames(nm = levels(x$group)), function(g) {
+    points_mesh(size * mean_shape_of(aligned, x$group == g), aligned$triangles)
+  })
+}
+
+plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
+  meshes <- group_meshes(x, level)
+  title <- if (is.null(main)) paste(c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape")), collapse = ", ") else main
+  if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
+  old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
+  on.exit(graphics::par(old))
+  scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), picture_settings(...))
+  graphics::title(title, font.main = 1, cex.main = 1)
+  if (legend) {
+    words <- paste(names(meshes), "in front")
+    on_scene(scene, graphics::legend("bottomleft", words, fill = front_colours(colour, opacity), bty = "n", cex = 0.8))
+  }
+  invisible(scene)
+}
+
+# The colour of a pixel where each surface is the nearer one.
+front_colours <- function(colour, opacity) {
+  rgb <- grDevices::col2rgb(colour)
+  grDevices::rgb(t(round(opacity * rgb + (1 - opacity) * rgb[, 2:1])), maxColorValue = 255)
+}
+
+#' Both surfaces in one picture: of every pixel the nearer one has the greater share
+#' @noRd
+picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
+  frame <- picture_frame(rotation %*% do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])), settings)
+  seen <- Map(function(mesh, colour) {
+    turned <- rotation %*% mesh$vb[1:3, ]
+    xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel, (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
+    rgb <- shade_vertices(rep(colour, ncol(xyz)), rotation %*% mesh$normals[1:3, ], settings)
+    cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
+  }, meshes, colour)
+  raster <- blend_by_depth(seen[[1]], seen[[2]], opacity)
+  graphics::rasterImage(raster, frame$usr[1], frame$usr[4] - frame$height * frame$pixel, frame$usr[1] + frame$width * frame$pixel,
+                        frame$usr[4])
+  structure(list(rotation = rotation, pixel = frame$pixel, depth = pmax(seen[[1]]$depth, seen[[2]]$depth), usr = frame$usr,
+                 plt = graphics::par("plt"), tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])), class = "picture_scene")
+}
+
+blend_by_depth <- function(a, b, opacity) {
+  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
+  of_a[a$rgba[, , 4] == 0] <- 0
+  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
+  out <- a$rgba
+  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, , channel] + (1 - of_a) * b$rgba[, , channel]
+  out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
+  out
+}
+
+rgl_overlay <- function(meshes, colour, opacity, view, ...) {
+  scene <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
+  second <- meshes[[2]]
+  ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]), indices = second$it, color = colour[2],
+                          alpha = opacity, specular = "#202020")
+  add_ids(scene, ids)
+}

@@ -1,0 +1,79 @@
+# Balls with a bump in front in the second group.
+bumped_balls <- function(n = 8, bump = 0.1) {
+  ball <- ball_mesh(3)
+  xyz <- t(ball$vb[1:3, ])
+  front <- exp(-8 * rowSums(sweep(xyz, 2, c(0, 0, 1))^2))
+  balls <- with_seed(1, lapply(seq_len(2 * n), function(i) {
+    xyz * (1 + 0.02 * rnorm(1) * xyz[, 1]^2 + 0.02 * rnorm(1) * xyz[, 2] + (i > n) * bump * front + rnorm(nrow(xyz), sd = 0.003))
+  }))
+  aligned <- align(simplify2array(balls), "ball", triangles = ball$it)
+  compare_groups(aligned, rep(c("A", "B"), each = n), n_perm = 199, seed = 1, progress = FALSE)
+}
+
+test_that("boxes show the groups' quartiles", {
+  compared <- bumped_balls()
+  drawn <- draw_quietly(plot(compared, components = 1:2))
+  expect_length(drawn, 3)
+  size <- compared$aligned$ball$size
+  expect_equal(drawn[[1]]$stats[3, ], unname(c(median(size[1:8]), median(size[9:16]))))
+  expect_match(names(drawn)[2], "PC1")
+})
+
+test_that("the map's colours and outline are where the bump is", {
+  compared <- bumped_balls()
+  pixels <- drawn_pixels(plot(compared, "map", engine = "picture", legend = FALSE, main = "", gloss = 0))
+  red <- pixels[, , 1] - pixels[, , 3]
+  expect_gt(red[108, 100], 0.2)
+  expect_lt(red[108, 40], 0.1)
+  points <- compared$points
+  found <- points$p_adjusted <= 0.05
+  expect_lt(max(acos(pmin(1, points$z[found] / sqrt(rowSums(points[found, c("x", "y", "z")]^2))))), 0.9)
+  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), compared$aligned$ball$triangles)
+  lines <- level_lines(mesh, log(points$p_adjusted), log(0.05))
+  expect_gt(nrow(lines), 3)
+})
+
+test_that("level lines are where a linear function has the value, on the mesh", {
+  mesh <- grid_mesh(6)
+  lines <- level_lines(mesh, mesh$vb[1, ] + 2 * mesh$vb[2, ], 3.3)
+  ends <- lines[!is.na(lines[, 1]), ]
+  expect_equal(ends[, 1] + 2 * ends[, 2], rep(3.3, nrow(ends)), tolerance = 1e-12)
+  # From x = 3.3 to y = 1.65: as long as all segments together.
+  length <- sum(sqrt(rowSums((lines[seq(1, nrow(lines), 3), ] - lines[seq(2, nrow(lines), 3), ])^2)))
+  expect_equal(length, sqrt(3.3^2 + 1.65^2), tolerance = 1e-12)
+  expect_equal(nrow(level_lines(mesh, mesh$vb[1, ], 99)), 0)
+  expect_equal(nrow(level_lines(mesh, rep(NA_real_, 36), 1)), 0)
+})
+
+test_that("of two surfaces the nearer one has the greater share of the colour", {
+  compared <- bumped_balls(bump = 0.3)
+  colour <- c("#0000FF", "#FF0000")
+  pixels <- drawn_pixels(plot(compared, "means", engine = "picture", legend = FALSE, main = "", colour = colour, gloss = 0))
+  middle <- pixels[108, 100, ]
+  expect_equal(middle[1] / sum(middle), 0.8, tolerance = 0.05)
+  side <- pixels[108, 45, ]
+  expect_equal(side[3] / sum(side), 0.8, tolerance = 0.05)
+  expect_equal(front_colours(c("#000000", "#FFFFFF"), 0.75), c("#404040", "#BFBFBF"))
+})
+
+test_that("both turn in rgl", {
+  compared <- bumped_balls()
+  with_null_rgl({
+    scene <- plot(compared, "means", engine = "rgl")
+    expect_length(scene$ids, 2)
+    scene <- plot(compared, "map", engine = "rgl")
+    expect_gte(length(scene$ids), 2)
+  })
+})
+
+test_that("what cannot be drawn is refused", {
+  data <- grouped_sample(c(4, 4))
+  compared <- compare_groups(data$x, data$group, n_perm = 9, components = 2, progress = FALSE)
+  expect_crestline_error(plot(compared, "map"), "no level has a surface")
+  ball <- bumped_balls()
+  expect_crestline_error(plot(ball, level = "curves"), "`level`")
+  three <- compare_groups(ball$aligned, rep(1:4, 4), n_perm = 9, tests = "points", progress = FALSE)
+  expect_crestline_error(plot(three, "means"), "4 groups")
+  without <- compare_groups(ball$aligned, ball$group, n_perm = 9, tests = "size", progress = FALSE)
+  expect_crestline_error(plot(without, "map"), "tests")
+})
