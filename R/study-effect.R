@@ -4,8 +4,8 @@
 #'
 #' The places at which the faces of [simulate_faces()] differ between the groups by default, as a table to begin from:
 #' the middle of each brow ridge (`share` 1: in the second group it stands out) and the cheek between the curves from
-#' nose and mouth to the ear (`share` -1: it is flatter). A radius of 24 mm reaches no landmark; of the cheek, the curves
-#' get a sixth at most.
+#' nose and mouth to the ear (`share` -1: it is flatter). No radius (26 and 24 mm) reaches a landmark; the curves get a
+#' third of the cheek's at most.
 #'
 #' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm), `share`.
 #' @seealso [simulate_faces()]

@@ -45,14 +45,14 @@
 #'   kernel machines, for the random fields.
 #' @seealso [true_points()], [face_effect()], [fit_shapes()], [compare_groups()]
 #' @examples
-#' faces <- simulate_faces(4, effect = 1.5, seed = 1)
+#' faces <- simulate_faces(4, effect = 2, seed = 1)
 #' faces
 #' faces$covariates
 #' true_points(faces)["pn", , ] # the tip of the nose on each face
 #' plot(faces$specimens[[1]], engine = "picture")
 #' @export
-simulate_faces <- function(n, effect = 1.5, size_effect = 0.03, places = NULL, template = NULL,
-                           groups = c("female", "male"), variation = data.frame(range = c(60, 20), sd = c(2, 0.5)),
+simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, template = NULL,
+                           groups = c("female", "male"), variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
                            size_sd = 0.03, waves = 200, scan = scan_settings(), seed = NULL, progress = interactive()) {
   n <- check_count(n, "n")
   if (is.null(places)) places <- if (is.null(template)) face_effect() else no_places()

@@ -16,7 +16,7 @@ random_field <- function(range, sd, columns = 3, waves = 200) {
   frequency <- matrix(stats::rnorm(3 * waves), 3) / range
   phase <- stats::runif(waves, 0, 2 * pi)
   height <- matrix(stats::rnorm(waves * columns), waves) * sd * sqrt(2 / waves)
-  function(xyz) cos(sweep(xyz %*% frequency, 2, phase, `+`)) %*% height
+  function(xyz) cos(xyz %*% frequency + rep(phase, each = nrow(xyz))) %*% height
 }
 
 #' Sum of random fields of several ranges
@@ -27,14 +27,10 @@ random_fields <- function(variation, waves) {
   function(xyz) Reduce(`+`, lapply(fields, function(field) field(xyz)), matrix(0, nrow(xyz), 3))
 }
 
-#' A bump: 1 in its centre, 0 from a radius on, twice differentiable (Wendland's function for three dimensions)
+#' A bump: 1 in its centre, 0 from a radius on, twice differentiable
 #' @param distance,radius In the same unit.
-#' @references Wendland (1995) Advances in Computational Mathematics 4, 389-396.
 #' @noRd
-bump <- function(distance, radius) {
-  share <- pmin(distance / radius, 1)
-  (1 - share)^4 * (1 + 4 * share)
-}
+bump <- function(distance, radius) (1 - pmin(distance / radius, 1)^2)^3
 
 #' Displacement by several bumps, each along its own direction
 #'

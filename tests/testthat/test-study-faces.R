@@ -118,7 +118,7 @@ test_that("answers do not depend on the unit", {
   places[c("x", "y", "z", "radius")] <- places[c("x", "y", "z", "radius")] / 1000
   template <- specimen(mesh, faces$template$landmarks / 1000)
   metres <- simulate_faces(1, effect = 2e-3, seed = 7, places = places, template = template,
-                           variation = data.frame(range = c(60, 20), sd = c(2, 0.5)) / 1000,
+                           variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)) / 1000,
                            scan = scan_settings(noise = 1e-4, holes = 1, hole_radius = 0.005, remesh = FALSE))
   expect_equal(metres$specimens[[1]]$mesh$vb[1:3, ] * 1000, faces$specimens[[1]]$mesh$vb[1:3, ], tolerance = 1e-8)
 })
@@ -159,7 +159,7 @@ test_that("print fits a screen", {
   faces <- simulate_faces(2, seed = 1)
   shown <- capture.output(print(faces))
   expect_lte(max(nchar(shown)), 80)
-  expect_match(shown[2], "male is +3 % in size, brow +1.5, cheek -1.5", fixed = TRUE)
+  expect_match(shown[2], "male is +3 % in size, brow +2, cheek -2", fixed = TRUE)
   expect_match(capture.output(print(simulate_faces(2, scan = NULL, seed = 1)))[4], "truth only")
   expect_identical(as.data.frame(faces), faces$covariates)
 })
