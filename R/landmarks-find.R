@@ -40,17 +40,24 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   if (!inherits(template, "landmark_template")) template <- landmark_template(template)
   scan <- if (inherits(mesh, "specimen")) mesh else suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)
+  laid <- laid_template(prepared, template, scan, settings, threads)
+  placed <- carried_landmarks(prepared, template, scan, laid)
+  if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
+  with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13], rotation = matrix(laid$pose[1:9], 3),
+                                  inverted = laid$inverted, doubtful = laid$score > settings$poor, template = template$id))
+}
+
+#' The template laid on a scan, or an error where it does not fit
+#' @return List as of [settled_pose()], with `unit`.
+#' @noRd
+laid_template <- function(prepared, template, scan, settings, threads) {
   unit <- 10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
-  cloud <- scan_cloud(scan, unit, prepared$settings, threads)
-  laid <- settled_pose(prepared, cloud, prepared$settings)
+  laid <- settled_pose(prepared, scan_cloud(scan, unit, prepared$settings, threads), prepared$settings)
   if (laid$score > settings$refuse) {
     refuse_landmarks(sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score, settings$refuse),
                      "Is it the object, and whole enough? Else place the landmarks by hand.", scan$id)
   }
-  placed <- carried_landmarks(prepared, template, scan, laid, unit)
-  if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
-  with_placing(scan, placed, list(score = laid$score, unit = unit, scale = laid$pose[13], rotation = matrix(laid$pose[1:9], 3),
-                                  inverted = laid$inverted, doubtful = laid$score > settings$poor, template = template$id))
+  c(laid, list(unit = unit))
 }
 
 #' A specimen with landmarks as they were placed
@@ -72,18 +79,18 @@ with_placing <- function(scan, placing, match) {
 #' The template's landmarks carried to a scan, with what speaks for each
 #' @return Data frame as `placing` of [find_landmarks()].
 #' @noRd
-carried_landmarks <- function(prepared, template, scan, laid, unit) {
+carried_landmarks <- function(prepared, template, scan, laid) {
   settings <- prepared$settings
   local <- cloud_in_frame(laid$cloud, laid$pose)
   bent <- fit_warp(prepared, local, settings, settings$weight)
   plain <- fit_warp(prepared, local, settings, 0)
   n <- ncol(prepared$xyz)
   own <- template$landmarks
-  to_scan <- function(xyz) t(laid$pose[13] * matrix(laid$pose[1:9], 3) %*% t(xyz) + laid$pose[10:12]) / unit
+  to_scan <- function(xyz) from_frame(xyz, laid)
   places <- function(fit) surface_points(scan$mesh, to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
   at <- as.matrix(places(bent)[1:3])
   rownames(at) <- rownames(own)
-  length <- unit / laid$pose[13]
+  length <- laid$unit / laid$pose[13]
   moved <- row_lengths(at - as.matrix(places(plain)[1:3])) * length
   here <- local_evidence(prepared, local, bent, settings)
   residual <- pmax(here$residual, row_lengths(at - to_scan(bent$moved[-seq_len(n), , drop = FALSE])) * length)
@@ -146,6 +153,15 @@ apply_similarity <- function(xyz, by) {
   moved <- by$scale * xyz %*% t(by$rotation) + rep(by$shift, each = nrow(xyz))
   dimnames(moved) <- dimnames(xyz)
   moved
+}
+
+#' Points of the template's frame in that of a scan, and back
+#' @noRd
+from_frame <- function(xyz, laid) {
+  t(laid$pose[13] * matrix(laid$pose[1:9], 3) %*% t(xyz) + laid$pose[10:12]) / laid$unit
+}
+into_frame <- function(xyz, laid) {
+  t(crossprod(matrix(laid$pose[1:9], 3), t(xyz) * laid$unit - laid$pose[10:12])) / laid$pose[13]
 }
 
 #' A cloud in the frame of the template

@@ -55,8 +55,8 @@ fitted_poses <- function(template, cloud, starts, reach, scale, settings) {
   })
 }
 
-#' What speaks against a pose: the template's points without a like in the scan, in place and curvature, and the scan's area
-#' without a like in the template, in areas of the template
+#' What speaks against a pose: the template's points without a like in the scan, in place and curvature, and the share of
+#' the scan without a like in the template
 #' @noRd
 pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$saturation) {
   local <- cloud_in_frame(cloud, pose)
@@ -69,7 +69,7 @@ pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$sa
   back <- match_points(t(local$xyz[, thin]), local$normal[, thin], none(length(thin)), template, none(ncol(template$xyz)),
                        settings$warp_reach[1], settings$cosine)$distance
   apart <- ifelse(is.na(back), 1, pmin(pmax(back - template$spacing[1], 0) / settings$saturation, 1))
-  mean(pmin(gap / reach, 1)) + sum(apart) * local$spacing[2]^2 / (ncol(template$xyz) * template$spacing[1]^2)
+  mean(pmin(gap / reach, 1)) + settings$left_over * mean(apart)
 }
 
 fit_poses <- function(template, cloud, starts, reach, scale, settings, thin) {

@@ -14,6 +14,8 @@
 #'   * `cosine`: least cosine of the angle between normals of points that are matched;
 #'   * `saturation`: distance from which on a point of the template counts as not matched in the score; `poor`: score above which
 #'     other ways are tried and the answer is doubted; `refuse`: above which there is none;
+#'   * `left_over`: weight of the share of the scan that has no like in the template, against the share of the template without one in the
+#'     scan, when poses are compared;
 #'   * `kernel_length`, `kernel_sd`: lengths and standard deviations of the Gaussian processes that make the displacement; `affine`: standard
 #'     deviation of its affine part; `uneven`: that of the left-right antisymmetric part, as a share; `rank`: number of functions;
 #'   * `weight`: of curvature against place, in a match (length squared); `warp_reach`: reach of matches at the first and last steps of
@@ -31,7 +33,7 @@ find_settings <- function(...) {
   settings <- list(cluster = 2.5, coarse = 5, bend = 12, feature = 8, cap = 0.03, apart = 12, anchors = 8, own = 2, turns = 12,
                    reach = c(40, 10), steps = 6, kept = 0.7, followed = 40,
                    refined = 6, tight = c(0.95, 1.05), loose = c(0.75, 1.3),
-                   cosine = 0.5, saturation = 5, poor = 0.55, refuse = 0.76,
+                   cosine = 0.5, saturation = 5, poor = 0.55, refuse = 0.76, left_over = 0.5,
                    kernel_length = c(60, 30, 15), kernel_sd = c(4, 2.5, 1.5), affine = 5, uneven = 0.3, rank = 220,
                    weight = 80, warp_reach = c(15, 6), warp_steps = 20, error = 2, robust = 1.5, along = 0.1, points = 1200, thin = 200,
                    moved = 2, off = 2.5, near = 8, lost = 0.5)

@@ -102,10 +102,17 @@ prepared_template <- function(template, settings, threads) {
   thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
   thin$anchors <- settings$own
   cloud <- scan_cloud(template$specimen, 1, thin, threads)
-  cloud$landmarks <- template$landmarks
   cloud$settings <- scaled
-  cloud$basis <- warp_basis(rbind(t(cloud$xyz), template$landmarks), ncol(cloud$xyz), template$mirror, scaled)
-  cloud
+  cloud$mirror <- template$mirror
+  with_landmarks(cloud, template$landmarks)
+}
+
+#' A prepared template with other landmarks
+#' @noRd
+with_landmarks <- function(prepared, landmarks) {
+  prepared$landmarks <- landmarks
+  prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), ncol(prepared$xyz), prepared$mirror, prepared$settings)
+  prepared
 }
 
 #' @rdname landmark_template

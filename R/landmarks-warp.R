@@ -63,7 +63,8 @@ joined_basis <- function(full, share, factor, rank) {
 #' Fit the displacement of a template's points to a cloud in the template's frame
 #'
 #' @param weight Of curvature in the matches.
-#' @return List: `moved` (n + k x 3, all rows of the basis), `match` (index of the cloud or NA), `residual` (distance to it), of the n points.
+#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`; of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
+#'   distance to it).
 #' @noRd
 fit_warp <- function(template, cloud, settings, weight) {
   xyz <- t(template$xyz)
@@ -80,10 +81,9 @@ fit_warp <- function(template, cloud, settings, weight) {
     coefficients <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
     moved <- xyz + displaced(basis, coefficients)
   }
-  found <- match_points(moved, template$normal, of(template), cloud, of(cloud), settings$warp_reach[2], settings$cosine)
   near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), settings$warp_reach[1], settings$cosine)
   list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients),
-       index = near$index, residual = near$distance)
+       coefficients = coefficients, index = near$index, residual = near$distance)
 }
 
 match_points <- function(xyz, normal, feature, cloud, to_feature, reach, cosine) {

@@ -1,0 +1,137 @@
+# A template's landmarks moved to where the user puts them.
+
+#' Calibrate a template by a few scans with landmarks
+#'
+#' Carries the user's own placing on a few scans back to the template: most of the error of [find_landmarks()] is where the
+#' template's maker puts a point. Three scans do most of it. Landmarks that the template does not have are added; those of a symmetric
+#' template stay symmetric.
+#'
+#' @param template A [landmark_template()], or a [specimen()] with landmarks.
+#' @param specimens List of [specimen()]s (or one) with landmarks placed or corrected by hand; NA where missing.
+#' @param rounds How often the landmarks are moved by the mean of what they are off.
+#' @inheritParams find_landmarks
+#' @return The `landmark_template`, its landmarks moved; `calibration`: data frame `landmark`, `specimens` (number that have it),
+#'   `moved` (how far on the template), `spread` (RMS of what is left, over the specimens), in the template's unit.
+#' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the template.
+#' @references The paper, section 7.
+#' @seealso [find_landmarks()]
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' mine <- calibrate_template(face_template(), list(face))
+#' mine$calibration
+#' }
+#' @export
+calibrate_template <- function(template, specimens, rounds = 4, settings = find_settings(),
+                               threads = getOption("crestline.threads", 1L)) {
+  if (!inherits(template, "landmark_template")) template <- landmark_template(template)
+  check_class(settings, "find_settings", "settings", "find_settings()")
+  rounds <- check_count(rounds, "rounds")
+  if (inherits(specimens, "specimen")) specimens <- list(specimens)
+  if (!is.list(specimens) || !length(specimens)) {
+    crestline_abort(sprintf("`specimens` is %s.", describe_value(specimens)), "Give a list of specimens with landmarks.", stage = "arguments")
+  }
+  for (one in specimens) check_class(one, "specimen", "specimens", "specimen() or read_specimen()")
+  prepared <- prepared_template(template, settings, threads)
+  fits <- lapply(specimens, calibration_fit, prepared, template, settings, threads)
+  before <- template
+  template <- with_new_landmarks(template, prepared, fits)
+  for (round in seq_len(rounds)) {
+    off <- landmark_offsets(prepared, template, fits)
+    template$landmarks <- moved_landmarks(template, off)
+  }
+  template$predicted <- calibrated_prediction(template, fits)
+  template$calibration <- calibration_table(before, template, landmark_offsets(prepared, template, fits))
+  template
+}
+
+#' What calibration keeps of a specimen: the bent template and the specimen's landmarks in its frame
+#' @noRd
+calibration_fit <- function(specimen, prepared, template, settings, threads) {
+  at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
+  if (!nrow(at)) refuse_landmarks("it has no landmarks.", "Give specimens whose landmarks you have placed.", specimen$id)
+  laid <- laid_template(prepared, template, specimen, settings, threads)
+  local <- cloud_in_frame(laid$cloud, laid$pose)
+  bent <- fit_warp(prepared, local, prepared$settings, prepared$settings$weight)
+  list(coefficients = bent$coefficients, moved = bent$moved[seq_len(ncol(prepared$xyz)), ],
+       at = structure(into_frame(at, laid), dimnames = list(rownames(at), NULL)))
+}
+
+#' The template with landmarks that only the specimens have: begun at its point that is carried nearest to them
+#' @noRd
+with_new_landmarks <- function(template, prepared, fits) {
+  known <- c(rownames(template$landmarks), rownames(template$predicted))
+  for (fit in fits) {
+    new <- setdiff(rownames(fit$at), known)
+    for (name in new) {
+      nearest <- which.min(row_lengths(fit$moved - rep(fit$at[name, ], each = nrow(fit$moved))))
+      template$landmarks <- rbind(template$landmarks, matrix(prepared$xyz[, nearest], 1, dimnames = list(name, NULL)))
+    }
+    known <- c(known, new)
+  }
+  template
+}
+
+#' What each carried landmark is off on each specimen, in the template's frame
+#' @return Array landmarks x 3 x specimens, NA where a specimen has none.
+#' @noRd
+landmark_offsets <- function(prepared, template, fits) {
+  own <- template$landmarks
+  prepared <- with_landmarks(prepared, own)
+  basis <- lapply(prepared$basis, function(b) b[-seq_len(ncol(prepared$xyz)), , drop = FALSE])
+  each <- lapply(fits, function(fit) fit$at[match(rownames(own), rownames(fit$at)), , drop = FALSE] - own - displaced(basis, fit$coefficients))
+  array(unlist(each), c(nrow(own), 3, length(fits)), list(rownames(own), NULL, NULL))
+}
+
+#' Landmarks moved by their mean offsets, to the template's surface; partners alike
+#' @noRd
+moved_landmarks <- function(template, off) {
+  step <- apply(off, 1:2, mean, na.rm = TRUE)
+  step[is.nan(step)] <- 0
+  at <- template$landmarks + step
+  if (template$mirror) at <- mirrored_mean(at)
+  at[] <- as.matrix(surface_points(template$specimen$mesh, at)[1:3])
+  at
+}
+
+#' Landmarks and their mirror images in x = 0, partners by name, averaged
+#' @noRd
+mirrored_mean <- function(at) {
+  pairs <- side_pairs(rownames(at))
+  flipped <- at %*% diag(c(-1, 1, 1))
+  dimnames(flipped) <- dimnames(at)
+  single <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
+  partner <- rownames(at)
+  partner[match(c(pairs$left, pairs$right), partner)] <- c(pairs$right, pairs$left)
+  mean <- (at + flipped[partner, , drop = FALSE]) / 2
+  alone <- single & partner == rownames(at)
+  mean[alone, ] <- at[alone, ]
+  rownames(mean) <- rownames(at)
+  mean
+}
+
+#' Predicted landmarks at the mean of where the specimens have them, by similarities fitted to the others
+#' @noRd
+calibrated_prediction <- function(template, fits) {
+  own <- template$predicted
+  for (name in rownames(own)) {
+    seen <- Filter(function(fit) name %in% rownames(fit$at), fits)
+    back <- lapply(seen, function(fit) {
+      common <- intersect(rownames(fit$at), rownames(template$landmarks))
+      if (length(common) < 4) return(NULL)
+      apply_similarity(fit$at[name, , drop = FALSE], similarity(fit$at[common, ], template$landmarks[common, ]))
+    })
+    back <- do.call(rbind, back)
+    if (!is.null(back)) own[name, ] <- colMeans(back)
+  }
+  if (template$mirror && nrow(own)) mirrored_mean(own) else own
+}
+
+calibration_table <- function(before, after, off) {
+  known <- match(rownames(after$landmarks), rownames(before$landmarks))
+  data.frame(landmark = rownames(after$landmarks), specimens = apply(!is.na(off[, 1, , drop = FALSE]), 1, sum),
+             moved = row_lengths(after$landmarks - before$landmarks[known, , drop = FALSE]),
+             spread = sqrt(apply(off^2, 1, function(x) mean(colSums(matrix(x, 3)), na.rm = TRUE))), row.names = NULL)
+}
