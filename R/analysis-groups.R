@@ -217,7 +217,8 @@ comparison_lines <- function(x, most) {
   table <- summary(x)
   component <- grepl("^PC[0-9]+$", table$test)
   table <- table[!component | cumsum(component) <= most, ]
-  shown <- vapply(table[-1], function(p) ifelse(is.na(p), "", format.pval(p, digits = 2, eps = 1e-4)), character(nrow(table)))
+  digits <- function(p) ifelse(is.na(p), "", ifelse(p < 5e-5, "<0.0001", formatC(p, format = "f", digits = 4)))
+  shown <- vapply(table[-1], digits, character(nrow(table)))
   all <- rbind(names(table)[-1], matrix(shown, nrow(table)))
   width <- apply(nchar(all), 2, max) + 2
   cells <- vapply(seq_along(width), function(j) formatC(all[, j], width = width[j]), character(nrow(all)))
