@@ -160,7 +160,8 @@ check_array <- function(x, call) {
                     "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
                     call = call)
   }
-  if (any(is.infinite(x))) crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", "align", call = call)
+  if (any(is.infinite(x))) crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", "align",
+                                           call = call)
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
     crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]), "Name each of its own.",

@@ -27,14 +27,17 @@
 #'   session's stream.
 #' @param tests Which: "size", "shape", "T2", "components", "points".
 #' @param exact Most regroupings that are enumerated instead of drawn at random.
-#' @param permutations Orders to use in place of random ones: n x B matrix or list (as of `RRPP:::perm.index()`), each an order
+#' @param permutations Orders to use in place of random ones: n x B matrix or list (as of `RRPP:::perm.index()`), each
+#'   an order
 #'   of the specimens that takes the place of the observed one.
 #' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `group_comparison`, a list:
-#'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of regroupings, the observed one
+#'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of regroupings, the
+#'     observed one
 #'     among them, whose statistic is at least as great), `p_adjusted` (for the components of a level: by the greatest
-#'     statistic over them, which controls the family-wise error; else as `p_value`), `p_parametric` (under normality), `share`
+#'     statistic over them, which controls the family-wise error; else as `p_value`), `p_parametric` (under normality),
+#'     `share`
 #'     (of variance: between groups for "mean shape", of the components used for the rest);
 #'   * `points`: data frame, a row a level and point: `level`, `point`, `x`, `y`, `z` (the mean, of mean size), `distance`
 #'     (second mean less first along the normal, outward positive; NA without triangles), `displacement` (between the
@@ -44,7 +47,8 @@
 #'     `components` (by level), `seed`.
 #'
 #'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a level.
-#' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group only, groups that do not match
+#' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group only, groups that do
+#'   not match
 #'   the specimens, permutations that are none.
 #' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of the
 #'   Royal Statistical Society B* 53, 285-339; Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest
@@ -71,15 +75,17 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   aligned <- aligned_levels(sample, level, scale, weights, missing)
   group <- check_group(group, dimnames(aligned[[1]]$coords)[[3]])
   dealt <- regroupings(group, n_perm, exact, permutations, seed)
-  blocks <- permutation_blocks(ncol(dealt$labels))
+  # A block of point-wise tests needs 250 x k numbers.
+  blocks <- permutation_blocks(ncol(dealt$labels), 250)
   tick <- comparison_ticks(progress, length(aligned) * (1 + length(blocks) * ("points" %in% tests)))
   each <- lapply(aligned, function(one) {
     tick()
     compare_level(one, dealt$labels, components, tests, blocks, tick)
   })
+  count <- vapply(each, function(one) as.integer(one$components), 0L)
   structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
                  pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L, exact = dealt$exact,
-                 components = vapply(each, function(one) as.integer(one$components), 0L), seed = seed), class = "group_comparison")
+                 components = count, seed = seed), class = "group_comparison")
 }
 
 #' The tests of one level
@@ -161,7 +167,8 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison", call = call)
   if (!is.null(names(group))) {
     absent <- setdiff(ids, names(group))
-    if (length(absent)) fail(sprintf("`group` has no value for %s.", shorten(absent)), "Name its values by specimens, or not at all.")
+    if (length(absent)) fail(sprintf("`group` has no value for %s.", shorten(absent)),
+                             "Name its values by specimens, or not at all.")
     group <- group[ids]
   }
   if (length(group) != length(ids)) {
@@ -199,9 +206,10 @@ summary.group_comparison <- function(object, ...) {
 #' @export
 print.group_comparison <- function(x, most = 5, ...) {
   counts <- table(x$group)
+  drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
+    amount(x$n_perm, "random permutation")
   cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
-      if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else amount(x$n_perm, "random permutation"),
-      "\n", sep = "")
+      drawn, "\n", sep = "")
   if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
   used <- x$components[!is.na(x$components)]
   if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
@@ -217,7 +225,8 @@ comparison_lines <- function(x, most) {
   table <- summary(x)
   component <- grepl("^PC[0-9]+$", table$test)
   table <- table[!component | cumsum(component) <= most, ]
-  shown <- vapply(table[-1], function(p) ifelse(is.na(p), "", format.pval(p, digits = 2, eps = 1e-4)), character(nrow(table)))
+  digits <- function(p) ifelse(is.na(p), "", ifelse(p < 5e-5, "<0.0001", formatC(p, format = "f", digits = 4)))
+  shown <- vapply(table[-1], digits, character(nrow(table)))
   all <- rbind(names(table)[-1], matrix(shown, nrow(table)))
   width <- apply(nchar(all), 2, max) + 2
   cells <- vapply(seq_along(width), function(j) formatC(all[, j], width = width[j]), character(nrow(all)))
@@ -226,7 +235,9 @@ comparison_lines <- function(x, most) {
 
 points_line <- function(points, level = 0.05) {
   found <- which(points$p_adjusted <= level)
-  text <- sprintf("%s: %s differ (family-wise %g)", points$level[1], paste(length(found), "of", amount(nrow(points), "point")), level)
+  text <- sprintf("%s: %s differ (family-wise %g)", points$level[1],
+                  paste(length(found), "of", amount(nrow(points), "point")), level)
   if (!length(found) || all(is.na(points$displacement))) return(text)
-  sprintf("%s, by %.3g at most (%s)", text, max(points$displacement[found]), points$point[found][which.max(points$displacement[found])])
+  sprintf("%s, by %.3g at most (%s)", text, max(points$displacement[found]),
+          points$point[found][which.max(points$displacement[found])])
 }

@@ -2,11 +2,14 @@
 
 #' A sample for geomorph, RRPP and Morpho
 #'
-#' For what [compare_groups()] does not do: covariates, interactions, nested designs, pairwise comparisons, allometry. Neither
+#' For what [compare_groups()] does not do: covariates, interactions, nested designs, pairwise comparisons, allometry.
+#' Neither
 #' package is needed to make these objects.
 #'
-#' `as_geomorph()` makes what `geomorph::geomorph.data.frame()` does, ready for `procD.lm(coords ~ size * sex, data = )`; `as_rrpp()`
-#' what `RRPP::rrpp.data.frame()` does, the co-ordinates as a matrix, for `lm.rrpp(coords ~ size * sex, data = )`; `as_morpho()` an
+#' `as_geomorph()` makes what `geomorph::geomorph.data.frame()` does, ready for `procD.lm(coords ~ size * sex, data =
+#' )`; `as_rrpp()`
+#' what `RRPP::rrpp.data.frame()` does, the co-ordinates as a matrix, for `lm.rrpp(coords ~ size * sex, data = )`;
+#' `as_morpho()` an
 #' object of the class of `Morpho::procSym()` with what its functions on such objects use. `as_aligned()` goes the other way.
 #'
 #' @param sample A `shape_sample`, an `aligned`, or an array, k x 3 x n.
@@ -14,10 +17,14 @@
 #' @param data Data frame of covariates, a row a specimen, or `NULL`; where it has a column `id` or row names that are the
 #'   specimens' names, they are matched.
 #' @param ... Passed to [align()]: `scale`, `weights`, `missing`.
-#' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned), `size` (centroid sizes), and the
-#'   columns of `data`. `as_rrpp()`: list of class `rrpp.data.frame`: `coords` (n x 3k, a row a specimen: x, y, z of the first
-#'   point, then of the second, as `geomorph::two.d.array()` has them), `size`, and the columns of `data`. `as_morpho()`: list
-#'   of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata` (after), `mshape`, `PCs`, `PCscores`, `eigenvalues`, `Variance`, `rho`.
+#' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned), `size` (centroid
+#'   sizes), and the
+#'   columns of `data`. `as_rrpp()`: list of class `rrpp.data.frame`: `coords` (n x 3k, a row a specimen: x, y, z of
+#'   the first
+#'   point, then of the second, as `geomorph::two.d.array()` has them), `size`, and the columns of `data`.
+#'   `as_morpho()`: list
+#'   of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata` (after), `mshape`, `PCs`, `PCscores`,
+#'   `eigenvalues`, `Variance`, `rho`.
 #' @section Errors: of class `crestline_error`: `data` that lacks a specimen, or has a column `coords` or `size`.
 #' @seealso [compare_groups()]; `vignette("interop")`
 #' @examples
@@ -52,9 +59,11 @@ as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model
   variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share, "Cumulative %" = 100 * cumsum(pca$share))
   rotated <- before_projection(aligned)
   cosine <- apply(rotated, 3, function(one) sum(one * aligned$mean) / sqrt(sum(one^2) * sum(aligned$mean^2)))
-  structure(list(size = aligned$size, rotated = rotated, mshape = aligned$mean, PCs = unname(pca$rotation), PCscores = pca$x,
-                 eigenvalues = pca$sdev^2, Variance = variance, orpdata = aligned$coords, rho = stats::setNames(acos(pmin(1, cosine)), names(aligned$size))),
-            class = "nosymproc", CSinit = !isFALSE(aligned$scale), scale = identical(aligned$scale, "full"), orp = aligned$tangent, sizeshape = FALSE)
+  rho <- stats::setNames(acos(pmin(1, cosine)), names(aligned$size))
+  structure(list(size = aligned$size, rotated = rotated, mshape = aligned$mean, PCs = unname(pca$rotation),
+                 PCscores = pca$x, eigenvalues = pca$sdev^2, Variance = variance, orpdata = aligned$coords, rho = rho),
+            class = "nosymproc", CSinit = !isFALSE(aligned$scale), scale = identical(aligned$scale, "full"),
+            orp = aligned$tangent, sizeshape = FALSE)
 }
 
 #' The configurations that were projected onto the tangent space: a unit shape's own part along the mean is the cosine of the
@@ -69,7 +78,8 @@ before_projection <- function(aligned) {
 }
 
 #' @rdname as_geomorph
-#' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or `Morpho::procSym()` returns, or an array of
+#' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or `Morpho::procSym()` returns, or an
+#'   array of
 #'   aligned configurations.
 #' @param size Centroid sizes; `NULL`: those that `x` has (`size`, `Csize`), else of `coords`.
 #' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
@@ -85,7 +95,8 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
     crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
   }
   scaled <- max(own) / min(own) < max(size) / min(size)
-  structure(list(coords = coords, mean = apply(coords, 1:2, mean), size = stats::setNames(as.vector(size), dimnames(coords)[[3]]),
+  structure(list(coords = coords, mean = apply(coords, 1:2, mean),
+                 size = stats::setNames(as.vector(size), dimnames(coords)[[3]]),
                  weights = rep(1, dim(coords)[1]), scale = scaled, tangent = FALSE, level = level,
                  missing = data.frame(id = character(), point = character(), action = character()), moved = numeric(),
                  triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())), class = "aligned")

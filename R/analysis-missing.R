@@ -52,7 +52,8 @@ check_enough <- function(gap, dim, missing, call) {
   }
   few <- which(colSums(!gap) <= dim + 1)
   if (length(few)) {
-    fail(sprintf("%s only.", amount(sum(!gap[, few[1]]), "point")), "Leave this specimen out: too few to place the others by.",
+    fail(sprintf("%s only.", amount(sum(!gap[, few[1]]), "point")),
+         "Leave this specimen out: too few to place the others by.",
          colnames(gap)[few[1]])
   }
 }
@@ -127,9 +128,10 @@ mean_with_gaps <- function(coords, gap) {
 #' @param template k x d, complete.
 #' @param own k x d.
 #' @param gap Logical, k: which points to place.
+#' @param rank Points whose least extent is below this share of the greatest lie in a plane (in the plane: on a line).
 #' @return Matrix, a row a TRUE of `gap`.
 #' @noRd
-spline_places <- function(template, own, gap, id, call) {
+spline_places <- function(template, own, gap, id, call, rank = 1e-6) {
   template <- template / sqrt(sum(sweep(template, 2, colMeans(template))^2))
   known <- which(!gap)
   known <- known[!duplicated(template[known, , drop = FALSE])]
@@ -141,9 +143,11 @@ spline_places <- function(template, own, gap, id, call) {
   system <- rbind(cbind(kernel(distance(from)), affine), cbind(t(affine), matrix(0, ncol(affine), ncol(affine))))
   diag(system)[seq_along(known)] <- 0
   right <- rbind(own[known, , drop = FALSE], matrix(0, ncol(affine), ncol(template)))
-  weight <- tryCatch(solve(system, right), error = function(e) {
+  spread <- svd(sweep(from, 2, colMeans(from)), 0, 0)$d
+  if (min(spread) < rank * max(spread)) {
     crestline_abort("the points that are there lie in a plane: the others cannot be placed.",
                     "Leave this specimen out, or use missing = \"drop\".", stage = "align", id = id, call = call)
-  })
+  }
+  weight <- solve(system, right, tol = 0)
   cbind(kernel(distance(at)), 1, at) %*% weight
 }

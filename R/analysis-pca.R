@@ -6,11 +6,14 @@
 #' @param weights Weights of points, as in [align()]: by default those of the alignment. With "area" variance is that per
 #'   area of the surface, whether its points are dense or sparse.
 #' @param tolerance Components whose variance is below this share of the first one's are left out.
-#' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d k x r, rows in the order of
+#' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d k x r, rows in the
+#'   order of
 #'   `as.vector(mean)`), `center`, `scale` (`FALSE`) are those of [stats::prcomp()] of the n x d k matrix of co-ordinates
 #'   where all weights are 1, but for signs: the greatest entry of every column of `rotation` is positive. With weights the
-#'   components are orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`. Besides: `share`
-#'   (r, of the variance), `direction` (d k x r: what one unit of a score adds to the co-ordinates; `rotation` where all weights
+#'   components are orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`. Besides:
+#'   `share`
+#'   (r, of the variance), `direction` (d k x r: what one unit of a score adds to the co-ordinates; `rotation` where
+#'   all weights
 #'   are 1), `mean` (k x d), `size` (mean centroid size, in the unit of the meshes), `weights`, `level`, `triangles`.
 #'
 #'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`; `summary()`, `predict()` and
@@ -43,10 +46,12 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   variance <- parts$d^2 / (dims[3] - 1)
   scores <- sweep(x, 2, center) %*% rotation
   # Points of weight 0 follow the scores too.
-  direction <- if (all(weight == 1)) rotation else crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
+  direction <- if (all(weight == 1)) rotation else
+    crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
   dimnames(direction) <- dimnames(rotation)
   rownames(scores) <- dimnames(aligned$coords)[[3]]
-  structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE, x = scores,
+  structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE,
+                 x = scores,
                  share = variance / sum(variance), direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)), size = mean(aligned$size),
                  weights = weights, level = aligned$level, triangles = aligned$triangles), class = c("shape_pca", "prcomp"))
@@ -103,7 +108,8 @@ print.shape_pca <- function(x, most = 6, ...) {
 #' @param component Numbers of components.
 #' @param sd For each of them, how many standard deviations from the mean.
 #' @param as "matrix" or "mesh".
-#' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the mean size in the unit of the
+#' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the mean size in the unit
+#'   of the
 #'   meshes.
 #' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those points that have triangles
 #'   (attribute `row`: which).

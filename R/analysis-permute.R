@@ -26,7 +26,8 @@ check_permutations <- function(x, n, call) {
   ok <- is.matrix(x) && nrow(x) == n && all(apply(x, 2, function(order) all(sort(order) == seq_len(n))))
   if (!ok) {
     crestline_abort("`permutations` are not orders of all specimens.",
-                    sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d.", n, n), stage = "arguments", call = call)
+                    sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d.", n, n),
+                    stage = "arguments", call = call)
   }
   # The first of RRPP's permutations is the observed order.
   if (all(x[, 1] == seq_len(n))) x[, -1, drop = FALSE] else x
@@ -55,6 +56,22 @@ all_regroupings <- function(code) {
   same <- which(colSums(labels != code) == 0)
   labels[, c(same, seq_len(ncol(labels))[-same]), drop = FALSE]
 }
+
+#' A statistic of many regroupings, worked out some columns at a time: memory stays small
+#'
+#' @param statistic Function of n x b labels that gives b values, or a matrix of b rows.
+#' @param block Columns at a time.
+#' @noRd
+by_block <- function(labels, statistic, block = 5000) {
+  blocks <- permutation_blocks(ncol(labels), block)
+  if (length(blocks) == 1) return(statistic(labels))
+  each <- lapply(blocks, function(columns) statistic(labels[, columns, drop = FALSE]))
+  if (is.matrix(each[[1]])) do.call(rbind, each) else unlist(each)
+}
+
+#' Columns of regroupings taken at a time
+#' @noRd
+permutation_blocks <- function(n, block) unname(split(seq_len(n), ceiling(seq_len(n) / block)))
 
 #' Share of regroupings whose statistic is as great as the observed one, the first; rounding does not break ties
 #'

@@ -34,11 +34,6 @@ point_tests <- function(aligned, labels, blocks, tick) {
   described
 }
 
-#' Columns of regroupings taken at a time
-#' @param block Their number: what a block needs is block x k numbers.
-#' @noRd
-permutation_blocks <- function(n, block = 250) unname(split(seq_len(n), ceiling(seq_len(n) / block)))
-
 #' Where the points are and how far apart the means, in the unit of the meshes
 #' @noRd
 point_table <- function(aligned, code, along) {
@@ -51,7 +46,8 @@ point_table <- function(aligned, code, along) {
     displacement <- sqrt(rowSums(off^2))
     if (along) distance <- rowSums(off * point_normals(aligned$mean, aligned$triangles))
   }
-  data.frame(point = rownames(aligned$mean), at, distance = unname(distance), displacement = unname(displacement), row.names = NULL)
+  data.frame(point = rownames(aligned$mean), at, distance = unname(distance), displacement = unname(displacement),
+             row.names = NULL)
 }
 
 #' Share of a point's variance between groups, B x k, NA where a point does not vary
@@ -99,6 +95,7 @@ point_normals <- function(xyz, triangles) {
   v <- xyz[triangles[3, ], , drop = FALSE] - a
   cross <- cbind(u[, 2] * v[, 3] - u[, 3] * v[, 2], u[, 3] * v[, 1] - u[, 1] * v[, 3], u[, 1] * v[, 2] - u[, 2] * v[, 1])
   corner <- factor(triangles, seq_len(nrow(xyz)))
-  sums <- vapply(1:3, function(d) as.vector(tapply(rep(cross[, d], each = 3), corner, sum, default = NA)), numeric(nrow(xyz)))
+  sums <- vapply(1:3, function(d) as.vector(tapply(rep(cross[, d], each = 3), corner, sum, default = NA)),
+                 numeric(nrow(xyz)))
   sums / sqrt(rowSums(sums^2))
 }

@@ -94,7 +94,7 @@ test_row <- function(test, statistic, p_value, p_parametric = NA_real_, p_adjust
 size_test <- function(size, labels) {
   n <- length(size)
   groups <- max(labels)
-  squares <- between_squares(cbind(size - mean(size)), labels)
+  squares <- by_block(labels, function(part) between_squares(cbind(size - mean(size)), part))
   f <- share_to_f(squares[1] / sum((size - mean(size))^2), n, groups)
   sign <- if (groups == 2) sign(mean(size[labels[, 1] == 1]) - mean(size[labels[, 1] == 2])) else NA
   test_row(if (groups == 2) "size t" else "size F", if (groups == 2) sign * sqrt(f) else f, permutation_p(squares),
@@ -104,7 +104,8 @@ size_test <- function(size, labels) {
 #' @param y n x d k, centred, weighted.
 #' @noRd
 mean_shape_test <- function(y, labels) {
-  squares <- between_total(tcrossprod(y), labels)
+  gram <- tcrossprod(y)
+  squares <- by_block(labels, function(part) between_total(gram, part))
   sizes <- tabulate(labels[, 1])
   two <- length(sizes) == 2
   share <- squares[1] / sum(y^2)
@@ -116,8 +117,9 @@ t2_test <- function(pca, components, labels) {
   n <- nrow(pca$x)
   groups <- max(labels)
   u <- pca$x[, seq_len(components), drop = FALSE] / rep(pca$sdev[seq_len(components)] * sqrt(n - 1), each = n)
-  t2 <- hotelling(u, labels)
-  test_row("T2", t2[1], permutation_p(t2), hotelling_p(t2[1], n, groups, components), share = sum(pca$share[seq_len(components)]))
+  t2 <- by_block(labels, function(part) hotelling(u, part))
+  test_row("T2", t2[1], permutation_p(t2), hotelling_p(t2[1], n, groups, components),
+           share = sum(pca$share[seq_len(components)]))
 }
 
 #' Every component by itself; adjusted by the greatest over components
@@ -126,7 +128,7 @@ component_tests <- function(pca, components, labels) {
   n <- nrow(pca$x)
   groups <- max(labels)
   x <- pca$x[, seq_len(components), drop = FALSE]
-  share <- between_squares(x, labels) / rep(colSums(x^2), each = ncol(labels))
+  share <- by_block(labels, function(part) between_squares(x, part)) / rep(colSums(x^2), each = ncol(labels))
   f <- share_to_f(share[1, ], n, groups)
   first <- labels[, 1] == 1
   sign <- sign(colMeans(x[first, , drop = FALSE]) - colMeans(x[!first, , drop = FALSE]))

@@ -9,9 +9,11 @@
 #' @param ... Ignored.
 #' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test), `statistic`, `p.value`,
 #'   `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point), `estimate` (`distance` along the normal, or the
-#'   displacement where there is none), `statistic`, `p.value`, `adj.p.value`. Of components: `PC`, `std.dev`, `percent`, `cumulative`
+#'   displacement where there is none), `statistic`, `p.value`, `adj.p.value`. Of components: `PC`, `std.dev`,
+#'   `percent`, `cumulative`
 #'   (shares, as in broom). Of an alignment: a row a specimen, as `as.data.frame()`.
-#'   `glance()`: one row. Of a comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of the mean shape's). Of
+#'   `glance()`: one row. Of a comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of
+#'   the mean shape's). Of
 #'   components: `nobs`, `points`, `components`, `variance` (total). Of an alignment: `nobs`, `points`, `size` (mean),
 #'   `distance` (root mean square from the mean), `missing`.
 #' @examplesIf requireNamespace("generics", quietly = TRUE)
@@ -43,7 +45,8 @@ tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
 #' @exportS3Method generics::glance
 glance.group_comparison <- function(x, ...) {
   shape <- x$tests$p_value[startsWith(as.character(x$tests$test), "mean shape")]
-  data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned), permutations = x$n_perm, exact = x$exact,
+  data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned), permutations = x$n_perm,
+             exact = x$exact,
              p.value = if (length(shape)) min(shape) else NA_real_)
 }
 

@@ -4,7 +4,8 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
   significance <- check_number(significance, "significance", 0, 1)
   points <- x$points[x$points$level == level, ]
   if (is.null(points) || !nrow(points)) {
-    crestline_abort("points were not compared.", "Give compare_groups() `tests` with \"points\".", stage = "picture", call = NULL)
+    crestline_abort("points were not compared.", "Give compare_groups() `tests` with \"points\".", stage = "picture",
+                    call = NULL)
   }
   mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), x$aligned[[level]]$triangles)
   row <- attr(mesh, "row")
@@ -22,7 +23,8 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
   if (engine == "picture") {
     if (legend) map_legend(palette, limits)
     found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
-    words <- sprintf("%s less %s along the normal; outlined: p < %g (%d of %d points)", levels(x$group)[2], levels(x$group)[1], significance,
+    words <- sprintf("%s less %s along the normal; outlined: p < %g (%d of %d points)", levels(x$group)[2],
+                     levels(x$group)[1], significance,
                      found, nrow(points))
     graphics::title(if (is.null(main)) words else main, font.main = 1, cex.main = 0.9)
   }

@@ -12,7 +12,8 @@ group_meshes <- function(x, level) {
 
 plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
   meshes <- group_meshes(x, level)
-  title <- if (is.null(main)) paste(c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape")), collapse = ", ") else main
+  words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape"))
+  title <- if (is.null(main)) paste(words, collapse = ", ") else main
   if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
@@ -42,10 +43,13 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
     cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
   }, meshes, colour)
   raster <- blend_by_depth(seen[[1]], seen[[2]], opacity)
-  graphics::rasterImage(raster, frame$usr[1], frame$usr[4] - frame$height * frame$pixel, frame$usr[1] + frame$width * frame$pixel,
+  graphics::rasterImage(raster, frame$usr[1], frame$usr[4] - frame$height * frame$pixel,
+                        frame$usr[1] + frame$width * frame$pixel,
                         frame$usr[4])
-  structure(list(rotation = rotation, pixel = frame$pixel, depth = pmax(seen[[1]]$depth, seen[[2]]$depth), usr = frame$usr,
-                 plt = graphics::par("plt"), tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])), class = "picture_scene")
+  depth <- pmax(seen[[1]]$depth, seen[[2]]$depth)
+  structure(list(rotation = rotation, pixel = frame$pixel, depth = depth, usr = frame$usr,
+                 plt = graphics::par("plt"), tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
+            class = "picture_scene")
 }
 
 blend_by_depth <- function(a, b, opacity) {

@@ -22,7 +22,9 @@ plot.shape_pca <- function(x, what = c("scores", "shapes"), component = if (what
                            colour = c("#2F7FD1", "#E0553F"), sd = 3, view = "front", ...) {
   what <- check_choice(what, c("scores", "shapes"), "what")
   for (one in component) check_number(one, "component", 1, length(x$sdev))
-  invisible(if (what == "scores") plot_scores(x, component, group, colour, ...) else plot_ends(x, component[1], colour, sd, view, ...))
+  drawn <- if (what == "scores") plot_scores(x, component, group, colour, ...) else
+    plot_ends(x, component[1], colour, sd, view, ...)
+  invisible(drawn)
 }
 
 plot_scores <- function(pca, component, group, colour, ...) {
@@ -44,7 +46,8 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
   on.exit(graphics::par(old))
   Map(function(mesh, at, colour) {
     scene <- draw_surface(mesh, colour, view, "picture", around = around, ...)
-    graphics::title(sprintf("PC%d (%.0f %%), %+g sd", component, 100 * pca$share[component], at), font.main = 1, cex.main = 1)
+    graphics::title(sprintf("PC%d (%.0f %%), %+g sd", component, 100 * pca$share[component], at), font.main = 1,
+                    cex.main = 1)
     scene
   }, meshes, c(-sd, sd), rep_len(colour, 2))
 }
@@ -85,8 +88,8 @@ write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev
   blocks <- lapply(component, component_block, pca, sd, colour, size, view)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-                   tags$p(sprintf("%d specimens, %d points (%s). Sliders: standard deviations from the mean, -%g to %g.", nrow(pca$x),
-                                  nrow(pca$mean), pca$level, sd, sd)),
+                   tags$p(sprintf("%d specimens, %d points (%s). ", nrow(pca$x), nrow(pca$mean), pca$level),
+                          sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd, sd)),
                    tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks))
   save_page(page, file, selfcontained)
   invisible(file)
@@ -107,7 +110,8 @@ component_block <- function(component, pca, sd, colour, size, view) {
   vertices <- rep(seq_len(ncol(values) / 6), 6)
   attributes <- rep(c("x", "y", "z", "nx", "ny", "nz"), each = ncol(values) / 6)
   id <- paste0("crestline-pc", component)
-  control <- rgl::vertexControl(value = 0, values = values, vertices = vertices, attributes = attributes, objid = scene$ids[1],
+  control <- rgl::vertexControl(value = 0, values = values, vertices = vertices, attributes = attributes,
+                                objid = scene$ids[1],
                                 param = stops)
   steps <- seq(-sd, sd, length.out = 61)
   player <- rgl::playwidget(id, control, start = -sd, stop = sd, step = sd / 30, components = c("Slider", "Label"),

@@ -49,8 +49,10 @@ speed <- function() {
   flat <- t(matrix(aligned$coords, 3 * 922))
   rows <- list(seconds("align()", align(x)), seconds("shape_pca()", shape_pca(aligned)),
                seconds("compare_groups(), mean shape", compare_groups(aligned, group, tests = "shape", seed = 1)),
-               seconds("compare_groups(), size, T2, ten components", compare_groups(aligned, group, tests = c("size", "T2", "components"), seed = 1)),
-               seconds("compare_groups(), 922 points, all co-ordinates", compare_groups(aligned, group, tests = "points", seed = 1), 3))
+               seconds("compare_groups(), size, T2, ten components",
+                       compare_groups(aligned, group, tests = c("size", "T2", "components"), seed = 1)),
+               seconds("compare_groups(), 922 points, all co-ordinates",
+                       compare_groups(aligned, group, tests = "points", seed = 1), 3))
   if (have("Morpho")) {
     rows <- c(rows, list(seconds("Morpho::procSym()", Morpho::procSym(x), 3),
                          seconds("Morpho::ProcGPA()", Morpho::ProcGPA(x, CSinit = TRUE), 3),
@@ -59,7 +61,8 @@ speed <- function() {
   if (have("geomorph") && have("RRPP")) {
     frame <- list(coords = aligned$coords, y = flat, group = group)
     rows <- c(rows, list(seconds("geomorph::gpagen()", geomorph::gpagen(x, print.progress = FALSE), 3),
-                         seconds("RRPP::lm.rrpp(turbo = TRUE)", RRPP::lm.rrpp(y ~ group, data = frame, iter = 999, turbo = TRUE), 3),
+                         seconds("RRPP::lm.rrpp(turbo = TRUE)",
+                                 RRPP::lm.rrpp(y ~ group, data = frame, iter = 999, turbo = TRUE), 3),
                          seconds("RRPP::lm.rrpp()", RRPP::lm.rrpp(y ~ group, data = frame, iter = 999), 1),
                          seconds("geomorph::procD.lm()", geomorph::procD.lm(coords ~ group, data = frame, iter = 999), 3)))
   }
@@ -85,7 +88,8 @@ agree_on <- function(name, x) {
     some <- seq_len(min(10, length(theirs$eigenvalues)))
     rows <- c(rows, list(row("mean, Morpho (scale = FALSE)", apart(ours$mean, theirs$mshape)),
                          row("size, Morpho, relative", max(abs(ours$size / theirs$size - 1))),
-                         row("variances of components, Morpho, relative", max(abs(shape_pca(ours)$sdev[some]^2 / theirs$eigenvalues[some] - 1))),
+                         row("variances of components, Morpho, relative",
+                             max(abs(shape_pca(ours)$sdev[some]^2 / theirs$eigenvalues[some] - 1))),
                          row("mean, Morpho (default), ours \"full\"", apart(align(x, scale = "full")$mean, full$mshape))))
   }
   if (have("geomorph")) {
@@ -101,7 +105,8 @@ agree_on <- function(name, x) {
 agree_on_p <- function(name, x, group, iter = 999) {
   ours <- align(x)
   flat <- t(matrix(ours$coords, length(ours$mean)))
-  compared <- compare_groups(ours, group, permutations = RRPP:::perm.index(length(group), iter, seed = 1), tests = c("size", "shape"))
+  compared <- compare_groups(ours, group, permutations = RRPP:::perm.index(length(group), iter, seed = 1),
+                             tests = c("size", "shape"))
   frame <- list(y = flat, size = unname(ours$size), group = factor(group))
   shape <- anova(RRPP::lm.rrpp(y ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
   size <- anova(RRPP::lm.rrpp(size ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
@@ -117,7 +122,8 @@ agreement <- function() {
     data$scallops <- list(x = scallops$coorddata, group = scallops$ind)
     data$pupfish <- list(x = sweep(pupfish$coords, 3, pupfish$CS, `*`), group = pupfish$Sex)
   }
-  print(format(do.call(rbind, Map(function(name, one) agree_on(name, one$x), names(data), data)), digits = 2), row.names = FALSE)
+  print(format(do.call(rbind, Map(function(name, one) agree_on(name, one$x), names(data), data)), digits = 2),
+        row.names = FALSE)
   if (!have("RRPP")) return(invisible())
   two <- Filter(function(one) length(unique(one$group)) > 1 && min(table(one$group)) > 1, data)
   print(do.call(rbind, Map(function(name, one) agree_on_p(name, one$x, one$group), names(two), two)), row.names = FALSE)
@@ -144,19 +150,22 @@ null_p <- function(seed, sizes, ...) {
   vectors <- compare_groups(x, group, tests = "points", seed = seed, ...)
   tests <- compared$tests
   component <- grepl("^PC", tests$test)
-  c(size = tests$p_value[1], "size, parametric" = tests$p_parametric[1], "mean shape" = tests$p_value[2], T2 = tests$p_value[3],
+  c(size = tests$p_value[1], "size, parametric" = tests$p_parametric[1], "mean shape" = tests$p_value[2],
+    T2 = tests$p_value[3],
     "T2, parametric" = tests$p_parametric[3], PC1 = tests$p_value[4], "any component" = min(tests$p_adjusted[component]),
     "any point, along normals" = min(compared$points$p_adjusted, na.rm = TRUE), "any point" = min(vectors$points$p_adjusted))
 }
 
 calibration <- function(n = 500) {
-  designs <- list("12 v 12" = list(c(12, 12), n_perm = 199), "18 v 5" = list(c(18, 5), n_perm = 199), "8, 8, 8" = list(c(8, 8, 8), n_perm = 199),
+  designs <- list("12 v 12" = list(c(12, 12), n_perm = 199), "18 v 5" = list(c(18, 5), n_perm = 199),
+                  "8, 8, 8" = list(c(8, 8, 8), n_perm = 199),
                   "4 v 5, all 126" = list(c(4, 5), exact = 126))
   p <- lapply(designs, function(design) sapply(seq_len(n), function(seed) do.call(null_p, c(list(seed), design))))
   # Attainable level of an exact test of 126 regroupings: 6 / 126.
   rate <- sapply(p, function(one) rowSums(one <= 0.05))
   limits <- qbinom(c(0.005, 0.995), n, 0.05)
-  cat(sprintf("rejections at 5 %% of %d samples without a difference; binomial 99 %% limits %d to %d\n", n, limits[1], limits[2]))
+  cat(sprintf("rejections at 5 %% of %d samples without a difference; binomial 99 %% limits %d to %d\n", n, limits[1],
+              limits[2]))
   print(rate)
 }
 
@@ -188,7 +197,8 @@ simpop <- function() {
   meta <- read.csv(file.path(shared, "simpop", "metadata.csv"))
   sex <- setNames(meta$sex, meta$id)
   levels <- c(lapply(setNames(nm = c("landmarks", "curves", "surface", "model")), function(level) align(sample, level)),
-              list("surface, by area" = align(sample, "surface", weights = "area"), dense = align(dense, "dense", triangles = it),
+              list("surface, by area" = align(sample, "surface", weights = "area"),
+                   dense = align(dense, "dense", triangles = it),
                    "dense, by area" = align(dense, "dense", weights = "area", triangles = it)))
   own <- sapply(levels, distances)
   cat("correlation of Procrustes distances between 23 faces with the dense mesh's\n")

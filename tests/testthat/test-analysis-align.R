@@ -177,6 +177,11 @@ test_that("what cannot be aligned is refused", {
   few <- x
   few[1:9, , 4] <- NA
   expect_crestline_error(align(few), "3 points only", id = "4")
+  base <- posed_sample(n = 1)[, , 1]
+  base[1:6, 3] <- 0
+  flat <- array(base, c(12, 3, 5))
+  flat[7:12, , 2] <- NA
+  expect_crestline_error(align(flat), "in a plane", id = "2")
   nowhere <- x
   nowhere[3, , ] <- NA
   expect_crestline_error(align(nowhere), "every specimen: 3")

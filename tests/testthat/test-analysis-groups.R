@@ -54,7 +54,8 @@ test_that("T2 is its closed form, on the scores of the first components", {
 test_that("components can be a share of the variance, and never too many", {
   data <- grouped_sample(c(5, 5))
   share <- cumsum(shape_pca(align(data$x))$share)
-  counted <- function(components) unname(compare_quietly(data$x, data$group, components = components, n_perm = 9, tests = "T2")$components)
+  counted <- function(components) unname(compare_quietly(data$x, data$group, components = components, n_perm = 9,
+                                                         tests = "T2")$components)
   expect_equal(counted(share[3]), 3)
   expect_equal(counted(share[3] + 1e-6), 4)
   expect_equal(counted(50), 7)
@@ -84,6 +85,17 @@ test_that("few regroupings are all taken: the p-values of every one", {
   three <- compare_quietly(data$x, c(1, 1, 2, 2, 3, 3, 3), exact = 210, tests = "size")
   expect_equal(three$n_perm, 209)
   expect_equal(anyDuplicated(t(all_regroupings(c(1, 1, 2, 2, 3, 3, 3)))), 0)
+})
+
+test_that("statistics of many regroupings are the same block by block", {
+  data <- grouped_sample(c(5, 6))
+  labels <- regroupings(data$group, 60, 0, seed = 1)$labels
+  y <- t(matrix(align(data$x)$coords, 36))
+  y <- sweep(y, 2, colMeans(y))
+  whole <- between_squares(y, labels)
+  expect_equal(by_block(labels, function(part) between_squares(y, part), 7), whole)
+  expect_equal(by_block(labels, function(part) between_total(tcrossprod(y), part), 7), rowSums(whole))
+  expect_equal(all_regroupings(c(2L, 1L, 2L))[, 1], c(2, 1, 2))
 })
 
 test_that("p-values on given permutations are those of the definition, and RRPP's", {
@@ -191,7 +203,8 @@ test_that("levels stand side by side", {
   few <- data$x[4:12, , ]
   compared <- compare_quietly(list(all = data$x, few = few), data$group, n_perm = 99, seed = 1, components = 2)
   expect_equal(names(summary(compared)), c("test", "all", "few"))
-  expect_equal(summary(compared)$few[2], compared$tests$p_value[compared$tests$level == "few" & compared$tests$test == "mean shape"])
+  few_tests <- compared$tests[compared$tests$level == "few", ]
+  expect_equal(summary(compared)$few[2], few_tests$p_value[few_tests$test == "mean shape"])
   expect_identical(as.data.frame(compared), compared$tests)
   text <- capture.output(compared)
   expect_lte(max(nchar(text)), 90)

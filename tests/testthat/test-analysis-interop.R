@@ -35,13 +35,15 @@ test_that("geomorph and RRPP take them, and test as we do where both do", {
   one <- covered()
   frame <- as_geomorph(one$x, data = one$data)
   fit <- geomorph::procD.lm(coords ~ sex, data = frame, iter = 199, seed = 2)
-  compared <- compare_groups(one$x, frame$sex, permutations = RRPP:::perm.index(16, 199, seed = 2), tests = "shape", progress = FALSE)
+  compared <- compare_groups(one$x, frame$sex, permutations = RRPP:::perm.index(16, 199, seed = 2), tests = "shape",
+                             progress = FALSE)
   expect_equal(summary(fit)$table[1, "Pr(>F)"], compared$tests$p_value)
   expect_equal(summary(fit)$table[1, "Rsq"], compared$tests$share, tolerance = 1e-8)
   full <- RRPP::lm.rrpp(coords ~ log(size) + sex * age, data = as_rrpp(one$x, data = one$data), iter = 19)
   expect_equal(nrow(anova(full)$table), 6)
   back <- as_aligned(geomorph::gpagen(one$x, print.progress = FALSE, tol = 0, PrinAxes = FALSE))
-  expect_equal(dist(t(matrix(back$coords, 36))), dist(t(matrix(align(one$x)$coords, 36))), tolerance = 1e-6, ignore_attr = TRUE)
+  expect_equal(dist(t(matrix(back$coords, 36))), dist(t(matrix(align(one$x)$coords, 36))), tolerance = 1e-6,
+               ignore_attr = TRUE)
   expect_equal(unname(back$size), unname(align(one$x)$size))
 })
 

@@ -51,7 +51,8 @@ test_that("a known direction is found, and shapes along it", {
   base <- base / sqrt(sum(base^2))
   # Orthogonal to moves, turns and scaling, so that alignment changes it in second order only.
   nuisance <- cbind(as.vector(base), kronecker(diag(3), rep(1, 12)), as.vector(base %*% rbind(c(0, 1, 0), c(-1, 0, 0), 0)),
-                    as.vector(base %*% rbind(c(0, 0, 1), 0, c(-1, 0, 0))), as.vector(base %*% rbind(0, c(0, 0, 1), c(0, -1, 0))))
+                    as.vector(base %*% rbind(c(0, 0, 1), 0, c(-1, 0, 0))), as.vector(base %*% rbind(0, c(0, 0, 1),
+                                                                                                    c(0, -1, 0))))
   direction <- qr.resid(qr(nuisance), with_seed(1, rnorm(36)))
   direction <- direction / sqrt(sum(direction^2))
   at <- seq(-0.01, 0.01, length.out = 9)

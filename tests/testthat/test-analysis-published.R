@@ -32,13 +32,16 @@ test_that("gorillas (shapes): mean, components and Hotelling's test", {
   expect_lt(max(abs(both - flat(theirs$mshape))) / sqrt(sum(theirs$mshape^2)), 1e-5)
   expect_equal(unname(aligned$size), theirs$size, tolerance = 1e-10)
   expect_equal(100 * shape_pca(aligned)$share[1:5], theirs$percent[1:5], tolerance = 1e-4)
-  compared <- compare_groups(gorilla$x, gorilla$sex, components = 12, n_perm = 199, seed = 1, tests = c("size", "T2", "shape"), progress = FALSE)
+  compared <- compare_groups(gorilla$x, gorilla$sex, components = 12, n_perm = 199, seed = 1,
+                             tests = c("size", "T2", "shape"), progress = FALSE)
   expect_equal(as.vector(tapply(compared$aligned[[1]]$size, gorilla$sex, mean)),
-               c(mean(shapes::centroid.size(gorilla$x[, , 1:30])), mean(shapes::centroid.size(gorilla$x[, , 31:59]))), tolerance = 1e-10)
+               c(mean(shapes::centroid.size(gorilla$x[, , 1:30])),
+                 mean(shapes::centroid.size(gorilla$x[, , 31:59]))), tolerance = 1e-10)
   # Dryden and Mardia give F = 26.47 on 12 and 46 degrees of freedom.
   t2 <- compared$tests$statistic[compared$tests$test == "T2"]
   expect_equal(t2 * 46 / (12 * 57), 26.47, tolerance = 1e-4)
-  expect_equal(t2 * 46 / (12 * 57), shapes::testmeanshapes(gorilla$x[, , 1:30], gorilla$x[, , 31:59], resamples = 0)$H, tolerance = 2e-3)
+  expect_equal(t2 * 46 / (12 * 57), shapes::testmeanshapes(gorilla$x[, , 1:30], gorilla$x[, , 31:59], resamples = 0)$H,
+               tolerance = 2e-3)
 })
 
 test_that("skulls (Morpho's boneData): mean, sizes and components of their example", {

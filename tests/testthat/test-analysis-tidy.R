@@ -8,7 +8,8 @@ test_that("tidy tables have broom's names and the results' values", {
   points <- generics::tidy(compared, "points")
   expect_equal(points$estimate, compared$points$displacement)
   glanced <- generics::glance(compared)
-  expect_equal(glanced[c("nobs", "groups", "permutations", "exact")], data.frame(nobs = 11L, groups = 2L, permutations = 49L, exact = FALSE))
+  expect_equal(glanced[c("nobs", "groups", "permutations", "exact")],
+               data.frame(nobs = 11L, groups = 2L, permutations = 49L, exact = FALSE))
   expect_equal(glanced$p.value, compared$tests$p_value[2])
   pca <- compared$pca[[1]]
   expect_equal(generics::tidy(pca)$percent, pca$share)

@@ -4,7 +4,8 @@ bumped_balls <- function(n = 8, bump = 0.1) {
   xyz <- t(ball$vb[1:3, ])
   front <- exp(-8 * rowSums(sweep(xyz, 2, c(0, 0, 1))^2))
   balls <- with_seed(1, lapply(seq_len(2 * n), function(i) {
-    xyz * (1 + 0.02 * rnorm(1) * xyz[, 1]^2 + 0.02 * rnorm(1) * xyz[, 2] + (i > n) * bump * front + rnorm(nrow(xyz), sd = 0.003))
+    xyz * (1 + 0.02 * rnorm(1) * xyz[, 1]^2 + 0.02 * rnorm(1) * xyz[, 2] + (i > n) * bump * front + rnorm(nrow(xyz),
+                                                                                                          sd = 0.003))
   }))
   aligned <- align(simplify2array(balls), "ball", triangles = ball$it)
   compare_groups(aligned, rep(c("A", "B"), each = n), n_perm = 199, seed = 1, progress = FALSE)
