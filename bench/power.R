@@ -43,5 +43,5 @@ for (effect in effects) {
 }
 rows <- rows[order(rows$effect, match(rows$test, c("size t", "mean shape", "T2", "any point"))), ]
 write.csv(rows, file, row.names = FALSE, quote = FALSE)
-print(reshape(rows[c("effect", "level", "test", "rejected")], idvar = c("test", "level"), timevar = "effect", direction = "wide"),
-      row.names = FALSE)
+rows <- rows[c("effect", "level", "test", "rejected")]
+print(reshape(rows, idvar = c("test", "level"), timevar = "effect", direction = "wide"), row.names = FALSE)
