@@ -21,7 +21,10 @@
 #' @references The paper, section 5.3.
 #' @seealso [repeatability()]
 #' @examples
-#' arc <- function(n, r) cbind(r * cos(seq(0, 1, length.out = n)), r * sin(seq(0, 1, length.out = n)), 0)
+#' arc <- function(n, r) {
+#'   angle <- seq(0, 1, length.out = n)
+#'   cbind(r * cos(angle), r * sin(angle), 0)
+#' }
 #' curve_distance(list(arc = arc(9, 10)), list(arc = arc(9, 11)))
 #' curve_distance(list(arc = arc(9, 10)), list(arc = arc(30, 11)), between = "curves")
 #' @export

@@ -45,7 +45,7 @@
 #'   kernel machines, for the random fields.
 #' @seealso [true_points()], [face_effect()], [fit_shapes()], [compare_groups()]
 #' @examples
-#' faces <- simulate_faces(4, effect = 2, seed = 1)
+#' faces <- simulate_faces(2, effect = 2, seed = 1)
 #' faces
 #' faces$covariates
 #' true_points(faces)["pn", , ] # the tip of the nose on each face

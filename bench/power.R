@@ -5,7 +5,7 @@
 # Each data set is so many faces (half in each group) of simulate_faces() with its defaults but for `effect`, and without a
 # difference of size; the same random fields for every effect. Landmarks, curves and surface are the true places of the points
 # that fit_shape() finds on the template: what is compared is what the levels can see, not how well they are measured. A
-# test rejects where its p-value from 199 permutations is at most 0.05; "any point": the least family-wise p-value of all
+# test rejects where its p-value from 499 permutations is at most 0.05; "any point": the least family-wise p-value of all
 # points. Writes a row an effect, level and test: `effect` (mm in the middle of the places), `level`, `test`, `rejected`
 # (share of data sets), `datasets`, `faces`. The vignette "Sexual dimorphism" shows it.
 
@@ -19,14 +19,14 @@ effects <- c(0, 0.5, 1, 1.5, 2, 2.5, 3)
 
 template <- simulate_faces(1, scan = NULL, seed = 1)$template
 shape <- fit_shape(template, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
-triangles <- crestline:::model_triangles(shape$scheme)
+triangles <- subset(shape$scheme$triangles, part == "model", c("v1", "v2", "v3"))
 
 rejections <- function(effect, seed) {
   drawn <- simulate_faces(faces, effect, size_effect = 0, scan = NULL, seed = seed)
   places <- function(level) true_points(drawn, coords(shape, level))
   sample <- list(landmarks = align(places("landmarks"), "landmarks"), curves = align(places("curves"), "curves"),
-                 surface = align(places("surface"), "surface", triangles = triangles))
-  found <- compare_groups(sample, drawn$covariates$group, n_perm = 199, seed = seed, progress = FALSE)
+                 surface = align(places("surface"), "surface", triangles = t(as.matrix(triangles))))
+  found <- compare_groups(sample, drawn$covariates$group, n_perm = 499, seed = seed, progress = FALSE)
   points <- tapply(found$points$p_adjusted, factor(found$points$level, names(sample)), min, na.rm = TRUE)
   tests <- as.data.frame(found)
   tests <- tests[tests$test %in% c("size t", "mean shape", "T2"), c("level", "test", "p_value")]
@@ -43,5 +43,5 @@ for (effect in effects) {
 }
 rows <- rows[order(rows$effect, match(rows$test, c("size t", "mean shape", "T2", "any point"))), ]
 write.csv(rows, file, row.names = FALSE, quote = FALSE)
-print(reshape(rows[c("effect", "level", "test", "rejected")], idvar = c("test", "level"), timevar = "effect", direction = "wide"),
-      row.names = FALSE)
+rows <- rows[c("effect", "level", "test", "rejected")]
+print(reshape(rows, idvar = c("test", "level"), timevar = "effect", direction = "wide"), row.names = FALSE)

@@ -120,7 +120,6 @@ test_that("print and plot fit, and the table is there", {
   expect_lte(max(nchar(shown)), 100)
   expect_lte(length(shown), 16)
   expect_identical(as.data.frame(found), found$parts)
-  before <- graphics::par("mar")
   drawn <- drawn_pixels(plot(found), 600, 400)
   # Both halves have colours of errors (red above blue).
   coloured <- drawn[, , 1] - drawn[, , 3] > 0.3
