@@ -120,11 +120,11 @@ trial <- function(face, damage, pose, template) {
   unit <- if (is.null(face$unit)) 1 else face$unit
   seconds <- system.time(found <- tryCatch(find_landmarks(face$mesh, template), crestline_error = function(e) e))[["user.self"]]
   row <- data.frame(face = face$id, damage = damage, pose = pose, seconds = seconds)
-  if (inherits(found, "error")) return(cbind(row, landmark = NA, state = "refused", confidence = NA, error = NA, visible = NA, score = NA))
+  if (inherits(found, "error")) return(cbind(row, landmark = NA, state = "refused", confidence = NA, moved = NA, sd = NA, residual = NA, lost = NA, error = NA, visible = NA, score = NA))
   placing <- found$placing[match(rownames(face$landmarks), found$placing$landmark), ]
   there <- as.matrix(crestline:::surface_points(face$mesh, face$landmarks / unit)[1:3]) * unit
   visible <- sqrt(rowSums((there - face$landmarks)^2)) < 1
   error <- sqrt(rowSums((as.matrix(placing[c("x", "y", "z")]) * unit - face$landmarks)^2))
-  cbind(row, placing[c("landmark", "state", "confidence", "moved", "residual", "lost")], error = error, visible = visible, score = found$match$score,
+  cbind(row, placing[c("landmark", "state", "confidence", "moved", "sd", "residual", "lost")], error = error, visible = visible, score = found$match$score,
         row.names = NULL)
 }
