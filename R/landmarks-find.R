@@ -26,7 +26,7 @@
 #' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score above the setting
 #'   `refuse`).
 #' @references The paper, section 7.
-#' @seealso [landmark_template()]
+#' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

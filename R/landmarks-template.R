@@ -17,7 +17,7 @@
 #' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where there is a mirror, left is at positive x and
 #'   the mirror is x = 0), `landmarks` (k x 3, those that are found), `predicted` (k x 3), `unit`, `mirror`.
 #' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or `predicted` that name none of them.
-#' @seealso [find_landmarks()]
+#' @seealso [find_landmarks()], [calibrate_template()]
 #' @examples
 #' face_template()
 #' data(humface, package = "Rvcg")

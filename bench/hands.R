@@ -85,7 +85,6 @@ damages <- list(
     torso <- c(220, 110, 100) * ball$vb[1:3, ] * rep(wave, each = 3) + c(runif(1, -20, 20), -230, -60)
     neck <- c(60, 120, 60) * ball$vb[1:3, ] * rep(wave, each = 3) + c(0, -150, -90)
     n <- ncol(ball$vb)
-  
     behind <- function(xyz) !(xyz[2, ] > -75 & xyz[3, ] > -90)
     extra <- cbind(torso, neck)
     it <- cbind(ball$it, ball$it + n)
