@@ -85,6 +85,10 @@ cpp_geodesic_distances <- function(vb, it, places) {
     .Call(`_crestline_cpp_geodesic_distances`, vb, it, places)
 }
 
+cpp_align <- function(x, size, weight, reference, scaling, tolerance, rounds) {
+    .Call(`_crestline_cpp_align`, x, size, weight, reference, scaling, tolerance, rounds)
+}
+
 cpp_match_clouds <- function(xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine) {
     .Call(`_crestline_cpp_match_clouds`, xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine)
 }

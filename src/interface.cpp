@@ -1,6 +1,7 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
 #include "landmarks_rigid.h"
@@ -414,6 +415,18 @@ NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, Numeric
     checkUserInterrupt();
   }
   return out;
+}
+
+// scaling: 0 none, 1 to unit size, 2 full.
+// [[Rcpp::export]]
+List cpp_align(NumericVector x, IntegerVector size, NumericVector weight, NumericMatrix reference, int scaling,
+               double tolerance, int rounds) {
+  std::vector<double> coords(x.begin(), x.end());
+  crestline::Aligned aligned =
+      crestline::align_configurations(coords, size[0], size[1], size[2], weight.begin(), reference.begin(),
+                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds});
+  return List::create(_["coords"] = coords, _["mean"] = aligned.mean, _["size"] = aligned.size,
+                      _["moved"] = aligned.moved, _["converged"] = aligned.converged);
 }
 
 // xyz, normal: 3 x n; feature: features x n. Indices from 1, NA where there is none; distances in xyz.
