@@ -15,8 +15,9 @@
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the surface tells nothing:
 #'     placed by the others, perhaps off the mesh) or "absent" (the scan has no surface there); `confidence`, from 0 to 1, doubtful
-#'     below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2), with a and b the settings `moved` and `off`, and times the scan's own share
-#'     where its score is poor; `moved`, distance between the answers with and without curvature; `residual`, mean distance of the bent
+#'     below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with a, b and c the settings `moved`, `off` and `vague`, times
+#'     (1 - score) / (1 - `poor`) where the score is poor; `moved`, distance between the answers with and without curvature; `sd`, standard
+#'     deviation that is added by what the scan lacks; `residual`, mean distance of the bent
 #'     template from the scan about the landmark; `lost`, share of the template about it that has no counterpart; `x`, `y`, `z`, the
 #'     place, of absent ones too. Lengths in the unit of the mesh;
 #'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor to the template's unit), `scale`
@@ -25,7 +26,7 @@
 #' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score above the setting
 #'   `refuse`).
 #' @references The paper, section 7.
-#' @seealso [landmark_template()]
+#' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -95,10 +96,11 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   here <- local_evidence(prepared, local, bent, settings)
   residual <- pmax(here$residual, row_lengths(at - to_scan(bent$moved[-seq_len(n), , drop = FALSE])) * length)
   state <- ifelse(here$lost > settings$lost, "absent", "found")
-  confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2)
+  sd <- sqrt(pmax(bent$sd^2 - prepared$sd^2, 0))
+  confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 + (sd / settings$vague)^2)
   confidence <- confidence * min(1, (1 - laid$score) / (1 - settings$poor))
   found <- data.frame(landmark = rownames(own), state = state, confidence = ifelse(state == "absent", NA, confidence),
-                      moved = moved / length, residual = residual / length, lost = here$lost, x = at[, 1], y = at[, 2], z = at[, 3],
+                      moved = moved / length, sd = sd / length, residual = residual / length, lost = here$lost, x = at[, 1], y = at[, 2], z = at[, 3],
                       row.names = NULL)
   if (!nrow(template$predicted)) return(found)
   rbind(found, predicted_landmarks(template, found, to_scan))
@@ -133,7 +135,7 @@ predicted_landmarks <- function(template, found, to_scan) {
     from <- template$landmarks[on, , drop = FALSE]
     apply_similarity(own, similarity(from, to))
   }
-  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_, residual = NA_real_, lost = NA_real_,
+  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_, sd = NA_real_, residual = NA_real_, lost = NA_real_,
              x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
 }
 

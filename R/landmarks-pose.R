@@ -104,12 +104,12 @@ settled_pose <- function(template, cloud, settings) {
   all <- seq_len(nrow(template$anchors))
   tries <- list(list(1, FALSE, settings$tight), list(all, FALSE, settings$tight), list(1, TRUE, settings$tight),
                 list(all, FALSE, settings$loose), list(all, TRUE, settings$loose))
-  best <- list(misfit = Inf)
+  best <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, inverted = FALSE, cloud = cloud)
   for (one in tries) {
     seen <- if (one[[2]]) inverted_cloud(cloud) else cloud
     found <- best_pose(template, seen, one[[1]], one[[3]], settings)
     if (found$misfit < best$misfit) best <- c(found, list(inverted = one[[2]], cloud = seen))
-    if (best$misfit < Inf && best$score <= settings$poor) break
+    if (best$score <= settings$poor) break
   }
   best
 }

@@ -22,7 +22,8 @@
 #'     `warp_steps`; `error`: standard deviation of a match; `robust`: scale of the Cauchy weights; `along`: weight of a match's part along the
 #'     surface; `points`: number of the template's points; `thin`: of those for the first fits;
 #'   * `moved`: distance between the answers with and without curvature at which confidence is a half; `off`: the same of the
-#'     distance between template and scan about a landmark; `near`: radius of that; `lost`: share of points without a match about
+#'     distance between template and scan about a landmark; `vague`: the same of the standard deviation
+#'     that what the scan lacks adds; `near`: radius of what is about a landmark; `lost`: share of points without a match about
 #'     a landmark at which its place is missing.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not numeric.
@@ -36,7 +37,7 @@ find_settings <- function(...) {
                    cosine = 0.5, saturation = 5, poor = 0.55, refuse = 0.76, left_over = 0.5,
                    kernel_length = c(60, 30, 15), kernel_sd = c(4, 2.5, 1.5), affine = 5, uneven = 0.3, rank = 220,
                    weight = 80, warp_reach = c(15, 6), warp_steps = 20, error = 2, robust = 1.5, along = 0.1, points = 1200, thin = 200,
-                   moved = 2, off = 2.5, near = 8, lost = 0.5)
+                   moved = 2, off = 2.5, vague = 0.9, near = 8, lost = 0.4)
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))
   if (length(unknown) || (length(change) && is.null(names(change)))) {
@@ -66,7 +67,7 @@ print.find_settings <- function(x, ...) {
 #' @noRd
 scaled_settings <- function(settings, unit) {
   lengths <- c("cluster", "coarse", "bend", "feature", "apart", "reach", "saturation", "kernel_length", "kernel_sd", "affine",
-               "warp_reach", "error", "robust", "moved", "off", "near")
+               "warp_reach", "error", "robust", "moved", "off", "vague", "near")
   settings[lengths] <- lapply(settings[lengths], `*`, unit)
   settings$cap <- settings$cap / unit
   settings$weight <- settings$weight * unit^2

@@ -17,7 +17,7 @@
 #' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where there is a mirror, left is at positive x and
 #'   the mirror is x = 0), `landmarks` (k x 3, those that are found), `predicted` (k x 3), `unit`, `mirror`.
 #' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or `predicted` that name none of them.
-#' @seealso [find_landmarks()]
+#' @seealso [find_landmarks()], [calibrate_template()]
 #' @examples
 #' face_template()
 #' data(humface, package = "Rvcg")
@@ -92,7 +92,8 @@ moved_specimen <- function(specimen, rotation, origin) {
 #' A template with what matching needs: its cloud, anchors and displacements
 #'
 #' @param settings Of [find_settings()], as given.
-#' @return List: as [scan_cloud()]'s, with `landmarks` (k x 3), `basis` (see [warp_basis()]), `settings` (in the template's unit).
+#' @return List: as [scan_cloud()]'s, with `settings` (in the template's unit), `landmarks` (k x 3), `basis` (see [warp_basis()]), `sd`
+#'   (of the landmarks where every point has a match, see [warp_sd()]).
 #' @noRd
 prepared_template <- function(template, settings, threads) {
   scaled <- scaled_settings(settings, template$unit)
@@ -111,7 +112,12 @@ prepared_template <- function(template, settings, threads) {
 #' @noRd
 with_landmarks <- function(prepared, landmarks) {
   prepared$landmarks <- landmarks
-  prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), ncol(prepared$xyz), prepared$mirror, prepared$settings)
+  n <- ncol(prepared$xyz)
+  prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), n, prepared$mirror, prepared$settings)
+  rows <- lapply(prepared$basis, function(b) b[seq_len(n), ])
+  plane <- do.call(cbind, lapply(1:3, function(k) prepared$normal[k, ] * rows[[k]]))
+  root <- warp_root(rows, plane, rep(1 / prepared$settings$error^2, n), prepared$settings)
+  prepared$sd <- warp_sd(lapply(prepared$basis, function(b) b[-seq_len(n), , drop = FALSE]), root)
   prepared
 }
 

@@ -63,7 +63,7 @@ joined_basis <- function(full, share, factor, rank) {
 #' Fit the displacement of a template's points to a cloud in the template's frame
 #'
 #' @param weight Of curvature in the matches.
-#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`; of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
+#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see [warp_sd()]); of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
 #'   distance to it).
 #' @noRd
 fit_warp <- function(template, cloud, settings, weight) {
@@ -73,17 +73,18 @@ fit_warp <- function(template, cloud, settings, weight) {
   of <- function(x) weight * rbind(x$k1, x$k2)
   moved <- xyz
   reach <- settings$warp_reach[1] * (settings$warp_reach[2] / settings$warp_reach[1])^seq(0, 1, length.out = settings$warp_steps)
-  coefficients <- NULL
+  coefficients <- solved <- NULL
   for (step in seq_along(reach)) {
     found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step], settings$cosine)
     used <- which(!is.na(found$index) & !cloud$border[found$index])
     if (length(used) < 30) break
-    coefficients <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
+    solved <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
+    coefficients <- solved$coefficients
     moved <- xyz + displaced(basis, coefficients)
   }
   near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), settings$warp_reach[1], settings$cosine)
   list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients),
-       coefficients = coefficients, index = near$index, residual = near$distance)
+       coefficients = coefficients, sd = warp_sd(lapply(template$basis, function(b) b[-seq_len(n), , drop = FALSE]), solved$root), index = near$index, residual = near$distance)
 }
 
 match_points <- function(xyz, normal, feature, cloud, to_feature, reach, cosine) {
@@ -98,6 +99,7 @@ displaced <- function(basis, coefficients) {
 }
 
 #' Coefficients by penalised least squares: distances across the scan's surface count in full, along it by a share
+#' @return List: `coefficients`, `root` (Cholesky factor of their precision).
 #' @noRd
 solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
   normal <- t(cloud$normal[, at, drop = FALSE])
@@ -107,16 +109,37 @@ solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
   gap <- to - xyz[used, , drop = FALSE]
   rows <- lapply(basis, function(b) b[used, , drop = FALSE])
   plane <- do.call(cbind, lapply(1:3, function(k) normal[, k] * rows[[k]]))
-  left <- crossprod(plane * sqrt((1 - settings$along) * weight))
   right <- crossprod(plane, (1 - settings$along) * weight * row_products(gap, normal))
+  right <- right + unlist(lapply(1:3, function(k) crossprod(rows[[k]], settings$along * weight * gap[, k])))
+  root <- warp_root(rows, plane, weight, settings)
+  list(coefficients = drop(backsolve(root, forwardsolve(t(root), right))), root = root)
+}
+
+#' Cholesky factor of the precision of the coefficients
+#' @param rows Basis at the matched points; `plane`: the same along the normals.
+#' @noRd
+warp_root <- function(rows, plane, weight, settings) {
+  precision <- crossprod(plane * sqrt((1 - settings$along) * weight))
+  end <- cumsum(vapply(rows, ncol, 0L))
+  for (k in 1:3) {
+    part <- (end[k] - ncol(rows[[k]]) + 1):end[k]
+    precision[part, part] <- precision[part, part] + crossprod(rows[[k]] * sqrt(settings$along * weight))
+  }
+  diag(precision) <- diag(precision) + 1
+  chol(precision)
+}
+
+#' Standard deviation of displacements (root of the sum over x, y, z) that the matches leave
+#' @noRd
+warp_sd <- function(basis, root) {
+  if (is.null(root)) return(rep(Inf, nrow(basis[[1]])))
   sizes <- vapply(basis, ncol, 0L)
   end <- cumsum(sizes)
+  variance <- 0
   for (k in 1:3) {
-    part <- (end[k] - sizes[k] + 1):end[k]
-    left[part, part] <- left[part, part] + crossprod(rows[[k]] * sqrt(settings$along * weight))
-    right[part] <- right[part] + crossprod(rows[[k]], settings$along * weight * gap[, k])
+    row <- matrix(0, sum(sizes), nrow(basis[[k]]))
+    row[(end[k] - sizes[k] + 1):end[k], ] <- t(basis[[k]])
+    variance <- variance + colSums(forwardsolve(t(root), row)^2)
   }
-  diag(left) <- diag(left) + 1
-  root <- chol(left)
-  drop(backsolve(root, forwardsolve(t(root), right)))
+  sqrt(variance)
 }

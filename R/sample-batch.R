@@ -12,11 +12,17 @@
 #' not measured again as long as its input (the files' or specimen's content), the scheme, the settings and the package's
 #' version are the same; only the rest is sent to the workers. Failures are tried again.
 #'
+#' Where a mesh comes without landmarks they are found by `template`, see [find_landmarks()], and the specimen is refused where they are
+#' doubtful, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder.
+#'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s.
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
 #' @param landmarks With mesh files: their landmark files, one for each; `NULL`: the file beside each mesh with its name
-#'   and an extension of [read_landmarks()].
+#'   and an extension of [read_landmarks()], where there is one.
+#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's landmarks
+#'   are those of the face, else none.
+#' @param doubtful As in [check_placing()].
 #' @param ... Further arguments of [fit_shape()], the same for all.
 #' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
 #'   given some four times.
@@ -37,12 +43,14 @@
 #' shapes
 #' shapes[["ball 2"]]
 #' @export
-fit_shapes <- function(x, scheme, dir = NULL, landmarks = NULL, ..., chunk = NULL, progress = interactive()) {
+fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL, doubtful = 0, ...,
+                       chunk = NULL, progress = interactive()) {
   rlang::check_installed(c("future", "future.apply", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
   jobs <- batch_jobs(x, landmarks)
   files <- batch_files(names(jobs), dir)
+  jobs <- with_finder(jobs, files, template, doubtful, scheme)
   settings <- list(...)
   tasks <- Map(function(job, file, name) batch_task(job, file, name, scheme, settings), jobs, files, names(jobs))
   open <- !vapply(tasks, is_kept, NA)
@@ -168,13 +176,14 @@ job_key <- function(job, scheme, settings) {
   } else {
     job$specimen[c("mesh", "landmarks", "id")]
   }
-  rlang::hash(list(input, unclass(scheme), lapply(settings, unclass), as.character(utils::packageVersion("crestline"))))
+  rlang::hash(list(input, unclass(scheme), lapply(settings, unclass), job$finder$key, as.character(utils::packageVersion("crestline"))))
 }
 
 fit_job <- function(job, scheme, settings) {
   quiet <- function(code) suppressWarnings(code, classes = "crestline_warning")
   one <- job$specimen
   if (is.null(one)) one <- quiet(read_specimen(job$mesh, if (nzchar(job$landmarks)) job$landmarks))
+  if (!is.null(job$finder)) one <- quiet(found_specimen(one, job$finder))
   quiet(do.call(fit_shape, c(list(one, scheme), utils::modifyList(list(progress = FALSE), settings))))
 }
 

@@ -1,6 +1,6 @@
 # Landmarks without hands: success, accuracy, confidence and time on real faces, whole and damaged; what is no face.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses|accuracy|calibrated|curves|faceless|time ...]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses] [calibrated] [curves] [faceless]
 #
 # 19 landmarks (without t and oi), lengths in mm. A trial succeeds when the mean error over the landmarks that the scan still has is
 # below 6 mm. Poses are random rotations; noise, decimation and shoulders differ from pose to pose.
@@ -85,8 +85,6 @@ damages <- list(
     torso <- c(220, 110, 100) * ball$vb[1:3, ] * rep(wave, each = 3) + c(runif(1, -20, 20), -230, -60)
     neck <- c(60, 120, 60) * ball$vb[1:3, ] * rep(wave, each = 3) + c(0, -150, -90)
     n <- ncol(ball$vb)
-    at <- in_axes(face)
-    skin <- at[, at[2, ] > -90 | at[3, ] > -60]
     behind <- function(xyz) !(xyz[2, ] > -75 & xyz[3, ] > -90)
     extra <- cbind(torso, neck)
     it <- cbind(ball$it, ball$it + n)
@@ -120,11 +118,135 @@ trial <- function(face, damage, pose, template) {
   unit <- if (is.null(face$unit)) 1 else face$unit
   seconds <- system.time(found <- tryCatch(find_landmarks(face$mesh, template), crestline_error = function(e) e))[["user.self"]]
   row <- data.frame(face = face$id, damage = damage, pose = pose, seconds = seconds)
-  if (inherits(found, "error")) return(cbind(row, landmark = NA, state = "refused", confidence = NA, error = NA, visible = NA, score = NA))
+  if (inherits(found, "error")) return(cbind(row, landmark = NA, state = "refused", confidence = NA, moved = NA, sd = NA, residual = NA, lost = NA, error = NA, visible = NA, score = NA))
   placing <- found$placing[match(rownames(face$landmarks), found$placing$landmark), ]
   there <- as.matrix(crestline:::surface_points(face$mesh, face$landmarks / unit)[1:3]) * unit
   visible <- sqrt(rowSums((there - face$landmarks)^2)) < 1
   error <- sqrt(rowSums((as.matrix(placing[c("x", "y", "z")]) * unit - face$landmarks)^2))
-  cbind(row, placing[c("landmark", "state", "confidence", "moved", "residual", "lost")], error = error, visible = visible, score = found$match$score,
+  cbind(row, placing[c("landmark", "state", "confidence", "moved", "sd", "residual", "lost")], error = error, visible = visible, score = found$match$score,
         row.names = NULL)
+}
+
+# What is no face, or too little of one.
+faceless <- function() {
+  scaled <- function(mesh, size) {
+    mesh$vb[1:3, ] <- size * mesh$vb[1:3, ]
+    mesh
+  }
+  ball <- scaled(Rvcg::vcgSphere(5), 100)
+  bumpy <- ball
+  at <- ball$vb[1:3, ] / 100
+  bumpy$vb[1:3, ] <- rep(1 + 0.06 * sin(9 * at[1, ]) * cos(8 * at[2, ] + at[3, ]) + 0.05 * sin(7 * at[3, ] + 2), each = 3) * ball$vb[1:3, ]
+  data <- new.env()
+  utils::data("boneData", package = "Morpho", envir = data)
+  utils::data("dummyhead", package = "Rvcg", envir = data)
+  head <- data$dummyhead.mesh
+  at <- read_landmarks(system.file("extdata", "dummyhead_landmarks.csv", package = "crestline"))
+  back <- keep(list(mesh = head), drop(axes_of(at) %*% (head$vb[1:3, ] - at["pn", ]))[3, ] < -115)$mesh
+  face <- faces("scan_a")[[1]]
+  crop <- function(place) keep(face, sqrt(colSums((face$mesh$vb[1:3, ] - place)^2)) < 45)$mesh
+  cheek <- colMeans(face$landmarks[c("exL", "acL", "chL"), ]) + c(axes_of(face$landmarks)[1, ] * 20)
+  list(sphere = ball, `bumpy sphere` = bumpy, skull = data$skull_0144_ch_fe.mesh, `back of a head` = back,
+       `hand-sized crop, cheek` = crop(cheek), `hand-sized crop, eye` = crop(face$landmarks["exL", ]),
+       `hand-sized crop, mouth` = crop(face$landmarks["st", ]))
+}
+
+faceless_trial <- function(name, mesh) {
+  found <- tryCatch(find_landmarks(mesh, template), crestline_error = function(e) e)
+  if (inherits(found, "error")) return(data.frame(what = name, answer = "refused", score = NA, confident = 0))
+  confident <- sum(found$placing$state == "found" & found$placing$confidence >= 0.5)
+  data.frame(what = name, answer = if (found$match$doubtful) "doubtful" else "an answer", score = found$match$score, confident = confident)
+}
+
+# Results ---------------------------------------------------------------------------------------------------------------------
+
+doubted <- function(x) x$state == "absent" | x$confidence < 0.5
+
+# `poses` of scan_a and template_male each, and as many of simpop's faces in a pose each.
+run_poses <- function(poses = 10) {
+  all <- faces()
+  cases <- c(rep(all[1:2], each = poses), all[2 + round(seq(1, length(all) - 2, length.out = poses))])
+  pose <- c(rep(seq_len(poses), 2), seq_len(poses))
+  rows <- lapply(names(damages), function(damage) {
+    do.call(rbind, Map(function(face, pose) trial(face, damage, pose, template), cases, pose))
+  })
+  do.call(rbind, rows)
+}
+
+show_poses <- function(x) {
+  x$error[is.na(x$error)] <- Inf
+  visible <- x[is.na(x$visible) | x$visible, ]
+  key <- paste(visible$face, visible$pose)
+  for (damage in names(damages)) {
+    at <- visible$damage == damage
+    mean_error <- tapply(visible$error[at], key[at], mean)
+    good <- mean_error < 6
+    cat(sprintf("%-17s %3.0f %% of %d trials; mean error %.2f mm (median face), 95 %% of landmarks within %.1f; %.1f user s\n", damage,
+                100 * mean(good), length(good), median(mean_error), quantile(visible$error[at], 0.95), mean(visible$seconds[at])))
+  }
+  set <- sub("simpop.*", "simpop", x$face)
+  cat("whole scans, mean error by set:", paste(unique(set), round(tapply(x$error[x$damage == "whole"], set[x$damage == "whole"], mean)[unique(set)], 2)), "\n")
+  far <- visible$error > 5
+  near <- visible$error < 3
+  cat(sprintf("flagged: %.0f %% of the %d that are more than 5 mm off, %.1f %% of the %d within 3 mm; of %d missing, %.0f %% called absent\n",
+              100 * mean(doubted(visible)[far]), sum(far), 100 * mean(doubted(visible)[near]), sum(near), sum(!x$visible, na.rm = TRUE),
+              100 * mean(x$state[which(!x$visible)] == "absent")))
+  cat("unflagged and more than 5 mm off, by set and landmark:\n")
+  left <- visible[far & !doubted(visible), ]
+  print(table(sub("simpop.*", "simpop", left$face), left$landmark))
+}
+
+errors_of <- function(face, template) {
+  placing <- find_landmarks(face$mesh, template)$placing
+  placing <- placing[match(rownames(face$landmarks), placing$landmark), ]
+  data.frame(face = face$id, placing[c("landmark", "state", "confidence")],
+             error = sqrt(rowSums((as.matrix(placing[c("x", "y", "z")]) - face$landmarks)^2)))
+}
+
+run_calibrated <- function(train = c(3, 10, 17)) {
+  all <- faces()
+  placed <- function(face) specimen(face$mesh, face$landmarks, id = face$id)
+  sets <- all[-(1:2)]
+  mine <- calibrate_template(template, lapply(sets[train], placed))
+  rest <- do.call(rbind, lapply(sets[-train], errors_of, mine))
+  plain <- do.call(rbind, lapply(sets[-train], errors_of, template))
+  cat(sprintf("simpop, 20 faces: uncalibrated %.2f mm, calibrated on three %.2f mm; flagged %.1f %%\n", mean(plain$error), mean(rest$error),
+              100 * mean(doubted(rest))))
+  other <- calibrate_template(template, list(placed(all$template_male)))
+  cat(sprintf("scan_a: uncalibrated %.2f mm, calibrated on template_male %.2f mm\n", mean(errors_of(all$scan_a, template)$error),
+              mean(errors_of(all$scan_a, other)$error)))
+}
+
+run_faceless <- function() {
+  all <- faceless()
+  print(do.call(rbind, Map(faceless_trial, names(all), all)), row.names = FALSE)
+}
+
+# Curves of scan_a from found landmarks beside those from placed ones: RMS distance of each from the other.
+run_curves <- function() {
+  face <- faces("scan_a")[[1]]
+  folder <- file.path(shared, "scan_a")
+  given <- read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"), id = "scan_a")
+  by_hand <- fit_shape(given, face_scheme(), progress = FALSE)
+  alone <- fit_shape(find_landmarks(given), face_scheme(), progress = FALSE)
+  distance <- function(curve) {
+    a <- by_hand$paths[[curve]]
+    b <- alone$paths[[curve]]
+    if (is.null(a) || is.null(b)) return(NA)
+    to_path <- function(p, q) min(colSums((t(as.matrix(q[c("x", "y", "z")])) - p)^2))
+    one <- function(p, q) apply(as.matrix(p[c("x", "y", "z")]), 1, to_path, q)
+    sqrt(mean(c(one(a, b), one(b, a))))
+  }
+  print(data.frame(curve = face_scheme()$curves$curve, rms = round(vapply(face_scheme()$curves$curve, distance, 0), 2)), row.names = FALSE)
+}
+
+parts <- list(poses = function() {
+  rows <- run_poses()
+  saveRDS(rows, file.path(tempdir(), "poses.rds"))
+  show_poses(rows)
+}, calibrated = run_calibrated, curves = run_curves, faceless = run_faceless)
+asked <- commandArgs(TRUE)
+for (part in if (length(asked)) asked else names(parts)) {
+  cat("\n", part, "\n", sep = "")
+  parts[[part]]()
 }
