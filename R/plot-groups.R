@@ -31,7 +31,8 @@
 #' ball <- Rvcg::vcgSphere(3)
 #' xyz <- t(ball$vb[1:3, ])
 #' balls <- lapply(1:20, function(i) {
-#'   xyz * (1 + 0.03 * rnorm(1) * xyz[, 1]^2 + (i > 10) * 0.05 * exp(-20 * rowSums(sweep(xyz, 2, c(0, 0, 1))^2)))
+#'   bump <- exp(-20 * rowSums(sweep(xyz, 2, c(0, 0, 1))^2))
+#'   xyz * (1 + 0.03 * rnorm(1) * xyz[, 1]^2 + (i > 10) * 0.05 * bump)
 #' })
 #' aligned <- align(simplify2array(balls), "ball", triangles = ball$it)
 #' compared <- compare_groups(aligned, rep(c("A", "B"), each = 10), n_perm = 200, seed = 1)
