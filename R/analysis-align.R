@@ -60,6 +60,7 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   whole <- complete_configurations(given, missing)
   weight <- point_weights(weights, whole)
   fit <- fit_alignment(whole, weight, scaling, tolerance, rounds)
+  check_extent(fit$size)
   if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
   coords <- fit$coords
   if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
@@ -160,8 +161,9 @@ check_array <- function(x, call) {
                     "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
                     call = call)
   }
-  if (any(is.infinite(x))) crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", "align",
-                                           call = call)
+  if (any(is.infinite(x))) {
+    crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", stage = "align", call = call)
+  }
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
     crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]), "Name each of its own.",
@@ -212,6 +214,13 @@ point_areas <- function(xyz, triangles) {
 #' @noRd
 mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
   fit_alignment(whole, rep(1, dim(whole$coords)[1]), 1L, tolerance, rounds)$mean
+}
+
+check_extent <- function(size, call = rlang::caller_env()) {
+  at <- which(!(size > 0))
+  if (length(at)) {
+    crestline_abort("all its points coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
+  }
 }
 
 warn_alignment <- function(rounds, moved) {

@@ -82,6 +82,7 @@ before_projection <- function(aligned) {
 #'   array of
 #'   aligned configurations.
 #' @param size Centroid sizes; `NULL`: those that `x` has (`size`, `Csize`), else of `coords`.
+#' @param triangles As in [align()].
 #' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
 #' @export
 as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {

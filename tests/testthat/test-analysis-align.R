@@ -167,6 +167,11 @@ test_that("what cannot be aligned is refused", {
   expect_crestline_error(align(x[, , 1]), "k x 3 x n")
   expect_crestline_error(align(x[, , 1, drop = FALSE]), "one specimen")
   expect_crestline_error(align(x, scale = 2), c("`scale`", "full"))
+  same <- x
+  same[, , 3] <- 1
+  expect_crestline_error(align(same), "coincide", id = "3")
+  same[1] <- Inf
+  expect_crestline_error(align(same), "infinite")
   expect_crestline_error(align(x, weights = 1:3), "`weights`")
   expect_crestline_error(align(x, weights = "area"), "triangles")
   expect_crestline_error(align(x, triangles = diag(3)), "`triangles`")
