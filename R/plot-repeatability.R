@@ -51,7 +51,7 @@ plot_part_errors <- function(x, most, palette, ...) {
   colour <- error_colours(parts$error, x, palette)
   graphics::segments(0, at, parts$error, at, col = colour, lwd = 2)
   graphics::points(parts$error, at, pch = 21, bg = colour, col = "grey20", cex = 0.9)
-  graphics::axis(2, at, parts$part, tick = FALSE, cex.axis = scale, line = -0.6)
+  graphics::axis(2, at, parts$part, tick = FALSE, cex.axis = scale, line = -0.3)
   graphics::axis(4, at, sprintf("%.2f", parts$icc), tick = FALSE, cex.axis = scale, line = -0.6)
   graphics::mtext("ICC", 4, line = 0.4, at = nrow(parts) + 1, cex = 0.8)
   graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA, inset = c(0, -0.05),
