@@ -5,17 +5,18 @@
 #' Cells are laid about the centroid, so that neither pose nor the axes' signs matter.
 #'
 #' @param vertex n x 3.
-#' @return Indices of the vertices nearest to the means of their cells.
+#' @return Indices of the vertices nearest to the middles of their cells.
 #' @noRd
 cell_vertices <- function(vertex, cell) {
   centred <- sweep(vertex, 2, colMeans(vertex))
   turned <- centred %*% eigen(crossprod(centred), symmetric = TRUE)$vectors
   at <- round(turned / cell)
+  off <- row_lengths(turned - cell * at)
   at <- sweep(at, 2, apply(at, 2, min))
   span <- apply(at, 2, max) + 1
-  group <- match(key <- at[, 1] + span[1] * (at[, 2] + span[2] * at[, 3]), unique(key))
-  mean <- rowsum(turned, group, reorder = FALSE) / tabulate(group)
-  sorted <- order(group, row_lengths(turned - mean[group, , drop = FALSE]))
+  key <- at[, 1] + span[1] * (at[, 2] + span[2] * at[, 3])
+  group <- match(key, unique(key))
+  sorted <- order(group, off)
   sorted[!duplicated(group[sorted])]
 }
 

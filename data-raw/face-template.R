@@ -48,7 +48,8 @@ onto_face <- function(template, face, points, length = 15, nugget = 0.05) {
   kernel <- function(a, b) exp(-pmax(outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b), 0) / (2 * length^2))
   weights <- solve(kernel(template$landmarks, template$landmarks) + diag(nugget, k), to - moved[1:k, ])
   moved <- moved + kernel(prepared$landmarks, template$landmarks) %*% weights
-  list(landmarks = to, points = moved[-(1:k), ])
+  ears <- t(crossprod(matrix(pose[1:9], 3), t(face$landmarks[rownames(template$predicted), ]) - pose[10:12]))
+  list(landmarks = to, points = moved[-(1:k), ], ears = ears)
 }
 
 landmark_pose <- function(from, to) {
@@ -83,7 +84,7 @@ moved <- onto_face(template, face, vertex)
 mesh <- template$specimen$mesh
 mesh$vb[1:3, ] <- t((vertex + moved$points) / 2)
 mesh$vb[1:3, ] <- t(symmetric_vertices(mesh))
-both <- rbind((template$landmarks + moved$landmarks) / 2, template$predicted)
+both <- rbind(template$landmarks + moved$landmarks, template$predicted + moved$ears) / 2
 landmarks <- symmetric_landmarks(both)
 found <- setdiff(rownames(landmarks), ears)
 landmarks[found, ] <- as.matrix(internal$surface_points(mesh, landmarks[found, ])[1:3])
