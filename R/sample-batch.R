@@ -25,7 +25,7 @@
 #' @param doubtful As in [check_placing()].
 #' @param ... Further arguments of [fit_shape()], the same for all.
 #' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
-#'   given some four times.
+#'   given two lots. Small lots cost more starts, large ones more waiting at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
 #' @return Object of class `shape_batch`: a list of shapes by name of specimen (its id, or the file's name), `NULL` where it failed.
 #'   With `dir`, `x[[i]]` reads a shape from its file, and so does `as.list(x)` with all of them; `print(x)` counts.
@@ -78,7 +78,7 @@ is_kept <- function(task) !is.null(task$key) && identical(read_kept(task$file, "
 #' @return List of what [measure_task()] returns.
 #' @noRd
 measure_tasks <- function(tasks, scheme, settings, chunk, poll = 0.05) {
-  if (is.null(chunk)) chunk <- ceiling(length(tasks) / (4 * future::nbrOfWorkers()))
+  if (is.null(chunk)) chunk <- ceiling(length(tasks) / (2 * future::nbrOfWorkers()))
   rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll))
   tick <- progressr::progressor(steps = length(tasks))
   future.apply::future_lapply(tasks, function(task) {
