@@ -51,7 +51,7 @@ seconds_with <- function(workers, files) {
   invisible(fit_shapes(files[seq_len(workers)], scheme))
   processes <- pids(workers)
   before <- vapply(processes, times_of, c(0, 0))
-  seconds <- system.time(shapes <- fit_shapes(files, scheme))[["elapsed"]]
+  seconds <- system.time(shapes <- fit_shapes(files, scheme, tempfile("out-")))[["elapsed"]]
   took <- vapply(processes, times_of, c(0, 0)) - before
   stopifnot(nrow(failures(shapes)) == 0)
   slowest <- if (workers == 1) 1 else 1 + which.max(seconds - took[2, -1])
