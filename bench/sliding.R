@@ -331,7 +331,7 @@ morpho <- function(noise = 0, moved = 0) {
 
 # All faces at once, against their own mean: slider3d until it stands still or so many iterations; then ours from the same
 # start against the mean that it has come to.
-slider3d <- function(iterations = as.integer(Sys.getenv("CRESTLINE_ITERATIONS", "10"))) {
+against_slider3d <- function(iterations = 10) {
   if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
   start <- morpho_start(0, 0)
   x <- simplify2array(lapply(start$stores, function(store) store[start$place, 1:3]))
@@ -357,5 +357,5 @@ slider3d <- function(iterations = as.integer(Sys.getenv("CRESTLINE_ITERATIONS", 
 }
 
 sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho,
-                 "morpho-noise" = function() morpho(0.2, 1), slider3d = slider3d)
+                 "morpho-noise" = function() morpho(0.2, 1), slider3d = against_slider3d)
 for (name in wanted) sections[[name]]()
