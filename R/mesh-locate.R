@@ -61,10 +61,12 @@ nearest_faces <- function(mesh, xyz, candidates) {
   farthest <- row_lengths(xyz - centre[tried[, ncol(tried)], , drop = FALSE])
   # One part in a thousand for the k-d tree's single precision.
   unsettled <- which(0.999 * farthest - max(reach) <= best$distance)
+  # At a corner the gap of its own face is 0 but for rounding.
+  rounding <- 1e-12 * max(reach)
   for (i in if (ncol(tried) < nrow(centre)) unsettled) {
     gap <- sqrt(colSums((t(centre) - xyz[i, ])^2)) - reach
     all <- best_of_candidates(xyz[i, , drop = FALSE], corners,
-                              matrix(which(gap <= best$distance[i] * (1 + 1e-12)), 1))
+                              matrix(which(gap <= best$distance[i] * (1 + 1e-12) + rounding), 1))
     best$face[i] <- all$face
     best$weight[i, ] <- all$weight
   }

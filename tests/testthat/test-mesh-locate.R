@@ -35,6 +35,16 @@ test_that("uneven faces do not mislead the candidates", {
   expect_equal(found$z, c(1, 0))
 })
 
+test_that("corners of small faces are found beside a huge one", {
+  # With a huge face all faces are searched; a corner is as near as its face can be, but for rounding.
+  set.seed(1)
+  middle <- cbind(rep(1:10, 10), rep(1:10, each = 10), 0)
+  corners <- middle[rep(1:100, each = 3), ] + runif(900, -0.3, 0.3)
+  huge <- rbind(c(-1000, -1000, 1), c(3000, -1000, 1), c(-1000, 3000, 1))
+  mesh <- structure(list(vb = rbind(t(rbind(corners, huge)), 1), it = matrix(1:303, 3)), class = "mesh3d")
+  expect_equal(as.matrix(surface_points(mesh, corners)[1:3]), corners, ignore_attr = TRUE, tolerance = tolerances$rounding)
+})
+
 test_that("points of the mesh come back to themselves; NA stays NA", {
   mesh <- ball_mesh()
   p <- rbind(t(mesh$vb[1:3, 1:20]), NA)

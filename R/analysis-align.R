@@ -1,0 +1,234 @@
+# Generalised Procrustes alignment of a sample.
+
+#' Align a sample
+#'
+#' Generalised Procrustes alignment: every configuration is centred, scaled and turned so that the sum of squared distances
+#' from their mean is least. Where all are complete, mean and sizes are those of `geomorph::gpagen()` (`scale = TRUE`) and
+#' of `Morpho::procSym()` (`scale = "full"` is its default), taken to convergence.
+#'
+#' Missing points take no part in a first alignment. Then they are put where the thin-plate spline from its mean onto the
+#' points that the specimen has takes them (`missing = "estimate"`, of least bending energy), or are left out of all
+#' specimens (`"drop"`).
+#'
+#' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array (k x 2 x n for flat
+#'   configurations) of homologous points, NA where missing.
+#' @param level "landmarks", "curves" or "surface"; of an array only a name.
+#' @param scale `TRUE`: to unit centroid size (partial Procrustes); `"full"`: by the factor that brings each nearest to the
+#'   mean (full Procrustes); `FALSE`: sizes are kept, size and shape together.
+#' @param weights `NULL`: all points count alike. "area": every point by the area of the surface that is nearest to it, a
+#'   third of its triangles' on the mean (level "surface", or with `triangles`); points without triangles count
+#'   0. "places": points that coincide, such as the common end of two curves, count as one. Or k numbers, none negative.
+#' @param missing What to do with missing points: "estimate", "drop" or "stop" (an error).
+#' @param tangent Whether scaled configurations are projected onto the space tangent to the sphere of shapes at the mean.
+#' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for pictures and areas.
+#' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its centroid size.
+#' @param rounds Most rounds.
+#' @return Object of class `aligned`, a list:
+#'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of unit size where scaled;
+#'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete configuration);
+#'   * `size`: n centroid sizes, in the unit of the meshes: the root of the (weighted) sum of squared distances from the
+#'     (weighted) centre, before scaling;
+#'   * `weights`: k, of mean 1; `scale`, `tangent`, `level`;
+#'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated", "dropped");
+#'   * `moved`: the greatest move of the mean by round;
+#'   * `triangles`: 3 x m, rows of `mean`, or `NULL`.
+#'
+#'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from the mean, in the unit of
+#'   `coords`), `missing` (number of points).
+#' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a
+#'   specimen with too few points to fit, missing points with `missing = "stop"`.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
+#' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
+#'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
+#'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
+#' @seealso [shape_pca()], [compare_groups()], [as_geomorph()]
+#' @examples
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
+#' shapes <- shapes + rnorm(120, sd = 0.05)
+#' aligned <- align(shapes)
+#' aligned
+#' head(as.data.frame(aligned))
+#' @export
+align <- function(sample, level = c("landmarks", "curves", "surface"), scale = TRUE, weights = NULL,
+                  missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
+                  rounds = 200) {
+  missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
+  scaling <- check_scaling(scale)
+  tolerance <- check_number(tolerance, "tolerance", lower = 0)
+  rounds <- check_count(rounds, "rounds")
+  given <- configurations(sample, level, triangles)
+  whole <- complete_configurations(given, missing)
+  weight <- point_weights(weights, whole)
+  fit <- fit_alignment(whole, weight, scaling, tolerance, rounds)
+  if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
+  coords <- fit$coords
+  if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
+  structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, scale = scale,
+                 tangent = tangent && scaling > 0, level = given$level, missing = whole$missing, moved = fit$moved,
+                 triangles = whole$triangles), class = "aligned")
+}
+
+check_scaling <- function(scale, call = rlang::caller_env()) {
+  if (isTRUE(scale)) return(1L)
+  if (isFALSE(scale)) return(0L)
+  if (identical(scale, "full")) return(2L)
+  crestline_abort(sprintf("`scale` is %s.", describe_value(scale)), "Choose TRUE, \"full\" or FALSE.", stage = "arguments",
+                  call = call)
+}
+
+#' The kernel with names put back
+#' @return List: `coords`, `mean`, `size`, `moved`, `converged`.
+#' @noRd
+fit_alignment <- function(whole, weight, scaling, tolerance, rounds) {
+  x <- whole$coords
+  fit <- cpp_align(x, dim(x), weight, whole$reference, scaling, tolerance, rounds)
+  fit$coords <- array(fit$coords, dim(x), dimnames(x))
+  fit$mean <- matrix(fit$mean, dim(x)[1], dim(x)[2], dimnames = dimnames(x)[1:2])
+  names(fit$size) <- dimnames(x)[[3]]
+  fit
+}
+
+#' Onto the plane that touches the sphere of unit size at the mean
+#' @noRd
+tangent_projection <- function(coords, mean, weight) {
+  flat <- matrix(coords, length(mean))
+  off <- 1 - drop(crossprod(flat, as.vector(mean * weight)))
+  array(flat + outer(as.vector(mean), off), dim(coords), dimnames(coords))
+}
+
+#' What an argument `sample` gives
+#'
+#' @return List: `coords` (k x d x n with names), `reference` (k x d: where the result is laid, or `NULL`), `triangles`
+#'   (3 x m or `NULL`), `places` (k: points that coincide share one), `level`.
+#' @noRd
+configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
+  if (inherits(sample, "shape_sample")) {
+    level <- check_choice(level, c("landmarks", "curves", "surface"), "level", call)
+    scheme <- sample$template$scheme
+    coords <- as.array(sample, level)
+    if (level == "surface" && is.null(triangles)) triangles <- model_triangles(scheme)
+    reference <- coords(sample$template, level)
+    places <- scheme$points$place[scheme$points$level == level]
+  } else {
+    coords <- named_array(check_array(sample, call))
+    level <- if (is.character(level) && length(level) == 1) level else "points"
+    reference <- NULL
+    places <- dimnames(coords)[[1]]
+  }
+  ids <- dimnames(coords)[[3]]
+  if (length(ids) < 2) {
+    crestline_abort("there is one specimen only.", "Give two or more.", stage = "align", call = call)
+  }
+  list(coords = coords, reference = reference, triangles = check_triangles(triangles, dim(coords)[1], call),
+       places = places, level = level)
+}
+
+model_triangles <- function(scheme) {
+  own <- scheme$triangles[scheme$triangles$part == "model", c("v1", "v2", "v3")]
+  if (nrow(own)) unname(t(as.matrix(own)))
+}
+
+check_triangles <- function(triangles, k, call) {
+  if (is.null(triangles)) return(NULL)
+  ok <- is.matrix(triangles) && nrow(triangles) == 3 && is.numeric(triangles) && all(triangles %in% seq_len(k))
+  if (!ok) {
+    crestline_abort("`triangles` is no matrix of three rows with numbers of points.",
+                    "Give the `it` of a mesh whose vertices are the points.", stage = "align", call = call)
+  }
+  matrix(as.integer(triangles), 3)
+}
+
+check_array <- function(x, call) {
+  if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
+    size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else describe_value(x)
+    crestline_abort(sprintf("`sample` is %s.", size),
+                    "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
+                    call = call)
+  }
+  if (any(is.infinite(x))) crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", "align", call = call)
+  ids <- dimnames(x)[[3]]
+  if (anyDuplicated(ids)) {
+    crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]), "Name each of its own.",
+                    stage = "align", call = call)
+  }
+  x
+}
+
+named_array <- function(x) {
+  names <- if (is.null(dimnames(x))) list(NULL, NULL, NULL) else dimnames(x)
+  fill <- list(seq_len(dim(x)[1]), c("x", "y", "z")[seq_len(dim(x)[2])], seq_len(dim(x)[3]))
+  dimnames(x) <- Map(function(own, other) if (is.null(own)) as.character(other) else own, unname(names), fill)
+  x
+}
+
+#' k weights of mean 1
+#' @noRd
+point_weights <- function(weights, whole, call = rlang::caller_env()) {
+  k <- dim(whole$coords)[1]
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call)
+  if (is.null(weights)) return(rep(1, k))
+  if (identical(weights, "places")) {
+    weights <- 1 / as.vector(table(whole$places)[whole$places])
+  } else if (identical(weights, "area")) {
+    if (is.null(whole$triangles)) fail("there are no triangles to take areas of.", "Give `triangles`, or another `weights`.")
+    weights <- point_areas(mean_of_sizes(whole), whole$triangles)
+  } else if (!is.numeric(weights) || length(weights) != whole$given || any(!is.finite(weights)) || any(weights < 0)) {
+    fail(sprintf("`weights` is %s.", describe_value(weights)),
+         sprintf("Give \"area\", \"places\" or %d numbers, none of them negative.", whole$given))
+  } else {
+    weights <- weights[whole$kept]
+  }
+  if (sum(weights > 0) < 3) fail("fewer than three points have a weight.", "Give weights above 0.")
+  weights * k / sum(weights)
+}
+
+#' A third of the area of every point's triangles
+#' @noRd
+point_areas <- function(xyz, triangles) {
+  a <- xyz[triangles[1, ], , drop = FALSE]
+  u <- xyz[triangles[2, ], , drop = FALSE] - a
+  v <- xyz[triangles[3, ], , drop = FALSE] - a
+  area <- sqrt(pmax(0, rowSums(u^2) * rowSums(v^2) - rowSums(u * v)^2)) / 2
+  as.vector(tapply(rep(area / 3, each = 3), factor(triangles, seq_len(nrow(xyz))), sum, default = 0))
+}
+
+#' The Procrustes mean that areas are taken on
+#' @noRd
+mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
+  fit_alignment(whole, rep(1, dim(whole$coords)[1]), 1L, tolerance, rounds)$mean
+}
+
+warn_alignment <- function(rounds, moved) {
+  crestline_warn(sprintf("after %d rounds the mean still moves, by %.2g of its size.", rounds, moved),
+                 "Give more `rounds`, or a larger `tolerance`.", stage = "align", class = "crestline_not_converged")
+}
+
+#' @rdname align
+#' @param x An `aligned`.
+#' @param row.names,optional,... Ignored.
+#' @export
+as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
+  off <- sweep(x$coords, 1:2, x$mean)
+  distance <- sqrt(colSums(matrix(off^2 * x$weights, length(x$mean))))
+  ids <- dimnames(x$coords)[[3]]
+  data.frame(id = ids, size = unname(x$size), distance = distance,
+             missing = as.vector(table(factor(x$missing$id, ids))))
+}
+
+#' @export
+print.aligned <- function(x, ...) {
+  n <- dim(x$coords)[3]
+  cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
+      if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",
+      if (x$tangent) ", in tangent space", "\n", sep = "")
+  table <- as.data.frame(x)
+  cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size), max(table$size)))
+  cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n", sqrt(mean(table$distance^2)),
+              max(table$distance), table$id[which.max(table$distance)]))
+  if (nrow(x$missing)) {
+    text <- paste0("missing and ", x$missing$action[1], ": ", amount(nrow(x$missing), "point"), " of ",
+                   shorten(unique(x$missing$id), 8))
+    cat(strwrap(text, indent = 2, exdent = 4), sep = "\n")
+  }
+  invisible(x)
+}

@@ -1,0 +1,142 @@
+# Section 5.3 of the paper: how far two sets of curves are apart.
+
+#' Distance between two sets of curves
+#'
+#' Curve by curve: the same specimen measured twice, by two people or programs, or an estimate and its truth. Either as
+#' they lie, or once the second set is laid onto the first by rotation and shift (Procrustes, all points of all curves
+#' together; sizes are kept unless `scale = TRUE`).
+#'
+#' @param a,b Sets of curves: `shape`s, as of [fit_shape()]; named lists of k x 3 matrices, one a curve, as of
+#'   [read_curves()]; or k x 3 matrices with row names "curve point", as of [coords()].
+#' @param match "none": as they lie; "procrustes": b is laid onto a first.
+#' @param between "points": from each point to the one of the same number. "curves": from each point of either to the nearest
+#'   place of the other's polyline, so that numbers and spacing of points do not count.
+#' @param level Of shapes: "curves", "landmarks" or "surface".
+#' @param scale Whether matching also brings b to the size of a.
+#' @return Data frame of class `curve_distance`, a row a part that either has: `part`, `points` (number of distances), and,
+#'   in the unit of the curves (mm for faces), `rms` (root mean square), `mean` and `max`; NA for parts that one of them
+#'   lacks. Missing points are left out. The attribute `all` is such a row for all points together.
+#' @section Errors: of class `crestline_error`: no sets of curves, no part in common, different numbers of points where
+#'   points are compared or matched.
+#' @references The paper, section 5.3.
+#' @seealso [repeatability()]
+#' @examples
+#' arc <- function(n, r) cbind(r * cos(seq(0, 1, length.out = n)), r * sin(seq(0, 1, length.out = n)), 0)
+#' curve_distance(list(arc = arc(9, 10)), list(arc = arc(9, 11)))
+#' curve_distance(list(arc = arc(9, 10)), list(arc = arc(30, 11)), between = "curves")
+#' @export
+curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("points", "curves"), level = "curves",
+                           scale = FALSE) {
+  match <- check_choice(match, c("none", "procrustes"), "match")
+  between <- check_choice(between, c("points", "curves"), "between")
+  a <- curve_list(a, level, "a")
+  b <- curve_list(b, level, "b")
+  both <- intersect(names(a), names(b))
+  if (!length(both)) {
+    crestline_abort(sprintf("`a` (%s) and `b` (%s) have no part in common.", shorten(names(a), 3), shorten(names(b), 3)),
+                    "Give the curves the same names.", stage = "distance")
+  }
+  if (between == "points" || match == "procrustes") check_same_counts(a[both], b[both])
+  if (match == "procrustes") b <- laid_curves(b, a, both, scale)
+  measure <- switch(between, points = point_distances, curves = nearest_distances)
+  apart <- Map(function(x, y) measure(x, y), a[both], b[both])
+  parts <- union(names(a), names(b))
+  table <- do.call(rbind, lapply(parts, function(part) distance_row(part, apart[[part]])))
+  structure(table, all = distance_row("all", unlist(apart)), match = match, between = between,
+            class = c("curve_distance", "data.frame"))
+}
+
+distance_row <- function(part, distance) {
+  distance <- distance[!is.na(distance)]
+  known <- length(distance) > 0
+  data.frame(part = part, points = length(distance), rms = if (known) sqrt(mean(distance^2)) else NA_real_,
+             mean = if (known) mean(distance) else NA_real_, max = if (known) max(distance) else NA_real_)
+}
+
+#' A set of curves as a named list of k x 3 matrices
+#' @noRd
+curve_list <- function(x, level, name, call = rlang::caller_env()) {
+  if (inherits(x, "shape")) {
+    level <- check_choice(level, c("landmarks", "curves", "surface"), "level", call)
+    own <- x$points[x$points$level == level, ]
+    return(split_rows(as.matrix(own[c("x", "y", "z")]), own$part))
+  }
+  if (is.matrix(x) && is.numeric(x) && ncol(x) == 3 && !is.null(rownames(x))) {
+    return(split_rows(x, sub(" [^ ]*$", "", rownames(x))))
+  }
+  fine <- is.list(x) && length(x) && !is.null(names(x)) && !anyDuplicated(names(x)) &&
+    all(vapply(x, function(one) is.matrix(one) && is.numeric(one) && ncol(one) == 3, NA))
+  if (!fine) {
+    crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)),
+                    "Give a shape, a named list of k x 3 matrices, or a matrix with row names \"curve point\".",
+                    stage = "distance", call = call)
+  }
+  x
+}
+
+split_rows <- function(xyz, part) {
+  rows <- split(seq_len(nrow(xyz)), factor(part, unique(part)))
+  lapply(rows, function(row) xyz[row, , drop = FALSE])
+}
+
+check_same_counts <- function(a, b, call = rlang::caller_env()) {
+  differ <- which(vapply(a, nrow, 0L) != vapply(b, nrow, 0L))
+  if (length(differ)) {
+    i <- differ[1]
+    crestline_abort(sprintf("%s has %d points in `a` and %d in `b`.", names(a)[i], nrow(a[[i]]), nrow(b[[i]])),
+                    "Give as many, or use between = \"curves\" without matching.", stage = "distance", call = call)
+  }
+}
+
+#' The curves of b laid onto those of a by the parts that both have
+#' @noRd
+laid_curves <- function(b, a, both, scale) {
+  lay <- superimposition(do.call(rbind, b[both]), do.call(rbind, a[both]), scale)
+  lapply(b, lay)
+}
+
+point_distances <- function(a, b) row_lengths(unname(a - b))
+
+#' From the points of each of two polylines to the nearest place of the other
+#' @noRd
+nearest_distances <- function(a, b) {
+  a <- known_rows(a)
+  b <- known_rows(b)
+  if (!nrow(a) || !nrow(b)) return(NA_real_)
+  c(polyline_distances(a, b), polyline_distances(b, a))
+}
+
+polyline_distances <- function(points, line) {
+  nearest <- row_lengths(sweep(points, 2, line[1, ]))
+  for (i in seq_len(nrow(line) - 1)) {
+    step <- line[i + 1, ] - line[i, ]
+    off <- sweep(points, 2, line[i, ])
+    share <- if (any(step != 0)) pmin(pmax(drop(off %*% step) / sum(step^2), 0), 1) else numeric(nrow(points))
+    nearest <- pmin(nearest, row_lengths(off - outer(share, step)))
+  }
+  nearest
+}
+
+#' @export
+print.curve_distance <- function(x, most = 12, digits = 3, ...) {
+  all <- attr(x, "all")
+  whole <- !is.null(all) && all(c("part", "rms", "mean", "max") %in% names(x))
+  if (!whole) return(invisible(print(as.data.frame(x), digits = digits, ...)))
+  how <- paste0(c(points = "points of the same number", curves = "nearest places")[[attr(x, "between")]],
+                if (attr(x, "match") == "procrustes") ", b laid onto a")
+  cat("Distance of ", amount(sum(!is.na(x$rms)), "part"), ", ", how, "\n", sep = "")
+  worst <- utils::head(x[order(-x$rms), ], most)
+  shown <- rbind(as.data.frame(worst), all)
+  numbers <- c("rms", "mean", "max")
+  shown[numbers] <- signif(shown[numbers], digits)
+  print.data.frame(shown, row.names = FALSE)
+  if (nrow(x) > most) cat("and", nrow(x) - most, "nearer or missing parts in as.data.frame()\n")
+  invisible(x)
+}
+
+#' @export
+as.data.frame.curve_distance <- function(x, row.names = NULL, optional = FALSE, ...) {
+  attributes(x)[c("all", "match", "between")] <- NULL
+  class(x) <- "data.frame"
+  x
+}

@@ -1,0 +1,139 @@
+# Principal components of aligned shapes, and the shapes along them.
+
+#' Principal components of shape
+#'
+#' @param aligned An `aligned`, as [align()] returns it.
+#' @param weights Weights of points, as in [align()]: by default those of the alignment. With "area" variance is that per
+#'   area of the surface, whether its points are dense or sparse.
+#' @param tolerance Components whose variance is below this share of the first one's are left out.
+#' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d k x r, rows in the order of
+#'   `as.vector(mean)`), `center`, `scale` (`FALSE`) are those of [stats::prcomp()] of the n x d k matrix of co-ordinates
+#'   where all weights are 1, but for signs: the greatest entry of every column of `rotation` is positive. With weights the
+#'   components are orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`. Besides: `share`
+#'   (r, of the variance), `direction` (d k x r: what one unit of a score adds to the co-ordinates; `rotation` where all weights
+#'   are 1), `mean` (k x d), `size` (mean centroid size, in the unit of the meshes), `weights`, `level`, `triangles`.
+#'
+#'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`; `summary()`, `predict()` and
+#'   `biplot()` are those of `prcomp`.
+#' @section Errors: of class `crestline_error`: no `aligned`, or all shapes the same.
+#' @references The paper, section 6; Dryden and Mardia (2016) *Statistical Shape Analysis*, section 7.7.
+#' @seealso [shape_at()], [plot.shape_pca()], [write_pca_page()]
+#' @examples
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
+#' shapes <- shapes + rnorm(120, sd = 0.05)
+#' pca <- shape_pca(align(shapes))
+#' pca
+#' shape_at(pca, 1, 2)
+#' @export
+shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
+  check_class(aligned, "aligned", "aligned", "align()")
+  if (!is.numeric(weights)) weights <- point_weights(weights, as_whole(aligned))
+  dims <- dim(aligned$coords)
+  weight <- rep(weights, dims[2])
+  x <- t(matrix(aligned$coords, dims[1] * dims[2], dims[3]))
+  center <- colMeans(x)
+  parts <- thin_svd(sweep(x, 2, center) * rep(sqrt(weight), each = dims[3]), tolerance)
+  if (!length(parts$d)) {
+    crestline_abort("all shapes are the same.", "Check that the sample is what it should be.", stage = "components")
+  }
+  axis <- parts$v * rep(sign_of_greatest(parts$v), each = nrow(parts$v))
+  names <- paste0("PC", seq_along(parts$d))
+  rows <- as.vector(outer(rownames(aligned$mean), colnames(aligned$mean), paste))
+  rotation <- `dimnames<-`(axis * sqrt(weight), list(rows, names))
+  variance <- parts$d^2 / (dims[3] - 1)
+  scores <- sweep(x, 2, center) %*% rotation
+  # Points of weight 0 follow the scores too.
+  direction <- if (all(weight == 1)) rotation else crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
+  dimnames(direction) <- dimnames(rotation)
+  rownames(scores) <- dimnames(aligned$coords)[[3]]
+  structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE, x = scores,
+                 share = variance / sum(variance), direction = direction,
+                 mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)), size = mean(aligned$size),
+                 weights = weights, level = aligned$level, triangles = aligned$triangles), class = c("shape_pca", "prcomp"))
+}
+
+as_whole <- function(aligned) {
+  places <- rownames(aligned$mean)
+  k <- nrow(aligned$mean)
+  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = places, given = k,
+       kept = seq_len(k))
+}
+
+sign_of_greatest <- function(v) {
+  greatest <- apply(abs(v), 2, which.max)
+  sign(v[cbind(greatest, seq_len(ncol(v)))])
+}
+
+#' Singular values and right vectors of a matrix by the smaller of its two cross-products
+#' @noRd
+thin_svd <- function(x, tolerance) {
+  wide <- ncol(x) > nrow(x)
+  parts <- eigen(if (wide) tcrossprod(x) else crossprod(x), symmetric = TRUE)
+  keep <- which(parts$values > max(tolerance * parts$values[1], 0))
+  keep <- utils::head(keep, nrow(x) - 1)
+  d <- sqrt(parts$values[keep])
+  u <- parts$vectors[, keep, drop = FALSE]
+  list(d = d, v = if (wide) crossprod(x, u) / rep(d, each = ncol(x)) else u)
+}
+
+#' @rdname shape_pca
+#' @param x A `shape_pca`.
+#' @param row.names,optional,... Ignored.
+#' @export
+as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
+  data.frame(component = names_of_components(x), sd = x$sdev, share = x$share, cumulative = cumsum(x$share))
+}
+
+names_of_components <- function(pca) colnames(pca$x)
+
+#' @export
+print.shape_pca <- function(x, most = 6, ...) {
+  cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
+      amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
+  shown <- utils::head(as.data.frame(x), most)
+  text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component, shown$sd, 100 * shown$share,
+                  100 * shown$cumulative)
+  cat(text, sep = "\n")
+  invisible(x)
+}
+
+#' The shape at a place on principal components
+#'
+#' @param pca A `shape_pca`.
+#' @param component Numbers of components.
+#' @param sd For each of them, how many standard deviations from the mean.
+#' @param as "matrix" or "mesh".
+#' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the mean size in the unit of the
+#'   meshes.
+#' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those points that have triangles
+#'   (attribute `row`: which).
+#' @section Errors: of class `crestline_error`: no such component; no triangles for a mesh.
+#' @seealso [shape_pca()], with an example
+#' @export
+shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size = 1) {
+  check_class(pca, "shape_pca", "pca", "shape_pca()")
+  as <- check_choice(as, c("matrix", "mesh"), "as")
+  size <- check_number(size, "size", lower = 0, open = TRUE)
+  if (!is.numeric(component) || !length(component) || !all(component %in% seq_along(pca$sdev))) {
+    crestline_abort(sprintf("`component` is %s.", describe_value(component)),
+                    sprintf("There are components 1 to %d.", length(pca$sdev)), stage = "components")
+  }
+  if (!is.numeric(sd) || !length(sd) %in% c(1, length(component)) || any(!is.finite(sd))) {
+    crestline_abort(sprintf("`sd` is %s.", describe_value(sd)), "Give a number for each component.", stage = "components")
+  }
+  added <- pca$direction[, component, drop = FALSE] %*% (sd * pca$sdev[component])
+  shape <- size * (pca$mean + as.vector(added))
+  if (as == "matrix") shape else points_mesh(shape, pca$triangles)
+}
+
+#' A mesh of the points that have triangles
+#' @noRd
+points_mesh <- function(xyz, triangles, call = rlang::caller_env()) {
+  if (is.null(triangles) || !ncol(triangles) || ncol(xyz) != 3) {
+    crestline_abort("these points have no triangles between them.",
+                    "Use the level \"surface\" of a sample, or give align() `triangles`.", stage = "components", call = call)
+  }
+  row <- sort(unique(as.vector(triangles)))
+  mesh <- rgl::mesh3d(vertices = unname(rbind(t(xyz[row, ]), 1)), triangles = matrix(match(triangles, row), 3))
+  structure(with_normals(mesh), row = row)
+}

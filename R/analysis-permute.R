@@ -1,0 +1,68 @@
+# Permutations of a grouping: random, all, or given.
+
+#' The regroupings that a test is referred to
+#'
+#' @param group Factor of n.
+#' @param n_perm Number of random permutations.
+#' @param exact Most regroupings that are enumerated instead.
+#' @param permutations n x B matrix or list of B orders of 1, ..., n, or `NULL`.
+#' @return List: `labels` (n x B integer matrix of group numbers, the observed first), `exact` (logical).
+#' @noRd
+regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL, call = rlang::caller_env()) {
+  code <- as.integer(group)
+  if (!is.null(permutations)) {
+    orders <- check_permutations(permutations, length(code), call)
+    labels <- matrix(0L, length(code), ncol(orders))
+    labels[cbind(as.vector(orders), rep(seq_len(ncol(orders)), each = length(code)))] <- code
+    return(list(labels = cbind(code, labels, deparse.level = 0), exact = FALSE))
+  }
+  if (count_regroupings(code) <= exact) return(list(labels = all_regroupings(code), exact = TRUE))
+  random <- with_seed(seed, replicate(n_perm, code[sample.int(length(code))]))
+  list(labels = cbind(code, random, deparse.level = 0), exact = FALSE)
+}
+
+check_permutations <- function(x, n, call) {
+  if (is.list(x)) x <- matrix(unlist(x), ncol = length(x))
+  ok <- is.matrix(x) && nrow(x) == n && all(apply(x, 2, function(order) all(sort(order) == seq_len(n))))
+  if (!ok) {
+    crestline_abort("`permutations` are not orders of all specimens.",
+                    sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d.", n, n), stage = "arguments", call = call)
+  }
+  # The first of RRPP's permutations is the observed order.
+  if (all(x[, 1] == seq_len(n))) x[, -1, drop = FALSE] else x
+}
+
+#' How many ways there are to deal the specimens to groups of these sizes
+#' @noRd
+count_regroupings <- function(code) round(exp(lfactorial(length(code)) - sum(lfactorial(table(code)))))
+
+#' All of them, n x count, the observed first
+#' @noRd
+all_regroupings <- function(code) {
+  deal <- function(free, sizes) {
+    if (length(sizes) == 1) return(matrix(free, 1))
+    first <- utils::combn(length(free), sizes[1])
+    rest <- lapply(seq_len(ncol(first)), function(i) {
+      others <- deal(free[-first[, i]], sizes[-1])
+      cbind(matrix(free[first[, i]], nrow(others), sizes[1], byrow = TRUE), others)
+    })
+    do.call(rbind, rest)
+  }
+  sizes <- as.vector(table(code))
+  dealt <- deal(seq_along(code), sizes)
+  labels <- matrix(0L, length(code), nrow(dealt))
+  labels[cbind(as.vector(t(dealt)), rep(seq_len(nrow(dealt)), each = length(code)))] <- rep(seq_along(sizes), sizes)
+  same <- which(colSums(labels != code) == 0)
+  labels[, c(same, seq_len(ncol(labels))[-same]), drop = FALSE]
+}
+
+#' Share of regroupings whose statistic is as great as the observed one, the first; rounding does not break ties
+#'
+#' @param x Matrix, a row a regrouping, or a vector.
+#' @param observed What is compared, a value a column of `x`.
+#' @param slack Relative.
+#' @noRd
+permutation_p <- function(x, observed = x[1, ], slack = 1e-10) {
+  x <- as.matrix(x)
+  colMeans(x >= rep(observed - slack * abs(observed), each = nrow(x)))
+}

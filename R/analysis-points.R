@@ -1,0 +1,104 @@
+# Where groups differ: a test at every point, with the family of all points controlled.
+
+#' Tests at every point
+#'
+#' On a surface the displacement along the mean surface's normal, elsewhere all co-ordinates of the point together.
+#'
+#' @param aligned An `aligned`.
+#' @param labels n x B matrix of group numbers.
+#' @param blocks List of its columns, as of [permutation_blocks()].
+#' @param tick Called once a block.
+#' @return Data frame, a row a point: `point`, `x`, `y`, `z`, `distance`, `displacement`, `statistic`, `p_value`,
+#'   `p_adjusted`.
+#' @noRd
+point_tests <- function(aligned, labels, blocks, tick) {
+  along <- !is.null(aligned$triangles)
+  y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
+  total <- Reduce(`+`, lapply(y, function(part) colSums(part^2)))
+  n <- nrow(labels)
+  groups <- max(labels)
+  observed <- between_of(y, labels[, 1, drop = FALSE], total)
+  as_great <- 0
+  family <- numeric()
+  for (columns in blocks) {
+    share <- between_of(y, labels[, columns, drop = FALSE], total)
+    as_great <- as_great + colSums(share >= rep(observed * (1 - 1e-10), each = nrow(share)))
+    family <- c(family, do.call(pmax, c(as.data.frame(share), na.rm = TRUE)))
+    tick()
+  }
+  described <- point_table(aligned, labels[, 1], along)
+  f <- share_to_f(observed[1, ], n, groups)
+  described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
+  described$p_value <- as_great / ncol(labels)
+  described$p_adjusted <- vapply(observed[1, ], function(value) mean(family >= value * (1 - 1e-10)), 0)
+  described
+}
+
+#' Columns of regroupings taken at a time
+#' @param block Their number: what a block needs is block x k numbers.
+#' @noRd
+permutation_blocks <- function(n, block = 250) unname(split(seq_len(n), ceiling(seq_len(n) / block)))
+
+#' Where the points are and how far apart the means, in the unit of the meshes
+#' @noRd
+point_table <- function(aligned, code, along) {
+  size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
+  at <- as.data.frame(aligned$mean * size)
+  names(at) <- c("x", "y", "z")[seq_along(at)]
+  distance <- displacement <- rep(NA_real_, nrow(at))
+  if (max(code) == 2) {
+    off <- mean_differences(aligned, code) * size
+    displacement <- sqrt(rowSums(off^2))
+    if (along) distance <- rowSums(off * point_normals(aligned$mean, aligned$triangles))
+  }
+  data.frame(point = rownames(aligned$mean), at, distance = unname(distance), displacement = unname(displacement), row.names = NULL)
+}
+
+#' Share of a point's variance between groups, B x k, NA where a point does not vary
+#' @noRd
+between_of <- function(y, labels, total) {
+  between <- Reduce(`+`, lapply(y, between_squares, labels))
+  share <- between / rep(total, each = nrow(between))
+  share[, total <= 0] <- NA
+  share
+}
+
+#' Second group's mean minus the first's, k x d
+#' @noRd
+mean_differences <- function(aligned, code) {
+  mean_shape_of(aligned, code == 2) - mean_shape_of(aligned, code == 1)
+}
+
+mean_shape_of <- function(aligned, chosen) {
+  own <- aligned$coords[, , chosen, drop = FALSE]
+  matrix(rowMeans(matrix(own, length(aligned$mean))), nrow(aligned$mean), dimnames = dimnames(aligned$mean))
+}
+
+#' List of one n x k matrix: displacements from the mean along its normals
+#' @noRd
+normal_displacements <- function(aligned) {
+  normal <- point_normals(aligned$mean, aligned$triangles)
+  each <- coordinate_blocks(aligned)
+  list(Reduce(`+`, Map(function(part, d) part * rep(normal[, d], each = nrow(part)), each, 1:3)))
+}
+
+#' List of n x k matrices, one a co-ordinate, centred
+#' @noRd
+coordinate_blocks <- function(aligned) {
+  lapply(seq_len(ncol(aligned$mean)), function(d) {
+    part <- t(aligned$coords[, d, ])
+    sweep(part, 2, colMeans(part))
+  })
+}
+
+#' Unit normals of points, by the areas of their triangles, k x 3, NA where there are none
+#' @noRd
+point_normals <- function(xyz, triangles) {
+  a <- xyz[triangles[1, ], , drop = FALSE]
+  u <- xyz[triangles[2, ], , drop = FALSE] - a
+  v <- xyz[triangles[3, ], , drop = FALSE] - a
+  cross <- cbind(u[, 2] * v[, 3] - u[, 3] * v[, 2], u[, 3] * v[, 1] - u[, 1] * v[, 3], u[, 1] * v[, 2] - u[, 2] * v[, 1])
+  corner <- factor(triangles, seq_len(nrow(xyz)))
+  sums <- vapply(1:3, function(d) as.vector(tapply(rep(cross[, d], each = 3), corner, sum, default = NA)), numeric(nrow(xyz)))
+  sums / sqrt(rowSums(sums^2))
+}

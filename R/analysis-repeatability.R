@@ -1,0 +1,210 @@
+# How well measurements repeat: variance between specimens, observers and repeats, curve by curve.
+
+#' Repeatability of measurements, curve by curve
+#'
+#' From specimens that were measured more than once, perhaps by several observers: the variance between specimens, between
+#' observers, of how observers differ from specimen to specimen, and of the rest, by curve and by point; and the intra-class
+#' correlation, the share of the variance that is due to the specimens.
+#'
+#' The variances are those of the random-effects model point = specimen + observer + specimen:observer + residual, in each
+#' co-ordinate by itself, then summed over the three co-ordinates and averaged over the points of a curve. They are
+#' estimated from the sequential sums of squares (Henderson's method 3, also where numbers of repeats differ; where they
+#' are equal, those of the analysis of variance); an estimate below 0 counts as 0. The interaction is in the model
+#' where some observer measured some specimen twice, else it is part of the residual. Each observer's own places count
+#' as error: the correlation is that of agreement, ICC(1) without and ICC(2, 1) with observers.
+#'
+#' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat), a `shape_sample`, or a k x 3 x N
+#'   array with names of points "curve point".
+#' @param specimen N names: the specimen that each measurement is of.
+#' @param observer N names: who made it; `NULL`: not told apart.
+#' @param level Of shapes and samples: "landmarks", "curves" or "surface".
+#' @param match In which frame specimens are compared. "specimen": all measurements of a specimen share a frame, as on
+#'   one scan: each specimen is laid by rotation and shift onto the others by its mean. "each": every measurement is laid
+#'   onto the mean by itself, as when every one has a scan of its own (a little of the error goes with the frame).
+#'   "none": as they lie.
+#' @return Object of class `repeatability`, a list:
+#'   * `parts`: data frame, a row a curve, and one for all: `part`, `points`; standard deviations in the unit of the
+#'     mesh, root mean squares over the points, of all three co-ordinates together: `specimen`, `observer`, `interaction`
+#'     (NA where not in the model), `residual`, and `error`, of all but the specimen: the typical distance of a measured
+#'     point from where it is on average; `icc`;
+#'   * `points`: the same for each point, with its place `x, y, z` in the mean;
+#'   * `counts`: numbers of `specimens`, `observers`, `measurements`; `missing`: names of points left out because some
+#'     measurement lacks them.
+#'
+#'   `as.data.frame()` gives `parts`.
+#' @section Errors: of class `crestline_error`: no measurements, factors of another length, fewer than two specimens, none
+#'   measured twice, no point in all of them.
+#' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout and Fleiss (1979)
+#'   Intraclass correlations, *Psychological Bulletin* 86, 420-428; Klingenberg and McIntyre (1998), *Evolution* 52,
+#'   1363-1375 (sums over co-ordinates).
+#' @seealso [plot.repeatability()], [curve_distance()], [simulate_faces()]
+#' @examples
+#' # Five specimens with an arc of nine points, each measured three times with an error of 0.1
+#' angle <- seq(0, 1, length.out = 9)
+#' arc <- function(r) cbind(r * cos(angle), r * sin(angle), 0)
+#' specimen <- rep(1:5, each = 3)
+#' arcs <- vapply(specimen, function(i) arc(9 + i / 3) + rnorm(27, sd = 0.1), arc(1))
+#' rownames(arcs) <- paste("arc", 1:9)
+#' repeatability(arcs, specimen)
+#' @export
+repeatability <- function(shapes, specimen, observer = NULL, level = "curves", match = c("specimen", "each", "none")) {
+  match <- check_choice(match, c("specimen", "each", "none"), "match")
+  coords <- measurements(shapes, level)
+  n <- dim(coords)[3]
+  specimen <- check_factor(specimen, n, "specimen")
+  if (!is.null(observer)) observer <- check_factor(observer, n, "observer")
+  gap <- rowSums(is.na(matrix(coords, dim(coords)[1]))) > 0
+  missing <- rownames(coords)[gap]
+  coords <- coords[!gap, , , drop = FALSE]
+  check_repeats(coords, specimen, observer)
+  framed <- in_one_frame(coords, if (match == "each") factor(seq_len(n)) else specimen, match != "none")
+  components <- variance_components(t(matrix(framed, ncol = n)), specimen, observer)
+  each <- component_sums(components, nrow(coords))
+  part <- sub(" [^ ]*$", "", rownames(coords))
+  part <- factor(part, unique(part))
+  size <- as.vector(table(part))
+  mean <- structure(rowMeans(framed, dims = 2), dimnames = list(NULL, c("x", "y", "z")))
+  by_part <- rbind(rowsum(each, part) / size, all = colMeans(each))
+  points <- data.frame(point = rownames(coords), part = as.character(part), mean, component_table(each))
+  parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)), component_table(by_part))
+  structure(list(parts = parts, points = points, missing = missing,
+                 counts = c(specimens = nlevels(specimen), observers = nlevels(observer), measurements = n)),
+            class = "repeatability")
+}
+
+#' Measurements as a k x 3 x N array
+#' @noRd
+measurements <- function(shapes, level, call = rlang::caller_env()) {
+  if (inherits(shapes, "shape_sample")) return(as.array(shapes, level))
+  if (inherits(shapes, "shape_batch")) shapes <- Filter(Negate(is.null), as.list(shapes))
+  if (is.list(shapes) && length(shapes) && all(vapply(shapes, inherits, NA, "shape"))) {
+    for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
+    each <- lapply(shapes, coords, level)
+    return(array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(NULL))))
+  }
+  if (!is.array(shapes) || length(dim(shapes)) != 3 || !is.numeric(shapes) || dim(shapes)[2] != 3) {
+    crestline_abort(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes, or a k x 3 x N array.",
+                    stage = "arguments", call = call)
+  }
+  if (is.null(rownames(shapes))) rownames(shapes) <- paste("point", seq_len(nrow(shapes)))
+  shapes
+}
+
+check_factor <- function(x, n, name, call = rlang::caller_env()) {
+  if (!is.atomic(x) || length(x) != n || anyNA(x)) {
+    crestline_abort(sprintf("`%s` is %s, for %s.", name, describe_value(x), amount(n, "measurement")),
+                    "Give a name for each measurement.", stage = "arguments", call = call)
+  }
+  factor(x)
+}
+
+check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "repeatability", call = call)
+  if (!nrow(coords)) fail("no point is in all measurements.", "Leave out the measurements that lack most.")
+  if (nlevels(specimen) < 2) fail("there is one specimen only.", "Give two or more.")
+  if (nlevels(specimen) == length(specimen)) fail("no specimen was measured twice.", "Give repeated measurements.")
+  if (!is.null(observer) && nlevels(observer) < 2) {
+    fail("there is one observer only.", "Leave `observer` out, or give two or more.")
+  }
+}
+
+#' Measurements laid together, by units that move as one
+#'
+#' @param unit Factor: measurements that keep their places to each other.
+#' @return Array as `coords`; sizes are kept.
+#' @noRd
+in_one_frame <- function(coords, unit, wanted, tolerance = 1e-10, rounds = 100) {
+  if (!wanted) return(coords)
+  own <- lapply(split(seq_along(unit), unit), function(i) rowMeans(coords[, , i, drop = FALSE], dims = 2))
+  mean <- own[[1]]
+  for (round in seq_len(rounds)) {
+    next_mean <- mean_of(lapply(own, laid_onto, mean, scale = FALSE))
+    moved <- max(abs(next_mean - mean))
+    mean <- next_mean
+    if (moved < tolerance * sqrt(sum(sweep(mean, 2, colMeans(mean))^2))) break
+  }
+  lay <- lapply(own, superimposition, mean, scale = FALSE)
+  for (i in seq_along(unit)) coords[, , i] <- lay[[unit[i]]](coords[, , i])
+  coords
+}
+
+#' Variance components by sequential sums of squares (Henderson's method 3)
+#'
+#' The projections of the terms, each after those before it, are orthogonal; the expected sum of squares of one is
+#' sum_k sigma_k^2 |Q' Z_k|^2 over its own and later terms, plus its degrees of freedom times the residual variance.
+#'
+#' @param y N x m, a column a variable.
+#' @return Matrix, a row a term ("specimen", "observer", "interaction", "residual"), a column a variable: variances, not
+#'   below 0; NA for terms not in the model.
+#' @noRd
+variance_components <- function(y, specimen, observer = NULL) {
+  terms <- list(specimen = specimen)
+  if (!is.null(observer)) {
+    terms$observer <- observer
+    cell <- interaction(specimen, observer, drop = TRUE)
+    if (nlevels(cell) < length(cell)) terms$interaction <- cell
+  }
+  dummies <- lapply(terms, function(term) outer(as.integer(term), seq_len(nlevels(term)), `==`) + 0)
+  spaces <- sequential_spaces(dummies)
+  fitted <- lapply(spaces, function(q) crossprod(q, y))
+  rest <- sweep(y, 2, colMeans(y)) - Reduce(`+`, Map(`%*%`, spaces, fitted))
+  squares <- rbind(t(vapply(fitted, function(part) colSums(part^2), numeric(ncol(y)))), colSums(rest^2))
+  df <- vapply(spaces, ncol, 0L)
+  expected <- vapply(dummies, function(z) vapply(spaces, function(q) sum(crossprod(q, z)^2), 0), numeric(length(spaces)))
+  system <- rbind(cbind(matrix(expected, length(spaces)), df), c(numeric(length(spaces)), length(specimen) - 1 - sum(df)))
+  estimate <- pmax(solve(system, squares), 0)
+  found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
+  found[c(names(terms), "residual"), ] <- estimate
+  found
+}
+
+#' Orthonormal bases of what each term adds to the mean and the terms before it
+#' @noRd
+sequential_spaces <- function(dummies) {
+  before <- matrix(1 / sqrt(nrow(dummies[[1]])), nrow(dummies[[1]]))
+  lapply(dummies, function(z) {
+    rest <- z - before %*% crossprod(before, z)
+    parts <- svd(rest, nv = 0)
+    own <- parts$u[, parts$d > 1e-8 * sqrt(nrow(z)), drop = FALSE]
+    before <<- cbind(before, own)
+    own
+  })
+}
+
+#' Variances of co-ordinates, summed by point: k x 4
+#' @noRd
+component_sums <- function(components, k) {
+  sums <- apply(array(components, c(4, k, 3)), c(2, 1), sum)
+  structure(sums, dimnames = list(NULL, rownames(components)))
+}
+
+#' Variances by term as standard deviations, with error and correlation
+#' @noRd
+component_table <- function(variance) {
+  error <- rowSums(variance[, -1, drop = FALSE], na.rm = TRUE)
+  all <- variance[, 1] + error
+  data.frame(sqrt(variance), error = sqrt(error), icc = ifelse(all > 0, variance[, 1] / all, NA), row.names = NULL)
+}
+
+#' @export
+as.data.frame.repeatability <- function(x, row.names = NULL, optional = FALSE, ...) x$parts
+
+#' @export
+print.repeatability <- function(x, most = 10, digits = 3, ...) {
+  count <- x$counts
+  cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ", amount(count[["specimens"]], "specimen"),
+      if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n", sep = "")
+  own <- utils::head(x$parts, -1)
+  shown <- rbind(utils::head(own[order(-own$error), ], most), utils::tail(x$parts, 1))
+  shown <- shown[colSums(!is.na(shown)) > 0]
+  numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"), names(shown))
+  shown[numbers] <- signif(shown[numbers], digits)
+  shown$icc <- round(shown$icc, digits)
+  cat("standard deviations by part, those of the greatest error first\n")
+  print.data.frame(shown, row.names = FALSE)
+  if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
+  if (length(x$missing)) {
+    cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2), sep = "\n")
+  }
+  invisible(x)
+}

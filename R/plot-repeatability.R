@@ -1,0 +1,77 @@
+# Measurement error: by curve, and where it is.
+
+#' Plot repeatability
+#'
+#' On the left the error of each part, in the unit of the mesh, with the standard deviation between
+#' specimens behind it (grey) and the intra-class correlation beside it; on the right where the error is: the mean
+#' points, coloured by it.
+#'
+#' @param x A `repeatability`, as [repeatability()] returns it.
+#' @param view Where to look from at the mean points, as in [draw_surface()].
+#' @param most Parts that are shown: those of the greatest error.
+#' @param palette Colours from no error to the greatest.
+#' @param size Diameter of the points, as `cex` of [graphics::par()].
+#' @param ... Passed to [graphics::plot.default()] of the left panel.
+#' @return `x`, invisibly.
+#' @seealso [repeatability()]
+#' @examples
+#' angle <- seq(0, 1, length.out = 9)
+#' arc <- function(r) cbind(r * cos(angle), r * sin(angle), 0)
+#' specimen <- rep(1:5, each = 3)
+#' arcs <- vapply(specimen, function(i) arc(9 + i / 3) + rnorm(27, sd = angle / 5), arc(1))
+#' rownames(arcs) <- paste("arc", 1:9)
+#' plot(repeatability(arcs, specimen))
+#' @export
+plot.repeatability <- function(x, view = "front", most = 40,
+                               palette = grDevices::hcl.colors(64, "YlOrRd", rev = TRUE)[10:64], size = 0.9, ...) {
+  old <- graphics::par("mar", "mgp", "las")
+  on.exit({
+    graphics::layout(1)
+    graphics::par(old)
+  })
+  graphics::layout(t(1:2), widths = c(1.15, 1))
+  plot_part_errors(x, most, palette, ...)
+  plot_point_errors(x, view_rotation(view), palette, size)
+  invisible(x)
+}
+
+#' Error by part as dots, specimens' standard deviation as a bar behind
+#' @noRd
+plot_part_errors <- function(x, most, palette, ...) {
+  parts <- utils::head(x$parts, -1)
+  parts <- utils::head(parts[order(-parts$error), ], most)
+  at <- rev(seq_len(nrow(parts)))
+  scale <- min(0.8, 26 / nrow(parts))
+  name_width <- 0.9 * scale * max(nchar(parts$part)) * 0.52 + 1
+  graphics::par(mar = c(3.2, name_width, 1.5, 3), mgp = c(2, 0.6, 0), las = 1)
+  top <- max(parts$error, parts$specimen)
+  graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n", ylab = "", xaxs = "i", bty = "n",
+                 xlab = "standard deviation of a point", ...)
+  graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
+  colour <- error_colours(parts$error, x, palette)
+  graphics::segments(0, at, parts$error, at, col = colour, lwd = 2)
+  graphics::points(parts$error, at, pch = 21, bg = colour, col = "grey20", cex = 0.9)
+  graphics::axis(2, at, parts$part, tick = FALSE, cex.axis = scale, line = -0.6)
+  graphics::axis(4, at, sprintf("%.2f", parts$icc), tick = FALSE, cex.axis = scale, line = -0.6)
+  graphics::mtext("ICC", 4, line = 0.4, at = nrow(parts) + 1, cex = 0.8)
+  graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA, inset = c(0, -0.05),
+                   pch = c(21, 15), pt.bg = palette[length(palette) / 2],
+                   col = c("grey20", "grey88"), pt.cex = c(1, 1.6), bty = "n", cex = 0.8)
+}
+
+#' The mean points from one side, coloured by error
+#' @noRd
+plot_point_errors <- function(x, rotation, palette, size) {
+  graphics::par(mar = c(3.2, 0.5, 1.5, 4))
+  flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(rotation)
+  graphics::plot.new()
+  graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
+  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2, drop = FALSE], col = "grey70")
+  front <- order(x$points$error)
+  graphics::points(flat[front, 1:2], pch = 16, cex = size, col = error_colours(x$points$error, x, palette)[front])
+  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2))
+}
+
+error_colours <- function(error, x, palette) {
+  ramp_colours(error / max(x$points$error, .Machine$double.xmin), palette, "grey50")
+}

@@ -1,0 +1,64 @@
+# Where the groups of simulated faces differ, and by how much.
+
+#' Where the simulated groups of faces differ
+#'
+#' The places at which the faces of [simulate_faces()] differ between the groups by default, as a table to begin from:
+#' the middle of each brow ridge (`share` 1: in the second group it stands out) and the cheek between the curves from
+#' nose and mouth to the ear (`share` -1: it is flatter). A radius of 24 mm reaches no landmark; of the cheek, the curves
+#' get a sixth at most.
+#'
+#' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm), `share`.
+#' @seealso [simulate_faces()]
+#' @examples
+#' face_effect()
+#' @export
+face_effect <- function() {
+  utils::read.csv(system.file("extdata", "face_effect.csv", package = "crestline", mustWork = TRUE))
+}
+
+no_places <- function() {
+  data.frame(part = character(), x = numeric(), y = numeric(), z = numeric(), radius = numeric(), share = numeric())
+}
+
+#' The places of an effect on a template, with directions
+#' @noRd
+effect_places <- function(places, template, call = rlang::caller_env()) {
+  wanted <- names(no_places())
+  lacking <- if (is.data.frame(places)) setdiff(wanted, names(places)) else wanted
+  numbers <- if (!length(lacking)) as.matrix(places[wanted[-1]])
+  if (length(lacking) || !is.numeric(numbers) || !all(is.finite(numbers)) || any(places$radius <= 0)) {
+    crestline_abort("`places` does not say where, how wide and how strong.",
+                    "Give a data frame as face_effect() does: part, x, y, z, radius (above 0), share.",
+                    stage = "arguments", call = call)
+  }
+  at <- surface_points(template$mesh, numbers[, c("x", "y", "z")])
+  if (!all(c("dx", "dy", "dz") %in% names(places))) {
+    normals <- list(vb = template$mesh$normals, it = template$mesh$it)
+    normal <- place_on_faces(normals, at$face, as.matrix(at[c("w1", "w2", "w3")]))
+    places[c("dx", "dy", "dz")] <- as.data.frame(normal / row_lengths(normal))
+  }
+  places[c("x", "y", "z")] <- at[c("x", "y", "z")]
+  places
+}
+
+#' @return Named numeric, one for each part.
+#' @noRd
+effect_by_part <- function(effect, parts, call = rlang::caller_env()) {
+  named <- !is.null(names(effect))
+  ok <- is.numeric(effect) && all(is.finite(effect)) && (if (named) all(names(effect) %in% parts) else length(effect) == 1)
+  if (!ok || (length(parts) == 0 && any(effect != 0))) {
+    there <- if (length(parts)) shorten(parts) else "no part"
+    crestline_abort(sprintf("`effect` is %s, with %s in `places`.", describe_value(effect), there),
+                    "Give one number, or numbers with names of parts; and `places` where the template is your own.",
+                    stage = "arguments", call = call)
+  }
+  if (!named) return(stats::setNames(rep(effect, length(parts)), parts))
+  found <- stats::setNames(numeric(length(parts)), parts)
+  found[names(effect)] <- effect
+  found
+}
+
+effect_field <- function(places, effect) {
+  places$share <- places$share * effect[places$part]
+  bump_field(places)
+}

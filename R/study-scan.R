@@ -1,0 +1,121 @@
+# What a scanner and an observer do to a surface that is known.
+
+#' Settings of a simulated scan
+#'
+#' @param noise Standard deviation of the noise of the vertices along the normal, in the unit of the template (0.1: a good
+#'   stereo or laser scanner, in mm).
+#' @param noise_range Distance over which noise goes together; 0: independent from vertex to vertex.
+#' @param remesh Whether every specimen has vertices and triangles of its own, in random order, so that no
+#'   vertex of one corresponds to a vertex of another. If not, all have those of the template.
+#' @param edge Length of edge that is aimed at in remeshing; `NULL`: the mean of the template's.
+#' @param edge_sd Standard deviation of its logarithm between specimens.
+#' @param crease Angle between triangles, in degrees, from which remeshing keeps the edge between them.
+#' @param holes Number of holes in every specimen.
+#' @param hole_radius Radius of the holes, in the unit of the template. No hole comes nearer to a landmark than its radius.
+#' @param landmark_error Standard deviation with which an observer places landmarks, in each direction along the surface.
+#' @param turn,shift Standard deviations of the angle (radians, about a random axis) and of the shift (in every
+#'   co-ordinate) of each specimen's pose.
+#' @return A list of these settings, of class `scan_settings`.
+#' @section Errors: of class `crestline_error`, for a value out of its range.
+#' @seealso [simulate_faces()]
+#' @examples
+#' str(scan_settings(noise = 0, remesh = FALSE))
+#' @export
+scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05, crease = 30, holes = 0,
+                          hole_radius = 5, landmark_error = 0, turn = 0, shift = 0) {
+  if (!is.logical(remesh) || length(remesh) != 1 || is.na(remesh)) {
+    crestline_abort(sprintf("`remesh` is %s.", describe_value(remesh)), "Give TRUE or FALSE.", stage = "arguments")
+  }
+  structure(
+    list(noise = check_number(noise, "noise", 0), noise_range = check_number(noise_range, "noise_range", 0), remesh = remesh,
+         edge = if (!is.null(edge)) check_number(edge, "edge", 0, open = TRUE),
+         edge_sd = check_number(edge_sd, "edge_sd", 0),
+         crease = check_number(crease, "crease", 0, 180), holes = check_count(holes, "holes", lower = 0),
+         hole_radius = check_number(hole_radius, "hole_radius", 0, open = TRUE),
+         landmark_error = check_number(landmark_error, "landmark_error", 0), turn = check_number(turn, "turn", 0),
+         shift = check_number(shift, "shift", 0)),
+    class = "scan_settings"
+  )
+}
+
+#' The same surface by other vertices, triangles and order
+#'
+#' @return `mesh3d`; its vertices lie on the given mesh but for single precision, its edges' chords may lie beside it.
+#' @noRd
+remeshed <- function(mesh, scan) {
+  edge <- if (is.null(scan$edge)) mean_edge(mesh) else scan$edge
+  new <- Rvcg::vcgIsotropicRemeshing(mesh, TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)),
+                                     FeatureAngleDeg = scan$crease)
+  order <- sample(ncol(new$vb))
+  it <- matrix(match(new$it, order), 3)[, sample(ncol(new$it)), drop = FALSE]
+  structure(list(vb = new$vb[, order, drop = FALSE], it = it), class = "mesh3d")
+}
+
+mean_edge <- function(mesh) {
+  corner <- face_corners(mesh)
+  mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
+}
+
+#' A mesh with its vertices moved along their normals
+#' @param places n x 3: where in the template the vertices are; correlated noise is a field there.
+#' @noRd
+with_noise <- function(mesh, places, scan) {
+  n <- ncol(mesh$vb)
+  smooth <- scan$noise_range > 0
+  height <- if (smooth) random_field(scan$noise_range, scan$noise, 1)(places) else stats::rnorm(n, 0, scan$noise)
+  if (scan$noise == 0) return(mesh)
+  normal <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals[1:3, ]
+  mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normal * rep(height, each = 3)
+  mesh
+}
+
+#' Which triangles of a mesh are left once round holes are cut
+#' @param landmarks k x 3, kept clear of.
+#' @noRd
+outside_holes <- function(mesh, landmarks, scan) {
+  xyz <- t(mesh$vb[1:3, ])
+  kept <- rep(TRUE, nrow(xyz))
+  if (scan$holes == 0) return(rep(TRUE, ncol(mesh$it)))
+  within <- function(at, radius) row_lengths(sweep(xyz, 2, at)) < radius
+  room <- kept
+  for (i in seq_len(nrow(landmarks))) room <- room & !within(landmarks[i, ], 2 * scan$hole_radius)
+  if (!any(room)) {
+    crestline_abort("there is no room for a hole between the landmarks.", "Give a smaller `hole_radius`.",
+                    stage = "simulation")
+  }
+  for (centre in which(room)[sample.int(sum(room), scan$holes, replace = TRUE)]) {
+    kept[within(xyz[centre, ], scan$hole_radius)] <- FALSE
+  }
+  colSums(matrix(kept[mesh$it], 3)) == 3
+}
+
+#' A mesh of some of its triangles
+#' @return List: `mesh`, and `vertex`, the numbers that its vertices had.
+#' @noRd
+mesh_of_faces <- function(mesh, face) {
+  it <- mesh$it[, face, drop = FALSE]
+  vertex <- sort(unique(as.vector(it)))
+  list(mesh = structure(list(vb = mesh$vb[, vertex, drop = FALSE], it = matrix(match(it, vertex), 3)), class = "mesh3d"),
+       vertex = vertex)
+}
+
+#' Landmarks as an observer places them: beside the true ones, on the mesh
+#' @noRd
+observed_landmarks <- function(mesh, landmarks, error) {
+  beside <- landmarks + stats::rnorm(length(landmarks), 0, error)
+  if (error == 0) return(landmarks)
+  structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]), dimnames = dimnames(landmarks))
+}
+
+#' A random rotation by a normal angle about a random axis through the centre, and a shift
+#' @return Function of a k x 3 matrix.
+#' @noRd
+random_pose <- function(scan, centre) {
+  axis <- stats::rnorm(3)
+  axis <- axis / sqrt(sum(axis^2))
+  angle <- stats::rnorm(1, 0, scan$turn)
+  shift <- stats::rnorm(3, 0, scan$shift)
+  cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
+  turn <- diag(3) + sin(angle) * cross + (1 - cos(angle)) * cross %*% cross
+  function(xyz) sweep(sweep(xyz, 2, centre) %*% t(turn), 2, centre + shift, `+`)
+}

@@ -1,0 +1,208 @@
+#include "analysis_align.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace crestline {
+
+namespace {
+
+constexpr int kMost = 3;
+
+// Rotates rows p and q of the symmetric 4 x 4 matrix a so that a[p][q] is 0; v gathers the rotations.
+void jacobi_turn(double a[4][4], double v[4][4], int p, int q) {
+  if (a[p][q] == 0) return;
+  double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  double t = (theta >= 0 ? 1 : -1) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
+  double c = 1 / std::sqrt(t * t + 1), s = t * c;
+  for (int i = 0; i < 4; ++i) {
+    double ip = a[i][p], iq = a[i][q];
+    a[i][p] = c * ip - s * iq;
+    a[i][q] = s * ip + c * iq;
+  }
+  for (int i = 0; i < 4; ++i) {
+    double pi = a[p][i], qi = a[q][i], vp = v[i][p], vq = v[i][q];
+    a[p][i] = c * pi - s * qi;
+    a[q][i] = s * pi + c * qi;
+    v[i][p] = c * vp - s * vq;
+    v[i][q] = s * vp + c * vq;
+  }
+}
+
+// The eigenvector of the largest eigenvalue.
+void largest_eigenvector(double a[4][4], double* q) {
+  double v[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  for (int sweep = 0; sweep < 50; ++sweep) {
+    double off = 0, on = 0;
+    for (int i = 0; i < 4; ++i) {
+      on += a[i][i] * a[i][i];
+      for (int j = i + 1; j < 4; ++j) off += a[i][j] * a[i][j];
+    }
+    if (off <= 1e-36 * on) break;
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j) jacobi_turn(a, v, i, j);
+  }
+  int best = 0;
+  for (int i = 1; i < 4; ++i)
+    if (a[i][i] > a[best][best]) best = i;
+  for (int i = 0; i < 4; ++i) q[i] = v[i][best];
+}
+
+void rotation_in_plane(const double* h, double* r) {
+  double c = h[0] + h[3], s = h[2] - h[1], size = std::hypot(c, s);
+  c = size > 0 ? c / size : 1;
+  s = size > 0 ? s / size : 0;
+  r[0] = c;
+  r[1] = -s;
+  r[2] = s;
+  r[3] = c;
+}
+
+void rotation_in_space(const double* h, double* r) {
+  auto m = [h](int i, int j) { return h[i + 3 * j]; };
+  double a[4][4] = {{m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)},
+                    {0, m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2)},
+                    {0, 0, -m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1)},
+                    {0, 0, 0, -m(0, 0) - m(1, 1) + m(2, 2)}};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j) a[i][j] = a[j][i];
+  double q[4];
+  largest_eigenvector(a, q);
+  double w = q[0], x = q[1], y = q[2], z = q[3];
+  // Row vectors are turned: column j of r holds what the axes give to the j-th co-ordinate.
+  double turn[9] = {w * w + x * x - y * y - z * z, 2 * (x * y - w * z),           2 * (x * z + w * y),
+                    2 * (x * y + w * z),           w * w - x * x + y * y - z * z, 2 * (y * z - w * x),
+                    2 * (x * z - w * y),           2 * (y * z + w * x),           w * w - x * x - y * y + z * z};
+  std::copy(turn, turn + 9, r);
+}
+
+// Weighted centre to 0; returns the weighted size.
+double centre(double* x, int k, int dim, const double* weight) {
+  double total = 0, size = 0;
+  for (int i = 0; i < k; ++i) total += weight[i];
+  for (int d = 0; d < dim; ++d) {
+    double* column = x + static_cast<std::size_t>(k) * d;
+    double mean = 0;
+    for (int i = 0; i < k; ++i) mean += weight[i] * column[i];
+    mean /= total;
+    for (int i = 0; i < k; ++i) {
+      column[i] -= mean;
+      size += weight[i] * column[i] * column[i];
+    }
+  }
+  return std::sqrt(size);
+}
+
+void times(double* x, std::size_t n, double factor) {
+  for (std::size_t i = 0; i < n; ++i) x[i] *= factor;
+}
+
+// h = x' W y
+void overlap(const double* x, const double* y, int k, int dim, double* h) {
+  for (int b = 0; b < dim; ++b)
+    for (int a = 0; a < dim; ++a) {
+      const double *p = x + static_cast<std::size_t>(k) * a, *q = y + static_cast<std::size_t>(k) * b;
+      double sum = 0;
+      for (int i = 0; i < k; ++i) sum += p[i] * q[i];
+      h[a + dim * b] = sum;
+    }
+}
+
+// to += factor x r
+void add_turned(const double* x, const double* r, double factor, int k, int dim, double* to) {
+  for (int b = 0; b < dim; ++b)
+    for (int a = 0; a < dim; ++a) {
+      const double* from = x + static_cast<std::size_t>(k) * a;
+      double* sum = to + static_cast<std::size_t>(k) * b;
+      double f = factor * r[a + dim * b];
+      for (int i = 0; i < k; ++i) sum[i] += f * from[i];
+    }
+}
+
+std::vector<double> weighted(const std::vector<double>& x, const double* weight, int k) {
+  std::vector<double> out(x);
+  for (std::size_t i = 0; i < x.size(); ++i) out[i] *= weight[i % k];
+  return out;
+}
+
+double norm(const std::vector<double>& x, const double* weight, int k) {
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += weight[i % k] * x[i] * x[i];
+  return std::sqrt(sum);
+}
+
+double trace_with(const double* r, const double* h, int dim) {
+  double sum = 0;
+  for (int i = 0; i < dim * dim; ++i) sum += r[i] * h[i];
+  return sum;
+}
+
+double furthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+  return most;
+}
+
+void turn_in_place(double* x, const double* r, double factor, int k, int dim, std::vector<double>& room) {
+  std::fill(room.begin(), room.end(), 0.0);
+  add_turned(x, r, factor, k, dim, room.data());
+  std::copy(room.begin(), room.end(), x);
+}
+
+}  // namespace
+
+void nearest_rotation(const double* h, int dim, double* r) {
+  if (dim == 2) {
+    rotation_in_plane(h, r);
+  } else {
+    rotation_in_space(h, r);
+  }
+}
+
+Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, const double* weight, const double* reference,
+                             const AlignSettings& settings) {
+  const std::size_t block = static_cast<std::size_t>(k) * dim;
+  const bool unit = settings.scaling != Scaling::kNone;
+  Aligned out;
+  out.converged = false;
+  for (int i = 0; i < n; ++i) {
+    out.size.push_back(centre(&x[i * block], k, dim, weight));
+    if (unit) times(&x[i * block], block, 1 / out.size[i]);
+  }
+  std::vector<double> start(reference, reference + block);
+  double start_size = centre(start.data(), k, dim, weight);
+  if (unit) times(start.data(), block, 1 / start_size);
+  out.mean = start;
+  std::vector<double> turns(static_cast<std::size_t>(n) * kMost * kMost), factor(n, 1.0), next(block);
+  double h[kMost * kMost];
+  for (int round = 0; round < settings.rounds && !out.converged; ++round) {
+    std::vector<double> aim = weighted(out.mean, weight, k);
+    std::fill(next.begin(), next.end(), 0.0);
+    for (int i = 0; i < n; ++i) {
+      double* r = &turns[static_cast<std::size_t>(i) * kMost * kMost];
+      overlap(&x[i * block], aim.data(), k, dim, h);
+      nearest_rotation(h, dim, r);
+      if (settings.scaling == Scaling::kFull) factor[i] = trace_with(r, h, dim);
+      add_turned(&x[i * block], r, factor[i], k, dim, next.data());
+    }
+    times(next.data(), block, unit ? 1 / norm(next, weight, k) : 1.0 / n);
+    double size = norm(next, weight, k);
+    out.moved.push_back(furthest(next, out.mean) / size);
+    out.mean.swap(next);
+    out.converged = out.moved.back() <= settings.tolerance;
+  }
+  // All in the pose of the reference.
+  std::vector<double> room(block);
+  double back[kMost * kMost];
+  overlap(out.mean.data(), weighted(start, weight, k).data(), k, dim, h);
+  nearest_rotation(h, dim, back);
+  for (int i = 0; i < n; ++i) {
+    turn_in_place(&x[i * block], &turns[static_cast<std::size_t>(i) * kMost * kMost], factor[i], k, dim, room);
+    turn_in_place(&x[i * block], back, 1, k, dim, room);
+  }
+  turn_in_place(out.mean.data(), back, 1, k, dim, room);
+  return out;
+}
+
+}  // namespace crestline

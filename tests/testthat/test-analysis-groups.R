@@ -1,0 +1,212 @@
+compare_quietly <- function(..., progress = FALSE) compare_groups(..., progress = progress)
+
+test_row_of <- function(compared, test) compared$tests[compared$tests$test == test, ]
+
+test_that("size is tested by Student's t", {
+  data <- grouped_sample(c(8, 11))
+  data$x <- data$x * rep(with_seed(3, runif(19, 1, 1.4)), each = 36)
+  compared <- compare_quietly(data$x, data$group, n_perm = 2000, seed = 1, tests = "size")
+  size <- align(data$x)$size
+  theirs <- t.test(size[1:8], size[9:19], var.equal = TRUE)
+  expect_equal(compared$tests$statistic, theirs$statistic[["t"]], tolerance = 1e-10)
+  expect_equal(compared$tests$p_parametric, theirs$p.value, tolerance = 1e-10)
+  # The permutation's p-value is near it: within four standard errors of 2,000 draws.
+  p <- theirs$p.value
+  expect_lt(abs(compared$tests$p_value - p), 4 * sqrt(p * (1 - p) / 2000) + 0.01)
+})
+
+test_that("the distance of means and Goodall's F are those of the aligned shapes", {
+  data <- grouped_sample(c(8, 11), effect = 0.05)
+  compared <- compare_quietly(data$x, data$group, seed = 1, n_perm = 50, tests = "shape")
+  flat <- t(matrix(align(data$x)$coords, 36))
+  means <- rowsum(flat, data$group) / c(8, 11)
+  expect_equal(compared$tests$statistic, sqrt(sum((means[1, ] - means[2, ])^2)), tolerance = 1e-10)
+  three <- factor(rep(c("a", "b", "c"), c(6, 6, 7)))
+  compared <- compare_quietly(data$x, three, seed = 1, n_perm = 50, tests = "shape")
+  fit <- lm(flat ~ three)
+  within <- sum(residuals(fit)^2)
+  between <- sum(sweep(flat, 2, colMeans(flat))^2) - within
+  expect_equal(compared$tests$statistic, (between / 2) / (within / 16), tolerance = 1e-8)
+  expect_equal(compared$tests$share, between / (between + within), tolerance = 1e-8)
+})
+
+test_that("T2 is its closed form, on the scores of the first components", {
+  data <- grouped_sample(c(9, 12), effect = 0.03)
+  compared <- compare_quietly(data$x, data$group, components = 4, seed = 1, n_perm = 50, tests = "T2")
+  x <- prcomp(t(matrix(align(data$x)$coords, 36)))$x[, 1:4]
+  a <- x[1:9, ]
+  b <- x[10:21, ]
+  pooled <- (8 * cov(a) + 11 * cov(b)) / 19
+  off <- colMeans(a) - colMeans(b)
+  t2 <- 9 * 12 / 21 * drop(off %*% solve(pooled, off))
+  expect_equal(compared$tests$statistic, t2, tolerance = 1e-8)
+  expect_equal(compared$tests$p_parametric, pf(t2 * 16 / (19 * 4), 4, 16, lower.tail = FALSE), tolerance = 1e-8)
+  three <- factor(rep(c("a", "b", "c"), 7))
+  compared <- compare_quietly(data$x, three, components = 4, seed = 1, n_perm = 50, tests = c("T2", "components"))
+  theirs <- summary(manova(x ~ three), test = "Hotelling-Lawley")$stats
+  expect_equal(test_row_of(compared, "T2")$statistic, 18 * theirs[1, "Hotelling-Lawley"], tolerance = 1e-8)
+  expect_equal(test_row_of(compared, "T2")$p_parametric, theirs[1, "Pr(>F)"], tolerance = 1e-8)
+  one <- anova(lm(x[, 2] ~ three))
+  expect_equal(test_row_of(compared, "PC2")$statistic, one$`F value`[1], tolerance = 1e-8)
+  expect_equal(test_row_of(compared, "PC2")$p_parametric, one$`Pr(>F)`[1], tolerance = 1e-8)
+})
+
+test_that("components can be a share of the variance, and never too many", {
+  data <- grouped_sample(c(5, 5))
+  share <- cumsum(shape_pca(align(data$x))$share)
+  counted <- function(components) unname(compare_quietly(data$x, data$group, components = components, n_perm = 9, tests = "T2")$components)
+  expect_equal(counted(share[3]), 3)
+  expect_equal(counted(share[3] + 1e-6), 4)
+  expect_equal(counted(50), 7)
+})
+
+test_that("few regroupings are all taken: the p-values of every one", {
+  data <- grouped_sample(c(3, 4), effect = 0.05, seed = 3)
+  compared <- compare_quietly(data$x, data$group, components = 2, exact = 35)
+  expect_true(compared$exact)
+  expect_equal(compared$n_perm, 34)
+  aligned <- align(data$x)
+  flat <- t(matrix(aligned$coords, 36))
+  pca <- prcomp(flat)$x
+  distance <- function(first) sqrt(sum((colMeans(flat[first, ]) - colMeans(flat[-first, ]))^2))
+  t_of <- function(y) function(first) abs(t.test(y[first], y[-first], var.equal = TRUE)$statistic)
+  p_of <- function(statistic) {
+    all <- combn(7, 3, statistic)
+    mean(all >= all[1] * (1 - 1e-10))
+  }
+  expect_equal(test_row_of(compared, "mean shape")$p_value, p_of(distance))
+  expect_equal(test_row_of(compared, "size t")$p_value, p_of(t_of(aligned$size)))
+  expect_equal(test_row_of(compared, "PC2")$p_value, p_of(t_of(pca[, 2])))
+  # Adjusted by the greatest over the two components.
+  most <- combn(7, 3, function(first) max(t_of(pca[, 1])(first), t_of(pca[, 2])(first)))
+  own <- t_of(pca[, 2])(1:3)
+  expect_equal(test_row_of(compared, "PC2")$p_adjusted, mean(most >= own * (1 - 1e-10)))
+  three <- compare_quietly(data$x, c(1, 1, 2, 2, 3, 3, 3), exact = 210, tests = "size")
+  expect_equal(three$n_perm, 209)
+  expect_equal(anyDuplicated(t(all_regroupings(c(1, 1, 2, 2, 3, 3, 3)))), 0)
+})
+
+test_that("p-values on given permutations are those of the definition, and RRPP's", {
+  data <- grouped_sample(c(8, 9), effect = 0.02)
+  orders <- with_seed(5, replicate(199, sample(17)))
+  compared <- compare_quietly(data$x, data$group, permutations = orders, tests = c("shape", "size"))
+  aligned <- align(data$x)
+  flat <- t(matrix(aligned$coords, 36))
+  distance <- function(order) sum((colMeans(flat[order, ][1:8, ]) - colMeans(flat[order, ][9:17, ]))^2)
+  all <- c(distance(1:17), apply(orders, 2, distance))
+  expect_equal(test_row_of(compared, "mean shape")$p_value, mean(all >= all[1]))
+  skip_if_not_installed("RRPP")
+  theirs <- RRPP:::perm.index(17, 199, seed = 3)
+  compared <- compare_quietly(data$x, data$group, permutations = theirs, tests = c("shape", "size"))
+  frame <- RRPP::rrpp.data.frame(y = flat, size = unname(aligned$size), group = data$group)
+  fit <- RRPP::lm.rrpp(y ~ group, data = frame, iter = 199, seed = 3)
+  expect_equal(test_row_of(compared, "mean shape")$p_value, anova(fit)$table[1, "Pr(>F)"])
+  fit <- RRPP::lm.rrpp(size ~ group, data = frame, iter = 199, seed = 3)
+  expect_equal(test_row_of(compared, "size t")$p_value, anova(fit)$table[1, "Pr(>F)"])
+})
+
+test_that("a seed gives the same answer and leaves the session's stream alone", {
+  data <- grouped_sample()
+  set.seed(4)
+  before <- .Random.seed
+  one <- compare_quietly(data$x, data$group, n_perm = 99, seed = 7)
+  expect_identical(.Random.seed, before)
+  expect_identical(compare_quietly(data$x, data$group, n_perm = 99, seed = 7)$tests, one$tests)
+  other <- compare_quietly(data$x, data$group, n_perm = 99)
+  expect_false(identical(.Random.seed, before))
+  set.seed(4)
+  expect_identical(compare_quietly(data$x, data$group, n_perm = 99)$tests, other$tests)
+})
+
+test_that("the answer does not depend on the names and order of specimens, unit or pose", {
+  data <- grouped_sample(c(4, 4), effect = 0.05)
+  x <- array(data$x, dim(data$x), list(NULL, NULL, letters[1:8]))
+  group <- setNames(data$group, letters[1:8])
+  one <- compare_quietly(x, group, components = 3)
+  order <- c(5, 2, 8, 1, 3, 4, 7, 6)
+  other <- compare_quietly(1000 * x[, , order], group[8:1], components = 3)
+  expect_equal(other$tests, one$tests, tolerance = 1e-6)
+  expect_equal(other$points$displacement, 1000 * one$points$displacement, tolerance = 1e-8)
+})
+
+test_that("points: where the groups differ is found, and the family is controlled as defined", {
+  data <- grouped_sample(c(12, 12), effect = 0.3, where = 3, sd = 0.03)
+  compared <- compare_quietly(data$x, data$group, n_perm = 400, seed = 1, tests = "points")
+  expect_equal(which.min(compared$points$p_value), 3)
+  expect_equal(which.max(compared$points$displacement), 3)
+  # Alignment spreads a part of it over all points.
+  expect_equal(compared$points$displacement[3], 0.3, tolerance = 0.25)
+  few <- grouped_sample(c(3, 3), effect = 0.1)
+  all <- compare_quietly(few$x, few$group, tests = "points")
+  coords <- align(few$x)$coords
+  f_of <- function(point, first) {
+    y <- t(coords[point, , ])
+    group <- factor(seq_len(6) %in% first)
+    fit <- lm(y ~ group)
+    within <- sum(residuals(fit)^2)
+    (sum(sweep(y, 2, colMeans(y))^2) - within) / (within / 4)
+  }
+  each <- combn(6, 3, function(first) vapply(1:12, f_of, 0, first))
+  expect_equal(all$points$statistic, each[, 1], tolerance = 1e-8)
+  expect_equal(all$points$p_value, rowMeans(each >= each[, 1] * (1 - 1e-8)))
+  most <- apply(each, 2, max)
+  expect_equal(all$points$p_adjusted, vapply(each[, 1], function(f) mean(most >= f * (1 - 1e-8)), 0))
+})
+
+test_that("on a surface the displacement along the normal is tested", {
+  data <- grouped_sample(c(10, 10), effect = 0.2, where = 1, k = 6, sd = 0.02)
+  it <- four_triangles()
+  aligned <- align(data$x, triangles = it)
+  compared <- compare_quietly(aligned, data$group, n_perm = 99, seed = 1, tests = "points")
+  normal <- point_normals(aligned$mean, it)
+  means <- lapply(c("a", "b"), function(g) apply(aligned$coords[, , data$group == g], 1:2, mean))
+  signed <- rowSums((means[[2]] - means[[1]]) * normal) * mean(aligned$size)
+  expect_equal(compared$points$distance, unname(signed), tolerance = 1e-10)
+  y <- apply(aligned$coords, 3, function(one) sum(one[1, ] * normal[1, ]))
+  theirs <- t.test(y[data$group == "b"], y[data$group == "a"], var.equal = TRUE)$statistic
+  expect_equal(compared$points$statistic[1], theirs[["t"]], tolerance = 1e-8)
+  expect_equal(is.na(compared$points$p_value), c(rep(FALSE, 4), TRUE, TRUE))
+})
+
+test_that("normals of a ball point outwards", {
+  ball <- ball_mesh(3)
+  xyz <- t(ball$vb[1:3, ])
+  expect_equal(point_normals(xyz, ball$it), xyz, tolerance = 0.01, ignore_attr = TRUE)
+})
+
+test_that("no difference is found in 5 % of samples without one", {
+  p <- vapply(1:120, function(seed) {
+    data <- grouped_sample(c(6, 6), seed = seed)
+    tests <- compare_quietly(data$x, data$group, n_perm = 39, exact = 0, components = 3, seed = seed)
+    c(test_row_of(tests, "size t")$p_value, test_row_of(tests, "mean shape")$p_value, test_row_of(tests, "T2")$p_value,
+      min(tests$tests$p_adjusted[grepl("PC", tests$tests$test)]), min(tests$points$p_adjusted))
+  }, numeric(5))
+  limits <- qbinom(c(0.0005, 0.9995), 120, 0.05)
+  rejected <- rowSums(p <= 0.05)
+  expect_true(all(rejected >= limits[1] & rejected <= limits[2]))
+})
+
+test_that("levels stand side by side", {
+  data <- grouped_sample(c(6, 6), effect = 0.1)
+  few <- data$x[4:12, , ]
+  compared <- compare_quietly(list(all = data$x, few = few), data$group, n_perm = 99, seed = 1, components = 2)
+  expect_equal(names(summary(compared)), c("test", "all", "few"))
+  expect_equal(summary(compared)$few[2], compared$tests$p_value[compared$tests$level == "few" & compared$tests$test == "mean shape"])
+  expect_identical(as.data.frame(compared), compared$tests)
+  text <- capture.output(compared)
+  expect_lte(max(nchar(text)), 90)
+  expect_match(text[1], "a (6) and b (6); 99 random permutations", fixed = TRUE)
+  expect_crestline_error(compare_quietly(list(all = data$x, few = few[, , 12:1][, , -1]), data$group), "different specimens")
+})
+
+test_that("what cannot be compared is refused", {
+  data <- grouped_sample(c(3, 3))
+  expect_crestline_error(compare_quietly(data$x, rep("a", 6)), "one group")
+  expect_crestline_error(compare_quietly(data$x, c("a", "b", "b", "b", "b", "b")), "\"a\" has one specimen")
+  expect_crestline_error(compare_quietly(data$x, c("a", "b")), "2 values for 6")
+  expect_crestline_error(compare_quietly(data$x, c("a", "a", "b", "b", "b", NA)), "missing for 6")
+  expect_crestline_error(compare_quietly(data$x, setNames(data$group, letters[1:6])), "no value for 1, 2")
+  expect_crestline_error(compare_quietly(data$x, data$group, tests = "t"), "`tests`")
+  expect_crestline_error(compare_quietly(data$x, data$group, components = 0), "`components`")
+  expect_crestline_error(compare_quietly(data$x, data$group, permutations = diag(6)), "`permutations`")
+})

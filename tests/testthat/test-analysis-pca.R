@@ -1,0 +1,85 @@
+test_that("components are those of prcomp", {
+  aligned <- align(posed_sample(sd = 0.1))
+  pca <- shape_pca(aligned)
+  theirs <- prcomp(t(matrix(aligned$coords, 36)))
+  r <- seq_along(pca$sdev)
+  expect_equal(length(r), 14)
+  expect_equal(pca$sdev, theirs$sdev[r], tolerance = 1e-8)
+  sign <- sign(colSums(pca$rotation * theirs$rotation[, r]))
+  expect_equal(unname(pca$rotation), unname(theirs$rotation[, r]) %*% diag(sign), tolerance = 1e-6)
+  expect_equal(unname(pca$x), unname(theirs$x[, r]) %*% diag(sign), tolerance = 1e-8)
+  expect_equal(sum(pca$share), 1)
+  expect_equal(pca$share, theirs$sdev[r]^2 / sum(theirs$sdev^2), tolerance = 1e-8)
+  expect_true(all(apply(pca$rotation, 2, function(column) column[which.max(abs(column))]) > 0))
+  expect_s3_class(summary(pca), "summary.prcomp")
+})
+
+test_that("more specimens than co-ordinates", {
+  aligned <- align(posed_sample(k = 4, n = 60, sd = 0.1))
+  pca <- shape_pca(aligned)
+  theirs <- prcomp(t(matrix(aligned$coords, 12)))
+  expect_equal(length(pca$sdev), 5)
+  expect_equal(pca$sdev, theirs$sdev[1:5], tolerance = 1e-8)
+})
+
+test_that("all components together give a specimen back", {
+  aligned <- align(posed_sample(sd = 0.1), weights = c(0, 2, rep(1, 10)))
+  pca <- shape_pca(aligned)
+  scores <- pca$x[3, ] / pca$sdev
+  expect_equal(shape_at(pca, seq_along(scores), scores), aligned$coords[, , 3], tolerance = 1e-8)
+  expect_equal(unname(cor(pca$x)), diag(length(scores)), tolerance = 1e-8)
+  expect_equal(apply(pca$x, 2, sd), pca$sdev, tolerance = 1e-8, ignore_attr = TRUE)
+})
+
+test_that("a weighted component is that of points repeated", {
+  x <- posed_sample(sd = 0.1)
+  aligned <- align(x)
+  weighted <- shape_pca(aligned, weights = c(rep(1, 10), 3, 1))
+  repeated <- aligned
+  rows <- c(1:12, 11, 11)
+  repeated$coords <- aligned$coords[rows, , ]
+  repeated$mean <- aligned$mean[rows, ]
+  repeated$weights <- rep(1, 14)
+  theirs <- shape_pca(repeated)
+  expect_equal(weighted$sdev^2, theirs$sdev^2, tolerance = 1e-8)
+  expect_equal(abs(weighted$x), abs(theirs$x), tolerance = 1e-8)
+})
+
+test_that("a known direction is found, and shapes along it", {
+  base <- posed_sample(n = 1, sd = 0)[, , 1]
+  base <- sweep(base, 2, colMeans(base))
+  base <- base / sqrt(sum(base^2))
+  # Orthogonal to moves, turns and scaling, so that alignment changes it in second order only.
+  nuisance <- cbind(as.vector(base), kronecker(diag(3), rep(1, 12)), as.vector(base %*% rbind(c(0, 1, 0), c(-1, 0, 0), 0)),
+                    as.vector(base %*% rbind(c(0, 0, 1), 0, c(-1, 0, 0))), as.vector(base %*% rbind(0, c(0, 0, 1), c(0, -1, 0))))
+  direction <- qr.resid(qr(nuisance), with_seed(1, rnorm(36)))
+  direction <- direction / sqrt(sum(direction^2))
+  at <- seq(-0.01, 0.01, length.out = 9)
+  aligned <- align(array(sapply(at, function(t) base + t * direction), c(12, 3, 9)))
+  pca <- shape_pca(aligned)
+  expect_gt(pca$share[1], 0.999)
+  turned <- laid_onto(base, aligned$mean, FALSE)
+  expect_equal(abs(pca$x[, 1]), abs(at), tolerance = 1e-3, ignore_attr = TRUE)
+  away <- shape_at(pca, 1, 2) - shape_at(pca, 1, -2)
+  expect_equal(sqrt(sum(away^2)), 4 * sd(at), tolerance = 1e-3)
+  expect_equal(shape_at(pca, 1, 0, size = 3), 3 * aligned$mean, tolerance = 1e-10)
+})
+
+test_that("shapes as meshes have the triangles' points", {
+  aligned <- align(posed_sample(sd = 0.1), triangles = four_triangles() + 2)
+  pca <- shape_pca(aligned)
+  mesh <- shape_at(pca, 2, -1, "mesh")
+  expect_equal(attr(mesh, "row"), 3:6)
+  expect_equal(t(mesh$vb[1:3, ]), shape_at(pca, 2, -1)[3:6, ], ignore_attr = TRUE)
+  expect_equal(mesh$it, four_triangles(), ignore_attr = TRUE)
+})
+
+test_that("what cannot be done is refused", {
+  pca <- shape_pca(align(posed_sample()))
+  expect_crestline_error(shape_pca(1), "align()")
+  expect_crestline_error(shape_at(pca, 99), "`component`")
+  expect_crestline_error(shape_at(pca, 1:2, 1:3), "`sd`")
+  expect_crestline_error(shape_at(pca, as = "mesh"), "triangles")
+  expect_match(paste(capture.output(pca), collapse = "\n"), "15 specimens, 12 points.*PC1")
+  expect_equal(as.data.frame(pca)$cumulative, cumsum(pca$share))
+})

@@ -1,0 +1,129 @@
+# Values of one variable as measurements of one point.
+as_points <- function(y) array(rbind(y, 0, 0), c(1, 3, length(y)), list("p 1", NULL, NULL))
+
+# Shrout and Fleiss (1979), table 2: six targets, four judges.
+judged <- rbind(c(9, 2, 5, 8), c(6, 1, 3, 2), c(8, 4, 6, 8), c(7, 1, 2, 6), c(10, 5, 6, 9), c(6, 2, 4, 7))
+
+test_that("published intra-class correlations are found again", {
+  target <- row(judged)
+  judge <- col(judged)
+  one <- repeatability(as_points(as.vector(judged)), target, match = "none")$parts
+  two <- repeatability(as_points(as.vector(judged)), target, judge, match = "none")$parts
+  expect_equal(round(one$icc[1], 2), 0.17)
+  expect_equal(round(two$icc[1], 2), 0.29)
+  # Mean squares of their table 3: between targets 11.24, judges 32.49, residual 1.02.
+  expect_equal(two$residual[1]^2, 1.02, tolerance = 0.005)
+  expect_equal(two$specimen[1]^2, (11.24 - 1.02) / 4, tolerance = 0.005)
+  expect_equal(two$observer[1]^2, (32.49 - 1.02) / 6, tolerance = 0.005)
+  expect_true(is.na(two$interaction[1]))
+})
+
+test_that("components are those of the balanced analysis of variance, summed over co-ordinates and averaged over points", {
+  set.seed(1)
+  design <- expand.grid(again = 1:2, observer = 1:3, specimen = 1:7)
+  draw <- function(n) matrix(rnorm(n * 12), n)
+  y <- draw(42) + 2 * draw(7)[design$specimen, ] + draw(3)[design$observer, ]
+  y <- y + draw(21)[interaction(design$specimen, design$observer), ]
+  squares <- apply(y, 2, function(v) {
+    summary(aov(v ~ factor(specimen) * factor(observer), design))[[1]][["Mean Sq"]]
+  })
+  positive <- function(x) pmax(x, 0)
+  expected <- rbind(specimen = positive(squares[1, ] - squares[3, ]) / 6,
+                    observer = positive(squares[2, ] - squares[3, ]) / 14,
+                    interaction = positive(squares[3, ] - squares[4, ]) / 2, residual = squares[4, ])
+  found <- variance_components(y, factor(design$specimen), factor(design$observer))
+  # Where one is below 0 it counts as 0, the others stay.
+  expect_equal(found, expected, ignore_attr = TRUE)
+  coords <- array(t(y), c(4, 3, 42), list(c("a 1", "a 2", "b 1", "b 2"), NULL, NULL))
+  result <- repeatability(coords, design$specimen, design$observer, match = "none")
+  by_point <- t(apply(array(expected, c(4, 4, 3)), c(1, 2), sum))
+  expect_equal(result$points$residual, sqrt(by_point[, 4]))
+  expect_equal(result$parts$specimen, sqrt(c(mean(by_point[1:2, 1]), mean(by_point[3:4, 1]), mean(by_point[, 1]))))
+  expect_equal(result$parts$icc[3], sum(by_point[, 1]) / sum(by_point))
+  expect_equal(result$parts$error, sqrt(result$parts$observer^2 + result$parts$interaction^2 + result$parts$residual^2))
+})
+
+test_that("unequal numbers of repeats give the closed form of one way", {
+  set.seed(2)
+  specimen <- rep(1:5, c(2, 3, 4, 2, 6))
+  y <- rnorm(17) + 3 * rnorm(5)[specimen]
+  squares <- anova(lm(y ~ factor(specimen)))[["Mean Sq"]]
+  n0 <- (17 - sum(table(specimen)^2) / 17) / 4
+  found <- repeatability(as_points(y), specimen, match = "none")$parts
+  expect_equal(found$specimen[1]^2, (squares[1] - squares[2]) / n0)
+  expect_equal(found$residual[1]^2, squares[2])
+})
+
+test_that("estimates of unbalanced crossed designs are right on average", {
+  set.seed(3)
+  design <- expand.grid(observer = 1:4, specimen = 1:12)[-c(1, 6, 11, 20, 33), ]
+  true <- c(4, 1, 0.25)
+  draw <- function(n, k) matrix(rnorm(n * 400, 0, sqrt(true[k])), n)
+  y <- draw(12, 1)[design$specimen, ] + draw(4, 2)[design$observer, ] + draw(nrow(design), 3)
+  found <- variance_components(y, factor(design$specimen), factor(design$observer))[c(1, 2, 4), ]
+  # Truncation at 0 is rare here; 400 draws.
+  expect_lt(max(abs(rowMeans(found) - true) / (apply(found, 1, sd) / 20)), 4)
+})
+
+test_that("measurements that repeat exactly have no error; frames do not count, where they are shared", {
+  set.seed(4)
+  own <- replicate(4, matrix(rnorm(30), 10))
+  specimen <- rep(1:4, each = 3)
+  coords <- own[, , specimen]
+  rownames(coords) <- paste("c", 1:10)
+  for (i in 1:4) {
+    turn <- qr.Q(qr(matrix(rnorm(9), 3)))
+    turn <- turn * det(turn)
+    for (j in which(specimen == i)) coords[, , j] <- sweep(coords[, , j] %*% turn, 2, i * 10, `+`)
+  }
+  noise <- array(rnorm(360, sd = 0.01), dim(coords))
+  exact <- repeatability(coords, specimen)
+  expect_lt(max(exact$parts$error), 1e-10)
+  expect_equal(exact$parts$icc, c(1, 1))
+  # The error is that of a point in its specimen's frame, by whatever pose: 80 degrees of freedom a co-ordinate.
+  noisy <- repeatability(coords + noise, specimen)
+  expect_equal(noisy$parts$error[2], 0.01 * sqrt(3), tolerance = 0.15)
+  within <- apply(coords + noise, 1:2, function(v) sum(tapply(v, specimen, var)) / 4)
+  expect_equal(noisy$points$error, sqrt(unname(rowSums(within))))
+  # Laid by itself, each measurement loses a little error to its frame.
+  each <- repeatability(coords + noise, specimen, match = "each")
+  expect_lt(each$parts$error[2], noisy$parts$error[2])
+  expect_gt(each$parts$error[2], 0.7 * noisy$parts$error[2])
+})
+
+test_that("points that some measurement lacks are left out and named", {
+  coords <- array(rnorm(90), c(5, 3, 6), list(paste("a", 1:5), NULL, NULL))
+  coords[2, , 3] <- NA
+  found <- repeatability(coords, rep(1:3, 2))
+  expect_equal(found$missing, "a 2")
+  expect_equal(found$parts$points, c(4, 4))
+  expect_output(print(found), "left out, missing somewhere: a 2")
+})
+
+test_that("what cannot be estimated is said", {
+  coords <- array(rnorm(36), c(3, 3, 4))
+  expect_crestline_error(repeatability(coords, 1:4), "measured twice")
+  expect_crestline_error(repeatability(coords, rep(1, 4)), "one specimen")
+  expect_crestline_error(repeatability(coords, c(1, 1, 2, 2), rep(1, 4)), "one observer")
+  expect_crestline_error(repeatability(coords, 1:3), "`specimen`")
+  expect_crestline_error(repeatability(matrix(1, 3, 3), 1:3), "`shapes`")
+  coords[] <- NA
+  expect_crestline_error(repeatability(coords, c(1, 1, 2, 2)), "no point")
+})
+
+test_that("print and plot fit, and the table is there", {
+  set.seed(5)
+  names <- paste(rep(paste("some curve of the face", 1:10), each = 2), 1:2)
+  coords <- array(rnorm(600), c(20, 3, 10), list(names, NULL, NULL))
+  found <- repeatability(coords, rep(1:5, 2), rep(1:2, each = 5))
+  shown <- capture.output(print(found))
+  expect_lte(max(nchar(shown)), 100)
+  expect_lte(length(shown), 16)
+  expect_identical(as.data.frame(found), found$parts)
+  before <- graphics::par("mar")
+  drawn <- drawn_pixels(plot(found), 600, 400)
+  # Both halves have colours of errors (red above blue).
+  coloured <- drawn[, , 1] - drawn[, , 3] > 0.3
+  expect_gt(sum(coloured[, 1:300]), 50)
+  expect_gt(sum(coloured[, 301:600]), 50)
+})
