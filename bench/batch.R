@@ -6,11 +6,11 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R killed
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R memory [copies = 250]
 #
-# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in turn; how long
-# the processes waited for a core tells how busy the machine was else (Linux). "plans": the same line with each plan, and whether shapes are identical;
-# Slurm where `sbatch` and future.batchtools are there. "killed": the run is killed (kill -9) once some results are there, and
-# started again: how many were measured twice, how many are missing; three files are damaged first. "memory": resident memory of
-# the process after 25 and after all of many copies of one face.
+# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in turn; how long the processes
+# waited for a core tells how busy the machine was else (Linux). "plans": the same line with each plan, and whether shapes are
+# identical; Slurm where `sbatch` and future.batchtools are there. "killed": the run is killed (kill -9) once some results are
+# there, and started again: how many were measured twice, how many are missing; three files are damaged first. "memory":
+# resident memory of the process after 25 and after all of many copies of one face.
 
 library(crestline)
 
@@ -78,7 +78,8 @@ if (mode == "speed") {
     sequential = function() future::plan("sequential"),
     multisession = function() future::plan("multisession", workers = 2),
     cluster = function() future::plan("cluster", workers = c("localhost", "localhost")),
-    slurm = function() future::plan(future.batchtools::batchtools_slurm, workers = 2, resources = list(ncpus = 1, memory = 1000, walltime = 600),
+    slurm = function() future::plan(future.batchtools::batchtools_slurm, workers = 2,
+                                    resources = list(ncpus = 1, memory = 1000, walltime = 600),
                                     template = system.file("extdata", "slurm.tmpl", package = "crestline"))
   )
   if (!nzchar(Sys.which("sbatch")) || !requireNamespace("future.batchtools", quietly = TRUE)) plans$slurm <- NULL
@@ -86,7 +87,8 @@ if (mode == "speed") {
     start <- system.time(plans[[name]]())[["elapsed"]]
     seconds <- system.time(shapes <- fit_shapes(files, scheme, file.path(dir, name)))[["elapsed"]]
     again <- system.time(fit_shapes(files, scheme, file.path(dir, name)))[["elapsed"]]
-    cat(sprintf("%s: started in %.1f s, %d shapes in %.1f s; once more in %.2f s\n", name, start, 23 - nrow(failures(shapes)), seconds, again))
+    cat(sprintf("%s: started in %.1f s, %d shapes in %.1f s; once more in %.2f s\n", name, start, 23 - nrow(failures(shapes)),
+                seconds, again))
     as.list(shapes)
   })
   future::plan("sequential")
@@ -97,8 +99,8 @@ if (mode == "speed") {
   for (file in files[c(4, 9, 20)]) writeLines(head(readLines(file, warn = FALSE), 40), file)
   out <- file.path(dir, "out")
   pid <- file.path(dir, "pid")
-  code <- sprintf("writeLines(format(Sys.getpid()), '%s'); library(crestline); fit_shapes(list.files('%s', '[.]ply$', full.names = TRUE), face_scheme(), '%s')",
-                  pid, dir, out)
+  line <- "fit_shapes(list.files('%s', '[.]ply$', full.names = TRUE), face_scheme(), '%s')"
+  code <- sprintf(paste("writeLines(format(Sys.getpid()), '%s'); library(crestline);", line), pid, dir, out)
   system2(file.path(R.home("bin"), "Rscript"), c("-e", shQuote(code)), stdout = FALSE, stderr = FALSE, wait = FALSE)
   while (length(list.files(out, "[.]shape$")) < 8) Sys.sleep(0.2)
   tools::pskill(as.integer(readLines(pid)), tools::SIGKILL)

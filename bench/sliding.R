@@ -1,6 +1,7 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise] [slider3d]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise]
+#     [slider3d]
 #
 # random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean() on spheres. The others
 # use the 23 simpop faces, in dense correspondence: every point is carried to the shared topology, and its RMS distance from
@@ -349,11 +350,13 @@ against_slider3d <- function(iterations = 10) {
   after <- vapply(theirs, energy, 0)
   own <- vapply(ours, function(store) energy(store[start$place, 1:3]), 0)
   on <- lapply(seq_along(meshes), function(i) put_on_mesh(start, i, theirs[[i]]))
-  cat(sprintf("\nMorpho::slider3d, %d iterations at most: energy %.1f before, %.2f after, ours %.2f (mean); ours lower on %d faces, by %.2g to %.2g; ",
-              iterations, mean(before), mean(after), mean(own), sum(own <= after), min(1 - own / after), max(1 - own / after)))
-  cat(sprintf("seconds %.1f and ours %.1f; theirs off the mesh by %.1e mm\n", their_time, time, max(vapply(on, `[[`, 0, "off"))))
+  cat(sprintf("\nMorpho::slider3d, %d iterations at most: energy %.2f before, %.3f after, ours %.3f (mean); ", iterations,
+              mean(before), mean(after), mean(own)))
+  cat(sprintf("ours lower on %d faces, by %.2g to %.2g; seconds %.1f and ours %.1f; theirs off the mesh by %.1e mm\n",
+              sum(own <= after), min(1 - own / after), max(1 - own / after), their_time, time, max(vapply(on, `[[`, 0, "off"))))
+  theirs <- lapply(on, `[[`, "store")
   cat(sprintf("spread of surface points, mm: slider3d %.3f, ours at that criterion %.3f, ours %.3f\n",
-              free_spread(start, lapply(on, `[[`, "store")), free_spread(start, ours), free_spread(start, stores(start$sample$shapes))))
+              free_spread(start, theirs), free_spread(start, ours), free_spread(start, stores(start$sample$shapes))))
 }
 
 sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho,
