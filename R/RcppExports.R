@@ -89,3 +89,11 @@ cpp_align <- function(x, size, weight, reference, scaling, tolerance, rounds) {
     .Call(`_crestline_cpp_align`, x, size, weight, reference, scaling, tolerance, rounds)
 }
 
+cpp_match_clouds <- function(xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine) {
+    .Call(`_crestline_cpp_match_clouds`, xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine)
+}
+
+cpp_fit_poses <- function(xyz, normal, to_xyz, to_normal, starts, settings) {
+    .Call(`_crestline_cpp_fit_poses`, xyz, normal, to_xyz, to_normal, starts, settings)
+}
+

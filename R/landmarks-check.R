@@ -130,4 +130,4 @@ warn_mirrored <- function(id) {
   )
 }
 
-mesh_diagonal <- function(mesh) box_diagonal(mesh$vb[1:3, , drop = FALSE])
+mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)

@@ -70,13 +70,17 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 }
 
 #' The passes of a fit, each about the curve of the one before
+#'
+#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length in which curvature counts.
 #' @noRd
 fit_passes <- function(specimen, path, curvature, keep_away, about) {
+  trusted <- attr(path, "trusted") / attr(path, "length")
   for (pass in seq_len(about$passes)) {
     fit <- fit_ridge(specimen, path, curvature, about$radius, about$width, about$type, keep_away, about$settings)
     fit$reference <- path
     if (!fit$found) break
     path <- fit$path
+    if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
   }
   fit
 }
@@ -86,7 +90,7 @@ fit_passes <- function(specimen, path, curvature, keep_away, about) {
 fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away, settings) {
   half <- min(width, settings$window * radius)
   coordinates <- path_coordinates(specimen, path, half, margin = radius)
-  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings)
+  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings, attr(path, "trusted"))
   scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
   stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE, path = path)
   if (!is.finite(scale) || scale <= 0) {
@@ -112,11 +116,12 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
 
 #' Strength at the vertices inside a window as the settings define it
 #'
+#' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere; NULL: all of it.
 #' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated: `value` (also NA where
 #'   left out), `direction` (n x 3, across the path or principal), `sigma`; `rows` (where it was estimated), `cell` (of
 #'   every row, the place in `rows` of the one that stands for it, NA outside the window); and `cap`.
 #' @noRd
-window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings) {
+window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings, trusted = NULL) {
   thinned <- thinned_rows(coordinates, settings$vertices)
   rows <- thinned$rows
   curved <- curvature(coordinates$vertex[rows])
@@ -127,6 +132,7 @@ window_strength <- function(specimen, coordinates, curvature, type, keep_away, s
   if (!is.null(keep_away)) {
     value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
   }
+  if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] | coordinates$s[rows] > trusted[2]] <- 0
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
   cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
   own <- if (type == "ridge") curved$direction2 else curved$direction1
@@ -188,9 +194,9 @@ new_curve <- function(specimen, path, reference, n, about, fit = NULL) {
   on_line <- function(values) {
     if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, n) else stats::approx(fit$line$s, values, along, rule = 2)$y
   }
-  points <- data.frame(point = seq_len(n), placed[c("s", "x", "y", "z")], d = on_line(fit$line$alpha),
-                       se = on_line(fit$line$se), placed[c("face", "w1", "w2", "w3")])
-  if (about$type == "plane") points$d <- 0
+  d <- if (about$type == "plane") numeric(n) else on_line(fit$line$alpha)
+  points <- frame_of(c(list(point = seq_len(n)), unclass(placed)[c("s", "x", "y", "z")],
+                       list(d = d, se = on_line(fit$line$se)), unclass(placed)[c("face", "w1", "w2", "w3")]))
   verdict <- judge_curve(about, fit)
   curve <- c(list(points = points, path = path, length = attr(path, "length"), reference = reference,
                   coordinates = fit$coordinates, surface = fit$surface, line = fit$line,

@@ -10,7 +10,7 @@
 #' With `dir` every result is written there as it comes, whole or not at all, and read only when asked for, so that
 #' memory does not grow with the number of specimens. A run that was cut short goes on where it was: what is in `dir` is
 #' not measured again as long as its input (the files' or specimen's content), the scheme, the settings and the package's
-#' version are the same. Failures are tried again.
+#' version are the same; only the rest is sent to the workers. Failures are tried again.
 #'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s.
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
@@ -40,22 +40,44 @@
 fit_shapes <- function(x, scheme, dir = NULL, landmarks = NULL, ..., chunk = NULL, progress = interactive()) {
   rlang::check_installed(c("future", "future.apply", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
   jobs <- batch_jobs(x, landmarks)
-  chunk <- if (is.null(chunk)) ceiling(length(jobs) / (4 * future::nbrOfWorkers())) else check_count(chunk, "chunk")
   files <- batch_files(names(jobs), dir)
-  tasks <- Map(function(job, file, name) list(job = job, file = file, name = name), jobs, files, names(jobs))
   settings <- list(...)
-  run <- function() {
-    tick <- progressr::progressor(steps = length(tasks))
-    future.apply::future_lapply(tasks, function(task) {
-      result <- measure_job(task$job, scheme, settings, task$file)
-      tick(task$name)
-      result
-    }, future.chunk.size = chunk, future.packages = "crestline", future.seed = NULL)
-  }
-  results <- if (progress) progressr::with_progress(run()) else run()
-  names(results) <- names(jobs)
+  tasks <- Map(function(job, file, name) batch_task(job, file, name, scheme, settings), jobs, files, names(jobs))
+  open <- !vapply(tasks, is_kept, NA)
+  run <- function() measure_tasks(tasks[open], scheme, settings, chunk)
+  results <- stats::setNames(vector("list", length(jobs)), names(jobs))
+  if (any(open)) results[open] <- if (progress) progressr::with_progress(run()) else run()
   structure(results, files = files, class = "shape_batch")
+}
+
+#' One specimen's task: what is measured, where it is kept, and the key that tells whether it is kept already
+#' @noRd
+batch_task <- function(job, file, name, scheme, settings) {
+  key <- if (!is.null(file)) tryCatch(job_key(job, scheme, settings), error = function(e) NULL)
+  list(job = job, file = file, name = name, key = key)
+}
+
+#' Whether a task's shape is in its file
+#' @noRd
+is_kept <- function(task) !is.null(task$key) && identical(read_kept(task$file, "key"), task$key)
+
+#' All tasks, by the user's plan
+#'
+#' @param poll Seconds between two looks at workers that are busy, where the user has set no other: future's own 0.01
+#'   takes a tenth of a core, of which nothing is left when there are as many workers as cores.
+#' @return List of what [measure_task()] returns.
+#' @noRd
+measure_tasks <- function(tasks, scheme, settings, chunk, poll = 0.05) {
+  if (is.null(chunk)) chunk <- ceiling(length(tasks) / (4 * future::nbrOfWorkers()))
+  rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll))
+  tick <- progressr::progressor(steps = length(tasks))
+  future.apply::future_lapply(tasks, function(task) {
+    result <- measure_task(task, scheme, settings)
+    tick(task$name)
+    result
+  }, future.chunk.size = chunk, future.packages = "crestline", future.seed = NULL)
 }
 
 #' What is to be measured: files or specimens, by name
@@ -99,26 +121,43 @@ batch_files <- function(names, dir) {
   }
   unlink(list.files(dir, "^part-.*[.]tmp$", full.names = TRUE))
   safe <- make.unique(gsub("[^[:alnum:]._ -]", "_", names), sep = " ")
-  as.list(file.path(normalizePath(dir), paste0(safe, ".rds")))
+  as.list(file.path(normalizePath(dir), paste0(safe, ".shape")))
 }
 
-#' One specimen: what is kept of it, or measured now
+#' One specimen measured
 #'
-#' @param file Where it is kept, or `NULL`.
-#' @return With a file NULL; else the shape, or a failure (class `shape_failure`).
+#' @return Where it is kept in a file NULL; else the shape, or a failure (class `shape_failure`).
 #' @noRd
-measure_job <- function(job, scheme, settings, file) {
-  key <- tryCatch(job_key(job, scheme, settings), error = function(e) NULL)
-  if (!is.null(file)) {
-    kept <- read_kept(file)
-    if (!is.null(key) && identical(kept$key, key) && inherits(kept$result, "shape")) return(NULL)
-  }
-  result <- tryCatch(fit_job(job, scheme, settings), error = function(e) failure_of(e))
-  if (is.null(file)) return(result)
-  part <- tempfile("part-", dirname(file), ".tmp")
-  saveRDS(list(key = key, result = result), part)
-  file.rename(part, file)
+measure_task <- function(task, scheme, settings) {
+  result <- tryCatch(fit_job(task$job, scheme, settings), error = function(e) failure_of(e))
+  if (is.null(task$file)) return(result)
+  keep(result, if (inherits(result, "shape")) task$key, task$file)
   NULL
+}
+
+#' Write a result: the key first, so that it can be read alone; under another name until all of it is there
+#'
+#' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five times as long.
+#' @noRd
+keep <- function(result, key, file, compression = 1) {
+  part <- tempfile("part-", dirname(file), ".tmp")
+  to <- gzfile(part, "wb", compression = compression)
+  serialize(key, to)
+  serialize(result, to)
+  close(to)
+  file.rename(part, file)
+}
+
+#' @param what "key", of a shape, or the "result"; NULL where the file is not there or cannot be read.
+#' @noRd
+read_kept <- function(file, what) {
+  if (!file.exists(file)) return(NULL)
+  from <- gzfile(file, "rb")
+  on.exit(close(from))
+  tryCatch({
+    key <- unserialize(from)
+    if (what == "key") key else unserialize(from)
+  }, error = function(e) NULL)
 }
 
 #' What a result depends on, as one string
@@ -145,8 +184,6 @@ failure_of <- function(e) {
                  remedy = if (own) e$remedy else "Please report it, with the specimen if you may."), class = "shape_failure")
 }
 
-read_kept <- function(file) if (file.exists(file)) tryCatch(readRDS(file), error = function(e) NULL)
-
 #' What went wrong with the specimens of a batch
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
@@ -164,11 +201,16 @@ failures <- function(x) {
   rows <- lapply(names(x), function(name) {
     result <- batch_result(x, name)
     if (inherits(result, "shape")) return(NULL)
-    if (is.null(result)) result <- list(stage = "keeping", message = "its file is not there or cannot be read", remedy = "Run fit_shapes() again.")
+    if (is.null(result)) result <- unreadable(attr(x, "files")[[match(name, names(x))]])
     data.frame(id = name, stage = result$stage, message = result$message, remedy = result$remedy)
   })
   empty <- data.frame(id = character(), stage = character(), message = character(), remedy = character())
   do.call(rbind, c(list(empty), rows))
+}
+
+unreadable <- function(file) {
+  list(stage = "keeping", message = sprintf("its file %s is not there or cannot be read.", file),
+       remedy = "Delete it if it is there, and run fit_shapes() again.")
 }
 
 #' Result of one specimen, from memory or its file
@@ -177,7 +219,7 @@ batch_result <- function(x, i) {
   all <- unclass(x)
   i <- if (is.character(i)) match(i, names(all)) else i
   file <- attr(x, "files")[[i]]
-  if (is.null(file)) all[[i]] else read_kept(file)$result
+  if (is.null(file)) all[[i]] else read_kept(file, "result")
 }
 
 #' @export

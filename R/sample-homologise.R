@@ -12,7 +12,8 @@
 #'
 #' The template is made symmetric in every round ([symmetrise()]) where the scheme has left-right pairs.
 #'
-#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s. Cut ends are
+#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s, or a `shape_batch`
+#'   of [fit_shapes()]: what failed is left out, and of one in files a single scan at a time is in memory. Cut ends are
 #'   homologous only if all were measured with the same `cut_scale`.
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
@@ -59,6 +60,7 @@
 #' @export
 homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL, tolerance = 2e-4, rounds = 20,
                        progress = interactive()) {
+  if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
@@ -83,7 +85,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
-  if (inherits(shapes, "shape_batch")) shapes <- Filter(Negate(is.null), as.list(shapes))
+  if (inherits(shapes, "shape_batch")) shapes <- measured(shapes)
   if (inherits(shapes, "shape")) shapes <- list(shapes)
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise", call = call)
   if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")
@@ -98,6 +100,22 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
   }
   for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
   stats::setNames(shapes, ids)
+}
+
+#' The shapes of a batch; of one in files without their specimens, which are read again when they are needed
+#' @noRd
+measured <- function(batch) {
+  bare <- !is.null(specimens_in_files(batch))
+  shapes <- lapply(names(batch), function(name) {
+    shape <- batch[[name]]
+    if (bare) shape$specimen <- NULL
+    shape
+  })
+  Filter(Negate(is.null), shapes)
+}
+
+specimens_in_files <- function(x) {
+  if (inherits(x, "shape_batch") && length(unlist(attr(x, "files")))) function(id) x[[id]]$specimen
 }
 
 #' @param specimens As in [homologise()].
@@ -128,10 +146,14 @@ first_template <- function(shapes, template, rounds, call = rlang::caller_env())
 
 #' Rounds of sliding curves and taking their mean as the template
 #'
+#' On noisy scans a point may have two places of least energy and take one and the other in turn, and the mean with it:
+#' then half a step is made.
+#'
 #' @param states List of [slide_state()]s.
+#' @param stalled Half a step where the largest movement is still this share of that of the round before.
 #' @return List: `template`, `convergence`.
 #' @noRd
-mean_curves <- function(states, template, settings, tolerance, rounds) {
+mean_curves <- function(states, template, settings, tolerance, rounds, stalled = 0.9) {
   table <- list()
   moved <- Inf
   for (round in seq_len(rounds)) {
@@ -139,8 +161,10 @@ mean_curves <- function(states, template, settings, tolerance, rounds) {
     slid <- lapply(states, slide_curves, plan)
     before <- plan$xyz
     after <- mean_template(before, gauge_fixed(states, slid), template$scheme)
+    last <- max(moved)
     moved <- sqrt(rowSums((after - before)^2))
     moved <- moved[!is.na(moved)]
+    if (max(moved) >= stalled * last) after <- (before + after) / 2
     table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
                                  energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
                                  slide = distance_slid(states, slid))

@@ -12,8 +12,8 @@ curve_parts <- function(text) {
   parts <- regmatches(pieces, regexec(pattern, pieces))
   if (!length(parts) || any(lengths(parts) == 0)) return(NULL)
   parts <- do.call(rbind, parts)
-  data.frame(curve = trimws(parts[, 2]), from = as.integer(parts[, 3]),
-             to = as.integer(ifelse(parts[, 5] == "", parts[, 3], parts[, 5])))
+  frame_of(list(curve = trimws(parts[, 2]), from = as.integer(parts[, 3]),
+                to = as.integer(ifelse(parts[, 5] == "", parts[, 3], parts[, 5]))))
 }
 
 #' The points of a bounding curve in order
@@ -22,7 +22,7 @@ curve_parts <- function(text) {
 side_points <- function(text) {
   parts <- curve_parts(text)
   point <- Map(seq, parts$from, parts$to)
-  data.frame(curve = rep(parts$curve, lengths(point)), point = unlist(point))
+  frame_of(list(curve = rep(parts$curve, lengths(point)), point = unlist(point)))
 }
 
 #' Whole numbers written as "1,3:8"
@@ -50,7 +50,7 @@ block_points <- function(block) {
   } else {
     as.character(at$column)
   }
-  data.frame(part = block$patch, point = index, column = columns[at$column], row = at$row)
+  frame_of(list(part = rep(block$patch, length(index)), point = index, column = columns[at$column], row = at$row))
 }
 
 #' Where the points of a block that lie on points of a bounding curve lie

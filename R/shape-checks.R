@@ -41,10 +41,16 @@ fit_values <- function(fits, name) {
   vapply(fits, function(fit) if (is.null(fit[[name]])) NA_real_ else as.numeric(fit[[name]]), 0, USE.NAMES = FALSE)
 }
 
+#' For every point the row of `status` of its part
+#' @noRd
+part_rows <- function(shape) {
+  match(paste(shape$points$level, shape$points$part), paste(shape$status$level, shape$status$part))
+}
+
 missing_share <- function(shape) {
-  key <- paste(shape$points$level, shape$points$part)
-  share <- tapply(is.na(shape$points$x), key, mean)
-  as.vector(share[paste(shape$status$level, shape$status$part)])
+  row <- part_rows(shape)
+  n <- nrow(shape$status)
+  tabulate(row[is.na(shape$points$x)], n) / tabulate(row, n)
 }
 
 #' Share of a path's length over bridges; NA without a path
@@ -64,14 +70,13 @@ bridged_share <- function(path, faces) {
 #'   there is neither.
 #' @noRd
 part_places <- function(shape, fits, faces, ends) {
-  xyz <- as.matrix(shape$points[c("x", "y", "z")])
-  rows <- split(seq_along(xyz[, 1]), paste(shape$points$level, shape$points$part))
-  lapply(seq_len(nrow(shape$status)), function(i) {
-    part <- shape$status[i, ]
-    if (part$level == "curves") return(path_places(fits[[part$part]]$path, faces, ends))
-    at <- rows[[paste(part$level, part$part)]]
-    at <- at[!is.na(xyz[at, 1])]
-    if (part$level == "landmarks" || length(at) < 2) return(path_places(NULL, faces, ends))
+  xyz <- columns_of(shape$points, c("x", "y", "z"))
+  row <- part_rows(shape)
+  status <- shape$status
+  lapply(seq_len(nrow(status)), function(i) {
+    if (status$level[i] == "curves") return(path_places(fits[[status$part[i]]]$path, faces, ends))
+    at <- which(row == i & !is.na(xyz[, 1]))
+    if (status$level[i] == "landmarks" || length(at) < 2) return(path_places(NULL, faces, ends))
     own <- xyz[at, , drop = FALSE]
     list(xyz = own, face = shape$points$face[at], weight = rep(1, length(at)), inner = rep(TRUE, length(at)),
          size = sqrt(8 * mean(rowSums(sweep(own, 2, colMeans(own))^2))))
@@ -86,7 +91,7 @@ path_places <- function(path, faces, ends) {
   weight <- c(0, diff(path$s))
   own <- path$face <= faces
   inner <- path$s >= ends * length & path$s <= (1 - ends) * length
-  list(xyz = as.matrix(path[own, c("x", "y", "z")]), face = path$face[own], weight = weight[own], inner = inner[own],
+  list(xyz = columns_of(path, c("x", "y", "z"))[own, , drop = FALSE], face = path$face[own], weight = weight[own], inner = inner[own],
        size = length)
 }
 

@@ -120,7 +120,7 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
   }
   about <- about_curve(row, specimen, settings, passes)
   path <- trusted_path(row, specimen, path)
-  fit <- fit_passes(specimen, path, trusted(curvature, row, specimen, path), away, about)
+  fit <- fit_passes(specimen, path, curvature, away, about)
   new_curve(specimen, fit$path, fit$reference, row$n, about, fit)
 }
 
@@ -181,14 +181,8 @@ trusted_path <- function(row, specimen, path) {
   path_through(points, trusted = cumsum(lengths)[1:2], type = attr(path, "type"), competing = attr(path, "competing"))
 }
 
-#' Curvature with none beside the parts of a path that are not trusted
+#' Curvature with none at some vertices
 #' @noRd
-trusted <- function(curvature, row, specimen, path) {
-  near <- path_coordinates(specimen, path, row$width, margin = row$radius)
-  range <- attr(path, "trusted")
-  without_curvature(curvature, near$vertex[near$s < range[1] | near$s > range[2]])
-}
-
 without_curvature <- function(curvature, vertex) {
   force(curvature)
   function(vertices) {

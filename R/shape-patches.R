@@ -19,7 +19,8 @@ fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick
   problems <- vector("list", nrow(scheme$patches))
   for (i in seq_len(nrow(scheme$patches))) {
     block <- scheme$patches[i, ]
-    grid <- cbind(block_points(block), place = points$place[block_of == i])
+    grid <- block_points(block)
+    grid$place <- points$place[block_of == i]
     fit <- fit_block(block, grid, specimen, surface, scheme$curves, fits, store, column)
     store <- fit$store
     lost <- grid$place[which(store[grid$place, "face"] > ncol(scan$mesh$it))]

@@ -1,15 +1,20 @@
-# Batches: the 23 simpop faces with one worker and two; a run killed in the middle and gone on with; memory.
+# Batches: the 23 simpop faces with one worker and two, on every kind of plan; a run killed in the middle and gone on with;
+# memory.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R speed
+#   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R speed [pairs = 3]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R plans
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R killed
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R memory [copies = 250]
 #
-# "speed": seconds of all 23 faces by future's multisession, workers started before. "killed": the run is killed (kill -9)
-# once some results are there, and started again: how many were measured twice, how many are missing; three files are damaged
-# first. "memory": resident memory of the process after 25 and after all of many copies of one face.
+# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in turn; the CPU seconds that the
+# processes took tell how busy the machine was else. "plans": the same line with each plan, and whether shapes are identical;
+# Slurm where `sbatch` and future.batchtools are there. "killed": the run is killed (kill -9) once some results are there, and
+# started again: how many were measured twice, how many are missing; three files are damaged first. "memory": resident memory of
+# the process after 25 and after all of many copies of one face.
 
 library(crestline)
 
+inner <- function(name) getFromNamespace(name, "crestline")
 shared <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
 mode <- c(commandArgs(TRUE), "speed")[1]
 scheme <- face_scheme()
@@ -26,11 +31,26 @@ laid_out <- function(dir, ids = sub("[.]ply$", "", list.files(shared, "[.]ply$")
   list.files(dir, "[.]ply$", full.names = TRUE)
 }
 
+# User and system seconds that a process has taken.
+cpu_of <- function(pid) sum(as.numeric(strsplit(readLines(sprintf("/proc/%d/stat", pid)), " ")[[1]][14:15])) / 100
+
+pids <- function(workers) {
+  if (workers == 1) return(Sys.getpid())
+  c(Sys.getpid(), unlist(future.apply::future_lapply(1:2, function(i) {
+    Sys.sleep(0.5)
+    Sys.getpid()
+  }, future.chunk.size = 1)))
+}
+
 seconds_with <- function(workers, files) {
   if (workers > 1) future::plan("multisession", workers = workers) else future::plan("sequential")
   invisible(fit_shapes(files[seq_len(workers)], scheme))
+  processes <- pids(workers)
+  before <- vapply(processes, cpu_of, 0)
   seconds <- system.time(shapes <- fit_shapes(files, scheme))[["elapsed"]]
+  cpu <- vapply(processes, cpu_of, 0) - before
   stopifnot(nrow(failures(shapes)) == 0)
+  cat(sprintf("%d: %.2f s; CPU %s\n", workers, seconds, paste(sprintf("%.2f", cpu), collapse = " ")))
   seconds
 }
 
@@ -39,19 +59,43 @@ resident <- function() as.numeric(gsub("[^0-9]", "", grep("VmRSS", readLines("/p
 dir <- tempfile("batch-")
 if (mode == "speed") {
   files <- laid_out(dir)
-  times <- vapply(c(1, 2, 1, 2), seconds_with, 0, files = files)
-  cat(sprintf("one worker %.1f and %.1f s, two %.1f and %.1f s: ratios %.2f and %.2f\n", times[1], times[3], times[2], times[4],
-              times[1] / times[2], times[3] / times[4]))
+  for (pair in seq_len(as.integer(c(commandArgs(TRUE)[-1], 3)[1]))) {
+    cat(sprintf("ratio %.2f\n", seconds_with(1, files) / seconds_with(2, files)))
+  }
+} else if (mode == "plans") {
+  Sys.setenv(RGL_USE_NULL = "TRUE", USER = Sys.info()[["user"]])
+  setwd(tempdir())
+  files <- laid_out(dir)
+  plans <- list(
+    sequential = function() future::plan("sequential"),
+    multisession = function() future::plan("multisession", workers = 2),
+    cluster = function() future::plan("cluster", workers = c("localhost", "localhost")),
+    slurm = function() future::plan(future.batchtools::batchtools_slurm, workers = 2, resources = list(ncpus = 1, memory = 1000, walltime = 600),
+                                    template = system.file("extdata", "slurm.tmpl", package = "crestline"))
+  )
+  if (!nzchar(Sys.which("sbatch")) || !requireNamespace("future.batchtools", quietly = TRUE)) plans$slurm <- NULL
+  found <- lapply(names(plans), function(name) {
+    start <- system.time(plans[[name]]())[["elapsed"]]
+    seconds <- system.time(shapes <- fit_shapes(files, scheme, file.path(dir, name)))[["elapsed"]]
+    again <- system.time(fit_shapes(files, scheme, file.path(dir, name)))[["elapsed"]]
+    cat(sprintf("%s: started in %.1f s, %d shapes in %.1f s; once more in %.2f s\n", name, start, 23 - nrow(failures(shapes)), seconds, again))
+    as.list(shapes)
+  })
+  future::plan("sequential")
+  points <- lapply(found, function(shapes) lapply(shapes, `[[`, "points"))
+  cat("identical to the first:", vapply(points, identical, NA, points[[1]]), "\n")
 } else if (mode == "killed") {
   files <- laid_out(dir)
   for (file in files[c(4, 9, 20)]) writeLines(head(readLines(file, warn = FALSE), 40), file)
   out <- file.path(dir, "out")
-  code <- sprintf("library(crestline); fit_shapes(list.files('%s', '[.]ply$', full.names = TRUE), face_scheme(), '%s')", dir, out)
+  pid <- file.path(dir, "pid")
+  code <- sprintf("writeLines(format(Sys.getpid()), '%s'); library(crestline); fit_shapes(list.files('%s', '[.]ply$', full.names = TRUE), face_scheme(), '%s')",
+                  pid, dir, out)
   system2(file.path(R.home("bin"), "Rscript"), c("-e", shQuote(code)), stdout = FALSE, stderr = FALSE, wait = FALSE)
-  while (length(list.files(out, "[.]rds$")) < 8) Sys.sleep(0.2)
-  system2("pkill", c("-9", "-f", shQuote(out)))
-  done <- list.files(out, "[.]rds$", full.names = TRUE)
-  good <- done[vapply(done, function(file) inherits(readRDS(file)$result, "shape"), NA)]
+  while (length(list.files(out, "[.]shape$")) < 8) Sys.sleep(0.2)
+  tools::pskill(as.integer(readLines(pid)), tools::SIGKILL)
+  done <- list.files(out, "[.]shape$", full.names = TRUE)
+  good <- done[vapply(done, function(file) inherits(inner("read_kept")(file, "result"), "shape"), NA)]
   before <- file.mtime(good)
   shapes <- fit_shapes(files, scheme, out)
   cat(sprintf("killed after %d results (%d good); then: %d of those measured again, %d shapes, %d failures\n", length(done),

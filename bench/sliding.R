@@ -1,17 +1,18 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise] [slider3d]
 #
 # random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean() on spheres. The others
 # use the 23 simpop faces, in dense correspondence: every point is carried to the shared topology, and its RMS distance from
-# the mean over faces taken, along its curve and in all; noise: with noise and moved landmarks. morpho needs Morpho.
+# the mean over faces taken, along its curve and in all; noise: with noise and moved landmarks. morpho (relaxLM) and slider3d need
+# Morpho.
 
 library(crestline)
 
 inner <- function(name) getFromNamespace(name, "crestline")
 shared <- Sys.getenv("CRESTLINE_SHARED")
 wanted <- commandArgs(TRUE)
-if (!length(wanted)) wanted <- c("random", "mean", "starts", "spread", "noise", "morpho", "morpho-noise")
+if (!length(wanted)) wanted <- c("random", "mean", "starts", "spread", "noise", "morpho", "morpho-noise", "slider3d")
 
 # ---- random curves ----
 
@@ -266,45 +267,95 @@ starts <- function() {
   }
 }
 
-# The same free surface points against the same template, at Morpho's own criterion: the bending energy of the 907 places.
-morpho <- function(noise = 0, moved = 0) {
-  if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
+# What both comparisons with Morpho begin with: shapes with curves slid and surface points between them; which of the surface
+# model's places are free.
+morpho_start <- function(noise, moved) {
   shapes <- fitted(specimens(noise, moved))
   sample <- homologise(shapes, progress = FALSE)
   scheme <- sample$template$scheme
   place <- unique(with(scheme$points, place[level == "surface"]))
-  free <- match(setdiff(place, inner("bound_places")(scheme)), place)
-  template <- inner("places_of")(sample$template)[place, ]
-  matrix_time <- system.time(b <- inner("energy_matrix")(template, rep(0, length(place)), 1e-6))[["user.self"]]
   settings <- slide_settings(surface = "between")
-  compared <- lapply(shapes, function(shape) {
-    face <- shape$specimen
-    store <- stores(list(slide(shape, sample$template, settings)))[[1]]
-    set <- list(places = place, free = place[free], b = b)
-    plan <- list(settings = slide_settings(surface_sweeps = 1000), radius = 57)
-    time <- system.time(own <- inner("slide_free")(set, store, face, plan)$store)[["user.self"]]
-    x <- store[place, 1:3]
-    their_time <- system.time(theirs <- Morpho::relaxLM(x, template, SMvector = free, surp = free, mesh = face$mesh,
-                                                        silent = TRUE))[["user.self"]]
-    on <- inner("surface_points")(face$mesh, theirs)
-    store[place, 1:7] <- as.matrix(on)
-    energy <- function(x) sum(x * (b %*% x))
-    list(theirs = store, ours = own, row = data.frame(
-      energy_start = energy(x), energy_ours = energy(own[place, 1:3]), energy_morpho = energy(theirs), seconds_ours = time,
-      seconds_morpho = their_time, off_mesh_morpho = max(sqrt(rowSums((theirs - as.matrix(on[1:3]))^2)))))
+  list(shapes = shapes, sample = sample, scheme = scheme, place = place,
+       free = match(setdiff(place, inner("bound_places")(scheme)), place),
+       stores = lapply(shapes, function(shape) stores(list(slide(shape, sample$template, settings)))[[1]]))
+}
+
+# Our free surface points at Morpho's own criterion: the bending energy of all places, no nugget.
+slide_as_morpho <- function(start, i, b) {
+  plan <- list(settings = slide_settings(surface_sweeps = 1000), radius = 57)
+  set <- list(places = start$place, free = start$place[start$free], b = b)
+  inner("slide_free")(set, start$stores[[i]], start$shapes[[i]]$specimen, plan)$store
+}
+
+# Their points as a store, and how far off the mesh they are.
+put_on_mesh <- function(start, i, x) {
+  on <- as.matrix(inner("surface_points")(start$shapes[[i]]$specimen$mesh, x))
+  store <- start$stores[[i]]
+  store[start$place, 1:7] <- on
+  list(store = store, off = max(sqrt(rowSums((x - on[, 1:3])^2))))
+}
+
+free_spread <- function(start, stores) {
+  surface_spread(carried(stores, start$shapes[[1]]$specimen$mesh$it, mean_mesh()), start$scheme)
+}
+
+energy_in <- function(b) function(x) sum(x * (b %*% x))
+
+# Against the same template, one face after the other.
+morpho <- function(noise = 0, moved = 0) {
+  if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
+  start <- morpho_start(noise, moved)
+  template <- inner("places_of")(start$sample$template)[start$place, ]
+  matrix_time <- system.time(b <- inner("energy_matrix")(template, rep(0, nrow(template)), 1e-6))[["user.self"]]
+  energy <- energy_in(b)
+  compared <- lapply(seq_along(start$shapes), function(i) {
+    time <- system.time(own <- slide_as_morpho(start, i, b))[["user.self"]]
+    x <- start$stores[[i]][start$place, 1:3]
+    their_time <- system.time(theirs <- Morpho::relaxLM(x, template, SMvector = start$free, surp = start$free, silent = TRUE,
+                                                        mesh = start$shapes[[i]]$specimen$mesh))[["user.self"]]
+    on <- put_on_mesh(start, i, theirs)
+    list(theirs = on$store, ours = own, row = data.frame(
+      energy_ours = energy(own[start$place, 1:3]), energy_morpho = energy(theirs), seconds_ours = time,
+      seconds_morpho = their_time, off_mesh_morpho = on$off))
   })
   rows <- do.call(rbind, lapply(compared, `[[`, "row"))
   gain <- 1 - rows$energy_ours / rows$energy_morpho
   cat(sprintf("\nMorpho::relaxLM, noise %g mm, %d free of %d places: our energy is lower on %d faces, by %.2g to %.2g; ",
-              noise, length(free), length(place), sum(gain >= 0), min(gain), max(gain)))
+              noise, length(start$free), length(start$place), sum(gain >= 0), min(gain), max(gain)))
   cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n",
               mean(rows$seconds_ours), matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
-  it <- shapes[[1]]$specimen$mesh$it
-  at <- function(which) surface_spread(carried(lapply(compared, `[[`, which), it, mean_mesh()), scheme)
-  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, ours %.3f\n", at("theirs"),
-              at("ours"), surface_spread(carried(stores(sample$shapes), it, mean_mesh()), scheme)))
+  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, ours %.3f\n",
+              free_spread(start, lapply(compared, `[[`, "theirs")), free_spread(start, lapply(compared, `[[`, "ours")),
+              free_spread(start, stores(start$sample$shapes))))
+}
+
+# All faces at once, against their own mean: slider3d until it stands still or so many iterations; then ours from the same
+# start against the mean that it has come to.
+slider3d <- function(iterations = as.integer(Sys.getenv("CRESTLINE_ITERATIONS", "10"))) {
+  if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
+  start <- morpho_start(0, 0)
+  x <- simplify2array(lapply(start$stores, function(store) store[start$place, 1:3]))
+  meshes <- lapply(start$shapes, function(shape) shape$specimen$mesh)
+  their_time <- system.time(slid <- Morpho::slider3d(x, SMvector = start$free, surp = start$free, meshlist = meshes, mc.cores = 1,
+                                                     iterations = iterations, silent = TRUE))[["user.self"]]
+  theirs <- lapply(seq_along(meshes), function(i) slid$dataslide[, , i])
+  template <- inner("procrustes_mean")(theirs, theirs[[1]])
+  time <- system.time({
+    b <- inner("energy_matrix")(template, rep(0, nrow(template)), 1e-6)
+    ours <- lapply(seq_along(meshes), function(i) slide_as_morpho(start, i, b))
+  })[["user.self"]]
+  energy <- energy_in(b)
+  before <- apply(x, 3, energy)
+  after <- vapply(theirs, energy, 0)
+  own <- vapply(ours, function(store) energy(store[start$place, 1:3]), 0)
+  on <- lapply(seq_along(meshes), function(i) put_on_mesh(start, i, theirs[[i]]))
+  cat(sprintf("\nMorpho::slider3d, %d iterations at most: energy %.1f before, %.2f after, ours %.2f (mean); ours lower on %d faces, by %.2g to %.2g; ",
+              iterations, mean(before), mean(after), mean(own), sum(own <= after), min(1 - own / after), max(1 - own / after)))
+  cat(sprintf("seconds %.1f and ours %.1f; theirs off the mesh by %.1e mm\n", their_time, time, max(vapply(on, `[[`, 0, "off"))))
+  cat(sprintf("spread of surface points, mm: slider3d %.3f, ours at that criterion %.3f, ours %.3f\n",
+              free_spread(start, lapply(on, `[[`, "store")), free_spread(start, ours), free_spread(start, stores(start$sample$shapes))))
 }
 
 sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho,
-                 "morpho-noise" = function() morpho(0.2, 1))
+                 "morpho-noise" = function() morpho(0.2, 1), slider3d = slider3d)
 for (name in wanted) sections[[name]]()

@@ -347,6 +347,40 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_match_clouds
+List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix feature, NumericMatrix to_xyz, NumericMatrix to_normal, NumericMatrix to_feature, double reach, double cosine);
+RcppExport SEXP _crestline_cpp_match_clouds(SEXP xyzSEXP, SEXP normalSEXP, SEXP featureSEXP, SEXP to_xyzSEXP, SEXP to_normalSEXP, SEXP to_featureSEXP, SEXP reachSEXP, SEXP cosineSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type feature(featureSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type to_xyz(to_xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type to_normal(to_normalSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type to_feature(to_featureSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< double >::type cosine(cosineSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_match_clouds(xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_fit_poses
+List cpp_fit_poses(NumericMatrix xyz, NumericMatrix normal, NumericMatrix to_xyz, NumericMatrix to_normal, NumericMatrix starts, List settings);
+RcppExport SEXP _crestline_cpp_fit_poses(SEXP xyzSEXP, SEXP normalSEXP, SEXP to_xyzSEXP, SEXP to_normalSEXP, SEXP startsSEXP, SEXP settingsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type to_xyz(to_xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type to_normal(to_normalSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type starts(startsSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_fit_poses(xyz, normal, to_xyz, to_normal, starts, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
@@ -371,6 +405,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
+    {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},
+    {"_crestline_cpp_fit_poses", (DL_FUNC) &_crestline_cpp_fit_poses, 6},
     {NULL, NULL, 0}
 };
 

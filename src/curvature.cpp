@@ -95,7 +95,7 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
   std::vector<FitBuffer> buffers(threads);
   for (int begin = 0; begin < cells; begin += block) {
     int end = std::min(cells, begin + block);
-#pragma omp parallel for schedule(dynamic, 8) num_threads(threads) if (threads > 1)
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
     for (int cell = begin; cell < end; ++cell) {
 #ifdef _OPENMP
       int thread = omp_get_thread_num();

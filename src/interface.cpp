@@ -3,6 +3,8 @@
 
 #include "analysis_align.h"
 #include "curvature.h"
+#include "landmarks_match.h"
+#include "landmarks_rigid.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
 #include "mesh_geodesic.h"
@@ -425,4 +427,48 @@ List cpp_align(NumericVector x, IntegerVector size, NumericVector weight, Numeri
                                       {static_cast<crestline::Scaling>(scaling), tolerance, rounds});
   return List::create(_["coords"] = coords, _["mean"] = aligned.mean, _["size"] = aligned.size,
                       _["moved"] = aligned.moved, _["converged"] = aligned.converged);
+}
+
+// xyz, normal: 3 x n; feature: features x n. Indices from 1, NA where there is none; distances in xyz.
+// [[Rcpp::export]]
+List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix feature, NumericMatrix to_xyz,
+                      NumericMatrix to_normal, NumericMatrix to_feature, double reach, double cosine) {
+  crestline::CloudGrid fixed({to_xyz.begin(), to_normal.begin(), to_feature.begin(), to_xyz.ncol(), to_feature.nrow()}, reach / 4);
+  IntegerVector index(xyz.ncol(), NA_INTEGER);
+  NumericVector distance(xyz.ncol(), NA_REAL);
+  for (int i = 0; i < xyz.ncol(); ++i) {
+    double d2 = 0;
+    int found = fixed.nearest(&xyz(0, i), &normal(0, i), feature.begin() + static_cast<R_xlen_t>(feature.nrow()) * i, reach,
+                              cosine, &d2);
+    if (found < 0) continue;
+    index[i] = found + 1;
+    distance[i] = std::sqrt(d2);
+  }
+  return List::create(_["index"] = index, _["distance"] = distance);
+}
+
+// starts: 13 x s, a column a pose: rotation (by column), shift, scale. The fitted poses in the same form, and their scores.
+// [[Rcpp::export]]
+List cpp_fit_poses(NumericMatrix xyz, NumericMatrix normal, NumericMatrix to_xyz, NumericMatrix to_normal, NumericMatrix starts,
+                   List settings) {
+  NumericVector reach = settings["reach"], scale = settings["scale"];
+  crestline::RigidSettings rigid{{reach[0], reach[1]}, settings["steps"], settings["cosine"], settings["kept"],
+                                 {scale[0], scale[1]}, settings["saturation"], settings["spacing"]};
+  crestline::Cloud moving{xyz.begin(), normal.begin(), nullptr, xyz.ncol(), 0};
+  crestline::CloudGrid fixed({to_xyz.begin(), to_normal.begin(), nullptr, to_xyz.ncol(), 0}, rigid.spacing);
+  NumericMatrix poses(13, starts.ncol());
+  NumericVector score(starts.ncol());
+  for (int i = 0; i < starts.ncol(); ++i) {
+    crestline::Pose pose;
+    std::copy(&starts(0, i), &starts(0, i) + 9, pose.rotation);
+    std::copy(&starts(9, i), &starts(9, i) + 3, pose.shift);
+    pose.scale = starts(12, i);
+    pose = crestline::fit_pose(moving, fixed, pose, rigid);
+    score[i] = crestline::pose_score(moving, fixed, pose, rigid);
+    std::copy(pose.rotation, pose.rotation + 9, &poses(0, i));
+    std::copy(pose.shift, pose.shift + 3, &poses(9, i));
+    poses(12, i) = pose.scale;
+    checkUserInterrupt();
+  }
+  return List::create(_["poses"] = poses, _["score"] = score);
 }

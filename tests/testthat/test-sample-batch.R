@@ -76,7 +76,7 @@ test_that("results are kept as they come, and measured again only when something
   out <- file.path(dir, "out")
   on.exit(unlink(dir, recursive = TRUE))
   run <- function(...) fit_shapes(meshes_in(dir), quad_scheme(...), out)
-  kept <- function() file.path(out, paste0("ball ", 1:3, ".rds"))
+  kept <- function() file.path(out, paste0("ball ", 1:3, ".shape"))
   first <- run()
   expect_true(all(file.exists(kept())))
   expect_identical(lengths(unclass(first), use.names = FALSE), c(0L, 0L, 0L))
@@ -100,9 +100,12 @@ test_that("results are kept as they come, and measured again only when something
     tables
   })
   expect_false(any(format(file.mtime(kept()), "%Y") == "2001"))
-  # What cannot be read is measured again.
+  # What cannot be read is measured again; where only the key can, it is told.
   writeLines("rubbish", kept()[3])
-  expect_s3_class(run()[[3]], "shape")
+  last <- run()
+  expect_s3_class(last[[3]], "shape")
+  writeBin(readBin(kept()[2], raw(), 1000), kept()[2])
+  expect_identical(failures(run())[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
 })
 
 test_that("workers give what one process gives", {
@@ -128,6 +131,7 @@ test_that("a batch goes into quality(), homologise() and lapply()", {
   expect_named(Filter(Negate(is.null), lapply(shapes, function(shape) shape$id)), paste("ball", 1:3))
   sample <- homologise(shapes, tolerance = 1e-3)
   expect_identical(dim(as.array(sample, "curves"))[3], 3L)
+  expect_identical(sample, homologise(Filter(Negate(is.null), as.list(shapes)), tolerance = 1e-3))
 })
 
 test_that("arguments that serve no specimen are refused", {

@@ -51,18 +51,21 @@ test_that("angle_limit holds cuts and reference paths near the surface's normal"
   }
 })
 
-test_that("outside the trusted part of the path there is no curvature", {
+test_that("outside the trusted part of the path strength does not count, whatever the pass", {
   face <- straight_ridge()
-  curved <- curvature(face, 6, "adaptive cubic")
-  row <- data.frame(width = 6, radius = 6, trust_from = 0.25, trust_to = 0.75)
-  path <- trusted_path(row, face, plane_path(face, "a", "b"))
-  half <- trusted(known_curvature(curved, face), row, face, path)(seq_along(curved$k2))
-  x <- face$mesh$vb[1, ] / attr(path, "length")
-  near <- abs(face$mesh$vb[2, ]) < 2
-  expect_true(all(half$k2[near & x > -0.45 & x < -0.3] == 0))
-  expect_identical(half$k2[near & abs(x) < 0.2], curved$k2[near & abs(x) < 0.2])
-  scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
-  expect_true(status_of(fit_shape(face, scheme, progress = FALSE), "crest")$ok)
+  for (passes in 1:2) {
+    scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
+    expect_true(status_of(fit_shape(face, scheme, passes = passes, progress = FALSE), "crest")$ok)
+    about <- list(radius = 6, width = 6, type = "ridge", settings = ridge_settings(error = FALSE), passes = passes)
+    path <- trusted_path(scheme$curves, face, plane_path(face, "a", "b"))
+    fit <- fit_passes(face, path, known_curvature(NULL, face, 6, 1L, "adaptive cubic"), NULL, about)
+    share <- fit$coordinates$s / attr(fit$coordinates, "length")
+    counted <- fit$coordinates$inside & fit$strengths$value > 0
+    expect_true(all(share[counted] >= 0.25 & share[counted] <= 0.75))
+    expect_gt(sum(counted), 50)
+    near <- fit$coordinates$inside & abs(fit$coordinates$d) < 2
+    expect_true(all(counted[near & abs(share - 0.5) < 0.2]))
+  }
 })
 
 test_that("outside its trusted part the path is the shortest cut", {

@@ -1,0 +1,160 @@
+# Landmarks found on a raw scan: the template laid on it, bent onto it, and its landmarks carried over.
+
+#' Find the landmarks of a raw scan
+#'
+#' The scan is brought to the template's unit (a power of ten), the template is laid on it from its strongest caps and cups in many
+#' turns and then bent onto it, by nearest points in place and curvature; its landmarks go along, each to the closest point of the mesh.
+#' The answer does not depend on the scan's pose, nor on which way its triangles face, and there may be more on it than the object, or parts of that
+#' missing.
+#'
+#' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
+#' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by default that of the face.
+#' @param id Name of the specimen, where a mesh is given.
+#' @param settings Of [find_settings()].
+#' @param threads Number of threads of [curvature()].
+#' @return The [specimen()] with `landmarks` (those that are absent NA) and
+#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the surface tells nothing:
+#'     placed by the others, perhaps off the mesh) or "absent" (the scan has no surface there); `confidence`, from 0 to 1, doubtful
+#'     below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2), with a and b the settings `moved` and `off`, and times the scan's own share
+#'     where its score is poor; `moved`, distance between the answers with and without curvature; `residual`, mean distance of the bent
+#'     template from the scan about the landmark; `lost`, share of the template about it that has no counterpart; `x`, `y`, `z`, the
+#'     place, of absent ones too. Lengths in the unit of the mesh;
+#'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor to the template's unit), `scale`
+#'     (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (the triangles faced the other way), `doubtful` (score above the setting
+#'     `poor`), `template`.
+#' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score above the setting
+#'   `refuse`).
+#' @references The paper, section 7.
+#' @seealso [landmark_template()]
+#' @examples
+#' \donttest{
+#' data(humface, package = "Rvcg")
+#' face <- find_landmarks(humface, id = "humface")
+#' face$placing
+#' plot(face, "plain", engine = "picture", labels = TRUE)
+#' }
+#' @export
+find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(),
+                           threads = getOption("crestline.threads", 1L)) {
+  check_class(settings, "find_settings", "settings", "find_settings()")
+  if (!inherits(template, "landmark_template")) template <- landmark_template(template)
+  scan <- if (inherits(mesh, "specimen")) mesh else suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
+  prepared <- prepared_template(template, settings, threads)
+  unit <- 10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
+  cloud <- scan_cloud(scan, unit, prepared$settings, threads)
+  laid <- settled_pose(prepared, cloud, prepared$settings)
+  if (laid$score > settings$refuse) {
+    refuse_landmarks(sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score, settings$refuse),
+                     "Is it the object, and whole enough? Else place the landmarks by hand.", scan$id)
+  }
+  placed <- carried_landmarks(prepared, template, scan, laid, unit)
+  if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
+  with_placing(scan, placed, list(score = laid$score, unit = unit, scale = laid$pose[13], rotation = matrix(laid$pose[1:9], 3),
+                                  inverted = laid$inverted, doubtful = laid$score > settings$poor, template = template$id))
+}
+
+#' A specimen with landmarks as they were placed
+#' @noRd
+with_placing <- function(scan, placing, match) {
+  at <- as.matrix(placing[c("x", "y", "z")])
+  at[placing$state == "absent", ] <- NA
+  rownames(at) <- placing$landmark
+  on <- placing$state == "found"
+  placed <- check_landmarks(at[on, , drop = FALSE], scan$mesh, scan$id, Inf, character())
+  scan$landmarks <- at
+  scan$landmarks[on, ] <- placed$landmarks
+  scan$geometry[c("landmarks", "located")] <- placed[c("landmarks", "located")]
+  scan$placing <- placing
+  scan$match <- match
+  scan
+}
+
+#' The template's landmarks carried to a scan, with what speaks for each
+#' @return Data frame as `placing` of [find_landmarks()].
+#' @noRd
+carried_landmarks <- function(prepared, template, scan, laid, unit) {
+  settings <- prepared$settings
+  local <- cloud_in_frame(laid$cloud, laid$pose)
+  bent <- fit_warp(prepared, local, settings, settings$weight)
+  plain <- fit_warp(prepared, local, settings, 0)
+  n <- ncol(prepared$xyz)
+  own <- template$landmarks
+  to_scan <- function(xyz) t(laid$pose[13] * matrix(laid$pose[1:9], 3) %*% t(xyz) + laid$pose[10:12]) / unit
+  places <- function(fit) surface_points(scan$mesh, to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
+  at <- as.matrix(places(bent)[1:3])
+  rownames(at) <- rownames(own)
+  length <- unit / laid$pose[13]
+  moved <- row_lengths(at - as.matrix(places(plain)[1:3])) * length
+  here <- local_evidence(prepared, local, bent, settings)
+  residual <- pmax(here$residual, row_lengths(at - to_scan(bent$moved[-seq_len(n), , drop = FALSE])) * length)
+  state <- ifelse(here$lost > settings$lost, "absent", "found")
+  confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2)
+  confidence <- confidence * min(1, (1 - laid$score) / (1 - settings$poor))
+  found <- data.frame(landmark = rownames(own), state = state, confidence = ifelse(state == "absent", NA, confidence),
+                      moved = moved / length, residual = residual / length, lost = here$lost, x = at[, 1], y = at[, 2], z = at[, 3],
+                      row.names = NULL)
+  if (!nrow(template$predicted)) return(found)
+  rbind(found, predicted_landmarks(template, found, to_scan))
+}
+
+#' How well the bent template agrees with the scan about each landmark
+#' @return Data frame: `residual` (mean distance across the surface), `lost` (share of points without counterpart).
+#' @noRd
+local_evidence <- function(prepared, cloud, fit, settings) {
+  n <- ncol(prepared$xyz)
+  at <- fit$moved[seq_len(n), ]
+  to <- t(cloud$xyz[, fit$index, drop = FALSE])
+  across <- abs(row_products(to - at, t(cloud$normal[, fit$index, drop = FALSE])))
+  along <- sqrt(pmax(fit$residual^2 - across^2, 0))
+  gone <- is.na(fit$index) | cloud$border[fit$index] | along > 2 * cloud$spacing[1]
+  xyz <- t(prepared$xyz)
+  each <- apply(prepared$landmarks, 1, function(landmark) {
+    gap <- row_lengths(xyz - rep(landmark, each = n))
+    about <- gap < max(settings$near, sort(gap)[8])
+    c(residual = if (all(gone[about])) NA else mean(across[about & !gone]), lost = mean(gone[about]))
+  })
+  as.data.frame(t(each))
+}
+
+#' Landmarks that the surface tells nothing about, by a similarity fitted to those that were found
+#' @noRd
+predicted_landmarks <- function(template, found, to_scan) {
+  own <- template$predicted
+  on <- found$state == "found"
+  at <- if (sum(on) < 4) to_scan(own) else {
+    to <- as.matrix(found[on, c("x", "y", "z")])
+    from <- template$landmarks[on, , drop = FALSE]
+    apply_similarity(own, similarity(from, to))
+  }
+  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_, residual = NA_real_, lost = NA_real_,
+             x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
+}
+
+#' Rotation, scale and shift that take points nearest to others
+#' @noRd
+similarity <- function(from, to) {
+  a <- sweep(from, 2, colMeans(from))
+  b <- sweep(to, 2, colMeans(to))
+  parts <- svd(crossprod(a, b))
+  turn <- diag(c(1, 1, sign(det(parts$u %*% t(parts$v)))))
+  rotation <- parts$v %*% turn %*% t(parts$u)
+  scale <- sum(parts$d * diag(turn)) / sum(a^2)
+  list(rotation = rotation, scale = scale, shift = colMeans(to) - scale * drop(rotation %*% colMeans(from)))
+}
+
+apply_similarity <- function(xyz, by) {
+  moved <- by$scale * xyz %*% t(by$rotation) + rep(by$shift, each = nrow(xyz))
+  dimnames(moved) <- dimnames(xyz)
+  moved
+}
+
+#' A cloud in the frame of the template
+#' @noRd
+cloud_in_frame <- function(cloud, pose) {
+  rotation <- matrix(pose[1:9], 3)
+  cloud$xyz <- crossprod(rotation, cloud$xyz - pose[10:12]) / pose[13]
+  cloud$normal <- crossprod(rotation, cloud$normal)
+  cloud[c("k1", "k2")] <- lapply(cloud[c("k1", "k2")], `*`, pose[13])
+  cloud$spacing <- cloud$spacing / pose[13]
+  cloud
+}

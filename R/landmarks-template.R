@@ -1,0 +1,120 @@
+# What landmarks are carried over from: a surface with landmarks, in a frame of its own.
+
+#' A template that landmarks are found by
+#'
+#' `landmark_template()` makes one of any specimen with landmarks; `face_template()` is the package's own, for faces.
+#'
+#' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and `humface` (S. Schlager, GPL), made
+#' symmetric; `data-raw/face-template.R` makes it, and says how its landmarks were placed.
+#'
+#' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
+#' @param predicted Names of landmarks that the surface says nothing about, such as those at ears that most scans lack: they are not
+#'   found, but placed by the others.
+#' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of a face, are multiplied by; the
+#'   default makes a template's diagonal 280 of them, as that of a face is.
+#' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are partners, and the displacements that
+#'   are tried are mostly symmetric. `NA`: where there are at least two such pairs.
+#' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where there is a mirror, left is at positive x and
+#'   the mirror is x = 0), `landmarks` (k x 3, those that are found), `predicted` (k x 3), `unit`, `mirror`.
+#' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or `predicted` that name none of them.
+#' @seealso [find_landmarks()]
+#' @examples
+#' face_template()
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' landmark_template(face, predicted = c("tL", "tR", "oiL", "oiR"))
+#' @export
+landmark_template <- function(specimen, predicted = character(), unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA) {
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  unit <- check_number(unit, "unit", lower = 0, open = TRUE)
+  at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
+  missing <- setdiff(predicted, rownames(at))
+  if (length(missing)) {
+    refuse_landmarks(sprintf("`predicted` names %s, which it does not have.", shorten(missing)), near_names(missing[1], rownames(at)), specimen$id)
+  }
+  if (nrow(at) - length(predicted) < 4) {
+    refuse_landmarks(sprintf("it has %d landmarks to be found.", nrow(at) - length(predicted)),
+                     "A template needs four or more: place them, or give fewer `predicted`.", specimen$id)
+  }
+  pairs <- side_pairs(rownames(at))
+  if (is.na(mirror)) mirror <- nrow(pairs) >= 2
+  if (mirror) specimen <- turned_specimen(specimen, at, pairs)
+  at <- specimen$landmarks[rownames(at), , drop = FALSE]
+  found <- !rownames(at) %in% predicted
+  structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE], predicted = at[!found, , drop = FALSE],
+                 unit = unit, mirror = mirror), class = "landmark_template")
+}
+
+#' @export
+print.landmark_template <- function(x, ...) {
+  cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"), if (x$mirror) ", with a mirror",
+      ", unit ", signif(x$unit, 3), "\n", sep = "")
+  cat(strwrap(paste0(amount(nrow(x$landmarks), "landmark"), ": ", shorten(rownames(x$landmarks), 40)), exdent = 2), sep = "\n")
+  if (nrow(x$predicted)) cat("predicted by these:", shorten(rownames(x$predicted), 40), "\n")
+  invisible(x)
+}
+
+#' Names that end in L and R, as partners
+#' @noRd
+side_pairs <- function(names) {
+  left <- names[endsWith(names, "L")]
+  right <- sub("L$", "R", left)
+  data.frame(left = left, right = right)[right %in% names, ]
+}
+
+#' A specimen turned so that its landmarks' mirror is x = 0 and left is positive
+#' @noRd
+turned_specimen <- function(specimen, at, pairs) {
+  across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
+  axis <- eigen(crossprod(across), symmetric = TRUE)$vectors[, 1]
+  axis <- axis * sign(sum(across %*% axis))
+  middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
+                  at[!rownames(at) %in% unlist(pairs), , drop = FALSE])
+  origin <- colMeans(middle)
+  other <- svd(matrix(axis, 1), nu = 0, nv = 3)$v[, 2:3]
+  rotation <- rbind(axis, other[, 1], cross_product(axis, other[, 1]))
+  moved_specimen(specimen, rotation, origin)
+}
+
+#' A specimen after rotation about an origin, which goes to 0
+#' @noRd
+moved_specimen <- function(specimen, rotation, origin) {
+  specimen$mesh$vb[1:3, ] <- rotation %*% (specimen$mesh$vb[1:3, ] - origin)
+  specimen$mesh$normals[1:3, ] <- rotation %*% specimen$mesh$normals[1:3, ]
+  names <- dimnames(specimen$landmarks)
+  specimen$landmarks <- t(rotation %*% (t(specimen$landmarks) - origin))
+  dimnames(specimen$landmarks) <- names
+  specimen$geometry[c("landmarks", "located")] <- list(specimen$landmarks[0, , drop = FALSE], specimen$geometry$located[0, ])
+  specimen
+}
+
+#' A template with what matching needs: its cloud, anchors and displacements
+#'
+#' @param settings Of [find_settings()], as given.
+#' @return List: as [scan_cloud()]'s, with `landmarks` (k x 3), `basis` (see [warp_basis()]), `settings` (in the template's unit).
+#' @noRd
+prepared_template <- function(template, settings, threads) {
+  scaled <- scaled_settings(settings, template$unit)
+  mesh <- template$specimen$mesh
+  thin <- scaled
+  thin$cluster <- sqrt(sum(row_lengths(face_normals(mesh))) / 2 / settings$points)
+  thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
+  thin$anchors <- settings$own
+  cloud <- scan_cloud(template$specimen, 1, thin, threads)
+  cloud$landmarks <- template$landmarks
+  cloud$settings <- scaled
+  cloud$basis <- warp_basis(rbind(t(cloud$xyz), template$landmarks), ncol(cloud$xyz), template$mirror, scaled)
+  cloud
+}
+
+#' @rdname landmark_template
+#' @export
+face_template <- function() {
+  folder <- system.file("extdata", "face_template", package = "crestline", mustWork = TRUE)
+  at <- read_landmarks(file.path(folder, "landmarks.csv"))
+  ears <- c("tL", "tR", "oiL", "oiR")
+  face <- read_specimen(file.path(folder, "mesh.ply"), at[!rownames(at) %in% ears, ], id = "face")
+  face$landmarks <- at
+  landmark_template(face, ears, unit = 1)
+}

@@ -1,0 +1,122 @@
+# The displacement of a template onto a scan: a low-rank Gaussian process, fitted to nearest points in place and curvature.
+
+#' Basis of the displacements of a template
+#'
+#' The process is the sum of Gaussian kernels, split into a part that is its own mirror image in x and one that is turned by the mirror,
+#' of smaller standard deviation. Each component of a displacement is then a process of functions even or odd in x.
+#'
+#' @param xyz n x 3, the template's points in its own frame (mirror: x to -x), those that the functions are chosen by first.
+#' @param m How many of them the functions are chosen by; the rest are landmarks.
+#' @param symmetric Whether the template has a mirror.
+#' @return List by component of n x k matrices whose coefficients are independent standard normal.
+#' @noRd
+warp_basis <- function(xyz, m, symmetric, settings) {
+  affine <- settings$affine * cbind(1, sweep(xyz, 2, colMeans(xyz[seq_len(m), ])) / settings$kernel_length[1])
+  if (!symmetric) {
+    own <- process_basis(xyz, m, function(a, b) gauss_kernel(a, b, settings), settings$rank / 3)
+    each <- cbind(own$functions, affine)
+    return(list(each, each, each))
+  }
+  mirror <- function(a) cbind(-a[, 1], a[, 2:3, drop = FALSE])
+  part <- function(sign) function(a, b) (gauss_kernel(a, b, settings) + sign * gauss_kernel(a, mirror(b), settings)) / 2
+  even <- process_basis(xyz, m, part(1), settings$rank / 3)
+  odd <- process_basis(xyz, m, part(-1), settings$rank / 3)
+  across <- joined_basis(odd, even, settings$uneven, settings$rank / 3)
+  along <- joined_basis(even, odd, settings$uneven, settings$rank / 3)
+  list(cbind(across, affine), cbind(along, affine), cbind(along, affine))
+}
+
+gauss_kernel <- function(a, b, settings) {
+  d2 <- outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b)
+  total <- 0
+  for (i in seq_along(settings$kernel_sd)) {
+    total <- total + settings$kernel_sd[i]^2 * exp(-d2 / (2 * settings$kernel_length[i]^2))
+  }
+  total
+}
+
+#' Principal functions of a process: pivoted Cholesky, then turned to the axes of its variance
+#' @return List: `functions` (n x k), `variance` (k, of each over the points).
+#' @noRd
+process_basis <- function(xyz, m, kernel, rank) {
+  many <- min(m, ceiling(2 * rank))
+  root <- matrix(0, nrow(xyz), many)
+  left <- vapply(seq_len(nrow(xyz)), function(i) kernel(xyz[i, , drop = FALSE], xyz[i, , drop = FALSE]), 0)
+  for (j in seq_len(many)) {
+    pivot <- which.max(left[seq_len(m)])
+    if (left[pivot] <= 1e-10) break
+    used <- seq_len(j - 1)
+    column <- drop(kernel(xyz, xyz[pivot, , drop = FALSE])) - drop(root[, used, drop = FALSE] %*% root[pivot, used])
+    root[, j] <- column / sqrt(left[pivot])
+    left <- pmax(left - root[, j]^2, 0)
+  }
+  axes <- eigen(crossprod(root[seq_len(m), ]), symmetric = TRUE)
+  list(functions = root %*% axes$vectors, variance = axes$values)
+}
+
+joined_basis <- function(full, share, factor, rank) {
+  values <- c(full$variance, factor^2 * share$variance)
+  kept <- order(-values)[seq_len(min(ceiling(rank), length(values)))]
+  cbind(full$functions, factor * share$functions)[, sort(kept), drop = FALSE]
+}
+
+#' Fit the displacement of a template's points to a cloud in the template's frame
+#'
+#' @param weight Of curvature in the matches.
+#' @return List: `moved` (n + k x 3, all rows of the basis), `match` (index of the cloud or NA), `residual` (distance to it), of the n points.
+#' @noRd
+fit_warp <- function(template, cloud, settings, weight) {
+  xyz <- t(template$xyz)
+  n <- nrow(xyz)
+  basis <- lapply(template$basis, function(b) b[seq_len(n), , drop = FALSE])
+  of <- function(x) weight * rbind(x$k1, x$k2)
+  moved <- xyz
+  reach <- settings$warp_reach[1] * (settings$warp_reach[2] / settings$warp_reach[1])^seq(0, 1, length.out = settings$warp_steps)
+  coefficients <- NULL
+  for (step in seq_along(reach)) {
+    found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step], settings$cosine)
+    used <- which(!is.na(found$index) & !cloud$border[found$index])
+    if (length(used) < 30) break
+    coefficients <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
+    moved <- xyz + displaced(basis, coefficients)
+  }
+  found <- match_points(moved, template$normal, of(template), cloud, of(cloud), settings$warp_reach[2], settings$cosine)
+  near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), settings$warp_reach[1], settings$cosine)
+  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients),
+       index = near$index, residual = near$distance)
+}
+
+match_points <- function(xyz, normal, feature, cloud, to_feature, reach, cosine) {
+  cpp_match_clouds(t(xyz), normal, feature, cloud$xyz, cloud$normal, to_feature, reach, cosine)
+}
+
+displaced <- function(basis, coefficients) {
+  if (is.null(coefficients)) return(0)
+  sizes <- vapply(basis, ncol, 0L)
+  end <- cumsum(sizes)
+  vapply(1:3, function(k) drop(basis[[k]] %*% coefficients[(end[k] - sizes[k] + 1):end[k]]), numeric(nrow(basis[[1]])))
+}
+
+#' Coefficients by penalised least squares: distances across the scan's surface count in full, along it by a share
+#' @noRd
+solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
+  normal <- t(cloud$normal[, at, drop = FALSE])
+  to <- t(cloud$xyz[, at, drop = FALSE])
+  across <- row_products(to - moved[used, , drop = FALSE], normal)
+  weight <- 1 / ((1 + (across / settings$robust)^2) * settings$error^2)
+  gap <- to - xyz[used, , drop = FALSE]
+  rows <- lapply(basis, function(b) b[used, , drop = FALSE])
+  plane <- do.call(cbind, lapply(1:3, function(k) normal[, k] * rows[[k]]))
+  left <- crossprod(plane * sqrt((1 - settings$along) * weight))
+  right <- crossprod(plane, (1 - settings$along) * weight * row_products(gap, normal))
+  sizes <- vapply(basis, ncol, 0L)
+  end <- cumsum(sizes)
+  for (k in 1:3) {
+    part <- (end[k] - sizes[k] + 1):end[k]
+    left[part, part] <- left[part, part] + crossprod(rows[[k]] * sqrt(settings$along * weight))
+    right[part] <- right[part] + crossprod(rows[[k]], settings$along * weight * gap[, k])
+  }
+  diag(left) <- diag(left) + 1
+  root <- chol(left)
+  drop(backsolve(root, forwardsolve(t(root), right)))
+}
