@@ -72,9 +72,16 @@ turned_specimen <- function(specimen, at, pairs) {
   middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
                   at[!rownames(at) %in% unlist(pairs), , drop = FALSE])
   origin <- colMeans(middle)
-  other <- svd(matrix(axis, 1), nu = 0, nv = 3)$v[, 2:3]
-  rotation <- rbind(axis, other[, 1], cross_product(axis, other[, 1]))
-  moved_specimen(specimen, rotation, origin)
+  moved_specimen(specimen, least_rotation(axis), origin)
+}
+
+#' The smallest rotation that takes a unit vector to x
+#' @noRd
+least_rotation <- function(axis) {
+  if (axis[1] < -1 + 1e-12) return(diag(c(-1, -1, 1)))
+  v <- cross_product(axis, c(1, 0, 0))
+  skew <- rbind(c(0, -v[3], v[2]), c(v[3], 0, -v[1]), c(-v[2], v[1], 0))
+  diag(3) + skew + skew %*% skew / (1 + axis[1])
 }
 
 #' A specimen after rotation about an origin, which goes to 0

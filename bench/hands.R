@@ -168,22 +168,24 @@ run_poses <- function(poses = 10) {
   cases <- c(rep(all[1:2], each = poses), all[2 + round(seq(1, length(all) - 2, length.out = poses))])
   pose <- c(rep(seq_len(poses), 2), seq_len(poses))
   rows <- lapply(names(damages), function(damage) {
-    do.call(rbind, Map(function(face, pose) trial(face, damage, pose, template), cases, pose))
+    found <- do.call(rbind, Map(function(face, pose) trial(face, damage, pose, template), cases, pose))
+    show_damage(found)
+    found
   })
   do.call(rbind, rows)
+}
+
+show_damage <- function(x) {
+  x$error[is.na(x$error)] <- Inf
+  visible <- x[is.na(x$visible) | x$visible, ]
+  mean_error <- tapply(visible$error, paste(visible$face, visible$pose), mean)
+  cat(sprintf("%-17s %3.0f %% of %d trials; mean error %.2f mm (median trial), 95 %% of landmarks within %.1f; %.1f user s\n", x$damage[1],
+              100 * mean(mean_error < 6), length(mean_error), median(mean_error), quantile(visible$error, 0.95), mean(visible$seconds)))
 }
 
 show_poses <- function(x) {
   x$error[is.na(x$error)] <- Inf
   visible <- x[is.na(x$visible) | x$visible, ]
-  key <- paste(visible$face, visible$pose)
-  for (damage in names(damages)) {
-    at <- visible$damage == damage
-    mean_error <- tapply(visible$error[at], key[at], mean)
-    good <- mean_error < 6
-    cat(sprintf("%-17s %3.0f %% of %d trials; mean error %.2f mm (median face), 95 %% of landmarks within %.1f; %.1f user s\n", damage,
-                100 * mean(good), length(good), median(mean_error), quantile(visible$error[at], 0.95), mean(visible$seconds[at])))
-  }
   set <- sub("simpop.*", "simpop", x$face)
   cat("whole scans, mean error by set:", paste(unique(set), round(tapply(x$error[x$damage == "whole"], set[x$damage == "whole"], mean)[unique(set)], 2)), "\n")
   far <- visible$error > 5

@@ -89,6 +89,13 @@ landmarks <- symmetric_landmarks(both)
 found <- setdiff(rownames(landmarks), ears)
 landmarks[found, ] <- as.matrix(internal$surface_points(mesh, landmarks[found, ])[1:3])
 
+# Upright: from the mouth's corners to the eyes' is y.
+up <- colMeans(landmarks[c("exL", "exR"), ]) - colMeans(landmarks[c("chL", "chR"), ])
+up <- up / sqrt(sum(up^2))
+upright <- rbind(c(1, 0, 0), c(0, up[2], up[3]), c(0, -up[3], up[2]))
+mesh$vb[1:3, ] <- upright %*% mesh$vb[1:3, ]
+landmarks <- landmarks %*% t(upright)
+
 folder <- extdata("face_template")
 dir.create(folder, showWarnings = FALSE)
 mesh <- specimen(mesh, id = "face")$mesh

@@ -1,0 +1,69 @@
+# Found once for the file.
+found_humface <- local({
+  found <- NULL
+  function() {
+    if (is.null(found)) found <<- find_landmarks(humface_scan(), id = "humface")
+    found
+  }
+})
+
+test_that("the landmarks of a face are found near those placed by hand, with their states", {
+  face <- found_humface()
+  placed <- humface_landmarks()
+  expect_setequal(rownames(face$landmarks), rownames(placed))
+  inner <- setdiff(rownames(placed), ear_names)
+  error <- row_lengths(face$landmarks[inner, ] - placed[inner, ])
+  expect_lt(mean(error), 1.5)
+  expect_lt(max(error), 4)
+  placing <- face$placing
+  expect_equal(placing$state, ifelse(placing$landmark %in% ear_names, "predicted", "found"))
+  expect_true(all(placing$confidence[placing$state == "found"] > 0.5))
+  expect_lt(face$match$score, 0.5)
+  expect_equal(face$match$unit, 1)
+  # On the surface, located once.
+  expect_equal(as.matrix(surface_points(face$mesh, face$landmarks[inner, ])[1:3]), face$landmarks[inner, ], ignore_attr = TRUE)
+  expect_equal(landmark_point(face, "pn")[c("x", "y", "z")], as.data.frame(face$landmarks["pn", , drop = FALSE]), ignore_attr = TRUE)
+})
+
+test_that("neither pose, unit nor the sense of the triangles changes what is found", {
+  face <- found_humface()
+  turn <- some_rotation(3)
+  changed <- moved_mesh(humface_scan(), turn, c(1, -2, 0.3), 0.001)
+  changed$it <- changed$it[c(1, 3, 2), ]
+  found <- find_landmarks(changed)
+  expect_equal(found$match$unit, 1000)
+  back <- (found$landmarks - rep(c(1, -2, 0.3), each = 23)) %*% turn * 1000
+  expect_lt(max(abs(back - face$landmarks)), 1e-6)
+  expect_equal(found$placing$confidence, face$placing$confidence, tolerance = 1e-6)
+  expect_equal(found$placing$moved * 1000, face$placing$moved, tolerance = 1e-6)
+})
+
+test_that("where the scan has no surface landmarks are absent, the others stay", {
+  placed <- humface_landmarks()
+  mesh <- humface_scan()
+  mesh <- keep_vertices(mesh, sqrt(colSums((mesh$vb[1:3, ] - placed["pn", ])^2)) > 22)
+  face <- find_landmarks(mesh)
+  state <- stats::setNames(face$placing$state, face$placing$landmark)
+  expect_equal(state[["pn"]], "absent")
+  expect_true(all(is.na(face$landmarks["pn", ])))
+  expect_false(anyNA(face$placing$x))
+  still <- c("exL", "exR", "chL", "chR", "li", "gn", "n")
+  expect_true(all(state[still] == "found"))
+  expect_lt(mean(row_lengths(face$landmarks[still, ] - placed[still, ])), 2.5)
+})
+
+test_that("what is no face is refused, with name and remedy", {
+  ball <- ball_mesh(5)
+  ball$vb[1:3, ] <- 100 * ball$vb[1:3, ]
+  expect_crestline_error(find_landmarks(ball, id = "ball"), c("nothing on it is like the template face", "by hand"), id = "ball")
+})
+
+test_that("similarities are found exactly", {
+  from <- with_seed(1, matrix(stats::rnorm(15), 5))
+  turn <- some_rotation(2)
+  to <- 1.7 * from %*% t(turn) + rep(c(3, 4, 5), each = 5)
+  by <- similarity(from, to)
+  expect_equal(by$rotation, turn)
+  expect_equal(by$scale, 1.7)
+  expect_equal(apply_similarity(from, by), to)
+})
