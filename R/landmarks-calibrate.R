@@ -2,16 +2,17 @@
 
 #' Calibrate a template by a few scans with landmarks
 #'
-#' Carries the user's own placing on a few scans back to the template: most of the error of [find_landmarks()] is where the
-#' template's maker puts a point. Three scans do most of it. Landmarks that the template does not have are added; those of a symmetric
-#' template stay symmetric.
+#' Carries the user's own placing on a few scans back to the template: most of the error of [find_landmarks()] is where
+#' the template's maker puts a point. Three scans do most of it. Landmarks that the template does not have are added;
+#' those of a symmetric template stay symmetric.
 #'
 #' @param template A [landmark_template()], or a [specimen()] with landmarks.
 #' @param specimens List of [specimen()]s (or one) with landmarks placed or corrected by hand; NA where missing.
 #' @param rounds How often the landmarks are moved by the mean of what they are off.
 #' @inheritParams find_landmarks
-#' @return The `landmark_template`, its landmarks moved; `calibration`: data frame `landmark`, `specimens` (number that have it),
-#'   `moved` (how far on the template), `spread` (RMS of what is left, over the specimens), in the template's unit.
+#' @return The `landmark_template`, its landmarks moved; `calibration`: data frame `landmark`, `specimens` (number that
+#'   have it), `moved` (how far on the template), `spread` (RMS of what is left, over the specimens), in the template's
+#'   unit.
 #' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the template.
 #' @references The paper, section 7.
 #' @seealso [find_landmarks()]
@@ -31,7 +32,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
   rounds <- check_count(rounds, "rounds")
   if (inherits(specimens, "specimen")) specimens <- list(specimens)
   if (!is.list(specimens) || !length(specimens)) {
-    crestline_abort(sprintf("`specimens` is %s.", describe_value(specimens)), "Give a list of specimens with landmarks.", stage = "arguments")
+    crestline_abort(sprintf("`specimens` is %s.", describe_value(specimens)), "Give a list of specimens with landmarks.",
+                    stage = "arguments")
   }
   for (one in specimens) check_class(one, "specimen", "specimens", "specimen() or read_specimen()")
   prepared <- prepared_template(template, settings, threads)
@@ -81,7 +83,8 @@ landmark_offsets <- function(prepared, template, fits) {
   own <- template$landmarks
   prepared <- with_landmarks(prepared, own)
   basis <- lapply(prepared$basis, function(b) b[-seq_len(ncol(prepared$xyz)), , drop = FALSE])
-  each <- lapply(fits, function(fit) fit$at[match(rownames(own), rownames(fit$at)), , drop = FALSE] - own - displaced(basis, fit$coefficients))
+  carried <- function(fit) own + displaced(basis, fit$coefficients)
+  each <- lapply(fits, function(fit) fit$at[match(rownames(own), rownames(fit$at)), , drop = FALSE] - carried(fit))
   array(unlist(each), c(nrow(own), 3, length(fits)), list(rownames(own), NULL, NULL))
 }
 

@@ -27,8 +27,9 @@ cell_vertices <- function(vertex, cell) {
 #' @param specimen A specimen.
 #' @param scale Factor on its lengths: to the template's unit.
 #' @param settings Of [find_settings()], in the template's unit.
-#' @return List: `xyz`, `normal` (3 x n), `k1`, `k2` (n, in balls of `feature`), `border` (n, logical), `coarse` (indices among n of a
-#'   thinner cloud), `spacing` (lengths, of the cloud and of the thinner one), `anchors` (see [cloud_anchors()]).
+#' @return List: `xyz`, `normal` (3 x n), `k1`, `k2` (n, in balls of `feature`), `border` (n, logical), `coarse` (indices
+#'   among n of a thinner cloud), `spacing` (lengths, of the cloud and of the thinner one), `anchors` (see
+#'   [cloud_anchors()]).
 #' @noRd
 scan_cloud <- function(specimen, scale, settings, threads) {
   mesh <- specimen$mesh
@@ -56,7 +57,10 @@ at_points <- function(points, at) {
 }
 
 with_centres <- function(points, it, cell) {
-  mean <- function(x) if (is.matrix(x)) (x[, it[1, ]] + x[, it[2, ]] + x[, it[3, ]]) / 3 else (x[it[1, ]] + x[it[2, ]] + x[it[3, ]]) / 3
+  mean <- function(x) {
+    corner <- function(i) if (is.matrix(x)) x[, it[i, ]] else x[it[i, ]]
+    (corner(1) + corner(2) + corner(3)) / 3
+  }
   centre <- lapply(points, mean)
   centre$normal <- centre$normal / rep(pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin), each = 3)
   centre$border <- centre$border >= 2 / 3
@@ -70,8 +74,9 @@ rows_at <- function(x, i) if (is.matrix(x)) x[i, , drop = FALSE] else x[i]
 #'
 #' @param xyz 3 x n, vertices.
 #' @param broad Curvature at them.
-#' @return Data frame: `point` (column of `xyz`), `kind` ("cap", "cup"), `size` (the smaller curvature's); strongest first of each; with
-#'   attributes `frames` (list of 3 x 3 matrices: columns first direction, second, normal) and `places` (3 x anchors).
+#' @return Data frame: `point` (column of `xyz`), `kind` ("cap", "cup"), `size` (the smaller curvature's); strongest first
+#'   of each; with attributes `frames` (list of 3 x 3 matrices: columns first direction, second, normal) and `places` (3 x
+#'   anchors).
 #' @noRd
 cloud_anchors <- function(xyz, broad, settings) {
   found <- rbind(strongest_points(xyz, -broad$k1, "cap", settings), strongest_points(xyz, broad$k2, "cup", settings))

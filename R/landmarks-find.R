@@ -2,29 +2,31 @@
 
 #' Find the landmarks of a raw scan
 #'
-#' The scan is brought to the template's unit (a power of ten), the template is laid on it from its strongest caps and cups in many
-#' turns and then bent onto it, by nearest points in place and curvature; its landmarks go along, each to the closest point of the mesh.
-#' The answer does not depend on the scan's pose, nor on which way its triangles face, and there may be more on it than the object, or parts of that
-#' missing.
+#' The scan is brought to the template's unit (a power of ten), the template is laid on it from its strongest caps and
+#' cups in many turns and then bent onto it, by nearest points in place and curvature; its landmarks go along, each to the
+#' closest point of the mesh. The answer does not depend on the scan's pose, nor on which way its triangles face, and
+#' there may be more on it than the object, or parts of that missing.
 #'
 #' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
-#' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by default that of the face.
+#' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by default that of the
+#'   face.
 #' @param id Name of the specimen, where a mesh is given.
 #' @param settings Of [find_settings()].
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
-#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the surface tells nothing:
-#'     placed by the others, perhaps off the mesh) or "absent" (the scan has no surface there); `confidence`, from 0 to 1, doubtful
-#'     below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with a, b and c the settings `moved`, `off` and `vague`, times
-#'     (1 - score) / (1 - `poor`) where the score is poor; `moved`, distance between the answers with and without curvature; `sd`, standard
-#'     deviation that is added by what the scan lacks; `residual`, mean distance of the bent
-#'     template from the scan about the landmark; `lost`, share of the template about it that has no counterpart; `x`, `y`, `z`, the
-#'     place, of absent ones too. Lengths in the unit of the mesh;
-#'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor to the template's unit), `scale`
-#'     (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (the triangles faced the other way), `doubtful` (score above the setting
-#'     `poor`), `template`.
-#' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score above the setting
-#'   `refuse`).
+#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the
+#'     surface tells nothing: placed by the others, perhaps off the mesh) or "absent" (the scan has no surface there);
+#'     `confidence`, from 0 to 1, doubtful below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with
+#'     a, b and c the settings `moved`, `off` and `vague`, times (1 - score) / (1 - `poor`) where the score is poor;
+#'     `moved`, distance between the answers with and without curvature; `sd`, standard deviation that is added by what
+#'     the scan lacks; `residual`, mean distance of the bent template from the scan about the landmark; `lost`, share of
+#'     the template about it that has no counterpart; `x`, `y`, `z`, the place, of absent ones too. Lengths in the unit of
+#'     the mesh;
+#'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor to the template's
+#'     unit), `scale` (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (the triangles
+#'     faced the other way), `doubtful` (score above the setting `poor`), `template`.
+#' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score
+#'   above the setting `refuse`).
 #' @references The paper, section 7.
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
@@ -39,13 +41,15 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
                            threads = getOption("crestline.threads", 1L)) {
   check_class(settings, "find_settings", "settings", "find_settings()")
   if (!inherits(template, "landmark_template")) template <- landmark_template(template)
-  scan <- if (inherits(mesh, "specimen")) mesh else suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
+  scan <- mesh
+  if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads)
   placed <- carried_landmarks(prepared, template, scan, laid)
   if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
-  with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13], rotation = matrix(laid$pose[1:9], 3),
-                                  inverted = laid$inverted, doubtful = laid$score > settings$poor, template = template$id))
+  with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
+                                  rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
+                                  doubtful = laid$score > settings$poor, template = template$id))
 }
 
 #' The template laid on a scan, or an error where it does not fit
@@ -55,8 +59,9 @@ laid_template <- function(prepared, template, scan, settings, threads) {
   unit <- 10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
   laid <- settled_pose(prepared, scan_cloud(scan, unit, prepared$settings, threads), prepared$settings)
   if (laid$score > settings$refuse) {
-    refuse_landmarks(sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score, settings$refuse),
-                     "Is it the object, and whole enough? Else place the landmarks by hand.", scan$id)
+    unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score,
+                      settings$refuse)
+    refuse_landmarks(unlike, "Is it the object, and whole enough? Else place the landmarks by hand.", scan$id)
   }
   c(laid, list(unit = unit))
 }
@@ -100,8 +105,8 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 + (sd / settings$vague)^2)
   confidence <- confidence * min(1, (1 - laid$score) / (1 - settings$poor))
   found <- data.frame(landmark = rownames(own), state = state, confidence = ifelse(state == "absent", NA, confidence),
-                      moved = moved / length, sd = sd / length, residual = residual / length, lost = here$lost, x = at[, 1], y = at[, 2], z = at[, 3],
-                      row.names = NULL)
+                      moved = moved / length, sd = sd / length, residual = residual / length, lost = here$lost,
+                      x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
   if (!nrow(template$predicted)) return(found)
   rbind(found, predicted_landmarks(template, found, to_scan))
 }
@@ -135,8 +140,8 @@ predicted_landmarks <- function(template, found, to_scan) {
     from <- template$landmarks[on, , drop = FALSE]
     apply_similarity(own, similarity(from, to))
   }
-  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_, sd = NA_real_, residual = NA_real_, lost = NA_real_,
-             x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
+  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_, sd = NA_real_,
+             residual = NA_real_, lost = NA_real_, x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
 }
 
 #' Rotation, scale and shift that take points nearest to others

@@ -2,17 +2,18 @@
 
 #' Check found landmarks, or refuse the specimen
 #'
-#' Whatever is measured from doubtful landmarks looks as sound as the rest, so that they are better refused: by the specimen's name, with a picture of
-#' where they were put. [fit_shapes()] does so with meshes that come without landmarks. `plot_placing()` draws the picture: found
-#' landmarks in green, doubtful ones in red, predicted ones, where they lie on the scan, in blue.
+#' Whatever is measured from doubtful landmarks looks as sound as the rest, so that they are better refused: by the
+#' specimen's name, with a picture of where they were put. [fit_shapes()] does so with meshes that come without landmarks.
+#' `plot_placing()` draws the picture: found landmarks in green, doubtful ones in red, predicted ones, where they lie on
+#' the scan, in blue.
 #'
 #' @param specimen A [specimen()] of [find_landmarks()].
 #' @param least Least confidence of a landmark that is found.
 #' @param doubtful Greatest share of the found landmarks that may have less.
 #' @param picture Path of a `.png` file that is written where the specimen is refused; NULL: none.
 #' @return `check_placing()`: the specimen. Those of its landmarks that are doubtful are in it still.
-#' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's name, the landmarks, and the picture's
-#'   path.
+#' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's name, the landmarks, and
+#'   the picture's path.
 #' @seealso [find_landmarks()]
 #' @examples
 #' \donttest{
@@ -33,22 +34,23 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
   named <- paste0(placing$landmark[low], " (", round(placing$confidence[low], 2), ")")
   problem <- if (any(found)) sprintf("%d of %d found landmarks are doubtful: %s.", sum(low), sum(found), shorten(named)) else
     "none of its landmarks was found."
-  crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture),
-                                  "Place them by hand, calibrate the template (calibrate_template()), or allow more (`doubtful`)."),
-                  stage = "landmarks", id = specimen$id, class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
+  remedy <- "Place them by hand, calibrate the template (calibrate_template()), or allow more (`doubtful`)."
+  crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture), remedy), stage = "landmarks",
+                  id = specimen$id, class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
 }
 
 placing_of <- function(specimen, call = rlang::caller_env()) {
   check_class(specimen, "specimen", "specimen", "find_landmarks()", call = call)
   if (is.null(specimen$placing)) {
-    crestline_abort("its landmarks were not found but given.", "Give a specimen of find_landmarks().", stage = "landmarks", id = specimen$id,
-                    call = call)
+    crestline_abort("its landmarks were not found but given.", "Give a specimen of find_landmarks().", stage = "landmarks",
+                    id = specimen$id, call = call)
   }
   specimen$placing
 }
 
 #' @rdname check_placing
-#' @param views Directions to look from: how far the viewer goes round to the subject's left, in radians, in the frame of the template.
+#' @param views Directions to look from: how far the viewer goes round to the subject's left, in radians, in the frame of
+#'   the template.
 #' @param ... Passed to [draw_surface()].
 #' @return `plot_placing()`: the specimen, invisibly.
 #' @export
@@ -57,7 +59,8 @@ plot_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
   old <- graphics::par(mfrow = c(1, length(views)), mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
   at <- as.matrix(placing[c("x", "y", "z")])
-  colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(placing$state == "found" & placing$confidence >= least, "#108040", "#C02020"))
+  sure <- placing$state == "found" & placing$confidence >= least
+  colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#108040", "#C02020"))
   for (round in views) {
     turn <- rbind(c(cos(round), 0, -sin(round)), c(0, 1, 0), c(sin(round), 0, cos(round)))
     scene <- draw_surface(specimen$mesh, "#E3CDB8", turn %*% t(specimen$match$rotation), "picture", ...)

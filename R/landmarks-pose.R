@@ -25,8 +25,8 @@ anchor_starts <- function(template, cloud, own, settings) {
 
 #' The best pose of a template in a cloud
 #'
-#' All starts go some steps on thin clouds; the better go on, the best that differ on the whole, and the one with the least misfit is
-#' fitted again with a free scale.
+#' All starts go some steps on thin clouds; the better go on, the best that differ on the whole, and the one with the
+#' least misfit is fitted again with a free scale.
 #'
 #' @return List: `pose` (13 numbers: rotation, shift, scale), `score`, `misfit`.
 #' @noRd
@@ -36,7 +36,8 @@ best_pose <- function(template, cloud, own, scale, settings) {
   middle <- exp(mean(log(settings$reach)))
   first <- fit_poses(template, cloud, starts, c(settings$reach[1], middle), scale, settings, thin = TRUE)
   better <- utils::head(order(first$score), settings$followed)
-  second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE], c(middle, settings$reach[2]), scale, settings, thin = TRUE)
+  second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE], c(middle, settings$reach[2]), scale, settings,
+                      thin = TRUE)
   chosen <- distinct_poses(second, template, settings)
   last <- c(1, 0.5) * settings$reach[2]
   tight <- fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale, settings)
@@ -61,7 +62,8 @@ fitted_poses <- function(template, cloud, starts, reach, scale, settings) {
 pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$saturation) {
   local <- cloud_in_frame(cloud, pose)
   of <- function(x) settings$weight * rbind(x$k1, x$k2)
-  found <- match_points(t(template$xyz), template$normal, of(template), local, of(local), settings$warp_reach[1], settings$cosine)
+  found <- match_points(t(template$xyz), template$normal, of(template), local, of(local), settings$warp_reach[1],
+                        settings$cosine)
   gap <- sqrt(pmax(found$distance^2 - local$spacing[1]^2, 0) + colSums((of(template) - of(local)[, found$index])^2))
   gap[is.na(gap) | local$border[found$index]] <- reach
   thin <- cloud$coarse
@@ -75,8 +77,8 @@ pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$sa
 fit_poses <- function(template, cloud, starts, reach, scale, settings, thin) {
   own <- if (thin) template$coarse else seq_len(ncol(template$xyz))
   at <- if (thin) cloud$coarse else seq_len(ncol(cloud$xyz))
-  rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine, kept = settings$kept, scale = scale,
-                saturation = settings$saturation, spacing = cloud$spacing[1 + thin])
+  rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine, kept = settings$kept,
+                scale = scale, saturation = settings$saturation, spacing = cloud$spacing[1 + thin])
   cpp_fit_poses(template$xyz[, own, drop = FALSE], template$normal[, own, drop = FALSE], cloud$xyz[, at, drop = FALSE],
                 cloud$normal[, at, drop = FALSE], starts, rigid)
 }
@@ -98,7 +100,8 @@ distinct_poses <- function(fits, template, settings) {
 }
 
 #' The pose: by the template's strongest anchor, else by all of them, inside out, with a freer scale, until it is good
-#' @return List: `pose`, `score`, `misfit`, `inverted`, `cloud` (perhaps inverted); of all that were tried the one with the least misfit.
+#' @return List: `pose`, `score`, `misfit`, `inverted`, `cloud` (perhaps inverted); of all that were tried the one with
+#'   the least misfit.
 #' @noRd
 settled_pose <- function(template, cloud, settings) {
   all <- seq_len(nrow(template$anchors))

@@ -4,19 +4,21 @@
 #'
 #' `landmark_template()` makes one of any specimen with landmarks; `face_template()` is the package's own, for faces.
 #'
-#' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and `humface` (S. Schlager, GPL), made
-#' symmetric; `data-raw/face-template.R` makes it, and says how its landmarks were placed.
+#' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and `humface` (S. Schlager,
+#' GPL), made symmetric; `data-raw/face-template.R` makes it, and says how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
-#' @param predicted Names of landmarks that the surface says nothing about, such as those at ears that most scans lack: they are not
-#'   found, but placed by the others.
-#' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of a face, are multiplied by; the
-#'   default makes a template's diagonal 280 of them, as that of a face is.
-#' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are partners, and the displacements that
-#'   are tried are mostly symmetric. `NA`: where there are at least two such pairs.
-#' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where there is a mirror, left is at positive x and
-#'   the mirror is x = 0), `landmarks` (k x 3, those that are found), `predicted` (k x 3), `unit`, `mirror`.
-#' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or `predicted` that name none of them.
+#' @param predicted Names of landmarks that the surface says nothing about, such as those at ears that most scans lack:
+#'   they are not found, but placed by the others.
+#' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of a face, are multiplied
+#'   by; the default makes a template's diagonal 280 of them, as that of a face is.
+#' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are partners, and the
+#'   displacements that are tried are mostly symmetric. `NA`: where there are at least two such pairs.
+#' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where there is a mirror,
+#'   left is at positive x and the mirror is x = 0), `landmarks` (k x 3, those that are found), `predicted` (k x 3),
+#'   `unit`, `mirror`.
+#' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or `predicted` that name none
+#'   of them.
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examples
 #' face_template()
@@ -31,7 +33,8 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
   at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
   missing <- setdiff(predicted, rownames(at))
   if (length(missing)) {
-    refuse_landmarks(sprintf("`predicted` names %s, which it does not have.", shorten(missing)), near_names(missing[1], rownames(at)), specimen$id)
+    refuse_landmarks(sprintf("`predicted` names %s, which it does not have.", shorten(missing)),
+                     near_names(missing[1], rownames(at)), specimen$id)
   }
   if (nrow(at) - length(predicted) < 4) {
     refuse_landmarks(sprintf("it has %d landmarks to be found.", nrow(at) - length(predicted)),
@@ -42,15 +45,17 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
   if (mirror) specimen <- turned_specimen(specimen, at, pairs)
   at <- specimen$landmarks[rownames(at), , drop = FALSE]
   found <- !rownames(at) %in% predicted
-  structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE], predicted = at[!found, , drop = FALSE],
-                 unit = unit, mirror = mirror), class = "landmark_template")
+  structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE],
+                 predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror), class = "landmark_template")
 }
 
 #' @export
 print.landmark_template <- function(x, ...) {
-  cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"), if (x$mirror) ", with a mirror",
+  cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"),
+      if (x$mirror) ", with a mirror",
       ", unit ", signif(x$unit, 3), "\n", sep = "")
-  cat(strwrap(paste0(amount(nrow(x$landmarks), "landmark"), ": ", shorten(rownames(x$landmarks), 40)), exdent = 2), sep = "\n")
+  names <- shorten(rownames(x$landmarks), 40)
+  cat(strwrap(paste0(amount(nrow(x$landmarks), "landmark"), ": ", names), exdent = 2), sep = "\n")
   if (nrow(x$predicted)) cat("predicted by these:", shorten(rownames(x$predicted), 40), "\n")
   invisible(x)
 }
@@ -99,8 +104,8 @@ moved_specimen <- function(specimen, rotation, origin) {
 #' A template with what matching needs: its cloud, anchors and displacements
 #'
 #' @param settings Of [find_settings()], as given.
-#' @return List: as [scan_cloud()]'s, with `settings` (in the template's unit), `landmarks` (k x 3), `basis` (see [warp_basis()]), `sd`
-#'   (of the landmarks where every point has a match, see [warp_sd()]).
+#' @return List: as [scan_cloud()]'s, with `settings` (in the template's unit), `landmarks` (k x 3), `basis` (see
+#'   [warp_basis()]), `sd` (of the landmarks where every point has a match, see [warp_sd()]).
 #' @noRd
 prepared_template <- function(template, settings, threads) {
   scaled <- scaled_settings(settings, template$unit)

@@ -2,10 +2,12 @@
 
 #' Basis of the displacements of a template
 #'
-#' The process is the sum of Gaussian kernels, split into a part that is its own mirror image in x and one that is turned by the mirror,
-#' of smaller standard deviation. Each component of a displacement is then a process of functions even or odd in x.
+#' The process is the sum of Gaussian kernels, split into a part that is its own mirror image in x and one that is turned
+#' by the mirror, of smaller standard deviation. Each component of a displacement is then a process of functions even or
+#' odd in x.
 #'
-#' @param xyz n x 3, the template's points in its own frame (mirror: x to -x), those that the functions are chosen by first.
+#' @param xyz n x 3, the template's points in its own frame (mirror: x to -x), those that the functions are chosen by
+#'   first.
 #' @param m How many of them the functions are chosen by; the rest are landmarks.
 #' @param symmetric Whether the template has a mirror.
 #' @return List by component of n x k matrices whose coefficients are independent standard normal.
@@ -63,8 +65,8 @@ joined_basis <- function(full, share, factor, rank) {
 #' Fit the displacement of a template's points to a cloud in the template's frame
 #'
 #' @param weight Of curvature in the matches.
-#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see [warp_sd()]); of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
-#'   distance to it).
+#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see [warp_sd()]); of the n
+#'   points `index` (of the nearest in the cloud, or NA) and `residual` (the distance to it).
 #' @noRd
 fit_warp <- function(template, cloud, settings, weight) {
   xyz <- t(template$xyz)
@@ -72,7 +74,8 @@ fit_warp <- function(template, cloud, settings, weight) {
   basis <- lapply(template$basis, function(b) b[seq_len(n), , drop = FALSE])
   of <- function(x) weight * rbind(x$k1, x$k2)
   moved <- xyz
-  reach <- settings$warp_reach[1] * (settings$warp_reach[2] / settings$warp_reach[1])^seq(0, 1, length.out = settings$warp_steps)
+  ends <- settings$warp_reach
+  reach <- ends[1] * (ends[2] / ends[1])^seq(0, 1, length.out = settings$warp_steps)
   coefficients <- solved <- NULL
   for (step in seq_along(reach)) {
     found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step], settings$cosine)
@@ -82,9 +85,10 @@ fit_warp <- function(template, cloud, settings, weight) {
     coefficients <- solved$coefficients
     moved <- xyz + displaced(basis, coefficients)
   }
-  near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), settings$warp_reach[1], settings$cosine)
-  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients),
-       coefficients = coefficients, sd = warp_sd(lapply(template$basis, function(b) b[-seq_len(n), , drop = FALSE]), solved$root), index = near$index, residual = near$distance)
+  near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), ends[1], settings$cosine)
+  own <- lapply(template$basis, function(b) b[-seq_len(n), , drop = FALSE])
+  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients), coefficients = coefficients,
+       sd = warp_sd(own, solved$root), index = near$index, residual = near$distance)
 }
 
 match_points <- function(xyz, normal, feature, cloud, to_feature, reach, cosine) {

@@ -12,7 +12,8 @@
 #' not measured again as long as its input (the files' or specimen's content), the scheme, the settings and the package's
 #' version are the same; only the rest is sent to the workers. Failures are tried again.
 #'
-#' Where a mesh comes without landmarks they are found by `template`, see [find_landmarks()], and the specimen is refused where they are
+#' Where a mesh comes without landmarks they are found by `template`, see [find_landmarks()], and the specimen is refused
+#' where they are
 #' doubtful, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder.
 #'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s.
@@ -20,14 +21,16 @@
 #' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
 #' @param landmarks With mesh files: their landmark files, one for each; `NULL`: the file beside each mesh with its name
 #'   and an extension of [read_landmarks()], where there is one.
-#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's landmarks
+#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's
+#'   landmarks
 #'   are those of the face, else none.
 #' @param doubtful As in [check_placing()].
 #' @param ... Further arguments of [fit_shape()], the same for all.
 #' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
 #'   given two lots. Small lots cost more starts, large ones more waiting at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @return Object of class `shape_batch`: a list of shapes by name of specimen (its id, or the file's name), `NULL` where it failed.
+#' @return Object of class `shape_batch`: a list of shapes by name of specimen (its id, or the file's name), `NULL` where
+#'   it failed.
 #'   With `dir`, `x[[i]]` reads a shape from its file, and so does `as.list(x)` with all of them; `print(x)` counts.
 #' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of single specimens are kept, see
 #'   [failures()].

@@ -10,7 +10,7 @@ with_finder <- function(jobs, files, template, doubtful, scheme) {
   if (!any(bare)) return(jobs)
   template <- batch_template(template, scheme)
   if (is.null(template)) return(jobs)
-  key <- rlang::hash(list(template$specimen$mesh[c("vb", "it")], template$landmarks, template$predicted, template$unit, doubtful))
+  key <- rlang::hash(list(template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful))
   jobs[bare] <- Map(function(job, file, name) {
     picture <- if (is.null(file)) tempfile(paste0("placing-", gsub("[^[:alnum:]_-]", "_", name), "-"), fileext = ".png") else
       sub("[.]shape$", ".png", file)

@@ -81,7 +81,8 @@ int CloudGrid::nearest_within(const double* xyz, const double* normal, const dou
         if (d2 > reach * reach || d2 >= least) continue;
         const double* n = cloud_.normal + 3 * p;
         if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] < cosine) continue;
-        double all = d2 + squared_gap(cloud_.feature + static_cast<std::size_t>(cloud_.features) * p, feature, cloud_.features);
+        const double* own = cloud_.feature + static_cast<std::size_t>(cloud_.features) * p;
+        double all = d2 + squared_gap(own, feature, cloud_.features);
         if (all >= least) continue;
         least = all;
         best = p;

@@ -30,8 +30,8 @@ class CloudGrid {
   int cell_of(double x, int axis) const;
 
   // The same among what is nearer than the root of `least` in (xyz, feature).
-  int nearest_within(const double* xyz, const double* normal, const double* feature, double reach, double cosine, double least,
-                     double* distance2) const;
+  int nearest_within(const double* xyz, const double* normal, const double* feature, double reach, double cosine,
+                     double least, double* distance2) const;
 
   Cloud cloud_;
   double cell_;

@@ -26,8 +26,8 @@ struct RigidSettings {
 // Trimmed iterated closest points from one pose. moving: the points that are moved.
 Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose, const RigidSettings& settings);
 
-// Mean over the moved points of min(distance / saturation, 1), 1 where there is no match; the distance is that across the fixed
-// surface and, beyond the spacing of its points, along it.
+// Mean over the moved points of min(distance / saturation, 1), 1 where there is no match; the distance is that across the
+// fixed surface and, beyond the spacing of its points, along it.
 double pose_score(const Cloud& moving, const CloudGrid& fixed, const Pose& pose, const RigidSettings& settings);
 
 }  // namespace crestline
