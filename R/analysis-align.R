@@ -64,7 +64,7 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
   coords <- fit$coords
   if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
-  structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, scale = scale,
+  structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, places = whole$places, scale = scale,
                  tangent = tangent && scaling > 0, level = given$level, missing = whole$missing, moved = fit$moved,
                  triangles = whole$triangles), class = "aligned")
 }

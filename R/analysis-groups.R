@@ -30,7 +30,8 @@
 #' @param permutations Orders to use in place of random ones: n x B matrix or list (as of `RRPP:::perm.index()`), each
 #'   an order
 #'   of the specimens that takes the place of the observed one.
-#' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none.
+#' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none. Not used
+#'   with an `aligned`, which is aligned already.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `group_comparison`, a list:
 #'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of regroupings, the

@@ -95,7 +95,8 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (!is.numeric(size) || length(size) != n) {
     crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
   }
-  scaled <- max(own) / min(own) < max(size) / min(size)
+  spread <- function(s) diff(range(log(s)))
+  scaled <- spread(own) < spread(size) / 2
   structure(list(coords = coords, mean = apply(coords, 1:2, mean),
                  size = stats::setNames(as.vector(size), dimnames(coords)[[3]]),
                  weights = rep(1, dim(coords)[1]), scale = scaled, tangent = FALSE, level = level,
@@ -111,7 +112,9 @@ covariates <- function(data, ids, call = rlang::caller_env()) {
   if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
   clash <- intersect(names(data), c("coords", "size"))
   if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]), "Rename it: the sample's own has that name.")
-  names <- if (!is.null(data$id)) as.character(data$id) else if (all(ids %in% rownames(data))) rownames(data)
+  # Numbers stand for names that were not given: then rows are taken in their order.
+  named <- !identical(ids, as.character(seq_along(ids))) && all(ids %in% rownames(data))
+  names <- if (!is.null(data[["id"]])) as.character(data[["id"]]) else if (named) rownames(data)
   if (!is.null(names)) {
     absent <- setdiff(ids, names)
     if (length(absent)) fail(sprintf("`data` has no row for %s.", shorten(absent)), "Add it, or leave the specimen out.")

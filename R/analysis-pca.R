@@ -30,7 +30,7 @@
 #' @export
 shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   check_class(aligned, "aligned", "aligned", "align()")
-  if (!is.numeric(weights)) weights <- point_weights(weights, as_whole(aligned))
+  weights <- point_weights(weights, as_whole(aligned))
   dims <- dim(aligned$coords)
   weight <- rep(weights, dims[2])
   x <- t(matrix(aligned$coords, dims[1] * dims[2], dims[3]))
@@ -58,7 +58,7 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
 }
 
 as_whole <- function(aligned) {
-  places <- rownames(aligned$mean)
+  places <- if (is.null(aligned$places)) rownames(aligned$mean) else aligned$places
   k <- nrow(aligned$mean)
   list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = places, given = k,
        kept = seq_len(k))

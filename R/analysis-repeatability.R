@@ -151,6 +151,11 @@ variance_components <- function(y, specimen, observer = NULL) {
   squares <- rbind(t(vapply(fitted, function(part) colSums(part^2), numeric(ncol(y)))), colSums(rest^2))
   df <- vapply(spaces, ncol, 0L)
   expected <- vapply(dummies, function(z) vapply(spaces, function(q) sum(crossprod(q, z)^2), 0), numeric(length(spaces)))
+  if (any(df == 0) || sum(df) >= length(specimen) - 1) {
+    crestline_abort("specimens, observers and residual cannot be told apart in this design.",
+                    "Let observers measure the same specimens, some of them twice; or leave `observer` out.",
+                    stage = "repeatability", call = NULL)
+  }
   system <- rbind(cbind(matrix(expected, length(spaces)), df), c(numeric(length(spaces)), length(specimen) - 1 - sum(df)))
   estimate <- pmax(solve(system, squares), 0)
   found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))

@@ -12,6 +12,8 @@
 #'   face.
 #' @param id Name of the specimen, where a mesh is given.
 #' @param settings Of [find_settings()].
+#' @param unit Factor from the mesh's unit to the template's; `NULL`: the power of ten that brings their diagonals nearest
+#'   to each other, which is wrong where the scan is three times as large as the object, or a third of it.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the
@@ -37,14 +39,14 @@
 #' plot(face, "plain", engine = "picture", labels = TRUE)
 #' }
 #' @export
-find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(),
+find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(), unit = NULL,
                            threads = getOption("crestline.threads", 1L)) {
   check_class(settings, "find_settings", "settings", "find_settings()")
   if (!inherits(template, "landmark_template")) template <- landmark_template(template)
   scan <- mesh
   if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)
-  laid <- laid_template(prepared, template, scan, settings, threads)
+  laid <- laid_template(prepared, template, scan, settings, threads, unit)
   placed <- carried_landmarks(prepared, template, scan, laid)
   if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
   with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
@@ -55,13 +57,19 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
 #' The template laid on a scan, or an error where it does not fit
 #' @return List as of [settled_pose()], with `unit`.
 #' @noRd
-laid_template <- function(prepared, template, scan, settings, threads) {
-  unit <- 10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
+laid_template <- function(prepared, template, scan, settings, threads, unit = NULL) {
+  unit <- if (is.null(unit)) {
+    10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
+  } else {
+    check_number(unit, "unit", lower = 0, open = TRUE)
+  }
   laid <- settled_pose(prepared, scan_cloud(scan, unit, prepared$settings, threads), prepared$settings)
   if (laid$score > settings$refuse) {
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score,
                       settings$refuse)
-    refuse_landmarks(unlike, "Is it the object, and whole enough? Else place the landmarks by hand.", scan$id)
+    remedy <- sprintf("Is it the object, and whole enough? Its lengths were multiplied by %g: else give `unit`, or place the landmarks by hand.",
+                      unit)
+    refuse_landmarks(unlike, remedy, scan$id)
   }
   c(laid, list(unit = unit))
 }
@@ -104,6 +112,7 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   sd <- sqrt(pmax(bent$sd^2 - prepared$sd^2, 0))
   confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 + (sd / settings$vague)^2)
   confidence <- confidence * min(1, (1 - laid$score) / (1 - settings$poor))
+  confidence[is.na(confidence)] <- 0
   found <- data.frame(landmark = rownames(own), state = state, confidence = ifelse(state == "absent", NA, confidence),
                       moved = moved / length, sd = sd / length, residual = residual / length, lost = here$lost,
                       x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)

@@ -42,6 +42,10 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
   }
   pairs <- side_pairs(rownames(at))
   if (is.na(mirror)) mirror <- nrow(pairs) >= 2
+  if (mirror && !nrow(pairs)) {
+    refuse_landmarks("it has no pair of landmarks whose names end in L and R.", "Name the sides so, or give mirror = FALSE.",
+                     specimen$id)
+  }
   if (mirror) specimen <- turned_specimen(specimen, at, pairs)
   at <- specimen$landmarks[rownames(at), , drop = FALSE]
   found <- !rownames(at) %in% predicted
@@ -74,8 +78,8 @@ turned_specimen <- function(specimen, at, pairs) {
   across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
   axis <- eigen(crossprod(across), symmetric = TRUE)$vectors[, 1]
   axis <- axis * sign(sum(across %*% axis))
-  middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
-                  at[!rownames(at) %in% unlist(pairs), , drop = FALSE])
+  sided <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
+  middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2, at[!sided, , drop = FALSE])
   origin <- colMeans(middle)
   moved_specimen(specimen, least_rotation(axis), origin)
 }

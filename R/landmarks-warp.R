@@ -38,15 +38,18 @@ gauss_kernel <- function(a, b, settings) {
 }
 
 #' Principal functions of a process: pivoted Cholesky, then turned to the axes of its variance
+#'
+#' @param least Variance that is left, as a share of the greatest, at which no more functions are taken.
 #' @return List: `functions` (n x k), `variance` (k, of each over the points).
 #' @noRd
-process_basis <- function(xyz, m, kernel, rank) {
+process_basis <- function(xyz, m, kernel, rank, least = 1e-12) {
   many <- min(m, ceiling(2 * rank))
   root <- matrix(0, nrow(xyz), many)
   left <- vapply(seq_len(nrow(xyz)), function(i) kernel(xyz[i, , drop = FALSE], xyz[i, , drop = FALSE]), 0)
+  least <- least * max(left[seq_len(m)])
   for (j in seq_len(many)) {
     pivot <- which.max(left[seq_len(m)])
-    if (left[pivot] <= 1e-10) break
+    if (left[pivot] <= least) break
     used <- seq_len(j - 1)
     column <- drop(kernel(xyz, xyz[pivot, , drop = FALSE])) - drop(root[, used, drop = FALSE] %*% root[pivot, used])
     root[, j] <- column / sqrt(left[pivot])

@@ -71,7 +71,7 @@ level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
 }
 
 p_value_of <- function(x, level, test) {
-  own <- x$tests$p_value[x$tests$level == level & x$tests$test == test]
+  own <- x$tests$p_value[which(x$tests$level == level & x$tests$test == test)]
   if (length(own)) sprintf("p = %s", format.pval(own, digits = 2, eps = 1e-4))
 }
 

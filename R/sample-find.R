@@ -2,7 +2,8 @@
 
 #' Jobs without landmarks, with what finds them
 #'
-#' @return The jobs; those without landmarks with `finder`: list of `template`, `doubtful`, `picture` (path) and `key`.
+#' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with `template`, which all jobs of a
+#'   worker have in common), `doubtful`, `picture` (path) and `key`.
 #' @noRd
 with_finder <- function(jobs, files, template, doubtful, scheme) {
   doubtful <- check_number(doubtful, "doubtful", 0, 1)
@@ -11,10 +12,11 @@ with_finder <- function(jobs, files, template, doubtful, scheme) {
   template <- batch_template(template, scheme)
   if (is.null(template)) return(jobs)
   key <- rlang::hash(list(template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful))
+  shared <- rlang::env(template = template)
   jobs[bare] <- Map(function(job, file, name) {
     picture <- if (is.null(file)) tempfile(paste0("placing-", gsub("[^[:alnum:]_-]", "_", name), "-"), fileext = ".png") else
-      sub("[.]shape$", ".png", file)
-    c(job, list(finder = list(template = template, doubtful = doubtful, picture = picture, key = key)))
+      sub("[.]shape$", "-placing.png", file)
+    c(job, list(finder = list(shared = shared, doubtful = doubtful, picture = picture, key = key)))
   }, jobs[bare], files[bare], names(jobs)[bare])
   jobs
 }
@@ -29,7 +31,9 @@ batch_template <- function(template, scheme) {
 #' A specimen with found landmarks, or an error that names the picture of them
 #' @noRd
 found_specimen <- function(one, finder) {
-  found <- check_placing(find_landmarks(one, finder$template), doubtful = finder$doubtful, picture = finder$picture)
+  # A worker on another machine has not the folder of this session.
+  if (!dir.exists(dirname(finder$picture))) finder$picture <- tempfile("placing-", fileext = ".png")
+  found <- check_placing(find_landmarks(one, finder$shared$template), doubtful = finder$doubtful, picture = finder$picture)
   unlink(finder$picture)
   found
 }

@@ -25,8 +25,9 @@ no_places <- function() {
 effect_places <- function(places, template, call = rlang::caller_env()) {
   wanted <- names(no_places())
   lacking <- if (is.data.frame(places)) setdiff(wanted, names(places)) else wanted
-  numbers <- if (!length(lacking)) as.matrix(places[wanted[-1]])
-  if (length(lacking) || !is.numeric(numbers) || !all(is.finite(numbers)) || any(places$radius <= 0)) {
+  numbers <- if (!length(lacking)) data.matrix(places[wanted[-1]])
+  counted <- !length(lacking) && all(vapply(places[wanted[-1]], is.numeric, NA))
+  if (!counted || !all(is.finite(numbers)) || any(places$radius <= 0)) {
     crestline_abort("`places` does not say where, how wide and how strong.",
                     "Give a data frame as face_effect() does: part, x, y, z, radius (above 0), share.",
                     stage = "arguments", call = call)
@@ -38,6 +39,7 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
     places[c("dx", "dy", "dz")] <- as.data.frame(normal / row_lengths(normal))
   }
   places[c("x", "y", "z")] <- at[c("x", "y", "z")]
+  places$part <- as.character(places$part)
   places
 }
 

@@ -15,6 +15,9 @@ test_that("covariates follow the specimens' names", {
   rownames(rows) <- rows$id
   expect_equal(as_geomorph(one$x, data = rows[-1])$age, 1:16)
   expect_crestline_error(as_geomorph(one$x, data = one$data[-1, ]), "no row for p")
+  nameless <- unname(one$x)
+  turned <- data.frame(age = 16:1)[order(1:16 %% 2), , drop = FALSE]
+  expect_equal(as_geomorph(nameless, data = turned)$age, turned$age)
   expect_crestline_error(as_geomorph(one$x, data = data.frame(size = 1:16)), "`size`")
   expect_crestline_error(as_geomorph(one$x, data = data.frame(a = 1:3)), "3 rows for 16")
 })
@@ -76,6 +79,8 @@ test_that("and back", {
   kept <- as_aligned(align(one$x, scale = FALSE)$coords)
   expect_false(kept$scale)
   expect_equal(kept$size, aligned$size, tolerance = 1e-10)
+  expect_false(as_aligned(list(coords = align(one$x, scale = FALSE)$coords, size = aligned$size * (1 + 1e-12)))$scale)
+  expect_true(back$scale)
   expect_crestline_error(as_aligned(list(1)), "`sample`")
   expect_crestline_error(as_aligned(aligned$coords, size = 1), "`size`")
 })

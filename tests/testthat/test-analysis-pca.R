@@ -41,8 +41,9 @@ test_that("a weighted component is that of points repeated", {
   repeated$mean <- aligned$mean[rows, ]
   repeated$weights <- rep(1, 14)
   theirs <- shape_pca(repeated)
-  expect_equal(weighted$sdev^2, theirs$sdev^2, tolerance = 1e-8)
-  expect_equal(abs(weighted$x), abs(theirs$x), tolerance = 1e-8)
+  # Weights of mean 1 share 14 repeats among 12 points.
+  expect_equal(weighted$sdev^2, theirs$sdev^2 * 12 / 14, tolerance = 1e-8)
+  expect_equal(abs(weighted$x), abs(theirs$x) * sqrt(12 / 14), tolerance = 1e-8)
 })
 
 test_that("a known direction is found, and shapes along it", {
@@ -83,4 +84,12 @@ test_that("what cannot be done is refused", {
   expect_crestline_error(shape_at(pca, as = "mesh"), "triangles")
   expect_match(paste(capture.output(pca), collapse = "\n"), "15 specimens, 12 points.*PC1")
   expect_equal(as.data.frame(pca)$cumulative, cumsum(pca$share))
+})
+
+test_that("weights of a shape_pca() are brought to mean 1, and points that coincide can count as one", {
+  aligned <- align(posed_sample(sd = 0.1))
+  expect_equal(shape_pca(aligned, rep(2, 12))$sdev, shape_pca(aligned)$sdev)
+  expect_crestline_error(shape_pca(aligned, c(1, 1)), "weights")
+  aligned$places <- c("one", "one", paste("place", 3:12))
+  expect_equal(shape_pca(aligned, "places")$sdev, shape_pca(aligned, c(0.5, 0.5, rep(1, 10)))$sdev)
 })

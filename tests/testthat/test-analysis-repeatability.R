@@ -126,3 +126,9 @@ test_that("print and plot fit, and the table is there", {
   expect_gt(sum(coloured[, 1:300]), 50)
   expect_gt(sum(coloured[, 301:600]), 50)
 })
+
+test_that("a design whose components cannot be told apart is refused", {
+  y <- matrix(rnorm(24), 12)
+  nested <- list(factor(rep(1:6, each = 2)), factor(rep(c("A", "B"), each = 6)))
+  expect_crestline_error(variance_components(y, nested[[1]], nested[[2]]), c("told apart", "observer"))
+})

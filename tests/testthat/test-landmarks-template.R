@@ -36,3 +36,14 @@ test_that("settings are checked, and their lengths go with the template", {
   expect_equal(own$weight, 4 * find_settings()$weight)
   expect_output(print(find_settings()), "turns = 12")
 })
+
+test_that("a landmark whose partner is missing does not move the mirror; sides need names", {
+  at <- humface_landmarks()
+  one_sided <- at
+  one_sided["exR", ] <- NA
+  whole <- landmark_template(specimen(humface_scan(), at), ear_names)
+  own <- landmark_template(specimen(humface_scan(), one_sided), ear_names)
+  expect_lt(max(abs(own$landmarks[, "x"] - whole$landmarks[rownames(own$landmarks), "x"])), 1)
+  four <- at[c("pn", "sn", "se", "gn"), ]
+  expect_crestline_error(landmark_template(specimen(humface_scan(), four), mirror = TRUE), c("L and R", "mirror = FALSE"))
+})

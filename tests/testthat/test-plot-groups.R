@@ -78,3 +78,9 @@ test_that("what cannot be drawn is refused", {
   without <- compare_groups(ball$aligned, ball$group, n_perm = 9, tests = "size", progress = FALSE)
   expect_crestline_error(plot(without, "map"), "tests")
 })
+
+test_that("boxes without a test of size have no p-value in their title", {
+  data <- grouped_sample(c(4, 4))
+  compared <- compare_groups(data$x, data$group, tests = "shape", n_perm = 9, progress = FALSE)
+  expect_null(p_value_of(compared, names(compared$aligned), NA))
+})

@@ -167,3 +167,13 @@ test_that("print fits a screen", {
   expect_match(capture.output(print(simulated(1, scan = NULL, seed = 1)))[4], "truth only")
   expect_identical(as.data.frame(faces), faces$covariates)
 })
+
+test_that("a template of one's own needs no places of an effect; parts may be a factor", {
+  ball <- specimen(ball_mesh(2), rbind(a = c(0, 0, 1)), id = "ball")
+  made <- simulate_faces(2, effect = 0, template = ball, scan = NULL)
+  expect_equal(max(abs(true_effect(made, cbind(0, 0, 1)))), 0)
+  places <- data.frame(part = factor(c("top", "front"), c("front", "top")), x = c(0, 1), y = 0, z = c(1, 0), radius = 0.2, share = 1)
+  made <- simulate_faces(2, effect = c(top = 0.5, front = 0), places = places, template = ball, scan = NULL)
+  expect_equal(abs(true_effect(made, cbind(0, 0, 1))[1, "z"]), c(z = 0.5), tolerance = 1e-3)
+  expect_lt(max(abs(true_effect(made, cbind(1, 0, 0)))), 1e-3)
+})
