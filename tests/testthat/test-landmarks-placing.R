@@ -1,5 +1,5 @@
 test_that("doubtful landmarks are refused by the specimen's name, with a picture", {
-  face <- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
+  face <- find_landmarks(humface_scan(), id = "humface")
   expect_identical(check_placing(face), face)
   picture <- tempfile(fileext = ".png")
   face$placing$confidence[face$placing$landmark %in% c("pn", "exL")] <- 0.2
