@@ -40,8 +40,8 @@ find_settings <- function(...) {
                    refined = 6, tight = c(0.95, 1.05), loose = c(0.75, 1.3),
                    cosine = 0.5, saturation = 5, poor = 0.55, refuse = 0.76, left_over = 0.5,
                    kernel_length = c(60, 30, 15), kernel_sd = c(4, 2.5, 1.5), affine = 5, uneven = 0.3, rank = 220,
-                   weight = 80, warp_reach = c(15, 6), warp_steps = 20, error = 2, robust = 1.5, along = 0.1,
-                   points = 1200, thin = 200,
+                   weight = 80, warp_reach = c(15, 6), warp_steps = 15, error = 3, robust = 1.5, along = 0.1,
+                   points = 2500, thin = 200,
                    moved = 2, off = 2.5, vague = 0.9, near = 8, lost = 0.4)
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))
