@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # R CMD build with vignettes, then R CMD check --as-cran on the tarball, as a user's machine would see it: without
-# the shared scans. Fails on any error, warning or note that tools/check-log.R does not know as the machine's.
+# the shared scans. CHECK_ARGS: further arguments of R CMD check. Fails on any error, warning or note that tools/check-log.R does not know as the machine's.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/steps.sh
@@ -30,7 +30,7 @@ check() {
   # not stripped, or the check finds no registered routines.
   printf '%s = -g0 -O2\n' CXXFLAGS CXX17FLAGS > "$work/Makevars"
   R_MAKEVARS_USER="$work/Makevars" _R_CHECK_CRAN_INCOMING_REMOTE_=FALSE _R_CHECK_SYSTEM_CLOCK_=0 \
-    R CMD check --as-cran --no-manual crestline_*.tar.gz || true
+    R CMD check --as-cran --no-manual ${CHECK_ARGS:-} crestline_*.tar.gz || true
   [ -s crestline.Rcheck/00check.log ]
 }
 
