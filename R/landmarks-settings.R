@@ -49,11 +49,15 @@ find_settings <- function(...) {
     crestline_abort(sprintf("there is no setting %s.", paste0("\"", unknown, "\"", collapse = ", ")),
                     paste0("Settings are: ", paste(names(settings), collapse = ", "), "."), stage = "arguments")
   }
+  may_be_none <- c("cap", "affine", "uneven", "weight", "along", "left_over", "lost", "cosine")
   for (name in names(change)) {
     value <- change[[name]]
-    if (!is.numeric(value) || length(value) != length(settings[[name]]) || any(!is.finite(value) | value < 0)) {
+    size <- length(settings[[name]])
+    low <- if (name %in% may_be_none) 0 else .Machine$double.xmin
+    if (!is.numeric(value) || length(value) != size || any(!is.finite(value) | value < low)) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(value)),
-                      sprintf("Give %d finite number(s) of at least 0.", length(settings[[name]])), stage = "arguments")
+                      sprintf("Give %d finite number%s %s 0.", size, if (size > 1) "s" else "",
+                              if (low > 0) "above" else "of at least"), stage = "arguments")
     }
   }
   settings[names(change)] <- change

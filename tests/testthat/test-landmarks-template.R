@@ -30,6 +30,8 @@ test_that("settings are checked, and their lengths go with the template", {
   expect_crestline_error(find_settings(turn = 3), "no setting")
   expect_crestline_error(find_settings(turns = "many"), "turns")
   expect_crestline_error(find_settings(reach = 3), "Give 2")
+  expect_crestline_error(find_settings(cluster = 0), "above 0")
+  expect_equal(find_settings(uneven = 0)$uneven, 0)
   own <- scaled_settings(find_settings(), 2)
   expect_equal(own$reach, 2 * find_settings()$reach)
   expect_equal(own$cap, find_settings()$cap / 2)
