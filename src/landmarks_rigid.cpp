@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "landmarks_rotation.h"
+
 namespace crestline {
 
 namespace {
@@ -34,55 +36,11 @@ std::vector<Pair> matches(const Cloud& moving, const CloudGrid& fixed, const Pos
   return out;
 }
 
-// Eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix, by Jacobi's rotations.
-void largest_eigenvector(double a[4][4], double* vector) {
-  double v[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-  for (int sweep = 0; sweep < 30; ++sweep) {
-    double off = 0, on = 0;
-    for (int p = 0; p < 4; ++p) {
-      on += a[p][p] * a[p][p];
-      for (int q = p + 1; q < 4; ++q) off += a[p][q] * a[p][q];
-    }
-    if (off <= 1e-28 * on) break;
-    for (int p = 0; p < 3; ++p) {
-      for (int q = p + 1; q < 4; ++q) {
-        if (a[p][q] == 0) continue;
-        double theta = 0.5 * std::atan2(2 * a[p][q], a[q][q] - a[p][p]);
-        double c = std::cos(theta), s = std::sin(theta);
-        for (int k = 0; k < 4; ++k) {
-          double x = a[k][p], y = a[k][q];
-          a[k][p] = c * x - s * y;
-          a[k][q] = s * x + c * y;
-        }
-        for (int k = 0; k < 4; ++k) {
-          double x = a[p][k], y = a[q][k], vx = v[k][p], vy = v[k][q];
-          a[p][k] = c * x - s * y;
-          a[q][k] = s * x + c * y;
-          v[k][p] = c * vx - s * vy;
-          v[k][q] = s * vx + c * vy;
-        }
-      }
-    }
-  }
-  int best = 0;
-  for (int p = 1; p < 4; ++p) if (a[p][p] > a[best][best]) best = p;
-  for (int k = 0; k < 4; ++k) vector[k] = v[k][best];
-}
-
-// Horn's closed form: the unit quaternion of the rotation that takes the moving points to the fixed.
 void rotation_of(const double s[3][3], double* r) {
-  double n[4][4] = {
-      {s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]},
-      {s[1][2] - s[2][1], s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]},
-      {s[2][0] - s[0][2], s[0][1] + s[1][0], -s[0][0] + s[1][1] - s[2][2], s[1][2] + s[2][1]},
-      {s[0][1] - s[1][0], s[2][0] + s[0][2], s[1][2] + s[2][1], -s[0][0] - s[1][1] + s[2][2]}};
-  double q[4];
-  largest_eigenvector(n, q);
-  double w = q[0], x = q[1], y = q[2], z = q[3];
-  double rows[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-                       {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-                       {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
-  for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) r[3 * j + i] = rows[i][j];
+  double h[9], rows[9];
+  for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) h[3 * j + i] = s[i][j];
+  rotation_in_space(h, rows);
+  for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) r[3 * j + i] = rows[3 * i + j];
 }
 
 Pose pose_of(const Cloud& moving, const Cloud& fixed, const std::vector<Pair>& pairs, const double* bounds) {
