@@ -27,7 +27,7 @@ ifeq ($(LC_ALL)$(LC_CTYPE)$(LANG),)
 export LC_ALL := C.UTF-8
 endif
 
-.PHONY: help setup install demo test check coverage sanitize document clean
+.PHONY: help setup install demo test check coverage sanitize document site clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -59,5 +59,8 @@ sanitize: setup  ## the tests under the address and undefined-behaviour sanitize
 document: setup  ## writes NAMESPACE, man/ and the Rcpp exports
 	@tools/document.sh
 
+site: install  ## the site, by pkgdown, into site/; every page opened in headless Chromium
+	@tools/site.sh
+
 clean:  ## removes what builds leave in the tree
-	@rm -rf demo-output crestline.Rcheck src/*.o src/*.so
+	@rm -rf demo-output site crestline.Rcheck src/*.o src/*.so
