@@ -109,12 +109,17 @@ print.shape_pca <- function(x, most = 6, ...) {
 #' @param sd For each of them, how many standard deviations from the mean.
 #' @param as "matrix" or "mesh".
 #' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the mean size in the unit
-#'   of the
-#'   meshes.
+#'   of the meshes.
 #' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those points that have triangles
 #'   (attribute `row`: which).
 #' @section Errors: of class `crestline_error`: no such component; no triangles for a mesh.
-#' @seealso [shape_pca()], with an example
+#' @seealso [shape_pca()]
+#' @examples
+#' square <- c(0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0)
+#' shapes <- array(square + rnorm(120, sd = 0.05), c(4, 3, 10))
+#' pca <- shape_pca(align(shapes))
+#' shape_at(pca, component = 1:2, sd = c(2, -1))              # of unit size
+#' shape_at(pca, component = 1, sd = 2, size = pca$size)      # of mean size
 #' @export
 shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size = 1) {
   check_class(pca, "shape_pca", "pca", "shape_pca()")

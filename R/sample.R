@@ -29,7 +29,22 @@ missing_parts <- function(shapes) {
 #' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y, z and specimens; NA
 #'   where missing; in the unit of the meshes, where each specimen lies.
 #' @section Errors: of class `crestline_error`, for another level.
-#' @seealso [homologise()], with an example
+#' @seealso [homologise()]
+#' @examples
+#' \donttest{
+#' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
+#' curves <- data.frame(curve = c("ab", "bc", "ac"), from = c("a", "b", "a"),
+#'                      to = c("b", "c", "c"), kind = "plane", n = 5)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "triangle")
+#' shapes <- lapply(c(1, 1.1, 1.2), function(width) {
+#'   ball <- Rvcg::vcgSphere(4)
+#'   ball$vb[1, ] <- width * ball$vb[1, ]
+#'   wide <- specimen(ball, corners %*% diag(c(width, 1, 1)), id = paste("ball", width))
+#'   fit_shape(wide, scheme, progress = FALSE)
+#' })
+#' sample <- homologise(shapes, progress = FALSE)
+#' dim(as.array(sample, "curves"))
+#' }
 #' @exportS3Method
 as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface"), ...) {
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")

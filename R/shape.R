@@ -8,7 +8,15 @@
 #' @return k x 3 matrix with columns x, y, z and row names "part point" (of landmarks: their names), NA where missing; in
 #'   the unit of the mesh.
 #' @section Errors: of class `crestline_error`, for another level.
-#' @seealso [fit_shape()], with an example
+#' @seealso [fit_shape()]
+#' @examples
+#' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
+#' curves <- data.frame(curve = c("ab", "bc", "ac"), from = c("a", "b", "a"),
+#'                      to = c("b", "c", "c"), kind = "plane", n = 5)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "triangle")
+#' shape <- fit_shape(specimen(Rvcg::vcgSphere(4), corners, id = "ball"), scheme, progress = FALSE)
+#' coords(shape, "landmarks")
+#' head(coords(shape, "curves"), 3)
 #' @export
 coords <- function(x, level, ...) UseMethod("coords")
 
