@@ -158,10 +158,9 @@ predicted_landmarks <- function(template, found, to_scan) {
 similarity <- function(from, to) {
   a <- sweep(from, 2, colMeans(from))
   b <- sweep(to, 2, colMeans(to))
-  parts <- svd(crossprod(a, b))
-  turn <- diag(c(1, 1, sign(det(parts$u %*% t(parts$v)))))
-  rotation <- parts$v %*% turn %*% t(parts$u)
-  scale <- sum(parts$d * diag(turn)) / sum(a^2)
+  turn <- nearest_rotation(a, b)
+  rotation <- t(turn$rotation)
+  scale <- sum(turn$d) / sum(a^2)
   list(rotation = rotation, scale = scale, shift = colMeans(to) - scale * drop(rotation %*% colMeans(from)))
 }
 

@@ -39,11 +39,9 @@ mirror_image <- function(landmarks, pairs, flat = 1e-6) {
   if (sum(known) < 3) return(NULL)
   from <- colMeans(mirrored[known, ])
   to <- colMeans(landmarks[known, ])
-  parts <- svd(crossprod(sweep(mirrored[known, ], 2, from), sweep(landmarks[known, ], 2, to)))
-  if (parts$d[2] <= flat * parts$d[1]) return(NULL)
-  sense <- sign(det(tcrossprod(parts$u, parts$v)))
-  rotation <- parts$u %*% diag(c(1, 1, sense)) %*% t(parts$v)
-  function(xyz) sweep(sweep(xyz %*% flip, 2, from) %*% rotation, 2, to, "+")
+  turn <- nearest_rotation(sweep(mirrored[known, ], 2, from), sweep(landmarks[known, ], 2, to))
+  if (turn$d[2] <= flat * turn$d[1]) return(NULL)
+  function(xyz) sweep(sweep(xyz %*% flip, 2, from) %*% turn$rotation, 2, to, "+")
 }
 
 #' Greatest length of differences (n x 3) after those between their first and last are interpolated and taken off

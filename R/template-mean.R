@@ -1,15 +1,5 @@
 # Procrustes mean of configurations with points missing.
 
-#' Rotation that lays one configuration onto another
-#'
-#' @param x,y k x 3, centred on the same points, no NA.
-#' @return 3 x 3 matrix R with determinant 1: x R is nearest to y.
-#' @noRd
-rotation_onto <- function(x, y) {
-  parts <- svd(crossprod(x, y))
-  parts$u %*% (c(1, 1, sign(det(parts$u) * det(parts$v))) * t(parts$v))
-}
-
 #' The map that moves, turns and, if wanted, scales one configuration onto another by the points that both have
 #' @return Function of a matrix of three columns.
 #' @noRd
@@ -19,7 +9,7 @@ superimposition <- function(x, y, scale) {
   aim <- colMeans(y[both, , drop = FALSE])
   from <- sweep(x[both, , drop = FALSE], 2, centre)
   to <- sweep(y[both, , drop = FALSE], 2, aim)
-  turn <- rotation_onto(from, to) * if (scale) sqrt(sum(to^2) / sum(from^2)) else 1
+  turn <- nearest_rotation(from, to)$rotation * if (scale) sqrt(sum(to^2) / sum(from^2)) else 1
   function(points) sweep(sweep(points, 2, centre) %*% turn, 2, aim, `+`)
 }
 
