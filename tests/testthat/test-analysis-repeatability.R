@@ -132,3 +132,31 @@ test_that("a design whose components cannot be told apart is refused", {
   nested <- list(factor(rep(1:6, each = 2)), factor(rep(c("A", "B"), each = 6)))
   expect_crestline_error(variance_components(y, nested[[1]], nested[[2]]), c("told apart", "observer"))
 })
+
+test_that("measurements that failed are left out, counted and named, with those of the rest as without them", {
+  skip_if_not_installed("Rvcg")
+  shape <- quad_shape()
+  moved <- function(i) {
+    shape$points[c("x", "y", "z")] <- shape$points[c("x", "y", "z")] + with_seed(i, rnorm(3 * nrow(shape$points), sd = i))
+    shape
+  }
+  shapes <- c(lapply(1:4, moved), list(NULL), lapply(5:6, moved))
+  names(shapes) <- paste0("scan", 1:7)
+  specimen <- c("a", "a", "b", "b", "b", "c", "c")
+  expect_warning(found <- repeatability(shapes, specimen), "1 of 7 measurements failed and is left out: scan5",
+                 class = "crestline_failed_measurements")
+  whole <- repeatability(shapes[-5], specimen[-5])
+  expect_identical(found$parts, whole$parts)
+  expect_equal(unname(found$counts[c("measurements", "failed")]), c(6, 1))
+  expect_identical(found$failed, "scan5")
+  expect_output(print(found), "not measured, left out: scan5")
+  expect_warning(short <- repeatability(shapes, specimen[-5]), class = "crestline_failed_measurements")
+  expect_identical(short$parts, whole$parts)
+  expect_warning(repeatability(unname(shapes), specimen), "left out: 5", class = "crestline_failed_measurements")
+  expect_length(whole$failed, 0)
+  expect_equal(unname(whole$counts["failed"]), 0)
+  # A batch, as fit_shapes() returns it.
+  batch <- structure(shapes, files = vector("list", 7), class = "shape_batch")
+  expect_warning(of_batch <- repeatability(batch, specimen), "scan5", class = "crestline_failed_measurements")
+  expect_identical(of_batch$parts, whole$parts)
+})
