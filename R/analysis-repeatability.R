@@ -11,7 +11,8 @@
 #' estimated from the sequential sums of squares (Henderson's method 3, also where numbers of repeats differ; where they
 #' are equal, those of the analysis of variance); an estimate below 0 counts as 0. The interaction is in the model
 #' where some observer measured some specimen twice, else it is part of the residual. Each observer's own places count
-#' as error: the correlation is that of agreement, ICC(1) without and ICC(2, 1) with observers.
+#' as error: the correlation is that of agreement, ICC(1) without and ICC(2, 1) with observers. Of one specimen that was
+#' measured several times there is the error only: what concerns the specimens is NA.
 #'
 #' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
 #'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".
@@ -32,7 +33,7 @@
 #'     measurements left out because they failed; `missing`: names of points left out because some measurement lacks them.
 #'
 #'   `as.data.frame()` gives `parts`.
-#' @section Errors: of class `crestline_error`: no measurements, factors of another length, fewer than two specimens, none
+#' @section Errors: of class `crestline_error`: no measurements, factors of another length, none
 #'   measured twice, no point in all of them.
 #' @section Warnings: of class `crestline_failed_measurements`, when measurements are left out because they failed.
 #' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout and Fleiss (1979)
@@ -125,7 +126,6 @@ check_factor <- function(x, n, name, call = rlang::caller_env()) {
 check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "repeatability", call = call)
   if (!nrow(coords)) fail("no point is in all measurements.", "Leave out the measurements that lack most.")
-  if (nlevels(specimen) < 2) fail("there is one specimen only.", "Give two or more.")
   if (nlevels(specimen) == length(specimen)) fail("no specimen was measured twice.", "Give repeated measurements.")
   if (!is.null(observer) && nlevels(observer) < 2) {
     fail("there is one observer only.", "Leave `observer` out, or give two or more.")
@@ -159,14 +159,19 @@ in_one_frame <- function(coords, unit, wanted, tolerance = 1e-10, rounds = 100) 
 #'
 #' @param y N x m, a column a variable.
 #' @return Matrix, a row a term ("specimen", "observer", "interaction", "residual"), a column a variable: variances, not
-#'   below 0; NA for terms not in the model.
+#'   below 0; NA for terms not in the model, such as the specimen where there is one.
 #' @noRd
 variance_components <- function(y, specimen, observer = NULL) {
-  terms <- list(specimen = specimen)
+  terms <- if (nlevels(specimen) > 1) list(specimen = specimen) else list()
   if (!is.null(observer)) {
     terms$observer <- observer
     cell <- interaction(specimen, observer, drop = TRUE)
-    if (nlevels(cell) < length(cell)) terms$interaction <- cell
+    if (nlevels(specimen) > 1 && nlevels(cell) < length(cell)) terms$interaction <- cell
+  }
+  found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
+  if (!length(terms)) {
+    found["residual", ] <- apply(y, 2, stats::var)
+    return(found)
   }
   dummies <- lapply(terms, function(term) outer(as.integer(term), seq_len(nlevels(term)), `==`) + 0)
   spaces <- sequential_spaces(dummies)
@@ -182,7 +187,6 @@ variance_components <- function(y, specimen, observer = NULL) {
   }
   system <- rbind(cbind(matrix(expected, length(spaces)), df), c(numeric(length(spaces)), length(specimen) - 1 - sum(df)))
   estimate <- pmax(solve(system, squares), 0)
-  found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
   found[c(names(terms), "residual"), ] <- estimate
   found
 }
@@ -228,7 +232,7 @@ print.repeatability <- function(x, most = 10, digits = 3, ...) {
   shown <- shown[colSums(!is.na(shown)) > 0]
   numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"), names(shown))
   shown[numbers] <- signif(shown[numbers], digits)
-  shown$icc <- round(shown$icc, digits)
+  if (!is.null(shown$icc)) shown$icc <- round(shown$icc, digits)
   cat("standard deviations by part, those of the greatest error first\n")
   print.data.frame(shown, row.names = FALSE)
   if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
