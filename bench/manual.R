@@ -81,10 +81,9 @@ humface_twice <- function() {
   lapply(list(first = first, second = second), function(at) specimen(data$humface, at, id = "humface"))
 }
 
-# The points of a curve between two shares of its length.
-middle_of <- function(path, share = c(0.2, 0.8)) {
-  s <- path$s / max(path$s)
-  as.matrix(path[s >= share[1] & s <= share[2], xyz])
+# Places of a curve between two shares of its length, evenly.
+places_of <- function(path, from, to, n) {
+  sapply(path[xyz], function(v) approx(path$s, v, seq(from, to, length.out = n) * max(path$s))$y)
 }
 
 compare_humface <- function() {
@@ -99,15 +98,17 @@ compare_humface <- function() {
   ends <- scheme$curves[match(near$part, scheme$curves$curve), ]
   # Of the middle, how far the one is from the whole of the other, both ways.
   inner <- vapply(near$part, function(part) {
-    a <- shapes$first$paths[[part]]
-    b <- shapes$second$paths[[part]]
-    rms(c(crestline:::polyline_distances(middle_of(a), as.matrix(b[xyz])), crestline:::polyline_distances(middle_of(b), as.matrix(a[xyz]))))
+    paths <- lapply(shapes, function(shape) shape$paths[[part]])
+    off <- function(a, b) crestline:::polyline_distances(places_of(a, 0.2, 0.8, 100), as.matrix(b[xyz]))
+    rms(c(off(paths$first, paths$second), off(paths$second, paths$first)))
   }, 0)
   table <- data.frame(curve = near$part, kind = kind_of(near$part), to_ear = near$part %in% to_ear,
                       ends = sqrt((moved[ends$from]^2 + moved[ends$to]^2) / 2), whole = near$rms, inner, points = numbered$rms, row.names = NULL)
   print(data.frame(table[1:3], round(table[-(1:3)], 2))[order(table$to_ear, table$kind, table$inner), ], row.names = FALSE)
   print(aggregate(table[4:7], table[c("to_ear", "kind")], function(x) round(rms(x), 2)), row.names = FALSE)
-  print(round(vapply(table[4:7], rms, 0), 2))
+  curved <- table[table$kind != "cut", ]
+  print(rbind(all = vapply(table[4:7], rms, 0), curved = vapply(curved[4:7], rms, 0),
+              "but the left upper lip" = vapply(curved[curved$curve != "upper lip left", 4:7], rms, 0)), digits = 3)
   for (level in c("landmarks", "curves")) {
     measured <- repeatability(shapes, c("humface", "humface"), level = level)
     cat(sprintf("%s: error %.2f mm over %d points\n", level, utils::tail(measured$parts$error, 1), utils::tail(measured$parts$points, 1)))
