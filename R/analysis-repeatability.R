@@ -11,12 +11,13 @@
 #' estimated from the sequential sums of squares (Henderson's method 3, also where numbers of repeats differ; where they
 #' are equal, those of the analysis of variance); an estimate below 0 counts as 0. The interaction is in the model
 #' where some observer measured some specimen twice, else it is part of the residual. Each observer's own places count
-#' as error: the correlation is that of agreement, ICC(1) without and ICC(2, 1) with observers.
+#' as error: the correlation is that of agreement, ICC(1) without and ICC(2, 1) with observers. Of one specimen that was
+#' measured several times there is the error only: what concerns the specimens is NA.
 #'
-#' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat), a `shape_sample`, or a k x 3 x N
-#'   array with names of points "curve point".
-#' @param specimen N names: the specimen that each measurement is of.
-#' @param observer N names: who made it; `NULL`: not told apart.
+#' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
+#'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".
+#' @param specimen N names: the specimen that each measurement is of; those that failed may be counted or not.
+#' @param observer N names, in the same way: who made it; `NULL`: not told apart.
 #' @param level Of shapes and samples: "landmarks", "curves" or "surface".
 #' @param match In which frame specimens are compared. "specimen": all measurements of a specimen share a frame, as on
 #'   one scan: each specimen is laid by rotation and shift onto the others by its mean. "each": every measurement is laid
@@ -28,12 +29,13 @@
 #'     (NA where not in the model), `residual`, and `error`, of all but the specimen: the typical distance of a measured
 #'     point from where it is on average; `icc`;
 #'   * `points`: the same for each point, with its place `x, y, z` in the mean;
-#'   * `counts`: numbers of `specimens`, `observers`, `measurements`; `missing`: names of points left out because some
-#'     measurement lacks them.
+#'   * `counts`: numbers of `specimens`, `observers`, `measurements`, `failed`; `failed`: names (or numbers) of the
+#'     measurements left out because they failed; `missing`: names of points left out because some measurement lacks them.
 #'
 #'   `as.data.frame()` gives `parts`.
-#' @section Errors: of class `crestline_error`: no measurements, factors of another length, fewer than two specimens, none
+#' @section Errors: of class `crestline_error`: no measurements, factors of another length, none
 #'   measured twice, no point in all of them.
+#' @section Warnings: of class `crestline_failed_measurements`, when measurements are left out because they failed.
 #' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout and Fleiss (1979)
 #'   Intraclass correlations, *Psychological Bulletin* 86, 420-428; Klingenberg and McIntyre (1998), *Evolution* 52,
 #'   1363-1375 (sums over co-ordinates).
@@ -49,10 +51,12 @@
 #' @export
 repeatability <- function(shapes, specimen, observer = NULL, level = "curves", match = c("specimen", "each", "none")) {
   match <- check_choice(match, c("specimen", "each", "none"), "match")
-  coords <- measurements(shapes, level)
+  if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
+  failed <- failed_measurements(shapes)
+  coords <- measurements(if (any(failed)) shapes[!failed] else shapes, level)
   n <- dim(coords)[3]
-  specimen <- check_factor(specimen, n, "specimen")
-  if (!is.null(observer)) observer <- check_factor(observer, n, "observer")
+  specimen <- check_factor(without_failed(specimen, failed), n, "specimen")
+  if (!is.null(observer)) observer <- check_factor(without_failed(observer, failed), n, "observer")
   gap <- rowSums(is.na(matrix(coords, dim(coords)[1]))) > 0
   missing <- rownames(coords)[gap]
   coords <- coords[!gap, , , drop = FALSE]
@@ -67,16 +71,37 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves", m
   by_part <- rbind(rowsum(each, part) / size, all = colMeans(each))
   points <- data.frame(point = rownames(coords), part = as.character(part), mean, component_table(each))
   parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)), component_table(by_part))
-  structure(list(parts = parts, points = points, missing = missing,
-                 counts = c(specimens = nlevels(specimen), observers = nlevels(observer), measurements = n)),
+  structure(list(parts = parts, points = points, missing = missing, failed = names(failed)[failed],
+                 counts = c(specimens = nlevels(specimen), observers = nlevels(observer), measurements = n,
+                            failed = sum(failed))),
             class = "repeatability")
 }
+
+#' Which measurements of a list failed, with a warning that names them
+#'
+#' @return Logical by measurement, named; of length 0 where the measurements are no list.
+#' @noRd
+failed_measurements <- function(shapes) {
+  if (!is.list(shapes) || inherits(shapes, "shape_sample")) return(logical())
+  failed <- vapply(shapes, is.null, NA)
+  if (is.null(names(failed))) names(failed) <- seq_along(failed)
+  if (any(failed)) {
+    crestline_warn(sprintf("%s of %s failed and %s left out: %s.", sum(failed), amount(length(failed), "measurement"),
+                           if (sum(failed) == 1) "is" else "are", shorten(names(failed)[failed])),
+                   "See failures() of the batch; the specimens and observers that are left may be unbalanced.",
+                   stage = "repeatability", class = "crestline_failed_measurements")
+  }
+  failed
+}
+
+#' Names of the measurements that are there, where those that failed are counted too
+#' @noRd
+without_failed <- function(x, failed) if (length(x) == length(failed)) x[!failed] else x
 
 #' Measurements as a k x 3 x N array
 #' @noRd
 measurements <- function(shapes, level, call = rlang::caller_env()) {
   if (inherits(shapes, "shape_sample")) return(as.array(shapes, level))
-  if (inherits(shapes, "shape_batch")) shapes <- Filter(Negate(is.null), as.list(shapes))
   if (is.list(shapes) && length(shapes) && all(vapply(shapes, inherits, NA, "shape"))) {
     for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
     each <- lapply(shapes, coords, level)
@@ -101,7 +126,6 @@ check_factor <- function(x, n, name, call = rlang::caller_env()) {
 check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "repeatability", call = call)
   if (!nrow(coords)) fail("no point is in all measurements.", "Leave out the measurements that lack most.")
-  if (nlevels(specimen) < 2) fail("there is one specimen only.", "Give two or more.")
   if (nlevels(specimen) == length(specimen)) fail("no specimen was measured twice.", "Give repeated measurements.")
   if (!is.null(observer) && nlevels(observer) < 2) {
     fail("there is one observer only.", "Leave `observer` out, or give two or more.")
@@ -135,14 +159,19 @@ in_one_frame <- function(coords, unit, wanted, tolerance = 1e-10, rounds = 100) 
 #'
 #' @param y N x m, a column a variable.
 #' @return Matrix, a row a term ("specimen", "observer", "interaction", "residual"), a column a variable: variances, not
-#'   below 0; NA for terms not in the model.
+#'   below 0; NA for terms not in the model, such as the specimen where there is one.
 #' @noRd
 variance_components <- function(y, specimen, observer = NULL) {
-  terms <- list(specimen = specimen)
+  terms <- if (nlevels(specimen) > 1) list(specimen = specimen) else list()
   if (!is.null(observer)) {
     terms$observer <- observer
     cell <- interaction(specimen, observer, drop = TRUE)
-    if (nlevels(cell) < length(cell)) terms$interaction <- cell
+    if (nlevels(specimen) > 1 && nlevels(cell) < length(cell)) terms$interaction <- cell
+  }
+  found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
+  if (!length(terms)) {
+    found["residual", ] <- apply(y, 2, stats::var)
+    return(found)
   }
   dummies <- lapply(terms, function(term) outer(as.integer(term), seq_len(nlevels(term)), `==`) + 0)
   spaces <- sequential_spaces(dummies)
@@ -158,7 +187,6 @@ variance_components <- function(y, specimen, observer = NULL) {
   }
   system <- rbind(cbind(matrix(expected, length(spaces)), df), c(numeric(length(spaces)), length(specimen) - 1 - sum(df)))
   estimate <- pmax(solve(system, squares), 0)
-  found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
   found[c(names(terms), "residual"), ] <- estimate
   found
 }
@@ -204,10 +232,11 @@ print.repeatability <- function(x, most = 10, digits = 3, ...) {
   shown <- shown[colSums(!is.na(shown)) > 0]
   numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"), names(shown))
   shown[numbers] <- signif(shown[numbers], digits)
-  shown$icc <- round(shown$icc, digits)
+  if (!is.null(shown$icc)) shown$icc <- round(shown$icc, digits)
   cat("standard deviations by part, those of the greatest error first\n")
   print.data.frame(shown, row.names = FALSE)
   if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
+  if (length(x$failed)) cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80, exdent = 2), sep = "\n")
   if (length(x$missing)) {
     cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2), sep = "\n")
   }

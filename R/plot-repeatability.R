@@ -4,7 +4,7 @@
 #'
 #' On the left the error of each part, in the unit of the mesh, with the standard deviation between
 #' specimens behind it (grey) and the intra-class correlation beside it; on the right where the error is: the mean
-#' points, coloured by it.
+#' points, coloured by it. Of one specimen there is the error alone.
 #'
 #' @param x A `repeatability`, as [repeatability()] returns it.
 #' @param view Where to look from at the mean points, as in [draw_surface()].
@@ -44,14 +44,16 @@ plot_part_errors <- function(x, most, palette, ...) {
   scale <- min(0.8, 26 / nrow(parts))
   name_width <- 0.9 * scale * max(nchar(parts$part)) * 0.52 + 1
   graphics::par(mar = c(3.2, name_width, 1.5, 3), mgp = c(2, 0.6, 0), las = 1)
-  top <- max(parts$error, parts$specimen)
+  several <- x$counts[["specimens"]] > 1
+  top <- max(parts$error, if (several) parts$specimen)
   graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n", ylab = "", xaxs = "i", bty = "n",
                  xlab = "standard deviation of a point", ...)
-  graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
+  if (several) graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
   colour <- error_colours(parts$error, x, palette)
   graphics::segments(0, at, parts$error, at, col = colour, lwd = 2)
   graphics::points(parts$error, at, pch = 21, bg = colour, col = "grey20", cex = 0.9)
   graphics::axis(2, at, parts$part, tick = FALSE, cex.axis = scale, line = -0.3)
+  if (!several) return(invisible())
   graphics::axis(4, at, sprintf("%.2f", parts$icc), tick = FALSE, cex.axis = scale, line = -0.6)
   graphics::mtext("ICC", 4, line = 0.4, at = nrow(parts) + 1, cex = 0.8)
   graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA, inset = c(0, -0.05),

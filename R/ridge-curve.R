@@ -16,6 +16,9 @@
 #'   clean data, no better on noisy data.
 #' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), where it is
 #'   known; otherwise it is estimated where the curve may lie.
+#' @param trust Where the reference path and curvature are believed: from and to which share of the path's length. From there to
+#'   the landmarks the path is the shortest cut, and strength counts as 0: for a feature that fades, or a crumpled
+#'   mesh, near a landmark. Of ridges and valleys.
 #' @return Object of class `curve`, a list:
 #'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance from the reference path; NA where no ridge was found and the points lie on the reference path),
 #'     `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`; lengths in the unit of the mesh; `as.data.frame()` gives it;
@@ -46,11 +49,12 @@
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
-                        reach = 0.5, threads = getOption("crestline.threads", 1L)) {
+                        reach = 0.5, threads = getOption("crestline.threads", 1L), trust = c(0, 1)) {
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   n <- check_count(n, "n", lower = 2)
   passes <- check_count(passes, "passes")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  trust <- check_trusted(trust)
   about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from), to = end_name(to),
                 type = type, settings = settings, passes = passes)
   in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to), code = {
@@ -63,6 +67,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
       curvature <- known_curvature(curvature, specimen, radius, check_count(threads, "threads"), settings$order)
       path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
                              longest = settings$longest)
+      if (trust[1] > 0 || trust[2] < 1) path <- trusted_path(trust, specimen, path)
       fit <- fit_passes(specimen, path, curvature, keep_away, about)
       new_curve(specimen, fit$path, fit$reference, n, about, fit)
     }

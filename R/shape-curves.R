@@ -119,7 +119,7 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
     limited_reference(row, specimen, curvature, away, settings)
   }
   about <- about_curve(row, specimen, settings, passes)
-  path <- trusted_path(row, specimen, path)
+  path <- trusted_path(c(row$trust_from, row$trust_to), specimen, path)
   fit <- fit_passes(specimen, path, curvature, away, about)
   new_curve(specimen, fit$path, fit$reference, row$n, about, fit)
 }
@@ -162,23 +162,6 @@ on_side <- function(curvature, row, specimen, other) {
   near <- path_coordinates(specimen, other$path, reach, margin = row$radius)
   wrong <- if (row$side == "left") near$d <= 0 else near$d >= 0
   without_curvature(curvature, near$vertex[wrong])
-}
-
-#' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
-#'
-#' @return `mesh_path` with the attribute `trusted`, the arc lengths of that part.
-#' @noRd
-trusted_path <- function(row, specimen, path) {
-  range <- c(row$trust_from, row$trust_to) * attr(path, "length")
-  at <- place_along(as_mesh(specimen), path, range)
-  parts <- list(
-    if (row$trust_from > 0) reference_path(specimen, path[1, ], at[1, ], "plane"),
-    part_of_path(as_mesh(specimen), path, range[1], range[2]),
-    if (row$trust_to < 1) reference_path(specimen, at[2, ], path[nrow(path), ], "plane")
-  )
-  lengths <- vapply(parts, function(part) if (is.null(part)) 0 else attr(part, "length"), 0)
-  points <- do.call(rbind, lapply(Filter(Negate(is.null), parts), columns_of))
-  path_through(points, trusted = cumsum(lengths)[1:2], type = attr(path, "type"), competing = attr(path, "competing"))
 }
 
 #' Curvature with none at some vertices

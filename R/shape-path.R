@@ -1,4 +1,4 @@
-# What the curves and patches of a shape do with paths: shortest cuts near the surface's normal, parts of paths, joins.
+# What the curves and patches of a shape do with paths: shortest cuts near the surface's normal, joins.
 
 #' Best plane cut among angles about the surface's normal
 #'
@@ -19,22 +19,3 @@ limited_cut <- function(surface, ends, limit, angles, reach, rate = function(axi
   cut_path(surface, ends, axis, best$angle, 0, reach)
 }
 
-#' The part of a path between two arc lengths; run backwards where the first is the greater
-#' @noRd
-part_of_path <- function(mesh, path, from, to) {
-  range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
-  between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
-  ends <- columns_of(place_along(mesh, path, range))
-  part <- path_through(rbind(ends[1, ], between, ends[2, ]))
-  if (from > to) reversed_path(mesh, part) else part
-}
-
-#' A path run backwards: the face of a point is that of the segment that ends there
-#' @noRd
-reversed_path <- function(mesh, path) {
-  n <- nrow(path)
-  back <- columns_of(path)[n:1, ]
-  back[-1, "face"] <- path$face[n:2]
-  back[-1, 5:7] <- weights_in_faces(mesh, back[-1, "face"], back[-1, 1:3, drop = FALSE])
-  path_through(back)
-}

@@ -10,9 +10,13 @@
 #' their partners' reflections: for one specimen the asymmetric component of object symmetry.
 #'
 #' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left and right.
+#' @param off_middle How far off the mid-plane a landmark without a partner may lie before it is warned of, as a share of the
+#'   shape's RMS radius (0.1 is about 6 mm on a face): it counts as one of the mid-line, and the symmetric mean puts it
+#'   there.
 #' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`, `se` all NA, and no
 #'   paths.
 #' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places that have a partner.
+#' @section Warnings: of class `crestline_unpaired`, naming the landmarks that are in no pair but lie beside the mid-plane.
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures, *Evolution* 56,
 #'   1909-1920; the paper, section 4.
 #' @examples
@@ -25,9 +29,12 @@
 #' head(asymmetry(shape))
 #' }
 #' @export
-symmetrise <- function(shape) {
+symmetrise <- function(shape, off_middle = 0.1) {
   check_class(shape, "shape", "shape", "fit_shape()")
-  mean <- symmetric_mean(places_of(shape), mirror_places(shape$scheme), shape$id)
+  off_middle <- check_number(off_middle, "off_middle", lower = 0)
+  xyz <- places_of(shape)
+  mean <- symmetric_mean(xyz, mirror_places(shape$scheme), shape$id)
+  warn_unpaired(shape, xyz, mean, off_middle)
   template_shape(shape, mean, paste(shape$id, "symmetrised"))
 }
 
@@ -38,9 +45,9 @@ symmetrise <- function(shape) {
 #'   where nothing has a partner; by point: `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` in
 #'   the shape's own axes.
 #' @export
-asymmetry <- function(shape, by = c("part", "point")) {
+asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
   by <- check_choice(by, c("part", "point"), "by")
-  off <- as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(symmetrise(shape)$points[c("x", "y", "z")])
+  off <- as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(symmetrise(shape, off_middle)$points[c("x", "y", "z")])
   points <- shape$points[c("level", "part", "point")]
   distance <- sqrt(rowSums(off^2))
   if (by == "point") return(cbind(points, distance = distance, dx = off[, 1], dy = off[, 2], dz = off[, 3]))
@@ -55,6 +62,28 @@ asymmetry <- function(shape, by = c("part", "point")) {
   found <- rbind(row("overall", "all", rep(TRUE, length(place))), do.call(rbind, unname(each)))
   rownames(found) <- NULL
   found
+}
+
+#' Landmarks without a partner that the symmetric mean moves far: they lie on a side, and are missing in the pairs
+#'
+#' @param xyz,mean Places of the shape and of its symmetric mean, which has what is its own partner on the mid-plane.
+#' @noRd
+warn_unpaired <- function(shape, xyz, mean, off_middle) {
+  landmark <- shape$scheme$landmarks$landmark
+  alone <- landmark[partner_of(landmark, shape$scheme$pairs, "landmarks") == landmark]
+  points <- shape$points[shape$points$level == "landmarks", ]
+  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(alone, points$part)]
+  off <- row_lengths(xyz[place, , drop = FALSE] - mean[place, , drop = FALSE])
+  known <- xyz[!is.na(xyz[, 1]), , drop = FALSE]
+  radius <- sqrt(mean(rowSums(sweep(known, 2, colMeans(known))^2)))
+  far <- which(off > off_middle * radius)
+  if (!length(far)) return(invisible())
+  said <- paste0(alone[far], " (", signif(off[far], 2), ")")
+  crestline_warn(sprintf("%s in no pair, but off the mid-plane: %s; the symmetric mean puts %s on it.",
+                         if (length(far) == 1) "a landmark is" else "landmarks are", shorten(said, 6),
+                         if (length(far) == 1) "it" else "them"),
+                 "Add it with its partner to the scheme's `pairs`, or raise `off_middle` where the object is that crooked.",
+                 stage = "symmetry", id = shape$id, class = "crestline_unpaired")
 }
 
 #' Mean of a configuration and its reflection, partners exchanged; NA where a point and its partner are missing

@@ -91,6 +91,24 @@ test_that("measurements that repeat exactly have no error; frames do not count, 
   expect_gt(each$parts$error[2], 0.7 * noisy$parts$error[2])
 })
 
+test_that("of one specimen there is the error alone: that of an analysis of variance among observers", {
+  set.seed(6)
+  coords <- array(rnorm(120), c(4, 3, 10), list(c("a 1", "a 2", "b 1", "b 2"), NULL, NULL))
+  alone <- repeatability(coords, rep("only", 10), match = "none")
+  expect_equal(alone$points$error, unname(sqrt(rowSums(apply(coords, 1:2, var)))))
+  expect_equal(alone$parts$error[3], sqrt(mean(alone$points$error^2)))
+  expect_true(all(is.na(alone$parts$icc)) && all(is.na(alone$parts$specimen)))
+  expect_output(print(alone), "10 measurements of 1 specimen")
+  expect_gt(sum(drawn_pixels(plot(alone), 600, 400)[, 1:300, 1] - drawn_pixels(plot(alone), 600, 400)[, 1:300, 3] > 0.3), 50)
+  # The frame is the one of the specimen: as they lie.
+  expect_equal(repeatability(coords, rep("only", 10))$parts$error, alone$parts$error)
+  observer <- rep(1:5, 2)
+  found <- repeatability(coords, rep("only", 10), observer, match = "none")
+  squares <- apply(coords, 1:2, function(v) anova(lm(v ~ factor(observer)))[["Mean Sq"]])
+  expect_equal(found$points$residual, unname(sqrt(rowSums(squares[2, , ]))))
+  expect_equal(found$points$observer, unname(sqrt(rowSums(pmax(squares[1, , ] - squares[2, , ], 0) / 2))))
+})
+
 test_that("points that some measurement lacks are left out and named", {
   coords <- array(rnorm(90), c(5, 3, 6), list(paste("a", 1:5), NULL, NULL))
   coords[2, , 3] <- NA
@@ -103,7 +121,6 @@ test_that("points that some measurement lacks are left out and named", {
 test_that("what cannot be estimated is said", {
   coords <- array(rnorm(36), c(3, 3, 4))
   expect_crestline_error(repeatability(coords, 1:4), "measured twice")
-  expect_crestline_error(repeatability(coords, rep(1, 4)), "one specimen")
   expect_crestline_error(repeatability(coords, c(1, 1, 2, 2), rep(1, 4)), "one observer")
   expect_crestline_error(repeatability(coords, 1:3), "`specimen`")
   expect_crestline_error(repeatability(matrix(1, 3, 3), 1:3), "`shapes`")
@@ -131,4 +148,32 @@ test_that("a design whose components cannot be told apart is refused", {
   y <- matrix(rnorm(24), 12)
   nested <- list(factor(rep(1:6, each = 2)), factor(rep(c("A", "B"), each = 6)))
   expect_crestline_error(variance_components(y, nested[[1]], nested[[2]]), c("told apart", "observer"))
+})
+
+test_that("measurements that failed are left out, counted and named, with those of the rest as without them", {
+  skip_if_not_installed("Rvcg")
+  shape <- quad_shape()
+  moved <- function(i) {
+    shape$points[c("x", "y", "z")] <- shape$points[c("x", "y", "z")] + with_seed(i, rnorm(3 * nrow(shape$points), sd = i))
+    shape
+  }
+  shapes <- c(lapply(1:4, moved), list(NULL), lapply(5:6, moved))
+  names(shapes) <- paste0("scan", 1:7)
+  specimen <- c("a", "a", "b", "b", "b", "c", "c")
+  expect_warning(found <- repeatability(shapes, specimen), "1 of 7 measurements failed and is left out: scan5",
+                 class = "crestline_failed_measurements")
+  whole <- repeatability(shapes[-5], specimen[-5])
+  expect_identical(found$parts, whole$parts)
+  expect_equal(unname(found$counts[c("measurements", "failed")]), c(6, 1))
+  expect_identical(found$failed, "scan5")
+  expect_output(print(found), "not measured, left out: scan5")
+  expect_warning(short <- repeatability(shapes, specimen[-5]), class = "crestline_failed_measurements")
+  expect_identical(short$parts, whole$parts)
+  expect_warning(repeatability(unname(shapes), specimen), "left out: 5", class = "crestline_failed_measurements")
+  expect_length(whole$failed, 0)
+  expect_equal(unname(whole$counts["failed"]), 0)
+  # A batch, as fit_shapes() returns it.
+  batch <- structure(shapes, files = vector("list", 7), class = "shape_batch")
+  expect_warning(of_batch <- repeatability(batch, specimen), "scan5", class = "crestline_failed_measurements")
+  expect_identical(of_batch$parts, whole$parts)
 })

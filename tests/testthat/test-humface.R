@@ -6,8 +6,8 @@ humface_mesh <- function() {
   data
 }
 
-humface_points <- function() {
-  file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+humface_points <- function(name = "humface_landmarks.csv") {
+  file <- system.file("extdata", name, package = "crestline")
   table <- utils::read.csv(file)
   matrix(as.matrix(table[c("x", "y", "z")]), ncol = 3, dimnames = list(table$name, c("x", "y", "z")))
 }
@@ -71,4 +71,30 @@ test_that("landmarks of valleys stand in valleys, those of ridges on ridges", {
   valleys <- c("acL", "acR", "exL", "exR", "enL", "enR", "chL", "chR", "st", "sl")
   expect_true(all(mean_curvature[valleys] > 0))
   expect_true(all(mean_curvature[c("pn", "ls", "cphL", "cphR", "li", "gn")] < 0))
+})
+
+test_that("the second marking has the same landmarks, on the surface, and is another one", {
+  first <- humface_points()
+  second <- humface_points("humface_landmarks_2.csv")
+  expect_setequal(rownames(second), rownames(first))
+  closest <- Rvcg::vcgClostKD(second, humface_mesh()$humface, sign = FALSE)
+  expect_lt(max(row_distance(second, t(closest$vb[1:3, ]))), 1e-4)
+  # Two markings of a face are 1 to 3 mm apart (RMS); a landmark named for another one would be 10 and more.
+  apart <- row_distance(first, second[rownames(first), ])
+  expect_gt(min(apart), 0.1)
+  expect_gt(sqrt(mean(apart^2)), 1)
+  expect_lt(sqrt(mean(apart^2)), 3)
+  expect_lt(max(apart), 6)
+})
+
+test_that("the ridge of a lower lid is the same from either marking, off its ends", {
+  ridge <- function(name) {
+    face <- specimen(humface_mesh()$humface, humface_points(name), id = "humface")
+    ridge_curve(face, "exL", "enL", "ridge", 5, 15, 9, keep_side("exL", "enL", "acL"), ridge_settings(error = FALSE), trust = c(0, 0.75))
+  }
+  first <- ridge("humface_landmarks.csv")$path
+  second <- ridge("humface_landmarks_2.csv")$path
+  inner <- as.matrix(first[first$s > 0.2 * max(first$s) & first$s < 0.8 * max(first$s), c("x", "y", "z")])
+  expect_gt(nrow(inner), 5)
+  expect_lt(max(polyline_distances(inner, as.matrix(second[c("x", "y", "z")]))), 0.25)
 })

@@ -57,7 +57,7 @@ test_that("outside the trusted part of the path strength does not count, whateve
     scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
     expect_true(status_of(fit_shape(face, scheme, passes = passes, progress = FALSE), "crest")$ok)
     about <- list(radius = 6, width = 6, type = "ridge", settings = ridge_settings(error = FALSE), passes = passes)
-    path <- trusted_path(scheme$curves, face, plane_path(face, "a", "b"))
+    path <- trusted_path(c(0.25, 0.75), face, plane_path(face, "a", "b"))
     fit <- fit_passes(face, path, known_curvature(NULL, face, 6, 1L, "adaptive cubic"), NULL, about)
     share <- fit$coordinates$s / attr(fit$coordinates, "length")
     counted <- fit$coordinates$inside & fit$strengths$value > 0
@@ -66,19 +66,6 @@ test_that("outside the trusted part of the path strength does not count, whateve
     near <- fit$coordinates$inside & abs(fit$coordinates$d) < 2
     expect_true(all(counted[near & abs(share - 0.5) < 0.2]))
   }
-})
-
-test_that("outside its trusted part the path is the shortest cut", {
-  face <- graph_specimen(quote(0 * u), two_ends(c(-10, 10), c(0, 0)))
-  corners <- rbind(c(-10, 0, 0), c(-10, 6, 0), c(10, 6, 0), c(10, 0, 0))
-  legs <- lapply(1:3, function(i) columns_of(plane_path(face, corners[i, ], corners[i + 1, ])))
-  detour <- path_through(do.call(rbind, legs))
-  path <- trusted_path(data.frame(trust_from = 8 / 32, trust_to = 24 / 32), face, detour)
-  expect_path_on_mesh(path, face$mesh)
-  expect_equal(attr(path, "length"), 16 + 2 * sqrt(2^2 + 6^2), tolerance = 1e-6)
-  expect_equal(diff(attr(path, "trusted")), 16, tolerance = 1e-6)
-  whole <- trusted_path(data.frame(trust_from = 0, trust_to = 1), face, detour)
-  expect_equal(columns_of(whole), columns_of(detour))
 })
 
 test_that("where a ridge cannot be estimated the shortest cut stands in, and says so", {

@@ -71,6 +71,29 @@ test_that("a known asymmetry comes back: one landmark moved apart from its pair"
   expect_lte(found$rms[found$part == "middle"], 1e-4)
 })
 
+test_that("landmarks beside the middle that are in no pair are named, at their distance from the mid-plane", {
+  scheme <- paired_scheme(function(tables) {
+    tables$landmarks <- rbind(tables$landmarks, data.frame(landmark = c("cheekL", "cheekR")))
+    tables
+  })
+  at <- paired_corners()
+  cheek <- 50 * c(sin(0.5), 0, cos(0.5))
+  corners <- rbind(at, cheekL = cheek, cheekR = cheek * c(-1, 1, 1))
+  shape <- paired_shape(scheme = scheme, landmarks = corners)
+  expect_warning(mean <- symmetrise(shape), "cheekL \\(24\\), cheekR \\(24\\)", class = "crestline_unpaired")
+  expect_lte(max(abs(coords(mean, "landmarks")[c("cheekL", "cheekR"), 1])), 0.05)
+  expect_warning(asymmetry(shape), class = "crestline_unpaired")
+  # 24 of a radius below 50: quiet from half of it on, and in another unit as in this one.
+  expect_no_warning(symmetrise(shape, off_middle = 1))
+  expect_no_warning(asymmetry(shape, off_middle = 1))
+  small <- shape
+  small$points[c("x", "y", "z")] <- small$points[c("x", "y", "z")] / 1000
+  expect_warning(symmetrise(small), "cheekL \\(0.024\\)", class = "crestline_unpaired")
+  expect_no_warning(symmetrise(paired_shape()))
+  expect_no_warning(symmetrise(uneven()))
+  expect_crestline_error(symmetrise(shape, off_middle = -1), "`off_middle`")
+})
+
 test_that("a missing point is filled from its partner; without pairs there is no symmetry", {
   corners <- paired_corners()
   corners["highL", ] <- NA

@@ -1,0 +1,47 @@
+# Parts of paths, and a reference path that is believed in one part only.
+
+#' The part of a path between two arc lengths; run backwards where the first is the greater
+#' @noRd
+part_of_path <- function(mesh, path, from, to) {
+  range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
+  between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
+  ends <- columns_of(place_along(mesh, path, range))
+  part <- path_through(rbind(ends[1, ], between, ends[2, ]))
+  if (from > to) reversed_path(mesh, part) else part
+}
+
+#' A path run backwards: the face of a point is that of the segment that ends there
+#' @noRd
+reversed_path <- function(mesh, path) {
+  n <- nrow(path)
+  back <- columns_of(path)[n:1, ]
+  back[-1, "face"] <- path$face[n:2]
+  back[-1, 5:7] <- weights_in_faces(mesh, back[-1, "face"], back[-1, 1:3, drop = FALSE])
+  path_through(back)
+}
+
+#' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
+#'
+#' @param trust Where the trusted part begins and ends, as shares of the path's length.
+#' @return `mesh_path` with the attribute `trusted`, the arc lengths of that part.
+#' @noRd
+trusted_path <- function(trust, specimen, path) {
+  range <- trust * attr(path, "length")
+  at <- place_along(as_mesh(specimen), path, range)
+  parts <- list(
+    if (trust[1] > 0) reference_path(specimen, path[1, ], at[1, ], "plane"),
+    part_of_path(as_mesh(specimen), path, range[1], range[2]),
+    if (trust[2] < 1) reference_path(specimen, at[2, ], path[nrow(path), ], "plane")
+  )
+  lengths <- vapply(parts, function(part) if (is.null(part)) 0 else attr(part, "length"), 0)
+  points <- do.call(rbind, lapply(Filter(Negate(is.null), parts), columns_of))
+  path_through(points, trusted = cumsum(lengths)[1:2], type = attr(path, "type"), competing = attr(path, "competing"))
+}
+
+check_trusted <- function(trust, call = rlang::caller_env()) {
+  if (!is.numeric(trust) || length(trust) != 2 || anyNA(trust) || trust[1] < 0 || trust[2] > 1 || trust[1] >= trust[2]) {
+    crestline_abort(sprintf("`trust` is %s.", describe_value(trust)),
+                    "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments", call = call)
+  }
+  trust
+}
