@@ -35,7 +35,7 @@
 #' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of single specimens are kept, see
 #'   [failures()].
 #' @seealso [failures()], [homologise()]
-#' @examples
+#' @examplesIf requireNamespace("future.apply", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
 #' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane",
@@ -201,7 +201,7 @@ failure_of <- function(e) {
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
 #' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what), `remedy` (what to do about it).
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
-#' @examples
+#' @examplesIf requireNamespace("future.apply", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
 #' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
