@@ -4,7 +4,7 @@
 #' @noRd
 review_colours <- function() {
   list(state = c(found = "#108040", doubtful = "#C02020", predicted = "#3060C0", placed = "#6A3D9A", given = "#202020"),
-       selected = "#FFC400", curve = eval(formals(plot.shape)$colour))
+       selected = "#E08A00", curve = eval(formals(plot.shape)$colour))
 }
 
 #' The mesh that is shown: coarser where it has many triangles, in the colours of the specimen
@@ -46,7 +46,9 @@ review_items <- function(review) {
 
 landmark_items <- function(review, size = 1.6, larger = 1.25) {
   colours <- review_colours()
-  names <- review$about$landmark[!is.na(vapply(review$about$landmark, function(name) place_of(review, name)[[1]], 0))]
+  at <- review$specimen$landmarks
+  names <- intersect(review$about$landmark, rownames(at)[!is.na(at[, 1])])
+  if (!length(names)) return(list())
   state <- ifelse(is_doubtful(review), "doubtful", review$state)[match(names, review$about$landmark)]
   items <- Map(function(name, state) {
     chosen <- identical(name, review$selected)

@@ -23,6 +23,8 @@
 #' @param radius Of the curvature that `surface` shows, as in [plot.specimen()].
 #' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks are put
 #'   on the mesh as it is.
+#' @param unit Factor from the mesh's unit to that of the scheme's radii and widths: 1000 for a scan in metres and
+#'   [face_scheme()]. NULL: that of [find_landmarks()] where the landmarks were found, else 1.
 #' @param bridge As in [fit_shape()].
 #' @param ... Passed to [shiny::runApp()]: `port`, `host`, `launch.browser`.
 #' @inheritParams curvature
@@ -43,12 +45,12 @@
 #' @export
 review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natural", "shape index", "curvature", "plain"),
                              least = 0.5, settings = ridge_settings(error = FALSE), view = NULL,
-                             radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, bridge = 0.2,
+                             radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL, bridge = 0.2,
                              threads = getOption("crestline.threads", 1L), ...) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rlang::check_installed("shiny", "to review landmarks.")
-  if (!is.null(scheme)) check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  scheme <- scheme_in_unit(scheme, if (is.null(unit)) c(specimen$match$unit, 1)[1] else unit)
   surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
   review <- begin_review(specimen, scheme, check_number(least, "least", 0, 1), settings, check_number(bridge, "bridge", 0, 1), threads)
   review$selected <- next_open(review)
@@ -71,9 +73,19 @@ place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
 
 #' A specimen on which every landmark of a scheme is missing
 #' @noRd
-without_landmarks <- function(mesh, scheme, id) {
+without_landmarks <- function(mesh, scheme, id = NULL) {
   names <- scheme$landmarks$landmark
   empty <- matrix(NA_real_, length(names), 3, dimnames = list(names, c("x", "y", "z")))
   if (inherits(mesh, "specimen")) return(specimen(mesh$mesh, empty, mesh$id, outward = "keep"))
   specimen(mesh, empty, id)
+}
+
+#' A scheme with its lengths in the unit of a mesh
+#' @noRd
+scheme_in_unit <- function(scheme, unit) {
+  if (is.null(scheme)) return(NULL)
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  lengths <- c("radius", "width")
+  scheme$curves[lengths] <- scheme$curves[lengths] / check_number(unit, "unit", 0, open = TRUE)
+  scheme
 }
