@@ -4,7 +4,7 @@
 #'
 #' Whatever is measured from doubtful landmarks looks as sound as the rest, so that they are better refused: by the
 #' specimen's name, with a picture of where they were put. [fit_shapes()] does so with meshes that come without landmarks.
-#' `plot_placing()` draws the picture: found landmarks in green, doubtful ones in red, predicted ones, where they lie on
+#' `plot_placing()` draws the picture: found and placed landmarks in green, doubtful ones in red, predicted ones, where they lie on
 #' the scan, in blue.
 #'
 #' @param specimen A [specimen()] of [find_landmarks()].
@@ -14,7 +14,7 @@
 #' @return `check_placing()`: the specimen. Those of its landmarks that are doubtful are in it still.
 #' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's name, the landmarks, and
 #'   the picture's path.
-#' @seealso [find_landmarks()]
+#' @seealso [find_landmarks()]; [review_landmarks()] to correct them by hand
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -27,14 +27,14 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
   placing <- placing_of(specimen)
   least <- check_number(least, "least", 0, 1)
   doubtful <- check_number(doubtful, "doubtful", 0, 1)
-  found <- placing$state == "found"
-  low <- found & placing$confidence < least
+  found <- placing$state %in% c("found", "placed")
+  low <- placing$state == "found" & placing$confidence < least
   if (any(found) && sum(low) <= doubtful * sum(found)) return(specimen)
   if (!is.null(picture)) write_placing(specimen, picture, least)
   named <- paste0(placing$landmark[low], " (", round(placing$confidence[low], 2), ")")
   problem <- if (any(found)) sprintf("%d of %d found landmarks are doubtful: %s.", sum(low), sum(found), shorten(named)) else
     "none of its landmarks was found."
-  remedy <- "Place them by hand, calibrate the template (calibrate_template()), or allow more (`doubtful`)."
+  remedy <- "Correct them (review_landmarks()), calibrate the template (calibrate_template()), or allow more (`doubtful`)."
   crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture), remedy), stage = "landmarks",
                   id = specimen$id, class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
 }
@@ -59,7 +59,7 @@ plot_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
   old <- graphics::par(mfrow = c(1, length(views)), mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
   at <- as.matrix(placing[c("x", "y", "z")])
-  sure <- placing$state == "found" & placing$confidence >= least
+  sure <- placing$state == "placed" | placing$state == "found" & placing$confidence >= least
   colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#108040", "#C02020"))
   for (round in views) {
     turn <- rbind(c(cos(round), 0, -sin(round)), c(0, 1, 0), c(sin(round), 0, cos(round)))

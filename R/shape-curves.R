@@ -15,18 +15,37 @@
 fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick) {
   curves <- scheme$curves
   sources <- scheme_curvatures(scan, curves, settings, threads)
-  fits <- stats::setNames(vector("list", nrow(curves)), curves$curve)
-  fits[names(given)] <- given
+  whole <- stats::setNames(vector("list", nrow(curves)), curves$curve)
+  whole[names(given)] <- given
+  open <- !curves$curve %in% names(given)
+  whole <- fit_whole_curves(whole, open, specimen, scheme, sources, settings, passes, tick)
+  finished_curves(whole, open, specimen, ncol(scan$mesh$it), scheme, cut_scale)
+}
+
+#' Curves before they are cut off
+#'
+#' @param fits List by name of curve of the fits that there are.
+#' @param open Logical, which are to be found.
+#' @param sources As of [scheme_curvatures()].
+#' @noRd
+fit_whole_curves <- function(fits, open, specimen, scheme, sources, settings, passes, tick) {
+  curves <- scheme$curves
   fit <- function(row) {
     suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes), classes = "crestline_warning")
   }
-  open <- which(!curves$curve %in% names(given))
   for (i in fitting_order(curves)) {
-    if (i %in% open) fits[[i]] <- fit_or_follow(as.list(curves[i, ]), specimen, scheme$pairs, fit)
+    if (!open[i]) next
+    fits[[i]] <- fit_or_follow(as.list(curves[i, ]), specimen, scheme$pairs, fit)
     tick()
   }
-  fits[open] <- cut_curves(specimen, curves[open, ], scheme$pairs, fits[open], cut_scale)
-  lapply(fits, without_bridges, ncol(scan$mesh$it))
+  fits
+}
+
+#' Curves cut off where the scheme says so, without what lies on bridges
+#' @noRd
+finished_curves <- function(whole, open, specimen, faces, scheme, cut_scale) {
+  whole[open] <- cut_curves(specimen, scheme$curves[open, ], scheme$pairs, whole[open], cut_scale)
+  lapply(whole, without_bridges, faces)
 }
 
 #' A curve; where no cut joins its ends and it is to be cut off, as much of it as the mesh has

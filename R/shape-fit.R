@@ -99,7 +99,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   column$bridge <- check_number(bridge, "bridge", 0, 1)
   scan <- with_located(specimen)
   specimen <- bridge_holes(scan, column$bridge)
-  tick <- progress_ticks(progress, nrow(scheme$curves) + nrow(scheme$patches), specimen$id)
+  tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scheme, curves, column)
   fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)

@@ -1,0 +1,42 @@
+# A landmark of a specimen moved to another place of its mesh, or taken away.
+
+#' Move a landmark, or add one
+#'
+#' @param specimen A specimen.
+#' @param name Name of the landmark.
+#' @param point One-row data frame `x, y, z, face, w1, w2, w3`, a place on the specimen's mesh; NULL: the landmark is not
+#'   on this specimen.
+#' @return The specimen. Where it has `placing`, the landmark's state there is "placed" or "absent", and what was measured
+#'   of its finding is NA.
+#' @noRd
+move_landmark <- function(specimen, name, point) {
+  if (is.null(point)) point <- data.frame(x = NA_real_, y = NA_real_, z = NA_real_, face = NA_integer_, w1 = NA_real_, w2 = NA_real_, w3 = NA_real_)
+  at <- unlist(point[c("x", "y", "z")])
+  specimen$landmarks <- with_named_row(specimen$landmarks, at, name)
+  known <- specimen$geometry
+  row <- match(name, rownames(known$landmarks), nrow(known$landmarks) + 1)
+  known$landmarks <- with_row(known$landmarks, row, at, name)
+  known$located[row, mesh_columns] <- point[mesh_columns]
+  specimen$geometry <- known
+  if (!is.null(specimen$placing)) specimen$placing <- moved_placing(specimen$placing, name, at)
+  specimen
+}
+
+with_named_row <- function(x, values, name) with_row(x, match(name, rownames(x), nrow(x) + 1), values, name)
+
+#' The table of how landmarks were placed, with one placed by hand or taken away
+#'
+#' The place of one that is taken away stays: where it would be.
+#' @noRd
+moved_placing <- function(placing, name, at) {
+  row <- match(name, placing$landmark, nrow(placing) + 1)
+  placing[row, "landmark"] <- name
+  placing[row, c("confidence", "moved", "sd", "residual", "lost")] <- NA_real_
+  if (anyNA(at)) {
+    placing[row, "state"] <- "absent"
+  } else {
+    placing[row, "state"] <- "placed"
+    placing[row, c("x", "y", "z")] <- as.list(at)
+  }
+  placing
+}

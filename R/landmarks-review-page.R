@@ -1,0 +1,147 @@
+# The page of a review: the face that turns, the list of landmarks, the buttons; and what answers them.
+
+review_page <- function(title) {
+  shiny::fillPage(
+    title = title, shiny::tags$head(shiny::includeCSS(review_file("review.css"))), rgl::registerSceneChange(),
+    shiny::tags$div(
+      id = "review", shiny::tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
+      shiny::tags$div(
+        id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"), review_buttons(), shiny::uiOutput("list"),
+        shiny::tags$p(class = "help", "Click on the face: the chosen landmark goes there. Click on another's ball: that one is chosen. ",
+                      "Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
+      )
+    ),
+    shiny::includeScript(review_file("review.js"))
+  )
+}
+
+review_buttons <- function() {
+  button <- function(id, label, title) shiny::actionButton(id, label, title = title)
+  shiny::tags$div(
+    id = "buttons", button("keep", "It is right", "The chosen landmark stays where it is and counts as placed"),
+    button("absent", "Not on this scan", "The chosen landmark is missing on this scan"),
+    button("undo", "Undo", "Take the last step back"),
+    button("cancel", "Cancel", "End without any change"), button("done", "Done", "End with the landmarks as they are")
+  )
+}
+
+review_file <- function(name) system.file("review", name, package = "crestline", mustWork = TRUE)
+
+#' What answers the page
+#'
+#' @param begin As of [begin_review()].
+#' @param shown As of [shown_surface()].
+#' @param view As in [draw_surface()].
+#' @param finish Function of the specimen, called once, at the end.
+#' @return Server function for shiny.
+#' @noRd
+review_server <- function(begin, shown, view, finish = shiny::stopApp) {
+  function(input, output, session) {
+    review <- shiny::reactiveVal(begin)
+    scene <- open_scene(shown, view)
+    drawn <- list()
+    ended <- FALSE
+    end <- function(specimen) if (!ended) {
+      ended <<- TRUE
+      finish(specimen)
+    }
+    show <- function() {
+      change <- redraw(scene, drawn, review_items(review()))
+      drawn <<- change$drawn
+      session$sendCustomMessage("sceneChange", rgl::sceneChange("face", delete = change$delete, add = change$add))
+    }
+    step <- function(change) {
+      review(change(review()))
+      show()
+    }
+    output$face <- rgl::renderRglwidget({
+      rgl::set3d(scene$device)
+      rgl::rglwidget()
+    })
+    output$chosen <- shiny::renderUI(chosen_html(review()))
+    output$list <- shiny::renderUI(list_html(review()))
+    shiny::observeEvent(input$ready, step(function(now) {
+      if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen, progress = fitting_progress(session))
+      now
+    }))
+    shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
+    shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, ball_radius(scene), fitting_progress(session))))
+    shiny::observeEvent(input$keep, step(keep_selected))
+    shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, fitting_progress(session))))
+    shiny::observeEvent(input$undo, step(undo_review))
+    shiny::observeEvent(input$done, end(review()$specimen))
+    shiny::observeEvent(input$cancel, end(begin$specimen))
+    session$onSessionEnded(function() {
+      end(shiny::isolate(review()$specimen))
+      rgl::close3d(scene$device)
+    })
+  }
+}
+
+#' What a click does: it chooses the landmark whose ball it meets, else places the chosen one
+#'
+#' @param ray List: `from`, `towards`, three co-ordinates each.
+#' @noRd
+follow_ray <- function(review, ray, reach, progress) {
+  aim <- aimed_at(review, as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards)), reach)
+  if (!is.null(aim$landmark)) return(select_landmark(review, aim$landmark))
+  if (is.null(aim$point)) review else place_selected(review, aim$point, progress)
+}
+
+#' A bar that moves with every curve that is fitted
+#' @noRd
+fitting_progress <- function(session) {
+  function(n) {
+    bar <- shiny::Progress$new(session)
+    bar$set(0, sprintf("Fitting %s", amount(n, "curve")))
+    done <- 0
+    function() {
+      done <<- done + 1
+      bar$set(done / n)
+      if (done == n) bar$close()
+    }
+  }
+}
+
+#' The chosen landmark: its name, where it belongs, its curves
+#' @noRd
+chosen_html <- function(review) {
+  tags <- shiny::tags
+  name <- review$selected
+  waiting <- sum(is_open(review))
+  left <- if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else "No landmark is missing or doubtful"
+  mirrored <- if (looks_mirrored(review$specimen)) {
+    tags$p(class = "warning", "Left and right look mirrored: names that end in L belong to the subject's own left.")
+  }
+  if (!length(name)) return(tags$div(tags$p(class = "where", "Choose a landmark: in the list, or its ball."), tags$p(left), mirrored))
+  row <- match(name, review$about$landmark)
+  curves <- curves_at(review, name)
+  said <- paste0(curves$curve, ": ", curves$kind, ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
+                 ifelse(is.na(curves$reason), "", paste0("; ", curves$reason)))
+  tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]), tags$p(class = "where", review$about$where[row]),
+           tags$p(left), mirrored,
+           if (nrow(curves)) tags$details(tags$summary(amount(nrow(curves), "curve")), tags$ul(lapply(said, tags$li))))
+}
+
+looks_mirrored <- function(specimen) {
+  known <- specimen$geometry
+  handedness(known$landmarks, known$located, specimen$mesh, eval(formals(crestline::specimen)$midline)) < 0
+}
+
+#' The list of landmarks: a row a landmark, with its state
+#' @noRd
+list_html <- function(review) {
+  tags <- shiny::tags
+  colours <- review_colours()$state
+  confidence <- review$specimen$placing$confidence[match(review$about$landmark, review$specimen$placing$landmark)]
+  state <- ifelse(is_doubtful(review), "doubtful", review$state)
+  told <- if (is.null(confidence)) state else ifelse(is.na(confidence), state, sprintf("%s %.2f", state, confidence))
+  rows <- lapply(seq_along(state), function(i) {
+    name <- review$about$landmark[i]
+    colour <- if (state[i] %in% names(colours)) colours[[state[i]]] else "transparent"
+    tags$button(type = "button", class = paste("row", state[i], if (identical(name, review$selected)) "chosen"), `data-landmark` = name,
+                tags$span(class = "dot", style = paste0("background:", colour)), tags$b(name),
+                tags$span(class = "long", review$about$name[i]), tags$span(class = "state", told[i]))
+  })
+  tags$div(id = "landmarks", rows)
+}

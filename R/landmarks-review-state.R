@@ -1,0 +1,137 @@
+# What a review knows and does, without a page: which landmark is meant, where it goes, what follows, and the way back.
+
+#' Begin a review
+#'
+#' @param specimen,scheme,least,settings,bridge,threads As in [review_landmarks()].
+#' @return List: `specimen`; `fitting` as of [begin_fitting()], NULL without a scheme; `about` (data frame: `landmark`,
+#'   `name`, `where`); `state` by landmark ("found", "predicted", "given", "placed", "absent", or "missing": neither placed
+#'   nor said to be absent); `selected` (name, or none: `character()`); `history` (list of earlier reviews).
+#' @noRd
+begin_review <- function(specimen, scheme, least, settings, bridge, threads) {
+  specimen <- with_located(specimen)
+  about <- described_landmarks(specimen, scheme)
+  fitting <- if (!is.null(scheme)) begin_fitting(specimen, scheme, settings, bridge, threads)
+  list(specimen = specimen, fitting = fitting, about = about, state = landmark_states(specimen, about$landmark), least = least,
+       selected = character(), history = list())
+}
+
+#' The landmarks of a scheme, in its order, and those that only the specimen has, with words for the reader
+#' @noRd
+described_landmarks <- function(specimen, scheme) {
+  known <- scheme$landmarks
+  names <- union(known$landmark, rownames(specimen$landmarks))
+  words <- function(column) {
+    text <- if (is.null(known[[column]])) NA_character_ else known[[column]][match(names, known$landmark)]
+    ifelse(is.na(text), "", text)
+  }
+  data.frame(landmark = names, name = words("name"), where = words("where"))
+}
+
+landmark_states <- function(specimen, names) {
+  there <- names %in% rownames(specimen$landmarks)[!is.na(specimen$landmarks[, 1])]
+  said <- specimen$placing$state[match(names, specimen$placing$landmark)]
+  state <- if (is.null(said)) rep(NA_character_, length(names)) else said
+  state[is.na(state)] <- ifelse(there, "given", "missing")[is.na(state)]
+  stats::setNames(state, names)
+}
+
+#' Which landmarks were found with too little confidence
+#' @noRd
+is_doubtful <- function(review) {
+  placing <- review$specimen$placing
+  if (is.null(placing)) return(rep(FALSE, nrow(review$about)))
+  confidence <- placing$confidence[match(review$about$landmark, placing$landmark)]
+  review$state == "found" & !is.na(confidence) & confidence < review$least
+}
+
+select_landmark <- function(review, name) {
+  if (name %in% review$about$landmark) review$selected <- name
+  review
+}
+
+#' Which landmarks wait for the person: missing or doubtful
+#' @noRd
+is_open <- function(review) stats::setNames(review$state == "missing" | is_doubtful(review), review$about$landmark)
+
+#' Put the selected landmark on a place of the mesh, and fit its curves anew
+#'
+#' @param point As in [move_landmark()]; NULL says that it is not on this specimen.
+#' @param progress As in [refit_curves()].
+#' @noRd
+place_selected <- function(review, point, progress = function(n) function() NULL) {
+  name <- review$selected
+  if (!length(name)) return(review)
+  after <- with_landmark(review, name, point)
+  if (!is.null(after$fitting)) after$fitting <- refit_curves(after$fitting, after$specimen, name, progress)
+  after
+}
+
+#' A review with one landmark settled, from which the way back leads to what it was; one that waited is followed by the next
+#' @noRd
+with_landmark <- function(review, name, point) {
+  after <- review
+  after$specimen <- move_landmark(review$specimen, name, point)
+  after$state[[name]] <- if (is.null(point)) "absent" else "placed"
+  if (is_open(review)[[name]]) after$selected <- next_open(after)
+  after$history <- c(review$history, list(review[c("specimen", "fitting", "state", "selected")]))
+  after
+}
+
+#' Say that the selected landmark is right where it is
+#' @noRd
+keep_selected <- function(review) {
+  name <- review$selected
+  if (!length(name) || anyNA(place_of(review, name))) return(review)
+  with_landmark(review, name, landmark_point(review$specimen, name, tolerance = Inf))
+}
+
+undo_review <- function(review) {
+  last <- length(review$history)
+  if (last == 0) return(review)
+  c(review$history[[last]], review[c("about", "least")], list(history = review$history[-last]))
+}
+
+#' The next landmark after the selected one, round the list, that waits; the selected one where none does
+#' @noRd
+next_open <- function(review) {
+  open <- is_open(review)
+  at <- c(match(review$selected, names(open)), 0)[1]
+  waiting <- names(which(open[c(seq_along(open)[seq_along(open) > at], seq_len(at))]))
+  if (length(waiting)) waiting[1] else review$selected
+}
+
+place_of <- function(review, name) {
+  landmarks <- review$specimen$landmarks
+  if (name %in% rownames(landmarks)) landmarks[name, ] else c(x = NA_real_, y = NA_real_, z = NA_real_)
+}
+
+#' What a ray means: a landmark other than the selected one whose ball it meets, else a place on the surface
+#'
+#' @param from,towards As in [mesh_on_ray()].
+#' @param reach Radius of the landmarks' balls, in the unit of the mesh.
+#' @return List with `landmark` (name) or `point` (one row, as of [mesh_on_ray()]); empty where the ray misses.
+#' @noRd
+aimed_at <- function(review, from, towards, reach) {
+  point <- mesh_on_ray(review$specimen$mesh, from, towards)
+  along <- unit_vector(towards - from)
+  at <- review$specimen$landmarks
+  at <- at[!is.na(at[, 1]) & !rownames(at) %in% review$selected, , drop = FALSE]
+  away <- sweep(at, 2, from)
+  depth <- as.vector(away %*% along)
+  beside <- row_lengths(away - outer(depth, along))
+  end <- if (is.null(point)) Inf else sum((unlist(point[c("x", "y", "z")]) - from) * along)
+  met <- which(beside <= reach & depth <= end + reach)
+  if (length(met)) return(list(landmark = rownames(at)[met[which.min(beside[met])]]))
+  if (is.null(point)) list() else list(point = point)
+}
+
+#' The curves that a landmark is an end of: kind, length, what there is to say
+#' @noRd
+curves_at <- function(review, name) {
+  curves <- review$fitting$scheme$curves
+  own <- which(curves$from == name | curves$to == name)
+  fits <- review$fitting$fits[own]
+  value <- function(field, none) vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  data.frame(curve = curves$curve[own], kind = curves$kind[own], length = value("length", NA_real_),
+             reason = value("reason", NA_character_), row.names = NULL)
+}

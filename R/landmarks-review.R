@@ -1,0 +1,91 @@
+# Landmarks looked at, moved and placed by a person, on a page in the browser.
+
+#' Review landmarks, or place them, by hand
+#'
+#' Opens a page in the browser (package shiny): the specimen that turns, its landmarks and the curves of the scheme between
+#' them. Choose a landmark, in the list or by a click on its ball; a click on the surface puts it there, exactly on the mesh,
+#' and the curves that hang on it are fitted anew at once. Drag turns, the wheel comes nearer, the right button shifts.
+#'
+#' `review_landmarks()` begins with the landmarks of the specimen. Those that [find_landmarks()] is not sure of are red, and
+#' chosen one after the other: move each, say that it is right, or that it is not on this scan. Green are found, blue
+#' predicted, violet placed ones, yellow is the chosen one.
+#' `place_landmarks()` begins without any, and names and describes the next one of the scheme; names that end in L
+#' belong to the subject's own left. A specimen that has some of them is gone on with by `review_landmarks()`.
+#'
+#' @param specimen A [specimen()], with landmarks that were found or given.
+#' @param scheme A [curve_scheme()]: its landmarks, with their words `name` and `where`, and its curves; NULL: the landmarks
+#'   of the specimen alone.
+#' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
+#' @param least Least confidence of a found landmark that is not doubtful, as in [check_placing()].
+#' @param settings [ridge_settings()] of the curves.
+#' @param view Where to look from, see [draw_surface()]; NULL: from the front, as [find_landmarks()] has it where the
+#'   landmarks were found.
+#' @param radius Of the curvature that `surface` shows, as in [plot.specimen()].
+#' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks are put
+#'   on the mesh as it is.
+#' @param unit Factor from the mesh's unit to that of the scheme's radii and widths: 1000 for a scan in metres and
+#'   [face_scheme()]. NULL: that of [find_landmarks()] where the landmarks were found, else 1.
+#' @param bridge As in [fit_shape()].
+#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `launch.browser`.
+#' @inheritParams curvature
+#' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were ("Cancel"). In
+#'   its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said not to be there
+#'   "absent", both without confidence: [check_placing()] has no doubts about them. `place_landmarks()`: a specimen with a row
+#'   for each landmark of the scheme, NA where it was not placed. A warning of class `crestline_mirrored` tells where left and right
+#'   look mirrored.
+#' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
+#' @references The paper, section 7.
+#' @seealso [find_landmarks()], [calibrate_template()]
+#' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)
+#' data(humface, package = "Rvcg")
+#' face <- find_landmarks(humface, id = "humface")
+#' face <- review_landmarks(face)
+#' mine <- calibrate_template(face_template(), list(face))
+#' again <- place_landmarks(humface, face_scheme(), id = "humface")
+#' @export
+review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natural", "shape index", "curvature", "plain"),
+                             least = 0.5, settings = ridge_settings(error = FALSE), view = NULL,
+                             radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL, bridge = 0.2,
+                             threads = getOption("crestline.threads", 1L), ...) {
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  rlang::check_installed("shiny", "to review landmarks.")
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  scheme <- scheme_in_unit(scheme, if (is.null(unit)) c(specimen$match$unit, 1)[1] else unit)
+  surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
+  review <- begin_review(specimen, scheme, check_number(least, "least", 0, 1), settings, check_number(bridge, "bridge", 0, 1), threads)
+  review$selected <- next_open(review)
+  if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
+  shown <- shown_surface(specimen, surface, check_number(radius, "radius", 0, open = TRUE), check_count(faces, "faces"))
+  app <- shiny::shinyApp(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view))
+  reviewed <- shiny::runApp(app, ...)
+  if (looks_mirrored(reviewed)) warn_mirrored(reviewed$id)
+  reviewed
+}
+
+#' @rdname review_landmarks
+#' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
+#' @param id Name of the specimen, where a mesh is given.
+#' @export
+place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  review_landmarks(without_landmarks(mesh, scheme, id), scheme, ...)
+}
+
+#' A specimen on which every landmark of a scheme is missing
+#' @noRd
+without_landmarks <- function(mesh, scheme, id = NULL) {
+  names <- scheme$landmarks$landmark
+  empty <- matrix(NA_real_, length(names), 3, dimnames = list(names, c("x", "y", "z")))
+  if (inherits(mesh, "specimen")) return(specimen(mesh$mesh, empty, mesh$id, outward = "keep"))
+  specimen(mesh, empty, id)
+}
+
+#' A scheme with its lengths in the unit of a mesh
+#' @noRd
+scheme_in_unit <- function(scheme, unit) {
+  if (is.null(scheme)) return(NULL)
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  lengths <- c("radius", "width")
+  scheme$curves[lengths] <- scheme$curves[lengths] / check_number(unit, "unit", 0, open = TRUE)
+  scheme
+}

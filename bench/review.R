@@ -1,0 +1,185 @@
+# The review page in a browser, with real clicks: what is clicked, what comes back.
+#   Rscript bench/review.R [folder for screenshots]
+# Needs the packages shiny and chromote and a Chromium or Chrome (CHROMOTE_CHROME names it); no display, no graphics card.
+suppressMessages(library(crestline))
+folder <- c(commandArgs(TRUE), tempfile("review"))[1]
+dir.create(folder, showWarnings = FALSE, recursive = TRUE)
+options(rgl.useNULL = TRUE, chromote.headless = "new")
+chromote::set_chrome_args(c("--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
+
+# ---- The page runs in an R of its own; what it returns comes back in a file.
+serve <- function(code, port) {
+  script <- tempfile(fileext = ".R")
+  result <- tempfile(fileext = ".rds")
+  writeLines(c("library(crestline)", "options(rgl.useNULL = TRUE)", "data(humface, package = 'Rvcg')", code,
+               sprintf("saveRDS(result, '%s.part')", result), sprintf("file.rename('%s.part', '%s')", result, result)), script)
+  system2(file.path(R.home("bin"), "Rscript"), script, stdout = FALSE, stderr = paste0(result, ".log"), wait = FALSE)
+  list(result = result, port = port, url = sprintf("http://127.0.0.1:%d", port))
+}
+
+until <- function(test, what, seconds = 120) {
+  begun <- Sys.time()
+  while (!isTRUE(tryCatch(test(), error = function(e) FALSE))) {
+    if (difftime(Sys.time(), begun, units = "secs") > seconds) stop("waited in vain: ", what, call. = FALSE)
+    Sys.sleep(0.02)
+  }
+  as.numeric(difftime(Sys.time(), begun, units = "secs"))
+}
+
+open_page <- function(served, size = c(1280, 860)) {
+  page <- chromote::ChromoteSession$new(width = size[1], height = size[2])
+  until(function() {
+    close(suppressWarnings(socketConnection(port = served$port, timeout = 2)))
+    TRUE
+  }, "the server")
+  page$Page$navigate(served$url)
+  until(function() look(page, "document.querySelectorAll('[data-landmark]').length") > 0, "the page")
+  page
+}
+
+look <- function(page, code) page$Runtime$evaluate(code, returnByValue = TRUE)$result$value
+
+# ---- Real mouse events, as the browser gets them from a hand.
+mouse <- function(page, type, at, button = "none", buttons = 0) {
+  page$Input$dispatchMouseEvent(type = type, x = at[1], y = at[2], button = button, buttons = buttons, clickCount = 1)
+}
+
+click <- function(page, at) {
+  mouse(page, "mouseMoved", at)
+  mouse(page, "mousePressed", at, "left", 1)
+  mouse(page, "mouseReleased", at, "left")
+}
+
+drag <- function(page, from, to, steps = 10) {
+  mouse(page, "mouseMoved", from)
+  mouse(page, "mousePressed", from, "left", 1)
+  for (share in seq_len(steps) / steps) mouse(page, "mouseMoved", from + share * (to - from), "left", 1)
+  mouse(page, "mouseReleased", to, "left")
+}
+
+middle_of <- function(page, selector) {
+  look(page, sprintf("document.querySelector('%s').scrollIntoView({block: 'center'})", selector))
+  unlist(look(page, sprintf("(b => [b.x + b.width / 2, b.y + b.height / 2])(document.querySelector('%s').getBoundingClientRect())", selector)))
+}
+
+press <- function(page, selector) click(page, middle_of(page, selector))
+
+# Where a place of the mesh is on the page, by rgl's own projection.
+pixel_of <- function(page, xyz) {
+  unlist(look(page, sprintf("(() => { const rgl = document.getElementById('face').rglinstance, b = rgl.canvas.getBoundingClientRect(),
+    w = rgl.user2window([%s, 1], rgl.scene.rootSubscene); return [b.x + w[0] * b.width, b.y + (1 - w[1]) * b.height]; })()",
+    paste(sprintf("%.9g", xyz), collapse = ", "))))
+}
+
+# All lines that the browser shows, each as one text.
+lines_of <- function(page) {
+  unlist(look(page, "Object.values(document.getElementById('face').rglinstance.scene.objects).filter(o => o.type === 'linestrip').map(
+    o => JSON.stringify(o.vertices))"))
+}
+
+state_of <- function(page, name) look(page, sprintf("document.querySelector('[data-landmark=\"%s\"] .state').textContent", name))
+shoot <- function(page, name) page$screenshot(file.path(folder, name), selector = "body", delay = 0.3)
+busy <- function(page) look(page, "document.documentElement.classList.contains('shiny-busy')")
+
+finish <- function(page, served, button = "#done") {
+  press(page, button)
+  until(function() file.exists(served$result), "the specimen")
+  page$close()
+  readRDS(served$result)
+}
+
+# ---- What came back: is it exactly on the surface?
+off_surface <- function(specimen, name) {
+  located <- specimen$geometry$located[match(name, rownames(specimen$geometry$landmarks)), ]
+  weight <- as.matrix(located[c("w1", "w2", "w3")])
+  corner <- function(i) t(specimen$mesh$vb[1:3, specimen$mesh$it[i, located$face], drop = FALSE])
+  placed <- weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
+  max(abs(placed - specimen$landmarks[name, ]), abs(rowSums(weight) - 1), -weight)
+}
+
+# The place of the mesh at a distance from a landmark, to the subject's left and up.
+place_beside <- function(mesh, at, distance, aim = c(1, 1, 0) / sqrt(2)) {
+  for (round in 1:20) {
+    target <- at + distance * aim
+    target <- t(Rvcg::vcgClostKD(matrix(target, 1), mesh)$vb[1:3, , drop = FALSE])[1, ]
+    aim <- (target - at) / sqrt(sum((target - at)^2))
+  }
+  target
+}
+
+move_chL <- function(what, code, unit, port) {
+  served <- serve(sprintf("%s; result <- review_landmarks(face, port = %d, launch.browser = FALSE)", code, port), port)
+  page <- open_page(served)
+  opened <- until(function() length(lines_of(page)) == 40 && !busy(page), "40 curves")
+  before <- eval(parse(text = paste(c("data(humface, package = 'Rvcg')", code, "face"), collapse = ";")), new.env())
+  lines <- lines_of(page)
+  shoot(page, paste0(what, "-before.png"))
+  drag(page, c(300, 300), c(380, 330))
+  Sys.sleep(0.5)
+  stopifnot(identical(lines_of(page), lines), state_of(page, "chL") != "placed")
+  press(page, "[data-landmark=chL]")
+  until(function() look(page, "document.querySelector('.chosen b').textContent") == "chL" && !busy(page), "chL chosen")
+  target <- place_beside(before$mesh, before$landmarks["chL", ], 5 / unit)
+  click(page, pixel_of(page, target))
+  seconds <- until(function() state_of(page, "chL") == "placed" && !identical(lines_of(page), lines), "chL placed")
+  until(function() !busy(page), "rest")
+  changed <- sum(!lines_of(page) %in% lines)
+  shoot(page, paste0(what, "-after.png"))
+  press(page, "#undo")
+  until(function() state_of(page, "chL") != "placed" && setequal(lines_of(page), lines), "undone")
+  press(page, "[data-landmark=chL]")
+  click(page, pixel_of(page, target))
+  until(function() state_of(page, "chL") == "placed" && !busy(page), "placed again")
+  after <- finish(page, served)
+  others <- setdiff(rownames(before$landmarks), "chL")
+  curves <- function(found) {
+    found$mesh$vb[1:3, ] <- unit * found$mesh$vb[1:3, ]
+    fit_shape(specimen(found$mesh, unit * found$landmarks, tolerance = 1), face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
+  }
+  data.frame(
+    session = what, seconds_to_move = seconds, curves_changed = changed,
+    moved = unit * sqrt(sum((after$landmarks["chL", ] - before$landmarks["chL", ])^2)),
+    from_target = unit * sqrt(sum((after$landmarks["chL", ] - target)^2)), off_surface = unit * off_surface(after, "chL"),
+    others_moved = max(abs(after$landmarks[others, ] - before$landmarks[others, ]), na.rm = TRUE),
+    curve_moved = max(curve_distance(curves(before), curves(after))$max, na.rm = TRUE)
+  )
+}
+
+place_three <- function(port) {
+  served <- serve(sprintf("result <- place_landmarks(humface, face_scheme(), id = 'humface', port = %d, launch.browser = FALSE)", port), port)
+  page <- open_page(served)
+  until(function() look(page, "document.querySelectorAll('.row.missing').length") == 23 && !busy(page), "23 missing")
+  until(function() look(page, "Shiny.shinyapp.$inputValues['ready']"), "the face")
+  until(function() !busy(page), "rest")
+  goal <- read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
+  shoot(page, "place-before.png")
+  asked <- character()
+  for (i in 1:3) {
+    asked[i] <- look(page, "document.querySelector('#chosen b').textContent")
+    turn <- c(pn = 0, acL = -230, acR = 230)[[asked[i]]]
+    drag(page, c(450, 300), c(450 + turn, 300))
+    click(page, pixel_of(page, goal[asked[i], ]))
+    until(function() state_of(page, asked[i]) == "placed" && !busy(page), asked[i])
+    shoot(page, sprintf("place-%s.png", asked[i]))
+    drag(page, c(450 + turn, 300), c(450, 300))
+  }
+  after <- finish(page, served)
+  placed <- !is.na(after$landmarks[, 1])
+  data.frame(asked = asked, in_order = asked == face_scheme()$landmarks$landmark[1:3],
+             off = sqrt(rowSums((after$landmarks[asked, ] - goal[asked, ])^2)),
+             off_surface = vapply(asked, off_surface, 0, specimen = after), others = sum(placed) - 3, row.names = NULL)
+}
+
+given <- "face <- specimen(humface, read_landmarks(system.file('extdata', 'humface_landmarks.csv', package = 'crestline')), id = 'humface')"
+metres <- "humface$vb[1:3, ] <- humface$vb[1:3, ] / 1000; humface$normals <- NULL; face <- find_landmarks(humface, id = 'humface in metres')"
+sessions <- list(move_chL("given", given, 1, 8171),
+                 move_chL("found", "face <- find_landmarks(humface, id = 'humface')", 1, 8172),
+                 move_chL("metres", metres, 1000, 8173))
+shared <- Sys.getenv("CRESTLINE_SHARED")
+if (nzchar(shared)) {
+  scan_a <- sprintf("face <- read_specimen('%s/scan_a/surface.ply', '%s/scan_a/landmarks.csv', id = 'scan_a')", shared, shared)
+  sessions <- c(sessions, list(move_chL("scan_a", scan_a, 1, 8174)))
+}
+print(do.call(rbind, sessions), digits = 3)
+print(place_three(8175), digits = 3)
+cat("screenshots in", folder, "\n")

@@ -1,0 +1,74 @@
+# The server of a page, and what it returns at its end.
+serve_review <- function(review) {
+  returned <- new.env()
+  shown <- shown_surface(review$specimen, "plain", 10, 60000)
+  list(server = review_server(review, shown, "front", function(specimen) returned$specimen <- specimen), returned = returned)
+}
+
+test_that("clicks choose and move a landmark, its curves follow, and the specimen comes back", {
+  skip_if_not_installed("shiny")
+  face <- specimen(humface_scan(), humface_landmarks(), id = "humface")
+  scheme <- face_scheme()
+  begun <- begin_review(face, scheme, 0.5, ridge_settings(error = FALSE), 0.2, 1)
+  served <- serve_review(begun)
+  at <- face$landmarks["chL", ]
+  target <- unlist(surface_points(face$mesh, matrix(at + c(4, 3, 0), 1))[1:3])
+  eye <- function(at) as.list(at + c(10, 10, 300))
+  shiny::testServer(served$server, {
+    session$setInputs(ready = TRUE)
+    paths <- lapply(review()$fitting$fits, `[[`, "path")
+    session$setInputs(ray = list(from = eye(target), towards = as.list(target)))
+    expect_identical(review()$specimen, begun$specimen)  # nothing is chosen
+    session$setInputs(ray = list(from = eye(at), towards = as.list(at)))
+    expect_equal(review()$selected, "chL")
+    session$setInputs(ray = list(from = eye(target), towards = as.list(target)))
+    expect_equal(review()$specimen$landmarks["chL", ], target, tolerance = 1e-8)
+    changed <- !mapply(identical, lapply(review()$fitting$fits, `[[`, "path"), paths)
+    expect_setequal(names(which(changed)), scheme$curves$curve[scheme$curves$from == "chL" | scheme$curves$to == "chL"])
+    expect_match(as.character(output$chosen$html), "corner of the mouth")
+    expect_match(as.character(output$list$html), "placed")
+    session$setInputs(undo = 1)
+    expect_identical(review()$specimen, begun$specimen)
+    session$setInputs(ray = list(from = eye(target), towards = as.list(target)), done = 1)
+    session$setInputs(cancel = 1)
+  })
+  expect_on_mesh(landmark_point(served$returned$specimen, "chL"), face$mesh)
+  expect_equal(served$returned$specimen$landmarks["chL", ], target, tolerance = 1e-8)
+  others <- setdiff(rownames(face$landmarks), "chL")
+  expect_identical(served$returned$specimen$landmarks[others, ], face$landmarks[others, ])
+})
+
+test_that("placing names the next one; cancel gives back what there was, a closed page what there is", {
+  skip_if_not_installed("shiny")
+  bare <- without_landmarks(quad_specimen(), quad_scheme())
+  review <- begin_review(bare, quad_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
+  review$selected <- next_open(review)
+  served <- serve_review(review)
+  place <- function(session, name) {
+    at <- quad_corners()[name, ]
+    session$setInputs(ray = list(from = as.list(3 * at), towards = as.list(at)))
+  }
+  shiny::testServer(served$server, {
+    session$setInputs(ready = TRUE)
+    for (name in c("a", "b", "c")) {
+      expect_equal(review()$selected, name)
+      place(session, name)
+    }
+    expect_setequal(names(Filter(function(fit) !is.null(fit$path), review()$fitting$fits)), c("bottom", "right"))
+  })
+  expect_lt(max(abs(served$returned$specimen$landmarks[1:3, ] - quad_corners()[1:3, ])), 0.1)
+  expect_true(all(is.na(served$returned$specimen$landmarks["d", ])))
+  shiny::testServer(served$server, {
+    place(session, "a")
+    session$setInputs(cancel = 1)
+  })
+  expect_identical(served$returned$specimen, review$specimen)
+})
+
+test_that("the page has what its script and its server look for", {
+  skip_if_not_installed("shiny")
+  html <- as.character(review_page("Landmarks of <a>"))
+  for (id in c("face", "chosen", "list", "keep", "absent", "undo", "done", "cancel")) expect_match(html, sprintf('id="%s"', id))
+  expect_match(html, "Landmarks of &lt;a&gt;")
+  expect_match(html, "sceneChange")
+})
