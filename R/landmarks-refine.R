@@ -27,6 +27,8 @@
 #' @param tolerance Definitions that build on others are taken again until none of these moves by more than this share of the
 #'   radius; `rounds`: most times.
 #' @param rounds See `tolerance`.
+#' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh, where that is known, as for
+#'   many sets of landmarks on one mesh; NULL: it is estimated where it is needed.
 #' @param threads Number of threads of [curvature()].
 #' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`; `state`: "found", "none"
 #'   (`reason` says why: it is left alone) or "missing" (the specimen lacks the landmark, or one that the definition builds on);
@@ -46,7 +48,7 @@
 #' moved <- refine_landmarks(face, face_scheme(), move = c("chL", "chR"))
 #' @export
 refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05, share = 0.5,
-                             order = "adaptive cubic", tolerance = 1e-3, rounds = 10,
+                             order = "adaptive cubic", tolerance = 1e-3, rounds = 10, curvature = NULL,
                              threads = getOption("crestline.threads", 1L)) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   definitions <- definitions_of(scheme, specimen)
@@ -55,13 +57,13 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
                    faint = check_number(faint, "faint", 0), share = check_number(share, "share", 0, 1, open = TRUE),
                    ridge = ridge_settings(error = FALSE))
   specimen$refinement <- NULL
-  curvature <- curvature_by_radius(specimen, order, check_count(threads, "threads"))
+  curvature <- curvature_by_radius(specimen, curvature, order, check_count(threads, "threads"))
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
   places <- refined_places(specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
                            check_count(rounds, "rounds"))
   refinement <- refinement_table(specimen, definitions, places)
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
-  specimen <- with_moved_landmarks(specimen, refinement[refinement$moved, ])
+  for (i in which(refinement$moved)) specimen <- with_place(specimen, refinement$landmark[i], refinement[i, mesh_columns])
   specimen$refinement <- refinement
   specimen
 }
@@ -92,12 +94,16 @@ check_move <- function(move, names, call = rlang::caller_env()) {
 }
 
 #' Curvature sources of a specimen, one for each radius that is asked for
+#' @param given Function of a radius, or NULL.
 #' @noRd
-curvature_by_radius <- function(specimen, order, threads) {
+curvature_by_radius <- function(specimen, given, order, threads) {
+  force(given)
   known <- list()
   function(radius) {
     key <- format(radius, digits = 15)
-    if (is.null(known[[key]])) known[[key]] <<- curvature_source(specimen, radius, order, threads)
+    if (is.null(known[[key]])) {
+      known[[key]] <<- known_curvature(if (!is.null(given)) given(radius), specimen, radius, threads, order)
+    }
     known[[key]]
   }
 }
@@ -167,12 +173,6 @@ with_place <- function(specimen, name, point) {
   known$landmarks <- with_row(known$landmarks, row, at, name)
   known$located[row, ] <- point
   specimen$geometry <- known
-  specimen
-}
-
-with_moved_landmarks <- function(specimen, table) {
-  specimen <- with_located(specimen)
-  for (i in seq_len(nrow(table))) specimen <- with_place(specimen, table$landmark[i], table[i, mesh_columns])
   specimen
 }
 
