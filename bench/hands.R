@@ -1,6 +1,6 @@
 # Landmarks without hands: success, accuracy, confidence and time on real faces, whole and damaged; what is no face.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses] [calibrated] [curves] [faceless] [option=value ...]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses] [calibrated] [offsets] [curves] [faceless] [option=value ...]
 #
 # Options of poses: poses=10 of scan_a and template_male each; simpop=10 of its faces, simpop_poses=1 of each; damage=whole,metres
 # (all); rows=file.rds, where the rows are kept after each damage.
@@ -227,6 +227,22 @@ run_calibrated <- function(train = c(3, 10, 17)) {
               mean(errors_of(all$scan_a, other)$error)))
 }
 
+# Where the found landmarks lie from the placed ones, mean by set, in the face's own axes: outward from the mid-line, up, forward.
+run_offsets <- function() {
+  each <- lapply(faces(), function(face) {
+    placing <- find_landmarks(face$mesh, template)$placing
+    at <- as.matrix(placing[match(rownames(face$landmarks), placing$landmark), c("x", "y", "z")])
+    off <- (at - face$landmarks) %*% t(axes_of(face$landmarks))
+    right <- endsWith(rownames(face$landmarks), "R")
+    off[right, 1] <- -off[right, 1]
+    data.frame(set = sub("simpop.*", "simpop", face$id), landmark = sub("[LR]$", "", rownames(face$landmarks)), outward = off[, 1], up = off[, 2],
+               forward = off[, 3], distance = sqrt(rowSums(off^2)))
+  })
+  table <- aggregate(cbind(outward, up, forward, distance) ~ landmark + set, do.call(rbind, each), mean)
+  table[3:6] <- round(table[3:6], 1)
+  print(table, row.names = FALSE)
+}
+
 run_faceless <- function() {
   all <- faceless()
   print(do.call(rbind, Map(faceless_trial, names(all), all)), row.names = FALSE)
@@ -261,7 +277,7 @@ asked <- commandArgs(TRUE)
 parts <- list(poses = function() {
   show_poses(run_poses(option("poses", 10), option("simpop", 10), option("simpop_poses", 1), option("damage", names(damages)),
                        option("rows", NULL)))
-}, calibrated = run_calibrated, curves = run_curves, faceless = run_faceless)
+}, calibrated = run_calibrated, offsets = run_offsets, curves = run_curves, faceless = run_faceless)
 named <- grep("=", asked, value = TRUE, invert = TRUE)
 for (part in if (length(named)) named else names(parts)) {
   cat("\n", part, "\n", sep = "")
