@@ -107,11 +107,24 @@ moved_specimen <- function(specimen, rotation, origin) {
 
 #' A template with what matching needs: its cloud, anchors and displacements
 #'
+#' That of the template used last is kept, as it takes half a second and a sample's scans share it.
+#'
 #' @param settings Of [find_settings()], as given.
 #' @return List: as [scan_cloud()]'s, with `settings` (in the template's unit), `landmarks` (k x 3), `basis` (see
 #'   [warp_basis()]), `sd` (of the landmarks where every point has a match, see [warp_sd()]).
 #' @noRd
 prepared_template <- function(template, settings, threads) {
+  asked <- list(template[c("specimen", "landmarks", "unit", "mirror")], settings)
+  if (!identical(asked, last_template$asked)) {
+    last_template$prepared <- prepare_template(template, settings, threads)
+    last_template$asked <- asked
+  }
+  last_template$prepared
+}
+
+last_template <- new.env(parent = emptyenv())
+
+prepare_template <- function(template, settings, threads) {
   scaled <- scaled_settings(settings, template$unit)
   mesh <- template$specimen$mesh
   thin <- scaled

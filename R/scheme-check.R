@@ -122,6 +122,43 @@ check_scheme_strips <- function(strips, scheme) {
   )
 }
 
+# What each kind of definition needs, and what it cannot use.
+check_scheme_definitions <- function(definitions, scheme) {
+  known <- scheme$landmarks$landmark
+  kind <- definitions$kind
+  line <- c("from", "to", "type", "width")
+  names <- c("landmark", "from", "to", "across_from", "across_to")
+  on_curve <- kind %in% c("turn", "end", "crossing")
+  other <- !is.na(definitions$across_from)
+  wants <- function(column, where, why) problem(which(where & is.na(definitions[[column]])), column, paste("is empty:", why))
+  bends <- list(profile = c("out", "in"), turn = c("left", "right"))
+  wrong_bend <- which(kind %in% names(bends) & !mapply(function(k, bend) bend %in% bends[[k]], kind, definitions$bend))
+  both <- which(kind %in% c("profile", "crossing") & is.na(definitions$mirror) == !other)
+  rbind(
+    named_once(definitions$landmark, "landmark"),
+    do.call(rbind, lapply(names, function(column) unknown_names(definitions[[column]], known, column, "landmark"))),
+    do.call(rbind, lapply(setdiff(line, "to"), wants, on_curve, "this kind is taken on a curve")),
+    wants("to", kind %in% c("turn", "crossing"), "this kind is taken on a curve"),
+    problem(which(kind == "end" & definitions$type %in% "plane"), "type", "is plane, which has no end"),
+    problem(wrong_bend, "bend", sprintf("is not %s", vapply(bends[kind[wrong_bend]], paste, "", collapse = " or "))),
+    problem(both, "mirror", "this kind needs either mirror or across_from and across_to"),
+    whole_group(definitions, c("across_from", "across_to")), needs(definitions, "across_type", "across_from"),
+    wants("across_type", kind == "crossing" & other, "the curve that is crossed has a type"),
+    problem(which(definitions$from == definitions$landmark | definitions$to == definitions$landmark), "landmark",
+            "is an end of its own curve"),
+    check_mirrors(definitions$mirror, scheme$pairs)
+  )
+}
+
+check_mirrors <- function(mirror, pairs) {
+  left <- pairs$left[pairs$level == "landmarks"]
+  each <- lapply(which(!is.na(mirror)), function(row) {
+    unknown <- unknown_names(mirror_names(mirror[row]), left, "mirror", "left landmark of a pair")
+    problem(rep(row, nrow(unknown)), "mirror", unknown$text)
+  })
+  do.call(rbind, c(list(problem(integer())), each))
+}
+
 named_once <- function(x, column) {
   twice <- which(duplicated(x))
   problem(twice, column, sprintf("\"%s\" is named twice, before in row %d", x[twice], match(x[twice], x)))

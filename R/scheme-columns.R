@@ -46,6 +46,15 @@ scheme_columns <- list(
     part = column("text", TRUE), strip = column("text", TRUE), rung = column("count", TRUE, lower = 1),
     a = column("text", TRUE), b = column("text", TRUE),
     outward = column("choice", TRUE, choices = c("columns", "rows"))
+  ),
+  definitions = list(
+    landmark = column("text", TRUE),
+    kind = column("choice", TRUE, choices = c("cap", "cup", "profile", "turn", "end", "crossing")),
+    radius = column("number", TRUE, lower = 0, open = TRUE), reach = column("number", TRUE, lower = 0, open = TRUE),
+    bend = column("choice", choices = c("out", "in", "left", "right")), mirror = column("text"),
+    from = column("text"), to = column("text"), type = column("choice", choices = c("ridge", "valley", "plane")),
+    width = column("number", lower = 0, open = TRUE), across_from = column("text"), across_to = column("text"),
+    across_type = column("choice", choices = c("ridge", "valley", "plane")), note = column("text")
   )
 )
 

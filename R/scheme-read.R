@@ -2,8 +2,8 @@
 
 #' Read a scheme from a folder
 #'
-#' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`, `pairs.csv` and
-#'   `strips.csv`: comma-separated, a header line, the columns of [curve_scheme()], empty cells for what is not given.
+#' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`, `pairs.csv`,
+#'   `strips.csv` and `definitions.csv`: comma-separated, a header line, the columns of [curve_scheme()], empty cells for what is not given.
 #' @param name Name of the scheme; the folder's unless given.
 #' @return As [curve_scheme()].
 #' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or file that is

@@ -47,14 +47,28 @@
 #' @param strips Data frame of the triangles that join patches (`NULL`: none): `part` ("model", or the name of an
 #'   optional part), `strip` (its name), `rung` (1, 2, ...), `a`, `b` (points, as "patch|index"), `outward`
 #'   ("columns": a, b, next b; "rows": a, next a, next b). Each two rungs are a quad.
+#' @param definitions Data frame of what [refine_landmarks()] goes by (`NULL`: none), a row a landmark that has a definition by
+#'   shape:
+#'   * `landmark`; `kind`: "cap" or "cup" (strongest: the lesser of its two curvatures is greatest), "profile" (extreme of the
+#'     curvature of the surface's cut with a plane), "turn" (extreme of the geodesic curvature of a curve), "end" (where a
+#'     ridge or valley has faded), "crossing" (of a curve with a mirror plane or with another curve);
+#'   * `radius` of the curvature; `reach`: how far from the landmark its place is looked for; both in the unit of the mesh;
+#'   * `bend`: "out" or "in" of a profile (a crest or a fold), "left" or "right" of a turn (seen from outside);
+#'   * `mirror` (profile, crossing): left landmarks of pairs, with spaces between, that span the mirror plane of
+#'     the object; or `across_from`, `across_to`: two landmarks, through which the plane of a profile stands straight into the
+#'     surface, or between which the crossed curve runs (`across_type`: "ridge", "valley" or "plane");
+#'   * `from`, `to`, `type`, `width` (turn, crossing, end): the curve, as in `curves`, but neither end the landmark itself, since
+#'     its place may not depend on where it was put. The curve of an end comes from `from` and goes on straight through
+#'     the landmark (no `to`);
+#'   * `note`, and any further columns.
 #' @param name Name of the scheme, one string.
 #' @return Object of class `curve_scheme`, a list: `name`; data frames `landmarks`, `curves`, `patches`, `pairs`,
-#'   `strips` with all columns above (`NA` where empty); `points` (`level`, `part`, `point`, `place`: points that
+#'   `strips`, `definitions` with all columns above (`NA` where empty); `points` (`level`, `part`, `point`, `place`: points that
 #'   coincide by construction have the same `place`); `triangles` (`part`, `group`, `v1`, `v2`, `v3`: rows of the
 #'   surface's points, outward; coinciding points by the first). `as.data.frame(scheme, table)` gives any of them.
 #' @section Errors: of class `crestline_scheme_error`, with all problems of the first table that has any (the message
 #'   shows eight).
-#' @seealso [read_scheme()], [face_scheme()]
+#' @seealso [read_scheme()], [face_scheme()], [refine_landmarks()]
 #' @examples
 #' landmarks <- data.frame(landmark = c("tip", "left", "right"))
 #' curves <- data.frame(curve = c("edge left", "edge right"), from = "tip", to = c("left", "right"),
@@ -63,12 +77,14 @@
 #'                     right = c("right", "edge right"))
 #' curve_scheme(landmarks, curves, pairs = pairs, name = "tooth")
 #' @export
-curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL, name = "scheme") {
-  tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs, strips = strips)
+curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL, name = "scheme",
+                         definitions = NULL) {
+  tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs, strips = strips,
+                 definitions = definitions)
   build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
 }
 
-#' @param tables The five tables, `NULL` where absent.
+#' @param tables The six tables, `NULL` where absent.
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
@@ -88,14 +104,15 @@ build_scheme <- function(tables, name, labels) {
 
 scheme_problems <- function(which, table, scheme) {
   check <- switch(which, landmarks = check_scheme_landmarks, curves = check_scheme_curves,
-                  patches = check_scheme_patches, pairs = check_scheme_pairs, strips = check_scheme_strips)
+                  patches = check_scheme_patches, pairs = check_scheme_pairs, strips = check_scheme_strips,
+                  definitions = check_scheme_definitions)
   check(table, scheme)
 }
 
 #' What the rows of a table are called
 #' @noRd
 scheme_rows <- function(which, table) {
-  switch(which, landmarks = table$landmark, curves = table$curve, pairs = table$left,
+  switch(which, landmarks = , definitions = table$landmark, curves = table$curve, pairs = table$left,
          patches = ifelse(is.na(table$block), table$patch, paste(table$patch, "block", table$block)),
          strips = paste(table$strip, "rung", table$rung))
 }
@@ -129,12 +146,12 @@ with_defaults <- function(curves) {
 #' @rdname curve_scheme
 #' @param x A scheme.
 #' @param row.names,optional Ignored.
-#' @param table "landmarks", "curves", "patches", "pairs", "strips", "points" or "triangles".
+#' @param table "landmarks", "curves", "patches", "pairs", "strips", "definitions", "points" or "triangles".
 #' @param ... Ignored.
 #' @export
 as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, table = "curves", ...) {
   if (is.character(row.names)) table <- row.names
-  x[[check_choice(table, c("landmarks", "curves", "patches", "pairs", "strips", "points", "triangles"), "table")]]
+  x[[check_choice(table, c(names(scheme_columns), "points", "triangles"), "table")]]
 }
 
 #' @export
@@ -153,6 +170,7 @@ print.curve_scheme <- function(x, ...) {
        sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
        sum(!is.na(curves$angle_limit)), " limited in angle")
   line("surface: ", surface_line(x))
+  if (nrow(x$definitions)) line("definitions: ", nrow(x$definitions), " of landmarks (", shorten(x$definitions$landmark, 30), ")")
   line("left-right pairs: ", paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
   invisible(x)
 }

@@ -107,21 +107,24 @@ landmark_point <- function(specimen, name, tolerance = 0.01) {
 #' A specimen whose landmarks that were changed since are located once, for many uses
 #'
 #' Those that cannot be (missing, off the surface) are left for [landmark_point()] to tell of.
+#'
+#' @param tolerance As in [specimen()].
 #' @noRd
-with_located <- function(specimen) {
+with_located <- function(specimen, tolerance = 0.01) {
   before <- specimen$geometry
   at <- specimen$landmarks
   known <- match(rownames(at), rownames(before$landmarks))
-  changed <- vapply(seq_along(known), function(i) {
-    is.na(known[i]) || !identical(unname(at[i, ]), unname(before$landmarks[known[i], ]))
-  }, NA)
-  for (name in rownames(at)[changed & !is.na(at[, 1])]) {
-    found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) NULL)
-    if (is.null(found)) next
-    row <- match(name, rownames(before$landmarks))
-    if (is.na(row)) row <- nrow(before$landmarks) + 1
+  changed <- which(vapply(seq_along(known), function(i) {
+    !anyNA(at[i, ]) && (is.na(known[i]) || !identical(unname(at[i, ]), unname(before$landmarks[known[i], ])))
+  }, NA))
+  if (!length(changed)) return(specimen)
+  found <- surface_points(specimen$mesh, at[changed, , drop = FALSE])
+  away <- row_lengths(as.matrix(found[c("x", "y", "z")]) - at[changed, , drop = FALSE])
+  for (i in which(away <= tolerance * mesh_diagonal(specimen$mesh))) {
+    name <- rownames(at)[changed[i]]
+    row <- match(name, rownames(before$landmarks), nomatch = nrow(before$landmarks) + 1)
     before$landmarks <- with_row(before$landmarks, row, at[name, ], name)
-    before$located[row, ] <- found
+    before$located[row, ] <- found[i, ]
   }
   specimen$geometry <- before
   specimen

@@ -1,6 +1,9 @@
 # Landmarks without hands: success, accuracy, confidence and time on real faces, whole and damaged; what is no face.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses] [calibrated] [curves] [faceless]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses] [calibrated] [offsets] [curves] [faceless] [option=value ...]
+#
+# Options of poses: poses=10 of scan_a and template_male each; simpop=10 of its faces, simpop_poses=1 of each; damage=whole,metres
+# (all); rows=file.rds, where the rows are kept after each damage.
 #
 # 19 landmarks (without t and oi), lengths in mm. A trial succeeds when the mean error over the landmarks that the scan still has is
 # below 6 mm. Poses are random rotations; noise, decimation and shoulders differ from pose to pose.
@@ -162,17 +165,22 @@ faceless_trial <- function(name, mesh) {
 
 doubted <- function(x) x$state == "absent" | x$confidence < 0.5
 
-# `poses` of scan_a and template_male each, and as many of simpop's faces in a pose each.
-run_poses <- function(poses = 10) {
+# `poses` of scan_a and template_male each, and `simpop_poses` of as many as `simpop` of simpop's faces.
+run_poses <- function(poses = 10, simpop = 10, simpop_poses = 1, damage = names(damages), rows = NULL) {
   all <- faces()
-  cases <- c(rep(all[1:2], each = poses), all[2 + round(seq(1, length(all) - 2, length.out = poses))])
-  pose <- c(rep(seq_len(poses), 2), seq_len(poses))
-  rows <- lapply(names(damages), function(damage) {
-    found <- do.call(rbind, Map(function(face, pose) trial(face, damage, pose, template), cases, pose))
-    show_damage(found)
-    found
-  })
-  do.call(rbind, rows)
+  chosen <- 2 + round(seq(1, length(all) - 2, length.out = simpop))
+  cases <- c(rep(all[1:2], each = poses), rep(all[chosen], each = simpop_poses))
+  # One pose each: all different.
+  simpop_pose <- if (simpop_poses == 1) seq_len(simpop) else rep(seq_len(simpop_poses), simpop)
+  pose <- c(rep(seq_len(poses), 2), simpop_pose)
+  found <- NULL
+  for (one in damage) {
+    here <- do.call(rbind, Map(function(face, pose) trial(face, one, pose, template), cases, pose))
+    show_damage(here)
+    found <- rbind(found, here)
+    if (!is.null(rows)) saveRDS(found, rows)
+  }
+  found
 }
 
 show_damage <- function(x) {
@@ -219,6 +227,22 @@ run_calibrated <- function(train = c(3, 10, 17)) {
               mean(errors_of(all$scan_a, other)$error)))
 }
 
+# Where the found landmarks lie from the placed ones, mean by set, in the face's own axes: outward from the mid-line, up, forward.
+run_offsets <- function() {
+  each <- lapply(faces(), function(face) {
+    placing <- find_landmarks(face$mesh, template)$placing
+    at <- as.matrix(placing[match(rownames(face$landmarks), placing$landmark), c("x", "y", "z")])
+    off <- (at - face$landmarks) %*% t(axes_of(face$landmarks))
+    right <- endsWith(rownames(face$landmarks), "R")
+    off[right, 1] <- -off[right, 1]
+    data.frame(set = sub("simpop.*", "simpop", face$id), landmark = sub("[LR]$", "", rownames(face$landmarks)), outward = off[, 1], up = off[, 2],
+               forward = off[, 3], distance = sqrt(rowSums(off^2)))
+  })
+  table <- aggregate(cbind(outward, up, forward, distance) ~ landmark + set, do.call(rbind, each), mean)
+  table[3:6] <- round(table[3:6], 1)
+  print(table, row.names = FALSE)
+}
+
 run_faceless <- function() {
   all <- faceless()
   print(do.call(rbind, Map(faceless_trial, names(all), all)), row.names = FALSE)
@@ -242,13 +266,20 @@ run_curves <- function() {
   print(data.frame(curve = face_scheme()$curves$curve, rms = round(vapply(face_scheme()$curves$curve, distance, 0), 2)), row.names = FALSE)
 }
 
-parts <- list(poses = function() {
-  rows <- run_poses()
-  saveRDS(rows, file.path(tempdir(), "poses.rds"))
-  show_poses(rows)
-}, calibrated = run_calibrated, curves = run_curves, faceless = run_faceless)
+option <- function(name, default) {
+  given <- grep(paste0("^", name, "="), asked, value = TRUE)
+  if (!length(given)) return(default)
+  value <- strsplit(sub("^[^=]*=", "", given), ",")[[1]]
+  if (is.numeric(default)) as.numeric(value) else value
+}
+
 asked <- commandArgs(TRUE)
-for (part in if (length(asked)) asked else names(parts)) {
+parts <- list(poses = function() {
+  show_poses(run_poses(option("poses", 10), option("simpop", 10), option("simpop_poses", 1), option("damage", names(damages)),
+                       option("rows", NULL)))
+}, calibrated = run_calibrated, offsets = run_offsets, curves = run_curves, faceless = run_faceless)
+named <- grep("=", asked, value = TRUE, invert = TRUE)
+for (part in if (length(named)) named else names(parts)) {
   cat("\n", part, "\n", sep = "")
   parts[[part]]()
 }

@@ -5,7 +5,7 @@
 # data-raw/face-scheme/ holds the published facial model (Vittert, Bowman and Katina 2019, and the authors' implementation)
 # in its own terms: landmarks.csv, curves.csv, patches.csv, strips_left.csv (the strips of the left side); and choices.csv:
 # where this package finds a curve in another way than the authors do, or might have, and why (spreads are across the curve,
-# measured on 23 simulated faces in dense correspondence).
+# measured on 23 simulated faces in dense correspondence); and definitions.csv, this package's own: landmarks by shape.
 
 from <- "data-raw/face-scheme"
 to <- "inst/extdata/face_scheme"
@@ -100,6 +100,16 @@ face_pairs <- function(landmarks, curves, patches) {
   rbind(pairs("landmarks", landmarks$landmark), pairs("curves", curves$curve), pairs("surface", patches$patch))
 }
 
+# definitions.csv speaks of the left side and of the middle, too.
+face_definitions <- function() {
+  left <- spec("definitions.csv")
+  right <- left[grepl("L$", left$landmark), ]
+  names <- c("landmark", "from", "to", "across_from", "across_to")
+  right[names] <- lapply(right[names], mirrored)
+  rows <- rbind(left, right)
+  rows[order(match(rows$landmark, landmarks$landmark)), ]
+}
+
 landmarks <- spec("landmarks.csv")[c("landmark", "name", "where")]
 dir.create(to, showWarnings = FALSE, recursive = TRUE)
 write(landmarks, "landmarks.csv")
@@ -107,3 +117,4 @@ write(face_curves(), "curves.csv")
 write(face_patches(), "patches.csv")
 write(face_pairs(landmarks, face_curves(), face_patches()), "pairs.csv")
 write(face_strips(), "strips.csv")
+write(face_definitions(), "definitions.csv")

@@ -104,6 +104,43 @@ test_that("mistakes in strips", {
   expect_wrong("strips", 2, "part", "extra", "first row")
 })
 
+test_that("mistakes in definitions", {
+  with_definitions <- function(...) {
+    function(tables) {
+      rows <- data.frame(landmark = c("wideL", "tip", "wideR"), kind = c("cap", "profile", "crossing"), radius = 2, reach = 3,
+                         bend = c(NA, "out", NA), mirror = c(NA, "wideL", NA), from = c(NA, NA, "base"), to = c(NA, NA, "tip"),
+                         type = c(NA, NA, "ridge"), width = c(NA, NA, 4), across_from = c(NA, NA, "wideL"),
+                         across_to = c(NA, NA, "base"), across_type = c(NA, NA, "plane"))
+      change <- list(...)
+      if (length(change)) rows[change[[1]], change[[2]]] <- change[[3]]
+      tables$definitions <- rows
+      tables
+    }
+  }
+  fine <- leaf_scheme(with_definitions())
+  expect_equal(fine$definitions$kind, c("cap", "profile", "crossing"))
+  expect_output(print(fine), "definitions: 3 of landmarks")
+  wrong <- function(row, column, value, words, named = column) {
+    error <- expect_crestline_error(leaf_scheme(with_definitions(row, column, value)),
+                                    c("definitions", sprintf("row %d", row), sprintf("column %s", named), words))
+    expect_s3_class(error, "crestline_scheme_error")
+  }
+  wrong(1, "landmark", "top", "no landmark \"top\"")
+  wrong(2, "landmark", "wideL", "named twice")
+  wrong(1, "kind", "knob", "cap, cup")
+  wrong(1, "radius", NA, "is empty")
+  wrong(2, "bend", "left", "out or in")
+  wrong(2, "mirror", NA, "either mirror or")
+  wrong(3, "mirror", "wideL", "either mirror or")
+  wrong(2, "mirror", "wideL edge", "no left landmark")
+  wrong(3, "from", NA, "taken on a curve")
+  wrong(3, "to", NA, "taken on a curve")
+  wrong(3, "across_to", NA, "go together")
+  wrong(3, "across_type", NA, "has a type")
+  wrong(3, "from", "wideR", "own curve", named = "landmark")
+  wrong(3, "kind", "turn", "left or right", named = "bend")
+})
+
 test_that("all problems of a table are told at once, in order of rows, and cut short", {
   many <- function(x) {
     x$curves$n <- 0

@@ -1,0 +1,221 @@
+# Each landmark beside the place that its definition says.
+
+#' Landmarks beside the places that their definitions say
+#'
+#' Curves inform landmarks, too: a landmark may be where two curves cross, where one turns most or ends, or the strongest cap or
+#' cup. Where the scheme has such a definition, the place that it says near the landmark is found, and how far the
+#' landmark would move; on request it is moved there. A definition takes nothing from the landmark but where the search
+#' begins, so that two people who put it a little apart are brought to the same place.
+#'
+#' It is a choice, and off by default: where people put a landmark is often not where curvature has its extreme. On faces, most
+#' definitions of [face_scheme()] lie 0.3 to 3 mm from where people put the points (`bench/README.md`); a landmark that was
+#' placed with care is moved away from where it was meant to be, the same way in every specimen. As a flag it serves both:
+#' a landmark much farther from its defined place than those of other specimens was probably misplaced.
+#'
+#' Landmarks whose definitions build on others (the mirror plane of pairs, the ends of a curve) are found from the defined places
+#' of these, until none changes.
+#'
+#' @param specimen A [specimen()] with landmarks.
+#' @param scheme A [curve_scheme()] with definitions; its lengths are in the unit of the mesh.
+#' @param move Whether to take the moves: FALSE, TRUE, or the names of the landmarks that are moved.
+#' @param window Half width of the local fits by which a peak is settled between vertices, as a share of the radius (wider where
+#'   the vertices are far apart).
+#' @param apart Distance within which only the greatest of several peaks is tried, as a share of the radius.
+#' @param faint Peaks of curvature below this, times 1 / radius, do not count.
+#' @param share A ridge ends where its strength has fallen to this share of its greatest.
+#' @param order Of the curvature, see [curvature()].
+#' @param tolerance Definitions that build on others are taken again until none of these moves by more than this share of the
+#'   radius; `rounds`: most times.
+#' @param rounds See `tolerance`.
+#' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh, where that is known, as for
+#'   many sets of landmarks on one mesh; NULL: it is estimated where it is needed.
+#' @param threads Number of threads of [curvature()].
+#' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`; `state`: "found", "none"
+#'   (`reason` says why: it is left alone) or "missing" (the specimen lacks the landmark, or one that the definition builds on);
+#'   `distance`, how far the landmark would move; `value`, the curvature that is extreme there (NA for a crossing);
+#'   `moved`; `given_x`, `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`, the defined place, on
+#'   the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its `landmarks` are moved.
+#' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any of their landmarks, `move`
+#'   that names others.
+#' @references The paper, section 7.
+#' @seealso [curve_scheme()], [find_landmarks()]
+#' @examples
+#' data(humface, package = "Rvcg")
+#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
+#' face <- specimen(humface, read_landmarks(file), id = "humface")
+#' face <- refine_landmarks(face, face_scheme())
+#' face$refinement[c("landmark", "kind", "state", "distance")]
+#' moved <- refine_landmarks(face, face_scheme(), move = c("chL", "chR"))
+#' @export
+refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05, share = 0.5,
+                             order = "adaptive cubic", tolerance = 1e-3, rounds = 10, curvature = NULL,
+                             threads = getOption("crestline.threads", 1L)) {
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  definitions <- definitions_of(scheme, specimen)
+  move <- check_move(move, definitions$landmark)
+  settings <- list(window = check_number(window, "window", 0, open = TRUE), apart = check_number(apart, "apart", 0),
+                   faint = check_number(faint, "faint", 0), share = check_number(share, "share", 0, 1, open = TRUE),
+                   ridge = ridge_settings(error = FALSE))
+  specimen$refinement <- NULL
+  curvature <- curvature_by_radius(specimen, curvature, order, check_count(threads, "threads"))
+  pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
+  places <- refined_places(specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
+                           check_count(rounds, "rounds"))
+  refinement <- refinement_table(specimen, definitions, places)
+  refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
+  for (i in which(refinement$moved)) specimen <- with_place(specimen, refinement$landmark[i], refinement[i, mesh_columns])
+  specimen$refinement <- refinement
+  specimen
+}
+
+definitions_of <- function(scheme, specimen, call = rlang::caller_env()) {
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme() or face_scheme()", call = call)
+  definitions <- scheme$definitions
+  if (!NROW(definitions)) {
+    crestline_abort(sprintf("the scheme %s has no definitions of landmarks.", scheme$name),
+                    "Give curve_scheme() a table `definitions`.", stage = "scheme", call = call)
+  }
+  if (!any(definitions$landmark %in% rownames(specimen$landmarks))) {
+    refuse_landmarks(sprintf("it has none of the landmarks that %s defines.", scheme$name),
+                     near_names(definitions$landmark[1], rownames(specimen$landmarks)), specimen$id)
+  }
+  definitions
+}
+
+check_move <- function(move, names, call = rlang::caller_env()) {
+  if (isTRUE(move)) return(names)
+  if (isFALSE(move)) return(character())
+  wrong <- if (is.character(move)) setdiff(move, names) else describe_value(move)
+  if (length(wrong)) {
+    crestline_abort(sprintf("`move` is %s.", shorten(wrong)), sprintf("Give TRUE, FALSE or some of %s.", shorten(names, 30)),
+                    stage = "arguments", call = call)
+  }
+  move
+}
+
+#' Curvature sources of a specimen, one for each radius that is asked for
+#' @param given Function of a radius, or NULL.
+#' @noRd
+curvature_by_radius <- function(specimen, given, order, threads) {
+  force(given)
+  known <- list()
+  function(radius) {
+    key <- format(radius, digits = 15)
+    if (is.null(known[[key]])) {
+      known[[key]] <<- known_curvature(if (!is.null(given)) given(radius), specimen, radius, threads, order)
+    }
+    known[[key]]
+  }
+}
+
+#' The places of all definitions, taken again while those that they build on move
+#' @return List with an entry for each definition: as of [defined_place()], with `point` (one row of [surface_points()]).
+#' @noRd
+refined_places <- function(specimen, definitions, pairs, curvature, settings, tolerance, rounds) {
+  given <- specimen$landmarks
+  current <- with_located(specimen)
+  inputs <- lapply(seq_len(nrow(definitions)), function(i) definition_inputs(definitions[i, ], pairs))
+  places <- vector("list", nrow(definitions))
+  seen <- vector("list", nrow(definitions))
+  order <- order(lengths(inputs) > 0)
+  for (round in seq_len(rounds)) {
+    settled <- TRUE
+    for (i in order) {
+      at <- landmarks_at(current, inputs[[i]])
+      if (unmoved(at, seen[[i]], tolerance * definitions$radius[i])) next
+      settled <- FALSE
+      seen[[i]] <- at
+      places[[i]] <- located_place(current, definitions[i, ], given, at, pairs, curvature, settings)
+      current <- with_place(current, definitions$landmark[i], places[[i]]$point)
+    }
+    if (settled) break
+  }
+  places
+}
+
+#' The landmarks that a definition builds on
+#' @noRd
+definition_inputs <- function(definition, pairs) {
+  left <- if (!is.na(definition$mirror)) mirror_names(definition$mirror)
+  names <- c(left, pairs$right[match(left, pairs$left)], unlist(definition[c("from", "to", "across_from", "across_to")]))
+  unname(names[!is.na(names)])
+}
+
+landmarks_at <- function(specimen, names) {
+  specimen$landmarks[match(names, rownames(specimen$landmarks)), , drop = FALSE]
+}
+
+unmoved <- function(at, before, least) !is.null(before) && (nrow(at) == 0 || isTRUE(max(row_lengths(at - before)) <= least))
+
+#' The place of one definition with the point of the mesh, or why there is none
+#' @noRd
+located_place <- function(specimen, definition, given, inputs, pairs, curvature, settings) {
+  start <- landmarks_at(list(landmarks = given), definition$landmark)[1, ]
+  if (anyNA(start) || anyNA(inputs)) return(list(state = "missing", reason = "a landmark is missing"))
+  place <- defined_place(specimen, definition, start, pairs, curvature, settings)
+  if (!is.null(place$reason)) {
+    return(list(state = "none", reason = place$reason, point = point_near(specimen$mesh, start, definition$radius)))
+  }
+  place$state <- "found"
+  place$point <- point_near(specimen$mesh, place$at, definition$radius)
+  place
+}
+
+#' A specimen with one landmark at a point of its mesh
+#' @noRd
+with_place <- function(specimen, name, point) {
+  if (is.null(point)) return(specimen)
+  at <- unlist(point[c("x", "y", "z")])
+  specimen$landmarks[name, ] <- at
+  known <- specimen$geometry
+  row <- match(name, rownames(known$landmarks))
+  if (is.na(row)) row <- nrow(known$landmarks) + 1
+  known$landmarks <- with_row(known$landmarks, row, at, name)
+  known$located[row, ] <- point
+  specimen$geometry <- known
+  specimen
+}
+
+#' @return Data frame as `refinement` of [refine_landmarks()], without `moved`.
+#' @noRd
+refinement_table <- function(specimen, definitions, places) {
+  state <- vapply(places, `[[`, "", "state")
+  found <- state == "found"
+  given <- landmarks_at(specimen, definitions$landmark)
+  points <- surface_points(specimen$mesh, given[0, , drop = FALSE])[rep(NA_integer_, nrow(definitions)), ]
+  for (i in which(found)) points[i, ] <- places[[i]]$point
+  text <- vapply(places, function(x) if (is.null(x$reason)) NA_character_ else x$reason, "")
+  value <- vapply(places, function(x) if (is.null(x$value)) NA_real_ else as.numeric(x$value), 0)
+  colnames(given) <- paste0("given_", c("x", "y", "z"))
+  data.frame(landmark = definitions$landmark, kind = definitions$kind, state = state,
+             distance = row_lengths(as.matrix(points[c("x", "y", "z")]) - given), value = value, moved = FALSE, given, points,
+             reason = text, row.names = NULL)
+}
+
+#' @rdname refine_landmarks
+#' @param view Where to look from, see [draw_surface()].
+#' @param labels Whether to write the landmarks' names.
+#' @param main Title; NULL: the specimen's name.
+#' @param ... Passed to [draw_surface()].
+#' @details `plot_refinement()` draws the landmarks as they were given in black, their defined places in orange, and lines
+#'   between.
+#' @return `plot_refinement()`: the scene of [draw_surface()], invisibly.
+#' @export
+plot_refinement <- function(specimen, view = "front", labels = TRUE, main = NULL, ...) {
+  check_class(specimen, "specimen", "specimen", "refine_landmarks()")
+  table <- specimen$refinement
+  if (is.null(table)) {
+    crestline_abort("its landmarks were not refined.", "Give a specimen of refine_landmarks().", stage = "picture", id = specimen$id)
+  }
+  old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
+  on.exit(graphics::par(old))
+  scene <- draw_surface(specimen$mesh, "#E3CDB8", view, "picture", ...)
+  table <- table[table$state == "found", ]
+  given <- as.matrix(table[paste0("given_", c("x", "y", "z"))])
+  place <- as.matrix(table[c("x", "y", "z")])
+  for (i in seq_len(nrow(table))) draw_lines(scene, rbind(given[i, ], place[i, ]), "#C04000", width = 2)
+  draw_points(scene, given, "black", halo = "white")
+  draw_points(scene, place, "#FF7A00", halo = "white", labels = if (labels) table$landmark)
+  graphics::title(if (is.null(main)) specimen$id else main)
+  invisible(scene)
+}
