@@ -23,14 +23,17 @@
 #' @param spacing Strength is taken along a cut at places no further apart than this share of `radius`.
 #' @param angles Number of angles of the coarse grid over a half turn.
 #' @param refined Number of angles between the neighbours of each local optimum.
+#' @param tie Of local optima within this share of the best the shortest cut is taken: curvature is not
+#'   known better than to some per cent, and planes that nearly touch the surface gather it on a ragged way.
 #' @param rival Share within which a second optimum is a rival that is warned of.
 #' @param distinct A rival runs further than this share of the path's length from it at some place.
 #' @inheritParams curvature
 #' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of its settings.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
 #'   (mean strength in 1 / unit, or length), `optima`: data frame with a row for every local
-#'   optimum, best first: `angle` (radians), `side`, `criterion`, `length`; and `competing`: how good the best of those
-#'   that run elsewhere is, as a share of the path (for lengths the other way round), NA where there is none.
+#'   optimum, that of the path first, then from the best on: `angle` (radians), `side`, `criterion`, `length`; and
+#'   `competing`: how good the best of those that run elsewhere is, as a share of the path (for lengths the other way
+#'   round), NA where there is none.
 #' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
 #' @section Warnings: of class `crestline_rival_path`, when another optimum is
 #'   nearly as good; the warning names both angles.
@@ -46,8 +49,8 @@
 #' @export
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius = attr(curvature, "radius"),
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
-                           spacing = 0.25, angles = 60, refined = 21, rival = 0.05,
-                           distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
+                           spacing = 0.25, angles = 60, refined = 21, tie = 0.002,
+                           rival = 0.05, distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, from, to)
@@ -61,7 +64,7 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
     function(found) cut_strength(surface, ends, axis, found, reach, spacing * radius, strength)
   }
   measure <- function(angle, side) measure_cuts(surface, ends, axis, angle, side, reach)
-  optima <- cut_optima(measure, rate, angles, refined, longest)
+  optima <- cut_optima(measure, rate, angles, refined, longest, tie)
   if (nrow(optima) == 0) abort_no_cut(measure(0, 0L)$end, ends, surface$id)
   cut <- function(i) cut_path(surface, ends, axis, optima$angle[i], optima$side[i], reach, type = type)
   path <- cut(1)
@@ -103,7 +106,7 @@ cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
 #' @param digits Criteria that agree to this many significant digits are equal: on a straight feature many
 #'   planes cut one line. Of equal cuts the shortest counts, then the straightest in.
 #' @noRd
-cut_optima <- function(measure, rate, angles, refined, longest, digits = 8) {
+cut_optima <- function(measure, rate, angles, refined, longest, tie, digits = 8) {
   step <- pi / angles
   coarse <- measure(rep(-pi / 2 + step * seq_len(angles), 2), rep(0:1, each = angles))
   if (all(is.na(coarse$length))) return(data.frame())
@@ -119,7 +122,8 @@ cut_optima <- function(measure, rate, angles, refined, longest, digits = 8) {
   of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = refined))
   best <- vapply(split(seq_along(of_peak), of_peak), function(near) best_cut(all, near), 0L)
   all$angle <- wrap_angle(all$angle)
-  best <- best[order(-all$level[best], all$extent[best], abs(all$angle[best]))]
+  tied <- all$level[best] >= max(all$level[best]) - tie * abs(max(all$level[best]))
+  best <- best[order(!tied, ifelse(tied, 0, -all$level[best]), all$extent[best], -all$level[best], abs(all$angle[best]))]
   best <- best[!duplicated(round(cbind(all$angle, all$side)[best, , drop = FALSE], 6))]
   frame_of(lapply(all[c("angle", "side", "criterion", "length")], `[`, best))
 }

@@ -153,3 +153,14 @@ test_that("strength is taken no further apart than asked, and the mean comes to 
 test_that("angles wrap into the half turn", {
   expect_equal(wrap_angle(c(-pi / 2, pi / 2, pi, 0.1, 3 * pi / 4)), c(pi / 2, pi / 2, 0, 0.1, -pi / 4))
 })
+
+test_that("of planes that gather the same the shortest cut is taken, not one that nearly touches the surface", {
+  straight <- simulate_ridge(0, 2, jitter = 0.2, seed = 46) # every plane through it cuts along the ridge
+  path <- reference_path(straight, "from", "to", "ridge", radius = 0.25)
+  optima <- attr(path, "optima")
+  expect_gt(nrow(optima), 1)
+  expect_lt(optima$length[1], min(optima$length[-1]))
+  best <- reference_path(straight, "from", "to", "ridge", radius = 0.25, tie = 0)
+  expect_gt(attr(best, "criterion"), attr(path, "criterion"))
+  expect_gt(attr(path, "criterion"), (1 - 0.002) * attr(best, "criterion"))
+})
