@@ -15,6 +15,7 @@
 #'
 #' @param settings [ridge_settings()]; or a named list of such, and of functions `(specimen, radius, width, n)` that return
 #'   the points of another estimate (matrix k x 3, in order from landmark `from` to `to`): several methods on the same surfaces.
+#'   Parallel workers do not see what a function uses of your workspace: put helpers into an environment with it (`local()`).
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
 #' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
 #' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.

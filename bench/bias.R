@@ -1,0 +1,2 @@
+bias_setting <- "x"
+run_bias <- function(n) stop("none")
