@@ -56,9 +56,9 @@ coverage: setup  ## lines of R and C++ that the tests run; fails under COVERAGE_
 sanitize: setup  ## the tests under the address and undefined-behaviour sanitizers
 	@tools/sanitize.sh
 
-studies: install  ## the vignettes' simulation studies again, beside the tables that ship: hours; N=20: a short run
+studies: install  ## the vignettes' simulation studies again, beside the tables that ship: N=20: short, WRITE=write: new tables
 	@echo "==> studies"
-	@Rscript tools/studies.R $(N)
+	@Rscript tools/studies.R $(N) $(WRITE)
 
 document: setup  ## writes NAMESPACE, man/ and the Rcpp exports
 	@tools/document.sh
