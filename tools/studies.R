@@ -1,8 +1,9 @@
 # The simulation studies behind the vignettes "How good are the curves?" and "Curvature: bias and variance": runs them
 # and says whether they agree with the tables that ship with the vignettes. From the package's root, crestline being installed:
 #   Rscript tools/studies.R [N = 500] [write] [ridges] [alternatives] [bias]
-# N: simulations a setting; 20 is a short run, compared exactly with the first 20 of the tables. write: make the tables anew.
+# N: simulations a setting; 20 is a short run, compared with the first 20 seeds of the tables. write: make the tables anew.
 # Without a name all studies run. Results are kept in studies-output/ as they come, and a run that was cut short goes on there.
+options(rgl.useNULL = TRUE)
 library(crestline)
 # In an environment of its own, that goes to the workers with the functions.
 bench <- new.env()
@@ -99,11 +100,11 @@ compare <- function(found, kept, value, error, setting, same = 1e-6, limit = 4, 
   verdict[is.na(verdict)] <- "differs"
   print(table(verdict, dnn = NULL))
   bad <- verdict %in% c("differs", "not in the table")
-  if (any(bad)) print(cbind(found[bad, setting], here = here[bad], table = there[bad]), row.names = FALSE)
+  if (any(bad)) print(utils::head(cbind(found[setting], here = here, table = there)[bad, ], 40), row.names = FALSE)
   !any(bad)
 }
 
-format_key <- function(x) if (is.numeric(x)) format(signif(x, 6), trim = TRUE, digits = 6) else as.character(x)
+format_key <- function(x) as.character(if (is.numeric(x)) signif(x, 6) else x)
 
 # The value to be compared: of all simulations where there are as many as in the table, else of the first few.
 settle <- function(name, found, setting, value, error) {
