@@ -73,17 +73,18 @@ simulated_curvature <- function(a, b, x, y) {
   zx <- -2 * b * u
   zy <- 6 * a * b * u * y^2
   stretch <- sqrt(1 + zx^2 + zy^2)
-  L <- -2 * b / stretch
-  M <- 6 * a * b * y^2 / stretch
-  N <- (12 * a * b * u * y - 18 * a^2 * b * y^4) / stretch
-  E <- 1 + zx^2
-  F <- zx * zy
-  G <- 1 + zy^2
-  mean <- (E * N - 2 * F * M + G * L) / (2 * stretch^2)
-  k2 <- mean - sqrt(pmax(mean^2 - (L * N - M^2) / stretch^2, 0))
+  # First and second fundamental forms: e, f, g and l, m, n.
+  l <- -2 * b / stretch
+  m <- 6 * a * b * y^2 / stretch
+  n <- (12 * a * b * u * y - 18 * a^2 * b * y^4) / stretch
+  e <- 1 + zx^2
+  f <- zx * zy
+  g <- 1 + zy^2
+  mean <- (e * n - 2 * f * m + g * l) / (2 * stretch^2)
+  k2 <- mean - sqrt(pmax(mean^2 - (l * n - m^2) / stretch^2, 0))
   # Both rows of II - k2 I give the direction; the longer one is the safer.
-  direction <- cbind(N - k2 * G, k2 * F - M)
-  other <- cbind(M - k2 * F, k2 * E - L)
+  direction <- cbind(n - k2 * g, k2 * f - m)
+  other <- cbind(m - k2 * f, k2 * e - l)
   longer <- which(rowSums(other^2) > rowSums(direction^2))
   direction[longer, ] <- other[longer, ]
   list(k2 = k2, direction2 = direction * ifelse(direction[, 1] < 0, -1, 1) / sqrt(rowSums(direction^2)))
