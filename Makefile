@@ -27,7 +27,7 @@ ifeq ($(LC_ALL)$(LC_CTYPE)$(LANG),)
 export LC_ALL := C.UTF-8
 endif
 
-.PHONY: help setup install demo test check coverage sanitize document site clean
+.PHONY: help setup install demo test check coverage sanitize studies document site clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -55,6 +55,10 @@ coverage: setup  ## lines of R and C++ that the tests run; fails under COVERAGE_
 
 sanitize: setup  ## the tests under the address and undefined-behaviour sanitizers
 	@tools/sanitize.sh
+
+studies: install  ## the vignettes' simulation studies again, beside the tables that ship: N=20: short, WRITE=write: new tables
+	@echo "==> studies"
+	@Rscript tools/studies.R $(N) $(WRITE)
 
 document: setup  ## writes NAMESPACE, man/ and the Rcpp exports
 	@tools/document.sh

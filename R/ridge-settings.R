@@ -22,7 +22,8 @@
 #'   * `bound`: the ridge stays within this share of the half width;
 #'   * `step`: longest Newton step, as a share of the half width; `iterations`, `tolerance` (share of the half width);
 #'   * `longest`: reference paths may be this many times as long as the shortest;
-#'   * `inflation`: factor of the standard error of the delta method;
+#'   * `inflation`: factor of the standard error of the delta method, for what the linear approximation misses (what the band then
+#'     covers: [ridge_curve()], Standard error);
 #'   * `undetermined`: median standard error, in radii, above which a curve counts as not determined by curvature;
 #'   * `faint`: a curve also counts as not determined where the mean strength near the reference path, times the
 #'     radius (so without unit), is below this;

@@ -75,17 +75,25 @@ batch_task <- function(job, file, name, scheme, settings) {
 is_kept <- function(task) !is.null(task$key) && identical(read_kept(task$file, "key"), task$key)
 
 #' All tasks, by the user's plan
-#'
-#' @param poll Seconds between two looks at workers that are busy, where the user has set no other: future's own 0.01
-#'   takes a tenth of a core, of which nothing is left when there are as many workers as cores.
 #' @return List of what [measure_task()] returns.
 #' @noRd
-measure_tasks <- function(tasks, scheme, settings, chunk, poll = 0.05) {
+measure_tasks <- function(tasks, scheme, settings, chunk) {
   if (is.null(chunk)) chunk <- ceiling(length(tasks) / (2 * future::nbrOfWorkers()))
+  run_tasks(tasks, function(task) measure_task(task, scheme, settings), chunk)
+}
+
+#' Work at each of some tasks by the user's plan, with progress
+#'
+#' @param tasks List of lists, each with its `name`.
+#' @param chunk Number of tasks a future.
+#' @param poll Seconds between two looks at workers that are busy, where the user has set no other: future's own 0.01
+#'   takes a tenth of a core, of which nothing is left when there are as many workers as cores.
+#' @noRd
+run_tasks <- function(tasks, work, chunk, poll = 0.05) {
   rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll))
   tick <- progressr::progressor(steps = length(tasks))
   future.apply::future_lapply(tasks, function(task) {
-    result <- measure_task(task, scheme, settings)
+    result <- work(task)
     tick(task$name)
     result
   }, future.chunk.size = chunk, future.packages = "crestline", future.seed = NULL)
@@ -123,6 +131,14 @@ landmarks_beside <- function(file) {
 #' @noRd
 batch_files <- function(names, dir) {
   if (is.null(dir)) return(vector("list", length(names)))
+  dir <- results_folder(dir)
+  safe <- make.unique(gsub("[^[:alnum:]._ -]", "_", names), sep = " ")
+  as.list(file.path(dir, paste0(safe, ".shape")))
+}
+
+#' The folder for results, made where it is not there
+#' @noRd
+results_folder <- function(dir) {
   if (!is.character(dir) || length(dir) != 1 || is.na(dir)) {
     crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.", stage = "arguments")
   }
@@ -131,8 +147,7 @@ batch_files <- function(names, dir) {
     crestline_abort(sprintf("the folder %s cannot be made.", dir), "Choose another, or check who may write there.", stage = "arguments")
   }
   unlink(list.files(dir, "^part-.*[.]tmp$", full.names = TRUE))
-  safe <- make.unique(gsub("[^[:alnum:]._ -]", "_", names), sep = " ")
-  as.list(file.path(normalizePath(dir), paste0(safe, ".shape")))
+  normalizePath(dir)
 }
 
 #' One specimen measured

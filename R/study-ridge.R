@@ -6,8 +6,10 @@
 #' `a = 0`, sharper for larger `b` (curvature `-2 b` across it). Vertices lie on a square grid, each square is cut
 #' along one of its diagonals at random, and independent (or smooth) normal noise is added to the heights.
 #'
-#' The ridge is the crest in height. The locus of greatest curvature, which estimates aim
-#' at, is the same line for `a = 0` and lies beside it otherwise, the more so the smaller `b` is.
+#' The ridge is the crest in height. The locus of greatest curvature, which estimates aim at, is where the principal
+#' curvature is least along its own direction. It is the same line for `a = 0` and lies beside it otherwise, the more so
+#' the smaller `b` is: for `a = 0.5` 0.2, 0.8 and up to 7 spacings of 0.05 at `b` = 2, 1, 0.5. Blunt ridges have none
+#' towards their ends (`b = 0.25`; `b = 0.5` with `a = 0.5`).
 #'
 #' @param a Bend of the ridge, in 1 / unit^2.
 #' @param b Sharpness of the ridge, in 1 / unit.
@@ -22,7 +24,8 @@
 #' @param end The landmarks lie on the ridge at `y = -end` and `end`, inside the mesh's border
 #'   (an end exactly on the border has half a neighbourhood).
 #' @return A [specimen()] with landmarks `from` and `to`, whose attribute `truth` is the ridge
-#'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it.
+#'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it; and `truth_curvature` the locus of greatest
+#'   curvature beside it, the same, NA from where it ends.
 #' @section Errors: of class `crestline_error`, for an argument out of its range.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
 #' @seealso [ridge_study()]
@@ -43,6 +46,13 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
   check_number(correlation, "correlation", lower = 0)
   check_number(landmark_error, "landmark_error", lower = 0)
   check_number(end, "end", lower = 0, upper = 1)
+  out <- simulated_ridge(a, b, spacing, noise, seed, jitter, correlation, landmark_error, end)
+  structure(out, truth_curvature = ridge_crest(a, b, end))
+}
+
+#' The surface without its locus of greatest curvature, which takes as long as the surface
+#' @noRd
+simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, landmark_error, end) {
   ridge <- function(y) cbind(x = a * y^3, y = y, z = 0)
   with_seed(seed, {
     mesh <- ridge_mesh(function(x, y) -b * (x - a * y^3)^2, spacing, jitter, noise, correlation)
@@ -50,9 +60,7 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
     marks <- drop_on_mesh(mesh, marks + aside(landmark_error, nrow(marks)))
   })
   id <- sprintf("ridge a = %g, b = %g, noise = %g, seed = %s", a, b, noise, if (is.null(seed)) "none" else seed)
-  out <- specimen(mesh, marks, id, outward = "keep")
-  attr(out, "truth") <- ridge(seq(-end, end, length.out = 401))
-  out
+  structure(specimen(mesh, marks, id, outward = "keep"), truth = ridge(seq(-end, end, length.out = 401)))
 }
 
 #' A square grid over [-1, 1]^2 with heights and noise
@@ -104,14 +112,19 @@ drop_on_mesh <- function(mesh, xyz) {
   matrix(at, nrow(xyz), dimnames = dimnames(xyz))
 }
 
-#' Evaluate with the random stream started at a seed, and leave the user's stream as it was
+#' Evaluate with the random stream started at a seed, and leave the user's stream and its kind as they were
+#'
+#' The kind is R's own whatever the user has set, since parallel workers have others.
 #' @noRd
 with_seed <- function(seed, code) {
   if (is.null(seed)) return(code)
   old <- globalenv()$.Random.seed
-  on.exit(if (is.null(old)) rm(".Random.seed", envir = globalenv()) else
-    assign(".Random.seed", old, envir = globalenv()))
-  set.seed(seed)
+  kind <- RNGkind()
+  on.exit({
+    do.call(RNGkind, as.list(kind))
+    if (is.null(old)) rm(".Random.seed", envir = globalenv()) else assign(".Random.seed", old, envir = globalenv())
+  })
+  set.seed(seed, "Mersenne-Twister", "Inversion", "Rejection")
   code
 }
 
@@ -125,75 +138,4 @@ with_seed <- function(seed, code) {
 ridge_offset <- function(points, truth) {
   flat <- function(p) rbind(t(as.matrix(p[, c("x", "y")])), 0)
   cpp_path_coordinates(flat(points), flat(truth), matrix(c(0, 0, 1), 3, nrow(truth)))$d
-}
-
-#' Study of ridge estimates on simulated surfaces
-#'
-#' For each combination of the surface's bend and sharpness, noise, landmark error
-#' and number of passes, estimates the ridge of `n` simulated surfaces and measures how far
-#' it lies from the true one.
-#'
-#' @param settings [ridge_settings()].
-#' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
-#' @param a,b,noise,landmark_error Vectors of values, as in [simulate_ridge()].
-#' @param passes Vector of numbers of passes, as in [ridge_curve()].
-#' @param radius,width As in [ridge_curve()], in the unit of the surface, whose side is 2.
-#' @param spacing As in [simulate_ridge()].
-#' @param points Number of points at which each curve is compared.
-#' @param progress Whether to show a progress bar on long runs.
-#' @param ... Further arguments of [simulate_ridge()]: `jitter`, `correlation`, `end`.
-#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `passes`, `seed`;
-#'   `distance`: mean distance between estimate and true ridge seen along z, **in spacings**, mean of that from the
-#'   estimate to the truth and that from the truth to the estimate; `se`: median standard error, in spacings;
-#'   `determined`, `converged` (logical); `seconds`; `error`: the message
-#'   where the estimate failed, and then the others are `NA`.
-#' @section Errors: only for arguments out of their range; a failed estimate is a row with `error`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
-#' @examples
-#' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
-#' aggregate(distance ~ a + b + noise, study, mean)
-#' @export
-ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5), b = c(0.25, 0.5, 1, 2),
-                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25,
-                        width = 0.4, spacing = 0.05, points = 101, progress = interactive(), ...) {
-  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
-  check_count(n, "n")
-  cells <- expand.grid(seed = seq_len(n), passes = passes, landmark_error = landmark_error,
-                       noise = noise, b = b, a = a)[6:1]
-  rows <- vector("list", nrow(cells))
-  if (progress) cli::cli_progress_bar("Estimating ridges", total = nrow(cells))
-  for (i in seq_len(nrow(cells))) {
-    cell <- cells[i, ]
-    surface <- simulate_ridge(cell$a, cell$b, spacing, cell$noise, cell$seed,
-                              landmark_error = cell$landmark_error, ...)
-    rows[[i]] <- study_row(surface, settings, cell$passes, radius, width, spacing, points)
-    if (progress) cli::cli_progress_update()
-  }
-  cbind(cells, do.call(rbind, rows))
-}
-
-#' One estimate of the study
-#' @noRd
-study_row <- function(surface, settings, passes, radius, width, spacing, points) {
-  start <- proc.time()[["elapsed"]]
-  curve <- tryCatch(
-    suppressWarnings(ridge_curve(surface, "from", "to", "ridge", radius, width, points,
-                                 settings = settings, passes = passes), classes = "crestline_warning"),
-    error = conditionMessage
-  )
-  seconds <- proc.time()[["elapsed"]] - start
-  if (is.character(curve)) {
-    return(data.frame(distance = NA_real_, se = NA_real_, determined = NA, converged = NA,
-                      seconds = seconds, error = curve))
-  }
-  data.frame(distance = ridge_distance(curve, attr(surface, "truth")) / spacing, se = curve$se / spacing,
-             determined = curve$determined, converged = curve$converged, seconds = seconds, error = NA_character_)
-}
-
-#' Mean distance between a curve and the true ridge, both ways, seen along z
-#' @noRd
-ridge_distance <- function(curve, truth) {
-  there <- mean(abs(ridge_offset(curve$points, truth)))
-  back <- mean(abs(ridge_offset(truth, as.matrix(curve$points[c("x", "y", "z")]))))
-  (there + back) / 2
 }

@@ -1,0 +1,190 @@
+# Section 5.2 of the paper as a study: many simulated ridges, by any estimator, in parallel, gone on with after a kill.
+
+#' Study of ridge estimates on simulated surfaces
+#'
+#' For each combination of the surface's bend and sharpness, its noise, its mesh and its landmarks, and of radius and
+#' passes, estimates the ridge of `n` simulated surfaces and measures how far it lies from the true one.
+#'
+#' Each curve is compared at `points` points along it and as many along the truth: the mean of the distances from the
+#' first to the true line and from the second to the curve, seen along z, since the noise moves points up and down only.
+#' There are two truths, the crest in height and the locus of greatest curvature, see [simulate_ridge()].
+#'
+#' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future.apply and progressr are there.
+#' Surfaces depend on their seeds alone, so that results do not depend on the number of workers, and all methods see
+#' the same surfaces. With `dir` a run that was cut short goes on where it was.
+#'
+#' @param settings [ridge_settings()]; or a named list of such, and of functions `(specimen, radius, width, n)` that return
+#'   the points of another estimate (matrix k x 3, in order from landmark `from` to `to`): several methods on the same surfaces.
+#'   Parallel workers do not see what a function uses of your workspace: put helpers into an environment with it (`local()`).
+#' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
+#' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
+#' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
+#' @param width As in [ridge_curve()], in the unit of the surface.
+#' @param points Number of points at which each curve is compared; the paper: 21.
+#' @param dir Folder for the results of a long run, made where it is not there. What is in it already is not run again if
+#'   it was made with the same arguments and the same version of the package. `NULL`: nothing is kept.
+#' @param block Surfaces that a worker takes, and writes to `dir`, at a time.
+#' @param progress Whether to show a progress bar, see [progressr::with_progress()].
+#' @param ... Further arguments of [simulate_ridge()]: `jitter`, `end`.
+#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`, `passes`;
+#'   `seed`; `method`: the name in `settings`; `distance`: mean distance between estimate and crest, **in spacings**;
+#'   `distance_curvature`: the same from the locus of greatest curvature, `NA` where that does not run from end to end;
+#'   `se`: median standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points that lie within two
+#'   of their standard errors of crest and locus; `determined`, `converged` (logical); `seconds` of processor time;
+#'   `error`: the message where the estimate failed. What a method has not is `NA`.
+#' @section Errors: only for arguments out of their range; a failed estimate is a row with `error`.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
+#' @examples
+#' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
+#' aggregate(distance ~ a + b + noise, study, mean)
+#'
+#' chord <- function(specimen, radius, width, n) specimen$landmarks
+#' methods <- list(ridge = ridge_settings(error = FALSE), chord = chord)
+#' ridge_study(methods, n = 1, a = 0.25, b = 2, noise = 0)[c("method", "distance", "seconds")]
+#' @export
+ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5), b = c(0.25, 0.5, 1, 2),
+                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25, width = 0.4,
+                        spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
+                        progress = interactive(), ...) {
+  methods <- study_methods(settings)
+  check_count(n, "n")
+  check_count(points, "points", lower = 3)
+  check_count(block, "block")
+  cells <- expand.grid(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
+                       landmark_error = landmark_error, noise = noise, b = b, a = a)[8:1]
+  constant <- utils::modifyList(list(width = width, points = points, jitter = 0, end = 0.95), list(...))
+  tasks <- study_tasks(cells, n, block, methods, constant, dir)
+  run <- function() apply_tasks(tasks, function(task) study_block(task, methods, constant))
+  bind_blocks(if (progress && runs_parallel()) progressr::with_progress(run()) else run())
+}
+
+#' The methods of a study by name
+#' @noRd
+study_methods <- function(settings) {
+  if (inherits(settings, "ridge_settings")) settings <- stats::setNames(list(settings), attr(settings, "preset"))
+  known <- function(x) inherits(x, "ridge_settings") || is.function(x)
+  if (!is.list(settings) || !length(settings) || is.null(names(settings)) || !all(vapply(settings, known, NA))) {
+    crestline_abort("`settings` holds something that is neither settings nor a function, or has no names.",
+                    "Give ridge_settings(), or a named list of ridge_settings() and functions.", stage = "arguments")
+  }
+  settings
+}
+
+#' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells whether it is kept already
+#' @noRd
+study_tasks <- function(cells, n, block, methods, constant, dir) {
+  seeds <- split(seq_len(n), ceiling(seq_len(n) / block))
+  about <- list(lapply(methods, function(one) if (is.function(one)) deparse(one) else unclass(one)), constant,
+                as.character(utils::packageVersion("crestline")))
+  if (!is.null(dir)) dir <- results_folder(dir)
+  tasks <- lapply(seq_len(nrow(cells)), function(i) {
+    lapply(seeds, function(some) {
+      cell <- as.list(cells[i, ])
+      key <- rlang::hash(list(cell, some, about))
+      list(cell = cell, seeds = some, key = key, name = paste0(key, ".study"), file = if (!is.null(dir)) file.path(dir, paste0(key, ".study")))
+    })
+  })
+  unlist(tasks, recursive = FALSE)
+}
+
+runs_parallel <- function() rlang::is_installed(c("future", "future.apply", "progressr"))
+
+#' Work at tasks in parallel where the packages for that are there, and one after the other where not
+#' @noRd
+apply_tasks <- function(tasks, work) if (runs_parallel()) run_tasks(tasks, work, 1) else lapply(tasks, work)
+
+#' Estimates for one block of surfaces, from its file where they are there
+#' @return List of rows, each a list.
+#' @noRd
+study_block <- function(task, methods, constant) {
+  kept <- if (!is.null(task$file)) read_kept(task$file, "result")
+  if (!is.null(kept)) return(kept)
+  crest <- ridge_crest(task$cell$a, task$cell$b, constant$end)
+  rows <- lapply(task$seeds, function(seed) study_surface(task$cell, seed, crest, methods, constant))
+  rows <- unlist(rows, recursive = FALSE)
+  if (!is.null(task$file)) keep(rows, task$key, task$file)
+  rows
+}
+
+#' One surface's estimates by all methods
+#' @noRd
+study_surface <- function(cell, seed, crest, methods, constant) {
+  surface <- simulated_ridge(cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter, cell$correlation,
+                             cell$landmark_error, constant$end)
+  truths <- list(attr(surface, "truth"), if (!anyNA(crest)) crest)
+  lapply(names(methods), function(name) {
+    start <- proc.time()
+    found <- tryCatch(study_estimate(methods[[name]], surface, cell, constant), error = conditionMessage)
+    seconds <- sum((proc.time() - start)[1:2])
+    c(cell, list(seed = seed, method = name), study_result(found, truths, cell$spacing),
+      list(seconds = seconds, error = if (is.character(found)) found else NA_character_))
+  })
+}
+
+#' An estimate by one method
+#'
+#' @return List: `line` (the whole curve, k x 3), `at` (its points to be compared, with `se`), `se`, `determined`, `converged`.
+#' @noRd
+study_estimate <- function(method, surface, cell, constant) {
+  points <- constant$points
+  quiet <- function(code) suppressWarnings(code, classes = "crestline_warning")
+  if (is.function(method)) {
+    line <- as.matrix(quiet(method(surface, cell$radius, constant$width, points)))[, 1:3, drop = FALSE]
+    colnames(line) <- c("x", "y", "z")
+    return(list(line = line, at = equally_along(line, points), error = NA_real_, se = NA_real_, determined = NA,
+                converged = NA))
+  }
+  curve <- quiet(ridge_curve(surface, "from", "to", "ridge", cell$radius, constant$width, points, settings = method,
+                             passes = cell$passes))
+  list(line = columns_of(curve$path, c("x", "y", "z")), at = columns_of(curve$points, c("x", "y", "z")),
+       error = curve$points$se, se = curve$se, determined = curve$determined, converged = curve$converged)
+}
+
+#' What is kept of an estimate
+#'
+#' @param found As of [study_estimate()], or a message.
+#' @param truths The crest, and the locus of greatest curvature or NULL.
+#' @noRd
+study_result <- function(found, truths, spacing) {
+  failed <- is.character(found)
+  distance <- function(truth) if (failed || is.null(truth)) NA_real_ else line_distance(found, truth) / spacing
+  covered <- function(truth) if (failed || is.null(truth)) NA_real_ else share_covered(found, truth)
+  list(distance = distance(truths[[1]]), distance_curvature = distance(truths[[2]]),
+       se = if (failed) NA_real_ else found$se / spacing, covered = covered(truths[[1]]),
+       covered_curvature = covered(truths[[2]]), determined = if (failed) NA else found$determined,
+       converged = if (failed) NA else found$converged)
+}
+
+#' Mean distance between a curve and a true line at points of both, seen along z
+#' @noRd
+line_distance <- function(found, truth) {
+  there <- mean(abs(ridge_offset(found$at, truth)))
+  back <- mean(abs(ridge_offset(equally_along(truth, nrow(found$at)), found$line)))
+  (there + back) / 2
+}
+
+#' Share of the inner points within two standard errors of a true line
+#' @noRd
+share_covered <- function(found, truth) {
+  inner <- seq_len(nrow(found$at))[-c(1, nrow(found$at))]
+  mean(abs(ridge_offset(found$at[inner, , drop = FALSE], truth)) <= 2 * found$error[inner])
+}
+
+#' Points at equal distances along a line, seen along z: n x 3
+#' @noRd
+equally_along <- function(line, n) {
+  s <- c(0, cumsum(sqrt(rowSums(diff(line[, 1:2])^2))))
+  kept <- c(TRUE, diff(s) > 0)
+  at <- seq(0, s[length(s)], length.out = n)
+  out <- vapply(1:3, function(i) stats::approx(s[kept], line[kept, i], at)$y, numeric(n))
+  colnames(out) <- c("x", "y", "z")
+  out
+}
+
+#' All rows as one data frame
+#' @noRd
+bind_blocks <- function(blocks) {
+  rows <- unlist(blocks, recursive = FALSE)
+  columns <- stats::setNames(nm = names(rows[[1]]))
+  frame_of(lapply(columns, function(name) unlist(lapply(rows, `[[`, name), use.names = FALSE)))
+}
