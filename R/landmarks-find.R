@@ -129,11 +129,11 @@ local_evidence <- function(prepared, cloud, fit, settings) {
   to <- t(cloud$xyz[, fit$index, drop = FALSE])
   across <- abs(row_products(to - at, t(cloud$normal[, fit$index, drop = FALSE])))
   along <- sqrt(pmax(fit$residual^2 - across^2, 0))
-  gone <- is.na(fit$index) | cloud$border[fit$index] | along > 2 * cloud$spacing[1]
+  gone <- is.na(fit$index) | cloud$border[fit$index] | along > settings$slip * cloud$spacing[1]
   xyz <- t(prepared$xyz)
   each <- apply(prepared$landmarks, 1, function(landmark) {
     gap <- row_lengths(xyz - rep(landmark, each = n))
-    about <- gap < max(settings$near, sort(gap)[8])
+    about <- gap < max(settings$near, sort(gap)[settings$about])
     c(residual = if (all(gone[about])) NA else mean(across[about & !gone]), lost = mean(gone[about]))
   })
   as.data.frame(t(each))

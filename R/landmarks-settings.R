@@ -27,8 +27,10 @@
 #'     first fits;
 #'   * `moved`: distance between the answers with and without curvature at which confidence is a half; `off`: the same of
 #'     the distance between template and scan about a landmark; `vague`: the same of the standard deviation that what the
-#'     scan lacks adds; `near`: radius of what is about a landmark; `lost`: share of points without a match about a
-#'     landmark at which its place is missing.
+#'     scan lacks adds; `near`: radius of what is about a landmark, at least so many points of the template as `about`; `lost`:
+#'     share of points without a match about a landmark at which its place is missing; `slip`: distance along the surface, in
+#'     units of `cluster`, from which on a match is none;
+#'   * `fewest`: matches without which the template is not bent.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not numeric.
 #' @examples
@@ -42,7 +44,7 @@ find_settings <- function(...) {
                    kernel_length = c(60, 30, 15), kernel_sd = c(4, 2.5, 1.5), affine = 5, uneven = 0.3, rank = 220,
                    weight = 80, warp_reach = c(15, 6), warp_steps = 15, error = 3, robust = 1.5, along = 0.1,
                    points = 2500, thin = 200,
-                   moved = 2, off = 2.5, vague = 0.9, near = 8, lost = 0.4)
+                   moved = 2, off = 2.5, vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2, fewest = 30)
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))
   if (length(unknown) || (length(change) && is.null(names(change)))) {

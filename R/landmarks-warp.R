@@ -83,7 +83,7 @@ fit_warp <- function(template, cloud, settings, weight) {
   for (step in seq_along(reach)) {
     found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step], settings$cosine)
     used <- which(!is.na(found$index) & !cloud$border[found$index])
-    if (length(used) < 30) break
+    if (length(used) < settings$fewest) break
     solved <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
     coefficients <- solved$coefficients
     moved <- xyz + displaced(basis, coefficients)
