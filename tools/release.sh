@@ -14,12 +14,12 @@ export MAKEFLAGS="-j$(cores)" OMP_THREAD_LIMIT=2 _R_CHECK_CRAN_INCOMING_REMOTE_=
 
 build() { mkdir "$work/tree" && copy_tree "$work/tree" && cd "$work" && R CMD build tree; }
 
-# As in tools/check.sh: no debugging symbols.
+# As in tools/check.sh: no debugging symbols. The log is shown where something was found.
 check() {
   printf '%s = -g0 -O2\n' CXXFLAGS CXX17FLAGS > "$work/Makevars"
   mkdir -p "$work/$1" && cd "$work/$1"
   R_MAKEVARS_USER="$work/Makevars" R CMD check --no-manual "${@:2}" ../crestline_*.tar.gz
-  Rscript "$here/tools/check-log.R" crestline.Rcheck/00check.log
+  Rscript "$here/tools/check-log.R" crestline.Rcheck/00check.log || { cat crestline.Rcheck/00check.log; return 1; }
 }
 
 size() {
@@ -43,6 +43,9 @@ valgrind() {
 step "R CMD build with vignettes" build || exit 1
 status=0
 for part in ${@:-size nosuggests spaces valgrind}; do
-  "$part" > "$work/$part.log" 2>&1 && say "    $part: passed" || { status=1; tail -n 40 "$work/$part.log"; say "    $part: FAILED"; }
+  if "$part" > "$work/$part.log" 2>&1; then say "    $part: passed"; continue; fi
+  status=1
+  cat "$work/$part.log"
+  say "    $part: FAILED"
 done
 exit "$status"
