@@ -16,8 +16,8 @@
     rgl.getViewport(root);
     rgl.setprMatrix(root);
     rgl.setmvMatrix(root);
-    rgl.setprmvMatrix();
-    back = new CanvasMatrix4(rgl.prmvMatrix);
+    back = new CanvasMatrix4(rgl.mvMatrix);
+    back.multRight(rgl.prMatrix);
     back.invert();
     function place(depth) {
       var v = rglwidgetClass.multVM([x, y, depth, 1], back);

@@ -68,7 +68,9 @@ test_that("placing names the next one; cancel gives back what there was, a close
 test_that("the page has what its script and its server look for", {
   skip_if_not_installed("shiny")
   html <- as.character(review_page("Landmarks of <a>"))
-  for (id in c("face", "chosen", "list", "keep", "absent", "undo", "done", "cancel")) expect_match(html, sprintf('id="%s"', id))
+  for (id in c("face", "chosen", "list", "keep", "absent", "undo", "done", "cancel")) {
+    expect_match(html, sprintf('id="%s"', id))
+  }
   expect_match(html, "Landmarks of &lt;a&gt;")
   expect_match(html, "sceneChange")
 })
