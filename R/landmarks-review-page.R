@@ -52,7 +52,7 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
     })
     output$chosen <- shiny::renderUI(chosen_html(review()))
     output$list <- shiny::renderUI(list_html(review()))
-    answer_steps(input, step, ball_radius(scene), fitting_progress(session))
+    answer_steps(input, step, shown$frame, fitting_progress(session))
     answer_end(input, session, function() shiny::isolate(review()$specimen), begin$specimen, finish)
     session$onSessionEnded(function() rgl::close3d(scene$device))
   }
@@ -61,15 +61,16 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
 #' What each input does to the review
 #'
 #' @param step Function of a function of the review that gives the next one.
+#' @param frame As of [scene_frame()].
 #' @noRd
-answer_steps <- function(input, step, reach, progress) {
+answer_steps <- function(input, step, frame, progress) {
   # The scene is in the browser: now landmarks and curves can be sent to it.
   shiny::observeEvent(input$ready, step(function(now) {
     if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen, progress = progress)
     now
   }))
   shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
-  shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, reach, progress)))
+  shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, frame, progress)))
   shiny::observeEvent(input$keep, step(keep_selected))
   shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, progress)))
   shiny::observeEvent(input$undo, step(undo_review))
@@ -90,10 +91,11 @@ answer_end <- function(input, session, current, before, finish) {
 
 #' What a click does: it chooses the landmark whose ball it meets, else places the chosen one
 #'
-#' @param ray List: `from`, `towards`, three co-ordinates each.
+#' @param ray List: `from`, `towards`, three co-ordinates each, in the frame of the scene.
 #' @noRd
-follow_ray <- function(review, ray, reach, progress) {
-  aim <- aimed_at(review, as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards)), reach)
+follow_ray <- function(review, ray, frame, progress) {
+  ends <- from_scene(rbind(as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards))), frame)
+  aim <- aimed_at(review, ends[1, ], ends[2, ], ball_radius(review$specimen$mesh))
   if (!is.null(aim$landmark)) return(select_landmark(review, aim$landmark))
   if (is.null(aim$point)) review else place_selected(review, aim$point, progress)
 }

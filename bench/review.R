@@ -66,8 +66,9 @@ middle_of <- function(page, selector) {
 
 press <- function(page, selector) click(page, middle_of(page, selector))
 
-# Where a place of the mesh is on the page, by rgl's own projection.
-pixel_of <- function(page, xyz) {
+# Where a place of a mesh is on the page, by rgl's own projection of its scene.
+pixel_of <- function(page, mesh, xyz) {
+  xyz <- crestline:::into_scene(matrix(xyz, 1), crestline:::scene_frame(mesh))
   unlist(look(page, sprintf("(() => { const rgl = document.getElementById('face').rglinstance;
     const b = rgl.canvas.getBoundingClientRect(), w = rgl.user2window([%s, 1], rgl.scene.rootSubscene);
     return [b.x + w[0] * b.width, b.y + (1 - w[1]) * b.height]; })()", paste(sprintf("%.9g", xyz), collapse = ", "))))
@@ -129,7 +130,7 @@ move_chL <- function(what, code, unit, port) {
   press(page, "[data-landmark=chL]")
   until(function() look(page, "document.querySelector('#chosen b').textContent") == "chL" && !busy(page), "chL chosen")
   target <- place_beside(before$mesh, before$landmarks["chL", ], 5 / unit)
-  click(page, pixel_of(page, target))
+  click(page, pixel_of(page, before$mesh, target))
   seconds <- until(function() state_of(page, "chL") == "placed" && !identical(lines_of(page), lines), "chL placed")
   until(function() !busy(page), "rest")
   changed <- sum(!lines_of(page) %in% lines)
@@ -137,7 +138,7 @@ move_chL <- function(what, code, unit, port) {
   press(page, "#undo")
   until(function() state_of(page, "chL") != "placed" && setequal(lines_of(page), lines), "undone")
   press(page, "[data-landmark=chL]")
-  click(page, pixel_of(page, target))
+  click(page, pixel_of(page, before$mesh, target))
   until(function() state_of(page, "chL") == "placed" && !busy(page), "placed again")
   after <- finish(page, served)
   others <- setdiff(rownames(before$landmarks), "chL")
@@ -162,6 +163,7 @@ place_three <- function(port) {
   until(function() look(page, "document.querySelectorAll('.row.missing').length") == 23 && !busy(page), "23 missing")
   until(function() look(page, "Shiny.shinyapp.$inputValues['ready']"), "the face")
   until(function() !busy(page), "rest")
+  data(humface, package = "Rvcg", envir = environment())
   goal <- read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
   shoot(page, "place-before.png")
   asked <- character()
@@ -169,7 +171,7 @@ place_three <- function(port) {
     asked[i] <- look(page, "document.querySelector('#chosen b').textContent")
     turn <- c(pn = 0, acL = -230, acR = 230)[[asked[i]]]
     if (turn != 0) drag(page, c(450, 300), c(450 + turn, 300))
-    click(page, pixel_of(page, goal[asked[i], ]))
+    click(page, pixel_of(page, specimen(humface)$mesh, goal[asked[i], ]))
     until(function() state_of(page, asked[i]) == "placed" && !busy(page), asked[i])
     shoot(page, sprintf("place-%s.png", asked[i]))
     if (turn != 0) drag(page, c(450 + turn, 300), c(450, 300))
