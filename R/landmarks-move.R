@@ -10,7 +10,7 @@
 #'   of its finding is NA.
 #' @noRd
 move_landmark <- function(specimen, name, point) {
-  if (is.null(point)) point <- data.frame(x = NA_real_, y = NA_real_, z = NA_real_, face = NA_integer_, w1 = NA_real_, w2 = NA_real_, w3 = NA_real_)
+  if (is.null(point)) point <- surface_points(specimen$mesh, rep(NA_real_, 3))
   at <- unlist(point[c("x", "y", "z")])
   specimen$landmarks <- with_named_row(specimen$landmarks, at, name)
   known <- specimen$geometry

@@ -7,8 +7,8 @@ review_page <- function(title) {
       id = "review", shiny::tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
       shiny::tags$div(
         id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"), review_buttons(), shiny::uiOutput("list"),
-        shiny::tags$p(class = "help", "Click on the face: the chosen landmark goes there. Click on another's ball: that one is chosen. ",
-                      "Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
+        shiny::tags$p(class = "help", "Click on the surface: the chosen landmark goes there. Click on another's ball: that",
+                      "one is chosen. Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
       )
     ),
     shiny::includeScript(review_file("review.js"))
@@ -40,19 +40,11 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
     review <- shiny::reactiveVal(begin)
     scene <- open_scene(shown, view)
     drawn <- list()
-    ended <- FALSE
-    end <- function(specimen) if (!ended) {
-      ended <<- TRUE
-      finish(specimen)
-    }
-    show <- function() {
+    step <- function(change) {
+      review(change(review()))
       change <- redraw(scene, drawn, review_items(review()))
       drawn <<- change$drawn
       session$sendCustomMessage("sceneChange", rgl::sceneChange("face", delete = change$delete, add = change$add))
-    }
-    step <- function(change) {
-      review(change(review()))
-      show()
     }
     output$face <- rgl::renderRglwidget({
       rgl::set3d(scene$device)
@@ -60,30 +52,50 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
     })
     output$chosen <- shiny::renderUI(chosen_html(review()))
     output$list <- shiny::renderUI(list_html(review()))
-    shiny::observeEvent(input$ready, step(function(now) {
-      if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen, progress = fitting_progress(session))
-      now
-    }))
-    shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
-    shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, ball_radius(scene), fitting_progress(session))))
-    shiny::observeEvent(input$keep, step(keep_selected))
-    shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, fitting_progress(session))))
-    shiny::observeEvent(input$undo, step(undo_review))
-    shiny::observeEvent(input$done, end(review()$specimen))
-    shiny::observeEvent(input$cancel, end(begin$specimen))
-    session$onSessionEnded(function() {
-      end(shiny::isolate(review()$specimen))
-      rgl::close3d(scene$device)
-    })
+    answer_steps(input, step, shown$frame, fitting_progress(session))
+    answer_end(input, session, function() shiny::isolate(review()$specimen), begin$specimen, finish)
+    session$onSessionEnded(function() rgl::close3d(scene$device))
   }
+}
+
+#' What each input does to the review
+#'
+#' @param step Function of a function of the review that gives the next one.
+#' @param frame As of [scene_frame()].
+#' @noRd
+answer_steps <- function(input, step, frame, progress) {
+  # The scene is in the browser: now landmarks and curves can be sent to it.
+  shiny::observeEvent(input$ready, step(function(now) {
+    if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen, progress = progress)
+    now
+  }))
+  shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
+  shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, frame, progress)))
+  shiny::observeEvent(input$keep, step(keep_selected))
+  shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, progress)))
+  shiny::observeEvent(input$undo, step(undo_review))
+}
+
+#' The ways a review ends; only the first counts
+#' @noRd
+answer_end <- function(input, session, current, before, finish) {
+  ended <- FALSE
+  end <- function(specimen) {
+    if (!ended) finish(specimen)
+    ended <<- TRUE
+  }
+  shiny::observeEvent(input$done, end(current()))
+  shiny::observeEvent(input$cancel, end(before))
+  session$onSessionEnded(function() end(current()))
 }
 
 #' What a click does: it chooses the landmark whose ball it meets, else places the chosen one
 #'
-#' @param ray List: `from`, `towards`, three co-ordinates each.
+#' @param ray List: `from`, `towards`, three co-ordinates each, in the frame of the scene.
 #' @noRd
-follow_ray <- function(review, ray, reach, progress) {
-  aim <- aimed_at(review, as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards)), reach)
+follow_ray <- function(review, ray, frame, progress) {
+  ends <- from_scene(rbind(as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards))), frame)
+  aim <- aimed_at(review, ends[1, ], ends[2, ], ball_radius(review$specimen$mesh))
   if (!is.null(aim$landmark)) return(select_landmark(review, aim$landmark))
   if (is.null(aim$point)) review else place_selected(review, aim$point, progress)
 }
@@ -92,6 +104,7 @@ follow_ray <- function(review, ray, reach, progress) {
 #' @noRd
 fitting_progress <- function(session) {
   function(n) {
+    if (n == 0) return(function() NULL)
     bar <- shiny::Progress$new(session)
     bar$set(0, sprintf("Fitting %s", amount(n, "curve")))
     done <- 0
@@ -113,7 +126,9 @@ chosen_html <- function(review) {
   mirrored <- if (looks_mirrored(review$specimen)) {
     tags$p(class = "warning", "Left and right look mirrored: names that end in L belong to the subject's own left.")
   }
-  if (!length(name)) return(tags$div(tags$p(class = "where", "Choose a landmark: in the list, or its ball."), tags$p(left), mirrored))
+  if (!length(name)) {
+    return(tags$div(tags$p(class = "where", "Choose a landmark: in the list, or its ball."), tags$p(left), mirrored))
+  }
   row <- match(name, review$about$landmark)
   curves <- curves_at(review, name)
   said <- paste0(curves$curve, ": ", curves$kind, ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
@@ -139,7 +154,8 @@ list_html <- function(review) {
   rows <- lapply(seq_along(state), function(i) {
     name <- review$about$landmark[i]
     colour <- if (state[i] %in% names(colours)) colours[[state[i]]] else "transparent"
-    tags$button(type = "button", class = paste("row", state[i], if (identical(name, review$selected)) "chosen"), `data-landmark` = name,
+    chosen <- if (identical(name, review$selected)) "chosen"
+    tags$button(type = "button", class = paste("row", state[i], chosen), `data-landmark` = name,
                 tags$span(class = "dot", style = paste0("background:", colour)), tags$b(name),
                 tags$span(class = "long", review$about$name[i]), tags$span(class = "state", told[i]))
   })

@@ -7,35 +7,49 @@ review_colours <- function() {
        selected = "#E08A00", curve = eval(formals(plot.shape)$colour))
 }
 
+#' The frame of the scene: the middle of the mesh's box, and a diagonal of 200
+#'
+#' rgl works in single precision, and paints balls black whose radius is far below 1: neither a scan in metres nor one far
+#' from its origin is to suffer.
+#' @noRd
+scene_frame <- function(mesh, diagonal = 200) {
+  range <- apply(mesh$vb[1:3, ], 1, range)
+  list(middle = colMeans(range), scale = diagonal / mesh_diagonal(mesh))
+}
+
+#' Points, n x 3, into the frame of the scene and back
+#' @noRd
+into_scene <- function(xyz, frame) sweep(xyz, 2, frame$middle) * frame$scale
+from_scene <- function(xyz, frame) sweep(xyz / frame$scale, 2, frame$middle, `+`)
+
 #' The mesh that is shown: coarser where it has many triangles, in the colours of the specimen
 #'
 #' @param most Number of triangles.
-#' @return List: `mesh`, `colour`.
+#' @return List: `mesh`, in the frame of the scene; `colour`; `frame`.
 #' @noRd
 shown_surface <- function(specimen, surface, radius, most) {
-  mesh <- specimen$mesh
-  curved <- if (surface %in% c("shape index", "curvature")) curvature(mesh, radius)
-  colour <- rep_len(specimen_scale(specimen, surface, curved)$colours, ncol(mesh$vb))
-  if (ncol(mesh$it) <= most) return(list(mesh = mesh, colour = colour))
-  size <- mesh_diagonal(mesh)
-  middle <- rowMeans(mesh$vb[1:3, ])
-  unit <- structure(list(vb = rbind((mesh$vb[1:3, ] - middle) / size, 1), it = mesh$it), class = "mesh3d")
-  coarse <- Rvcg::vcgQEdecim(unit, tarface = most, silent = TRUE)
-  nearest <- as.vector(Rvcg::vcgKDtree(unit, coarse, k = 1)$index)
-  coarse$vb[1:3, ] <- coarse$vb[1:3, ] * size + middle
-  list(mesh = coarse, colour = colour[nearest])
+  frame <- scene_frame(specimen$mesh)
+  curved <- if (surface %in% c("shape index", "curvature")) curvature(specimen$mesh, radius)
+  colour <- rep_len(specimen_scale(specimen, surface, curved)$colours, ncol(specimen$mesh$vb))
+  mesh <- specimen$mesh[c("vb", "it", "normals")]
+  mesh$vb[1:3, ] <- t(into_scene(t(mesh$vb[1:3, ]), frame))
+  class(mesh) <- "mesh3d"
+  if (ncol(mesh$it) <= most) return(list(mesh = mesh, colour = colour, frame = frame))
+  coarse <- Rvcg::vcgQEdecim(mesh, tarface = most, silent = TRUE)
+  nearest <- as.vector(Rvcg::vcgKDtree(mesh, coarse, k = 1)$index)
+  list(mesh = coarse, colour = colour[nearest], frame = frame)
 }
 
 #' Open a scene of the surface, to which landmarks and curves are added
 #'
 #' @param shown As of [shown_surface()].
 #' @param view As in [draw_surface()].
-#' @return List: `device` of rgl; `scene` as of [draw_surface()].
+#' @return List: `device` of rgl; `scene` as of [draw_surface()]; `frame`.
 #' @noRd
 open_scene <- function(shown, view) {
   rgl::open3d(useNULL = TRUE)
   scene <- draw_surface(shown$mesh, shown$colour, view, "rgl", polygon_offset = 2)
-  list(device = rgl::cur3d(), scene = scene)
+  list(device = rgl::cur3d(), scene = scene, frame = shown$frame)
 }
 
 #' Everything that is drawn on the surface, by name
@@ -83,20 +97,21 @@ redraw <- function(scene, drawn, items) {
   if (length(delete)) rgl::pop3d(id = delete)
   drawn <- drawn[same]
   new <- setdiff(names(items), names(drawn))
-  drawn[new] <- lapply(items[new], function(item) list(item = item, ids = draw_item(scene$scene, item)))
+  drawn[new] <- lapply(items[new], function(item) list(item = item, ids = draw_item(scene, item)))
   list(drawn = drawn, delete = delete, add = unlist(lapply(drawn[new], `[[`, "ids"), use.names = FALSE))
 }
 
 draw_item <- function(scene, item) {
-  before <- length(scene$ids)
-  scene <- if (is.null(item$path)) {
-    draw_points(scene, matrix(item$at, 1), item$colour, item$size, labels = item$landmark)
+  before <- length(scene$scene$ids)
+  drawn <- if (is.null(item$path)) {
+    at <- into_scene(matrix(item$at, 1), scene$frame)
+    draw_points(scene$scene, at, item$colour, item$size, labels = item$landmark)
   } else {
-    draw_lines(scene, item$path, item$colour, item$width)
+    draw_lines(scene$scene, into_scene(item$path, scene$frame), item$colour, item$width)
   }
-  scene$ids[-seq_len(before)]
+  drawn$ids[-seq_len(before)]
 }
 
 #' Radius of the ball of a landmark, in the unit of the mesh
 #' @noRd
-ball_radius <- function(scene) formals(landmark_items)$size * scene$scene$diagonal / 400
+ball_radius <- function(mesh) formals(landmark_items)$size * mesh_diagonal(mesh) / 400

@@ -11,11 +11,13 @@ begin_review <- function(specimen, scheme, least, settings, bridge, threads) {
   specimen <- with_located(specimen)
   about <- described_landmarks(specimen, scheme)
   fitting <- if (!is.null(scheme)) begin_fitting(specimen, scheme, settings, bridge, threads)
-  list(specimen = specimen, fitting = fitting, about = about, state = landmark_states(specimen, about$landmark), least = least,
-       selected = character(), history = list())
+  list(specimen = specimen, fitting = fitting, about = about, state = landmark_states(specimen, about$landmark),
+       least = least, selected = character(), history = list())
 }
 
 #' The landmarks of a scheme, in its order, and those that only the specimen has, with words for the reader
+#'
+#' Where a table says "as enL" the words are those of enL.
 #' @noRd
 described_landmarks <- function(specimen, scheme) {
   known <- scheme$landmarks
@@ -24,7 +26,11 @@ described_landmarks <- function(specimen, scheme) {
     text <- if (is.null(known[[column]])) NA_character_ else known[[column]][match(names, known$landmark)]
     ifelse(is.na(text), "", text)
   }
-  data.frame(landmark = names, name = words("name"), where = words("where"))
+  where <- words("where")
+  same <- match(sub("^as ", "", where), names)
+  alike <- startsWith(where, "as ") & !is.na(same)
+  where[alike] <- where[same[alike]]
+  data.frame(landmark = names, name = words("name"), where = where)
 }
 
 landmark_states <- function(specimen, names) {

@@ -21,18 +21,18 @@
 #' @param view Where to look from, see [draw_surface()]; NULL: from the front, as [find_landmarks()] has it where the
 #'   landmarks were found.
 #' @param radius Of the curvature that `surface` shows, as in [plot.specimen()].
-#' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks are put
-#'   on the mesh as it is.
+#' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks
+#'   are put on the mesh as it is.
 #' @param unit Factor from the mesh's unit to that of the scheme's radii and widths: 1000 for a scan in metres and
 #'   [face_scheme()]. NULL: that of [find_landmarks()] where the landmarks were found, else 1.
 #' @param bridge As in [fit_shape()].
 #' @param ... Passed to [shiny::runApp()]: `port`, `host`, `launch.browser`.
 #' @inheritParams curvature
-#' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were ("Cancel"). In
-#'   its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said not to be there
-#'   "absent", both without confidence: [check_placing()] has no doubts about them. `place_landmarks()`: a specimen with a row
-#'   for each landmark of the scheme, NA where it was not placed. A warning of class `crestline_mirrored` tells where left and right
-#'   look mirrored.
+#' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were
+#'   ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said
+#'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them. `place_landmarks()`: a specimen
+#'   with a row for each landmark of the scheme, NA where it was not placed. A warning of class `crestline_mirrored` tells
+#'   where left and right look mirrored.
 #' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
 #' @references The paper, section 7.
 #' @seealso [find_landmarks()], [calibrate_template()]
@@ -52,7 +52,8 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   scheme <- scheme_in_unit(scheme, if (is.null(unit)) c(specimen$match$unit, 1)[1] else unit)
   surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
-  review <- begin_review(specimen, scheme, check_number(least, "least", 0, 1), settings, check_number(bridge, "bridge", 0, 1), threads)
+  least <- check_number(least, "least", 0, 1)
+  review <- begin_review(specimen, scheme, least, settings, check_number(bridge, "bridge", 0, 1), threads)
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
   shown <- shown_surface(specimen, surface, check_number(radius, "radius", 0, open = TRUE), check_count(faces, "faces"))

@@ -5,14 +5,15 @@ suppressMessages(library(crestline))
 folder <- c(commandArgs(TRUE), tempfile("review"))[1]
 dir.create(folder, showWarnings = FALSE, recursive = TRUE)
 options(rgl.useNULL = TRUE, chromote.headless = "new")
-chromote::set_chrome_args(c("--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"))
+chromote::set_chrome_args(c("--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+                            "--enable-unsafe-swiftshader"))
 
 # ---- The page runs in an R of its own; what it returns comes back in a file.
 serve <- function(code, port) {
   script <- tempfile(fileext = ".R")
   result <- tempfile(fileext = ".rds")
-  writeLines(c("library(crestline)", "options(rgl.useNULL = TRUE)", "data(humface, package = 'Rvcg')", code,
-               sprintf("saveRDS(result, '%s.part')", result), sprintf("file.rename('%s.part', '%s')", result, result)), script)
+  keep <- sprintf("saveRDS(result, '%s.part'); file.rename('%s.part', '%s')", result, result, result)
+  writeLines(c("library(crestline)", "options(rgl.useNULL = TRUE)", "data(humface, package = 'Rvcg')", code, keep), script)
   system2(file.path(R.home("bin"), "Rscript"), script, stdout = FALSE, stderr = paste0(result, ".log"), wait = FALSE)
   list(result = result, port = port, url = sprintf("http://127.0.0.1:%d", port))
 }
@@ -59,25 +60,30 @@ drag <- function(page, from, to, steps = 10) {
 
 middle_of <- function(page, selector) {
   look(page, sprintf("document.querySelector('%s').scrollIntoView({block: 'center'})", selector))
-  unlist(look(page, sprintf("(b => [b.x + b.width / 2, b.y + b.height / 2])(document.querySelector('%s').getBoundingClientRect())", selector)))
+  unlist(look(page, sprintf("(() => { const b = document.querySelector('%s').getBoundingClientRect();
+    return [b.x + b.width / 2, b.y + b.height / 2]; })()", selector)))
 }
 
 press <- function(page, selector) click(page, middle_of(page, selector))
 
-# Where a place of the mesh is on the page, by rgl's own projection.
-pixel_of <- function(page, xyz) {
-  unlist(look(page, sprintf("(() => { const rgl = document.getElementById('face').rglinstance, b = rgl.canvas.getBoundingClientRect(),
-    w = rgl.user2window([%s, 1], rgl.scene.rootSubscene); return [b.x + w[0] * b.width, b.y + (1 - w[1]) * b.height]; })()",
-    paste(sprintf("%.9g", xyz), collapse = ", "))))
+# Where a place of a mesh is on the page, by rgl's own projection of its scene.
+pixel_of <- function(page, mesh, xyz) {
+  xyz <- crestline:::into_scene(matrix(xyz, 1), crestline:::scene_frame(mesh))
+  unlist(look(page, sprintf("(() => { const rgl = document.getElementById('face').rglinstance;
+    const b = rgl.canvas.getBoundingClientRect(), w = rgl.user2window([%s, 1], rgl.scene.rootSubscene);
+    return [b.x + w[0] * b.width, b.y + (1 - w[1]) * b.height]; })()", paste(sprintf("%.9g", xyz), collapse = ", "))))
 }
 
 # All lines that the browser shows, each as one text.
 lines_of <- function(page) {
-  unlist(look(page, "Object.values(document.getElementById('face').rglinstance.scene.objects).filter(o => o.type === 'linestrip').map(
-    o => JSON.stringify(o.vertices))"))
+  unlist(look(page, "Object.values(document.getElementById('face').rglinstance.scene.objects).filter(
+    o => o.type === 'linestrip').map(o => JSON.stringify(o.vertices))"))
 }
 
-state_of <- function(page, name) look(page, sprintf("document.querySelector('[data-landmark=\"%s\"] .state').textContent", name))
+state_of <- function(page, name) {
+  look(page, sprintf("document.querySelector('[data-landmark=\"%s\"] .state').textContent", name))
+}
+
 shoot <- function(page, name) page$screenshot(file.path(folder, name), selector = "body", delay = 0.3)
 busy <- function(page) look(page, "document.documentElement.classList.contains('shiny-busy')")
 
@@ -108,19 +114,23 @@ place_beside <- function(mesh, at, distance, aim = c(1, 1, 0) / sqrt(2)) {
 }
 
 move_chL <- function(what, code, unit, port) {
-  served <- serve(sprintf("%s; result <- review_landmarks(face, port = %d, launch.browser = FALSE)", code, port), port)
+  call <- sprintf("result <- review_landmarks(face, port = %d, launch.browser = FALSE)", port)
+  served <- serve(c(code, call), port)
   page <- open_page(served)
   opened <- until(function() length(lines_of(page)) == 40 && !busy(page), "40 curves")
-  before <- eval(parse(text = paste(c("data(humface, package = 'Rvcg')", code, "face"), collapse = ";")), new.env())
+  before <- local({
+    data(humface, package = "Rvcg", envir = environment())
+    eval(parse(text = paste(code, "; face")))
+  })
   lines <- lines_of(page)
   shoot(page, paste0(what, "-before.png"))
   drag(page, c(300, 300), c(380, 330))
   Sys.sleep(0.5)
   stopifnot(identical(lines_of(page), lines), state_of(page, "chL") != "placed")
   press(page, "[data-landmark=chL]")
-  until(function() look(page, "document.querySelector('.chosen b').textContent") == "chL" && !busy(page), "chL chosen")
+  until(function() look(page, "document.querySelector('#chosen b').textContent") == "chL" && !busy(page), "chL chosen")
   target <- place_beside(before$mesh, before$landmarks["chL", ], 5 / unit)
-  click(page, pixel_of(page, target))
+  click(page, pixel_of(page, before$mesh, target))
   seconds <- until(function() state_of(page, "chL") == "placed" && !identical(lines_of(page), lines), "chL placed")
   until(function() !busy(page), "rest")
   changed <- sum(!lines_of(page) %in% lines)
@@ -128,13 +138,14 @@ move_chL <- function(what, code, unit, port) {
   press(page, "#undo")
   until(function() state_of(page, "chL") != "placed" && setequal(lines_of(page), lines), "undone")
   press(page, "[data-landmark=chL]")
-  click(page, pixel_of(page, target))
+  click(page, pixel_of(page, before$mesh, target))
   until(function() state_of(page, "chL") == "placed" && !busy(page), "placed again")
   after <- finish(page, served)
   others <- setdiff(rownames(before$landmarks), "chL")
   curves <- function(found) {
     found$mesh$vb[1:3, ] <- unit * found$mesh$vb[1:3, ]
-    fit_shape(specimen(found$mesh, unit * found$landmarks, tolerance = 1), face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
+    found <- specimen(found$mesh, unit * found$landmarks, tolerance = 1)
+    fit_shape(found, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
   }
   data.frame(
     session = what, seconds_to_move = seconds, curves_changed = changed,
@@ -146,22 +157,24 @@ move_chL <- function(what, code, unit, port) {
 }
 
 place_three <- function(port) {
-  served <- serve(sprintf("result <- place_landmarks(humface, face_scheme(), id = 'humface', port = %d, launch.browser = FALSE)", port), port)
+  call <- sprintf("result <- place_landmarks(humface, id = 'humface', port = %d, launch.browser = FALSE)", port)
+  served <- serve(call, port)
   page <- open_page(served)
   until(function() look(page, "document.querySelectorAll('.row.missing').length") == 23 && !busy(page), "23 missing")
   until(function() look(page, "Shiny.shinyapp.$inputValues['ready']"), "the face")
   until(function() !busy(page), "rest")
+  data(humface, package = "Rvcg", envir = environment())
   goal <- read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
   shoot(page, "place-before.png")
   asked <- character()
   for (i in 1:3) {
     asked[i] <- look(page, "document.querySelector('#chosen b').textContent")
     turn <- c(pn = 0, acL = -230, acR = 230)[[asked[i]]]
-    drag(page, c(450, 300), c(450 + turn, 300))
-    click(page, pixel_of(page, goal[asked[i], ]))
+    if (turn != 0) drag(page, c(450, 300), c(450 + turn, 300))
+    click(page, pixel_of(page, specimen(humface)$mesh, goal[asked[i], ]))
     until(function() state_of(page, asked[i]) == "placed" && !busy(page), asked[i])
     shoot(page, sprintf("place-%s.png", asked[i]))
-    drag(page, c(450 + turn, 300), c(450, 300))
+    if (turn != 0) drag(page, c(450 + turn, 300), c(450, 300))
   }
   after <- finish(page, served)
   placed <- !is.na(after$landmarks[, 1])
@@ -170,14 +183,17 @@ place_three <- function(port) {
              off_surface = vapply(asked, off_surface, 0, specimen = after), others = sum(placed) - 3, row.names = NULL)
 }
 
-given <- "face <- specimen(humface, read_landmarks(system.file('extdata', 'humface_landmarks.csv', package = 'crestline')), id = 'humface')"
-metres <- "humface$vb[1:3, ] <- humface$vb[1:3, ] / 1000; humface$normals <- NULL; face <- find_landmarks(humface, id = 'humface in metres')"
+given <- "file <- system.file('extdata', 'humface_landmarks.csv', package = 'crestline')
+          face <- specimen(humface, read_landmarks(file), id = 'humface')"
+metres <- "humface$vb[1:3, ] <- humface$vb[1:3, ] / 1000; humface$normals <- NULL
+           face <- find_landmarks(humface, id = 'humface in metres')"
 sessions <- list(move_chL("given", given, 1, 8171),
                  move_chL("found", "face <- find_landmarks(humface, id = 'humface')", 1, 8172),
                  move_chL("metres", metres, 1000, 8173))
 shared <- Sys.getenv("CRESTLINE_SHARED")
 if (nzchar(shared)) {
-  scan_a <- sprintf("face <- read_specimen('%s/scan_a/surface.ply', '%s/scan_a/landmarks.csv', id = 'scan_a')", shared, shared)
+  file <- normalizePath(file.path(shared, "scan_a", c("surface.ply", "landmarks.csv")))
+  scan_a <- sprintf("face <- read_specimen('%s', '%s', id = 'scan_a')", file[1], file[2])
   sessions <- c(sessions, list(move_chL("scan_a", scan_a, 1, 8174)))
 }
 print(do.call(rbind, sessions), digits = 3)

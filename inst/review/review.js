@@ -9,15 +9,15 @@
     return view && view.rglinstance;
   }
 
-  // From where and towards what the eye looks at a place of the page, in the co-ordinates of the mesh.
+  // From where and towards what the eye looks at a place of the page, in the co-ordinates of the scene.
   function rayAt(rgl, event) {
     var root = rgl.scene.rootSubscene, box = rgl.canvas.getBoundingClientRect(),
         x = 2 * (event.clientX - box.left) / box.width - 1, y = 1 - 2 * (event.clientY - box.top) / box.height, back;
     rgl.getViewport(root);
     rgl.setprMatrix(root);
     rgl.setmvMatrix(root);
-    rgl.setprmvMatrix();
-    back = new CanvasMatrix4(rgl.prmvMatrix);
+    back = new CanvasMatrix4(rgl.mvMatrix);
+    back.multRight(rgl.prMatrix);
     back.invert();
     function place(depth) {
       var v = rglwidgetClass.multVM([x, y, depth, 1], back);

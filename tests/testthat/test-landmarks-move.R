@@ -35,6 +35,6 @@ test_that("the placing says what became of it, and checks have no doubts about w
   expect_equal(gone$placing$state[gone$placing$landmark == "exL"], "absent")
   expect_identical(check_placing(gone), gone)
   added <- move_landmark(gone, "mole", landmark_point(face, "sn"))
-  expect_equal(tail(added$placing[c("landmark", "state")], 1), data.frame(landmark = "mole", state = "placed"), ignore_attr = TRUE)
+  expect_equal(unlist(utils::tail(added$placing[c("landmark", "state")], 1)), c(landmark = "mole", state = "placed"))
   expect_equal(nrow(move_landmark(added, "mole", NULL)$placing), nrow(face$placing) + 1)
 })

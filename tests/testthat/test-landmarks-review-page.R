@@ -1,3 +1,9 @@
+# A click on a place, seen from an eye.
+ray_to <- function(mesh, at, eye) {
+  ends <- into_scene(rbind(eye, at), scene_frame(mesh))
+  list(from = as.list(ends[1, ]), towards = as.list(ends[2, ]))
+}
+
 # The server of a page, and what it returns at its end.
 serve_review <- function(review) {
   returned <- new.env()
@@ -13,15 +19,15 @@ test_that("clicks choose and move a landmark, its curves follow, and the specime
   served <- serve_review(begun)
   at <- face$landmarks["chL", ]
   target <- unlist(surface_points(face$mesh, matrix(at + c(4, 3, 0), 1))[1:3])
-  eye <- function(at) as.list(at + c(10, 10, 300))
+  ray <- function(at) ray_to(face$mesh, at, at + c(10, 10, 300))
   shiny::testServer(served$server, {
     session$setInputs(ready = TRUE)
     paths <- lapply(review()$fitting$fits, `[[`, "path")
-    session$setInputs(ray = list(from = eye(target), towards = as.list(target)))
+    session$setInputs(ray = ray(target))
     expect_identical(review()$specimen, begun$specimen)  # nothing is chosen
-    session$setInputs(ray = list(from = eye(at), towards = as.list(at)))
+    session$setInputs(ray = ray(at))
     expect_equal(review()$selected, "chL")
-    session$setInputs(ray = list(from = eye(target), towards = as.list(target)))
+    session$setInputs(ray = ray(target))
     expect_equal(review()$specimen$landmarks["chL", ], target, tolerance = 1e-8)
     changed <- !mapply(identical, lapply(review()$fitting$fits, `[[`, "path"), paths)
     expect_setequal(names(which(changed)), scheme$curves$curve[scheme$curves$from == "chL" | scheme$curves$to == "chL"])
@@ -29,7 +35,7 @@ test_that("clicks choose and move a landmark, its curves follow, and the specime
     expect_match(as.character(output$list$html), "placed")
     session$setInputs(undo = 1)
     expect_identical(review()$specimen, begun$specimen)
-    session$setInputs(ray = list(from = eye(target), towards = as.list(target)), done = 1)
+    session$setInputs(ray = ray(target), done = 1)
     session$setInputs(cancel = 1)
   })
   expect_on_mesh(landmark_point(served$returned$specimen, "chL"), face$mesh)
@@ -46,7 +52,7 @@ test_that("placing names the next one; cancel gives back what there was, a close
   served <- serve_review(review)
   place <- function(session, name) {
     at <- quad_corners()[name, ]
-    session$setInputs(ray = list(from = as.list(3 * at), towards = as.list(at)))
+    session$setInputs(ray = ray_to(bare$mesh, at, 3 * at))
   }
   shiny::testServer(served$server, {
     session$setInputs(ready = TRUE)
@@ -68,7 +74,9 @@ test_that("placing names the next one; cancel gives back what there was, a close
 test_that("the page has what its script and its server look for", {
   skip_if_not_installed("shiny")
   html <- as.character(review_page("Landmarks of <a>"))
-  for (id in c("face", "chosen", "list", "keep", "absent", "undo", "done", "cancel")) expect_match(html, sprintf('id="%s"', id))
+  for (id in c("face", "chosen", "list", "keep", "absent", "undo", "done", "cancel")) {
+    expect_match(html, sprintf('id="%s"', id))
+  }
   expect_match(html, "Landmarks of &lt;a&gt;")
   expect_match(html, "sceneChange")
 })

@@ -1,15 +1,18 @@
-test_that("the surface that is shown is thinned out alike in every unit, in the colours of the scan", {
+test_that("the surface that is shown is thinned out, in the colours of the scan, alike in every unit and place", {
   face <- specimen(humface_scan())
-  n <- ncol(face$mesh$vb)
   face$mesh$material$color <- ifelse(face$mesh$vb[2, ] > mean(face$mesh$vb[2, ]), "#FF0000", "#0000FF")
-  expect_identical(shown_surface(face, "natural", 10, 60000), list(mesh = face$mesh, colour = face$mesh$material$color))
+  whole <- shown_surface(face, "natural", 10, 60000)
+  expect_identical(whole$mesh$it, face$mesh$it)
+  expect_identical(whole$colour, face$mesh$material$color)
+  expect_equal(from_scene(t(whole$mesh$vb[1:3, ]), whole$frame), t(face$mesh$vb[1:3, ]))
+  expect_equal(mesh_diagonal(whole$mesh), 200)
   thin <- shown_surface(face, "natural", 10, 4000)
   expect_lte(ncol(thin$mesh$it), 4000)
-  expect_equal(thin$colour == "#FF0000", thin$mesh$vb[2, ] > mean(face$mesh$vb[2, ]))
-  off <- surface_points(face$mesh, t(thin$mesh$vb[1:3, ]))
-  expect_lt(max(abs(as.matrix(off[1:3]) - t(thin$mesh$vb[1:3, ]))), 2)
-  face$mesh$vb[1:3, ] <- face$mesh$vb[1:3, ] / 1000
-  expect_equal(1000 * shown_surface(face, "natural", 10, 4000)$mesh$vb[1:3, ], thin$mesh$vb[1:3, ], tolerance = 1e-5)
+  back <- from_scene(t(thin$mesh$vb[1:3, ]), thin$frame)
+  expect_equal(thin$colour == "#FF0000", back[, 2] > mean(face$mesh$vb[2, ]))
+  expect_lt(max(row_lengths(as.matrix(surface_points(face$mesh, back)[1:3]) - back)), 2)
+  face$mesh$vb[1:3, ] <- face$mesh$vb[1:3, ] / 1000 + 70
+  expect_equal(shown_surface(face, "natural", 10, 4000)$mesh$vb, thin$mesh$vb, tolerance = 1e-5)
 })
 
 test_that("only what has changed is drawn again", {

@@ -1,12 +1,16 @@
 # The paths of curves that are fitted anew, and those of a whole fit of the same specimen.
 refitted_paths <- function(fitting, specimen) {
-  lapply(Filter(function(fit) !is.null(fit$path), fitting$fits), function(fit) as.matrix(unbridged_path(fit$path, specimen$mesh)[1:4]))
+  found <- Filter(function(fit) !is.null(fit$path), fitting$fits)
+  lapply(found, function(fit) as.matrix(unbridged_path(fit$path, specimen$mesh)[1:4]))
 }
 whole_paths <- function(specimen, scheme) {
-  lapply(Filter(Negate(is.null), fit_shape(specimen, scheme, quick_error(), progress = FALSE)$paths), function(path) as.matrix(path[1:4]))
+  paths <- fit_shape(specimen, scheme, quick_error(), progress = FALSE)$paths
+  lapply(Filter(Negate(is.null), paths), function(path) as.matrix(path[1:4]))
 }
 quick_error <- function() ridge_settings(error = FALSE)
-without_patches <- function(scheme) curve_scheme(scheme$landmarks, scheme$curves, pairs = scheme$pairs[scheme$pairs$level != "surface", ])
+without_patches <- function(scheme) {
+  curve_scheme(scheme$landmarks, scheme$curves, pairs = scheme$pairs[scheme$pairs$level != "surface", ])
+}
 humface_specimen <- function() specimen(humface_scan(), humface_landmarks(), id = "humface")
 
 beside <- function(specimen, name, shift) surface_points(specimen$mesh, specimen$landmarks[name, , drop = FALSE] + shift)
@@ -43,8 +47,8 @@ test_that("curves come with their landmarks, and are followed towards those that
 })
 
 test_that("a curve that keeps to the side of another is touched with it", {
-  curves <- data.frame(curve = c("one", "two", "three"), from = c("a", "b", "c"), to = c("d", "c", "d"), kind = "ridge", radius = 1,
-                       width = 1, n = 5, side_of = c(NA, "one", "two"), side = c(NA, "left", "left"))
+  curves <- data.frame(curve = c("one", "two", "three"), from = c("a", "b", "c"), to = c("d", "c", "d"), kind = "ridge",
+                       radius = 1, width = 1, n = 5, side_of = c(NA, "one", "two"), side = c(NA, "left", "left"))
   curves <- curve_scheme(data.frame(landmark = letters[1:4]), curves)$curves
   whole <- rep(list(list(path = 1)), 3)
   expect_equal(touched_curves(curves, "a", whole), c(TRUE, TRUE, TRUE))
