@@ -2,7 +2,7 @@
 
 #' Locus of greatest curvature of a simulated ridge
 #'
-#' The places beside the crest where the principal curvature `k2` of \eqn{z = -b (x - a y^3)^2} is least along its own principal
+#' The places beside the crest where the principal curvature `k2` of \eqn{z = -b (x - a y^3)^2} is least along its own
 #' direction, followed from the middle of the square outwards. The surface turns into itself with (x, y) to (-x, -y), so
 #' one half is enough.
 #'
@@ -13,19 +13,28 @@
 #' @return Matrix n x 3, x, y, z from `y = -end` to `end`; NA from where the locus ends, if it does.
 #' @noRd
 ridge_crest <- function(a, b, end, reach = 0.5, step = 0.025, rows = 31, n = 401) {
-  coarse <- seq(0, end, length.out = rows)
-  u <- follow_crest(a, b, coarse, seq(-reach, reach, by = step))
-  for (iteration in 1:4) u <- u - crest_step(a, b, u, coarse)
   y <- seq(0, end, length.out = (n + 1) / 2)
-  known <- !is.na(u)
-  u <- ifelse(y <= max(coarse[known]), stats::spline(coarse[known], u[known], xout = y)$y, NA)
+  u <- if (a == 0) 0 * y else crest_offset(a, b, y, seq(0, end, length.out = rows), seq(-reach, reach, by = step))
   x <- u + a * y^3
   half <- cbind(x = x, y = y, z = -b * u^2)
   mirrored <- half[rev(seq_along(y))[-length(y)], ] %*% diag(c(-1, -1, 1))
   rbind(mirrored, half)
 }
 
-#' Distances along x from crest to locus at some y, from 0 upwards; NA from where it ends
+#' Distances along x from crest to locus at some y; NA from where it ends
+#'
+#' @param coarse Values of y, from 0, at which it is found; in between it is a spline.
+#' @param at As in [follow_crest()].
+#' @noRd
+crest_offset <- function(a, b, y, coarse, at) {
+  u <- follow_crest(a, b, coarse, at)
+  for (iteration in 1:4) u <- u - crest_step(a, b, u, coarse)
+  known <- !is.na(u)
+  if (sum(known) < 2) return(rep(NA_real_, length(y)))
+  ifelse(y <= max(coarse[known]), stats::spline(coarse[known], u[known], xout = y)$y, NA)
+}
+
+#' The same from 0 upwards where it is found
 #'
 #' @param at Places along x, as distances from the crest, where the slope of the curvature is looked at.
 #' @noRd

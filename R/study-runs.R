@@ -14,8 +14,8 @@
 #' the same surfaces. With `dir` a run that was cut short goes on where it was.
 #'
 #' @param settings [ridge_settings()]; or a named list of such, and of functions `(specimen, radius, width, n)` that return
-#'   the points of another estimate (matrix k x 3, in order from landmark `from` to `to`): several methods on the same surfaces.
-#'   Parallel workers do not see what a function uses of your workspace: put helpers into an environment with it (`local()`).
+#'   the points of another estimate (matrix k x 3, in order from landmark `from` to `to`): several methods on the same
+#'   surfaces. Parallel workers do not see what a function uses of your workspace: put helpers into an environment with it (`local()`).
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
 #' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
 #' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
@@ -26,11 +26,11 @@
 #' @param block Surfaces that a worker takes, and writes to `dir`, at a time.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
 #' @param ... Further arguments of [simulate_ridge()]: `jitter`, `end`.
-#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`, `passes`;
-#'   `seed`; `method`: the name in `settings`; `distance`: mean distance between estimate and crest, **in spacings**;
+#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`,
+#'   `passes`; `seed`; `method`: the name in `settings`; `distance`: mean distance between estimate and crest, **in spacings**;
 #'   `distance_curvature`: the same from the locus of greatest curvature, `NA` where that does not run from end to end;
-#'   `se`: median standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points that lie within two
-#'   of their standard errors of crest and locus; `determined`, `converged` (logical); `seconds` of processor time;
+#'   `se`: median standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points that lie
+#'   within two of their standard errors of crest and locus; `determined`, `converged` (logical); `seconds` of processor time;
 #'   `error`: the message where the estimate failed. What a method has not is `NA`.
 #' @section Errors: only for arguments out of their range; a failed estimate is a row with `error`.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
@@ -81,7 +81,8 @@ study_tasks <- function(cells, n, block, methods, constant, dir) {
     lapply(seeds, function(some) {
       cell <- as.list(cells[i, ])
       key <- rlang::hash(list(cell, some, about))
-      list(cell = cell, seeds = some, key = key, name = paste0(key, ".study"), file = if (!is.null(dir)) file.path(dir, paste0(key, ".study")))
+      file <- if (!is.null(dir)) file.path(dir, paste0(key, ".study"))
+      list(cell = cell, seeds = some, key = key, name = key, file = file)
     })
   })
   unlist(tasks, recursive = FALSE)
