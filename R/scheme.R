@@ -170,7 +170,7 @@ print.curve_scheme <- function(x, ...) {
        sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
        sum(!is.na(curves$angle_limit)), " limited in angle")
   line("surface: ", surface_line(x))
-  if (nrow(x$definitions)) line("definitions: ", nrow(x$definitions), " of landmarks (", shorten(x$definitions$landmark, 30), ")")
+  if (nrow(x$definitions)) line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
   line("left-right pairs: ", paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
   invisible(x)
 }
