@@ -33,12 +33,13 @@ place_of_summit <- function(specimen, definition, start, pairs, curvature, setti
   near <- near_vertices(specimen$mesh, start, definition$reach + definition$radius)
   curved <- curvature(definition$radius)(near)
   value <- if (definition$kind == "cap") -curved$k1 else curved$k2
-  peak_near(field_at(t(specimen$mesh$vb[1:3, near, drop = FALSE]), value, 2), definition, start, settings)
+  peak_near(field_at(t(specimen$mesh$vb[1:3, near, drop = FALSE]), value, 2, curved$normal), definition, start, settings)
 }
 
-field_at <- function(at, value, dimensions) {
+field_at <- function(at, value, dimensions, normal = NULL) {
   known <- is.finite(value)
-  list(at = at[known, , drop = FALSE], value = value[known], dimensions = dimensions)
+  list(at = at[known, , drop = FALSE], value = value[known], dimensions = dimensions,
+       normal = if (!is.null(normal)) normal[known, , drop = FALSE])
 }
 
 #' Vertices within a distance of a place, joined over edges to those nearest to it
