@@ -5,7 +5,8 @@
 #' Points that no other within `apart` exceeds are tried from the strongest on; each is settled by local fits, so that the
 #' peak does not depend on which points there are, nor on where the search began.
 #'
-#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve), `normal` (n x 3; NULL: the
+#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve), `normal` (n x
+#'   3; NULL: the
 #'   points' own main plane or line is taken, which fails in a deep cup).
 #' @param start The place, and how far from it (`reach`) the peak may lie.
 #' @param apart Distance within which only the greatest point is tried.
@@ -46,10 +47,10 @@ settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, step
     fit <- local_fit(field, at, width)
     if (is.null(fit)) return(NULL)
     move <- peak_step(fit, longest)
-    step <- drop(fit$frame %*% c(move, fit$offset(move)))
-    if (sum(step * before) < 0) longest <- longest / 2
-    at <- at + step
-    before <- step
+    ahead <- drop(fit$frame %*% c(move, fit$offset(move)))
+    if (sum(ahead * before) < 0) longest <- longest / 2
+    at <- at + ahead
+    before <- ahead
     if (sqrt(sum(move^2)) < tolerance * width) return(list(at = at, value = fit$value))
   }
   NULL
