@@ -22,7 +22,8 @@ defined_place <- function(specimen, definition, start, pairs, curvature, setting
 peak_near <- function(field, definition, start, settings) {
   radius <- definition$radius
   peak <- if (nrow(field$at) > 0) {
-    strongest_peak(field, start, definition$reach, settings$apart * radius, settings$window * radius, settings$faint / radius)
+    strongest_peak(field, start, definition$reach, settings$apart * radius, settings$window * radius,
+                   settings$faint / radius)
   }
   if (is.null(peak)) list(reason = "nothing near") else peak
 }
@@ -33,12 +34,13 @@ place_of_summit <- function(specimen, definition, start, pairs, curvature, setti
   near <- near_vertices(specimen$mesh, start, definition$reach + definition$radius)
   curved <- curvature(definition$radius)(near)
   value <- if (definition$kind == "cap") -curved$k1 else curved$k2
-  peak_near(field_at(t(specimen$mesh$vb[1:3, near, drop = FALSE]), value, 2), definition, start, settings)
+  peak_near(field_at(t(specimen$mesh$vb[1:3, near, drop = FALSE]), value, 2, curved$normal), definition, start, settings)
 }
 
-field_at <- function(at, value, dimensions) {
+field_at <- function(at, value, dimensions, normal = NULL) {
   known <- is.finite(value)
-  list(at = at[known, , drop = FALSE], value = value[known], dimensions = dimensions)
+  list(at = at[known, , drop = FALSE], value = value[known], dimensions = dimensions,
+       normal = if (!is.null(normal)) normal[known, , drop = FALSE])
 }
 
 #' Vertices within a distance of a place, joined over edges to those nearest to it
@@ -63,7 +65,8 @@ place_of_profile <- function(specimen, definition, start, pairs, curvature, sett
   bent <- curvature(definition$radius)
   along <- function(vertex) {
     curved <- bent(vertex)
-    normal_curvature(curved, seq_along(vertex), cross_rows(curved$normal, matrix(plane$normal, length(vertex), 3, byrow = TRUE)))
+    across <- matrix(plane$normal, length(vertex), 3, byrow = TRUE)
+    normal_curvature(curved, seq_along(vertex), cross_rows(curved$normal, across))
   }
   value <- (1 - section$share) * along(section$a) + section$share * along(section$b)
   if (definition$bend == "out") value <- -value
@@ -103,8 +106,8 @@ plane_section <- function(mesh, vertices, plane) {
   inside[vertices] <- TRUE
   faces <- which(colSums(matrix(inside[mesh$it], 3)) == 3)
   it <- mesh$it[, faces, drop = FALSE]
-  edges <- unique(rbind(cbind(pmin(it[1, ], it[2, ]), pmax(it[1, ], it[2, ])), cbind(pmin(it[2, ], it[3, ]), pmax(it[2, ], it[3, ])),
-                        cbind(pmin(it[3, ], it[1, ]), pmax(it[3, ], it[1, ]))))
+  edges <- rbind(t(it[1:2, , drop = FALSE]), t(it[2:3, , drop = FALSE]), t(it[c(3, 1), , drop = FALSE]))
+  edges <- unique(cbind(pmin(edges[, 1], edges[, 2]), pmax(edges[, 1], edges[, 2])))
   height <- numeric(ncol(mesh$vb))
   height[vertices] <- drop(crossprod(mesh$vb[1:3, vertices, drop = FALSE] - plane$origin, plane$normal))
   edges <- edges[(height[edges[, 1]] > 0) != (height[edges[, 2]] > 0), , drop = FALSE]

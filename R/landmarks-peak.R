@@ -5,7 +5,9 @@
 #' Points that no other within `apart` exceeds are tried from the strongest on; each is settled by local fits, so that the
 #' peak does not depend on which points there are, nor on where the search began.
 #'
-#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve).
+#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve), `normal` (n x
+#'   3; NULL: the
+#'   points' own main plane or line is taken, which fails in a deep cup).
 #' @param start The place, and how far from it (`reach`) the peak may lie.
 #' @param apart Distance within which only the greatest point is tried.
 #' @param width Half width of the local fits.
@@ -45,10 +47,10 @@ settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, step
     fit <- local_fit(field, at, width)
     if (is.null(fit)) return(NULL)
     move <- peak_step(fit, longest)
-    step <- drop(fit$frame %*% c(move, fit$offset(move)))
-    if (sum(step * before) < 0) longest <- longest / 2
-    at <- at + step
-    before <- step
+    ahead <- drop(fit$frame %*% c(move, fit$offset(move)))
+    if (sum(ahead * before) < 0) longest <- longest / 2
+    at <- at + ahead
+    before <- ahead
     if (sqrt(sum(move^2)) < tolerance * width) return(list(at = at, value = fit$value))
   }
   NULL
@@ -64,7 +66,7 @@ wide_enough <- function(field, at, width, count = c(curve = 5, surface = 13), sl
   max(width, slack * sort(gap)[min(count[[field$dimensions]], length(gap))])
 }
 
-#' Quadratic fits of a field, and of the points' offsets from their main plane (or line), about a place
+#' Quadratic fits of a field, and of the points' offsets from a plane (or line), about a place
 #'
 #' Weights fall smoothly to 0 at `width`, so that the fit changes smoothly with the place.
 #'
@@ -78,10 +80,15 @@ local_fit <- function(field, at, width) {
   d <- field$dimensions
   if (length(near) <= (d + 1) * (d + 2) / 2) return(NULL)
   apart <- apart[near, , drop = FALSE]
-  frame <- eigen(crossprod(apart * weight[near], apart), symmetric = TRUE)$vectors
+  weight <- weight[near]
+  frame <- if (is.null(field$normal)) {
+    eigen(crossprod(apart * weight, apart), symmetric = TRUE)$vectors
+  } else {
+    qr.Q(qr(cbind(colSums(weight * field$normal[near, , drop = FALSE]), diag(3))))[, 3:1]
+  }
   local <- apart %*% frame
   fit <- stats::lm.wfit(quadratic_terms(local[, 1:d, drop = FALSE]), cbind(field$value[near], local[, -(1:d), drop = FALSE]),
-                        weight[near])
+                        weight)
   terms <- fit$coefficients
   if (anyNA(terms)) return(NULL)
   hessian <- if (d == 1) matrix(2 * terms[3, 1]) else matrix(terms[c(4, 5, 5, 6), 1] * c(2, 1, 1, 2), 2)

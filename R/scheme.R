@@ -47,23 +47,28 @@
 #' @param strips Data frame of the triangles that join patches (`NULL`: none): `part` ("model", or the name of an
 #'   optional part), `strip` (its name), `rung` (1, 2, ...), `a`, `b` (points, as "patch|index"), `outward`
 #'   ("columns": a, b, next b; "rows": a, next a, next b). Each two rungs are a quad.
-#' @param definitions Data frame of what [refine_landmarks()] goes by (`NULL`: none), a row a landmark that has a definition by
+#' @param definitions Data frame of what [refine_landmarks()] goes by (`NULL`: none), a row a landmark that has a
+#'   definition by
 #'   shape:
-#'   * `landmark`; `kind`: "cap" or "cup" (strongest: the lesser of its two curvatures is greatest), "profile" (extreme of the
+#'   * `landmark`; `kind`: "cap" or "cup" (strongest: the lesser of its two curvatures is greatest), "profile"
+#'     (extreme of the
 #'     curvature of the surface's cut with a plane), "turn" (extreme of the geodesic curvature of a curve), "end" (where a
 #'     ridge or valley has faded), "crossing" (of a curve with a mirror plane or with another curve);
 #'   * `radius` of the curvature; `reach`: how far from the landmark its place is looked for; both in the unit of the mesh;
 #'   * `bend`: "out" or "in" of a profile (a crest or a fold), "left" or "right" of a turn (seen from outside);
 #'   * `mirror` (profile, crossing): left landmarks of pairs, with spaces between, that span the mirror plane of
-#'     the object; or `across_from`, `across_to`: two landmarks, through which the plane of a profile stands straight into the
+#'     the object; or `across_from`, `across_to`: two landmarks, through which the plane of a profile stands straight
+#'     into the
 #'     surface, or between which the crossed curve runs (`across_type`: "ridge", "valley" or "plane");
-#'   * `from`, `to`, `type`, `width` (turn, crossing, end): the curve, as in `curves`, but neither end the landmark itself, since
+#'   * `from`, `to`, `type`, `width` (turn, crossing, end): the curve, as in `curves`, but neither end the landmark
+#'     itself, since
 #'     its place may not depend on where it was put. The curve of an end comes from `from` and goes on straight through
 #'     the landmark (no `to`);
 #'   * `note`, and any further columns.
 #' @param name Name of the scheme, one string.
 #' @return Object of class `curve_scheme`, a list: `name`; data frames `landmarks`, `curves`, `patches`, `pairs`,
-#'   `strips`, `definitions` with all columns above (`NA` where empty); `points` (`level`, `part`, `point`, `place`: points that
+#'   `strips`, `definitions` with all columns above (`NA` where empty); `points` (`level`, `part`, `point`, `place`:
+#'   points that
 #'   coincide by construction have the same `place`); `triangles` (`part`, `group`, `v1`, `v2`, `v3`: rows of the
 #'   surface's points, outward; coinciding points by the first). `as.data.frame(scheme, table)` gives any of them.
 #' @section Errors: of class `crestline_scheme_error`, with all problems of the first table that has any (the message
@@ -170,7 +175,7 @@ print.curve_scheme <- function(x, ...) {
        sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
        sum(!is.na(curves$angle_limit)), " limited in angle")
   line("surface: ", surface_line(x))
-  if (nrow(x$definitions)) line("definitions: ", nrow(x$definitions), " of landmarks (", shorten(x$definitions$landmark, 30), ")")
+  if (nrow(x$definitions)) line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
   line("left-right pairs: ", paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
   invisible(x)
 }

@@ -1,11 +1,12 @@
 # What definitions of landmarks by shape are worth: how far they bring jittered landmarks together, and how far they lie from
 # where people put the points.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/refine.R [times=100] [step=2] [faces=scan_a,template_male,simpop] [picture=file.png]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/refine.R [times=100] [step=2] [faces=scan_a,template_male,simpop] [noise=0.3] [picture=file.png]
 #
 # Each time every landmark of a face is moved by `step` mm in a random direction along the surface, all at once, and refined by
 # face_scheme()'s definitions. Spread: root mean square distance of a landmark from its mean over the times. A landmark that is left
-# alone counts where the jitter left it. "from hand": distance of the defined place from the landmark as it was placed.
+# alone counts where the jitter left it. With `noise` the landmarks stay and the vertices move instead, by normal noise of this sd along
+# the normals: the spread is that of the definition itself from one scan to the next. "hand": distance of the defined place from the landmark as it was placed.
 
 library(crestline)
 
@@ -76,6 +77,30 @@ bench_face <- function(face) {
                alone = sum(alone), hand = hand$distance[i])
   })
   do.call(rbind, rows)
+}
+
+# The landmarks as they are, the surface scanned again: `times` meshes with noise.
+bench_noise <- function(face, sd) {
+  places <- lapply(seq_len(times), function(i) {
+    mesh <- face$mesh
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + rep(rnorm(ncol(mesh$vb), sd = sd), each = 3) * mesh$normals[1:3, ]
+    mesh$normals <- NULL
+    suppressWarnings(refine_landmarks(specimen(mesh, face$landmarks, id = face$id), scheme))$refinement
+  })
+  names <- places[[1]]$landmark
+  data.frame(face = face$id, landmark = names, kind = places[[1]]$kind,
+             spread = vapply(seq_along(names), function(i) spread(do.call(rbind, lapply(places, function(p) as.matrix(p[i, c("x", "y", "z")])))), 0),
+             alone = vapply(seq_along(names), function(i) sum(vapply(places, function(p) p$state[i] != "found", NA)), 0L))
+}
+
+noise <- as.numeric(option("noise", 0))
+if (noise > 0) {
+  for (set in option("faces", c("scan_a", "template_male"))) {
+    set.seed(1)
+    cat(sprintf("\n%s: %d scans with %g mm of noise\n", set, times, noise))
+    for (face in faces_of(set)) print(bench_noise(face, noise), row.names = FALSE, digits = 2)
+  }
+  quit(save = "no")
 }
 
 summary_of <- function(rows) {

@@ -14,7 +14,8 @@ one_definition <- function(known, ...) {
   ends <- setdiff(known, unlist(pairs))
   curve_scheme(data.frame(landmark = known),
                data.frame(curve = "line", from = ends[1], to = ends[2], kind = "plane", n = 2),
-               pairs = if (nrow(pairs)) data.frame(level = "landmarks", pairs), name = "graph", definitions = data.frame(...))
+               pairs = if (nrow(pairs)) data.frame(level = "landmarks", pairs), name = "graph",
+               definitions = data.frame(...))
 }
 
 place_of <- function(specimen) unlist(specimen$refinement[c("x", "y", "z")])

@@ -15,6 +15,14 @@ test_that("the strongest cap and cup are found where they are, from anywhere nea
   }
 })
 
+test_that("a cup as deep as it is wide is settled, too", {
+  at <- rbind(bottom = c(2, 0), far = c(-20, 20))
+  pit <- graph_specimen(quote(-8 * exp(-((u - 3)^2 + (v + 2)^2) / 30)), at)
+  found <- refine_landmarks(pit, one_definition(rownames(at), landmark = "bottom", kind = "cup", radius = 5, reach = 6))
+  expect_equal(found$refinement$state, "found")
+  expect_lt(max(abs(place_of(found)[1:2] - c(3, -2))), 0.2)
+})
+
 test_that("where a cap is asked for and there is none, or none within reach, nothing is found", {
   at <- rbind(top = c(0, 0), far = c(-20, 20))
   rim <- graph_specimen(quote(-4 * exp(-(u^2 + v^2) / 60)), at)
@@ -31,7 +39,8 @@ test_that("the extreme of a profile lies in its plane, on the crest or in the fo
   at <- rbind(mid = c(1, 1.5), sideL = c(-5, 10), sideR = c(-5, -10), low = c(-20, 0), high = c(20, 0))
   for (bend in c("out", "in")) {
     face <- graph_specimen(bquote(.(if (bend == "out") 4 else -4) * exp(-(u - 3)^2 / 40)), at)
-    mirrored <- one_definition(rownames(at), landmark = "mid", kind = "profile", radius = 4, reach = 6, bend = bend, mirror = "sideL")
+    mirrored <- one_definition(rownames(at), landmark = "mid", kind = "profile", radius = 4, reach = 6,
+                               bend = bend, mirror = "sideL")
     upright <- one_definition(rownames(at), landmark = "mid", kind = "profile", radius = 4, reach = 6, bend = bend,
                               across_from = "low", across_to = "high")
     for (scheme in list(mirrored, upright)) {
@@ -44,18 +53,18 @@ test_that("the extreme of a profile lies in its plane, on the crest or in the fo
 })
 
 test_that("a crossing is where two known ridges cross, or a valley and the mirror", {
-  at <- rbind(mid = c(4, 3), west = c(-22, 1), east = c(22, 1), south = c(2, -22), north = c(2, 22), sideL = c(-5, 10), sideR = c(-5, -10))
+  at <- rbind(mid = c(4, 3), west = c(-22, 1), east = c(22, 1), south = c(2, -22), north = c(2, 22))
   ridges <- quote(3 * exp(-(v - 1)^2 / 12) + 3 * exp(-(u - 2)^2 / 12))
-  both <- one_definition(rownames(at), landmark = "mid", kind = "crossing", radius = 4, reach = 6, from = "west", to = "east",
-                         type = "ridge", width = 5, across_from = "south", across_to = "north", across_type = "ridge")
+  both <- one_definition(rownames(at), landmark = "mid", kind = "crossing", radius = 4, reach = 6,
+                         from = "west", to = "east", type = "ridge", width = 5, across_from = "south", across_to = "north", across_type = "ridge")
   found <- refine_landmarks(graph_specimen(ridges, at), both)
   expect_lt(max(abs(place_of(found)[1:2] - c(2, 1))), 0.25)
   expect_true(is.na(found$refinement$value))
   # A valley that runs askew: v = u / 4 + 1 meets v = 0 at u = -4.
   skew <- rbind(mid = c(-3, 2), west = c(-20, -4), east = c(20, 6), sideL = c(-5, 10), sideR = c(-5, -10))
   valley <- graph_specimen(quote(-3 * exp(-(v - u / 4 - 1)^2 / 12)), skew)
-  mirrored <- one_definition(rownames(skew), landmark = "mid", kind = "crossing", radius = 4, reach = 6, from = "west", to = "east",
-                             type = "valley", width = 5, mirror = "sideL")
+  mirrored <- one_definition(rownames(skew), landmark = "mid", kind = "crossing", radius = 4, reach = 6,
+                             from = "west", to = "east", type = "valley", width = 5, mirror = "sideL")
   found <- refine_landmarks(valley, mirrored)
   # 0.06 across the valley is 0.25 along the mirror's line.
   expect_lt(max(abs(place_of(found)[1:2] - c(-4, 0))), 0.25)
@@ -70,8 +79,8 @@ test_that("a turn is where a curved ridge bends most, to the side that is asked 
   at <- rbind(bend = c(4, -1), west = c(-18, line(-18)), east = c(20, line(20)))
   face <- graph_specimen(ridge, at, spacing = 0.6)
   scheme <- function(bend) {
-    one_definition(rownames(at), landmark = "bend", kind = "turn", radius = 4, reach = 6, bend = bend, from = "west", to = "east",
-                   type = "ridge", width = 8)
+    one_definition(rownames(at), landmark = "bend", kind = "turn", radius = 4, reach = 6, bend = bend,
+                   from = "west", to = "east", type = "ridge", width = 8)
   }
   found <- refine_landmarks(face, scheme("left"))
   # At u = 2 by symmetry; the curve itself runs on the inner side of the bend, where the ridge is sharper.
@@ -100,7 +109,8 @@ test_that("a ridge ends where its strength has fallen to a half", {
   for (start in list(c(7, 1), c(4, -1.5))) {
     at <- rbind(tip = start, west = c(-20, 0))
     face <- graph_specimen(ridge, at)
-    scheme <- one_definition(rownames(at), landmark = "tip", kind = "end", radius = 4, reach = 8, from = "west", type = "ridge", width = 5)
+    scheme <- one_definition(rownames(at), landmark = "tip", kind = "end", radius = 4, reach = 8,
+                             from = "west", type = "ridge", width = 5)
     found <- refine_landmarks(face, scheme)
     expect_equal(found$refinement$state, "found")
     expect_lt(abs(place_of(found)[[1]] - 5), 0.6)

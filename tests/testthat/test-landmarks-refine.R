@@ -1,3 +1,5 @@
+given_columns <- paste0("given_", c("x", "y", "z"))
+
 placed_humface <- function() specimen(humface_scan(), humface_landmarks(), id = "humface")
 
 test_that("a face is reported, not moved, unless asked; moved landmarks stay where they are", {
@@ -9,8 +11,9 @@ test_that("a face is reported, not moved, unless asked; moved landmarks stay whe
   expect_true(all(table$state == "found") && !any(table$moved))
   expect_lt(max(table$distance), 6)
   expect_on_mesh(table, face$mesh)
-  expect_equal(as.matrix(table[paste0("given_", c("x", "y", "z"))]), face$landmarks[table$landmark, ], ignore_attr = TRUE)
-  expect_equal(table$distance, row_lengths(as.matrix(table[c("x", "y", "z")]) - face$landmarks[table$landmark, ]), ignore_attr = TRUE)
+  given <- face$landmarks[table$landmark, ]
+  expect_equal(as.matrix(table[given_columns]), given, ignore_attr = TRUE)
+  expect_equal(table$distance, row_lengths(as.matrix(table[c("x", "y", "z")]) - given), ignore_attr = TRUE)
   moved <- refine_landmarks(face, face_scheme(), move = TRUE)
   expect_equal(moved$landmarks[table$landmark, ], as.matrix(table[c("x", "y", "z")]), ignore_attr = TRUE)
   others <- setdiff(rownames(face$landmarks), table$landmark)
@@ -30,7 +33,7 @@ test_that("landmarks that are put elsewhere come to the same places", {
   }
   one <- to(1)
   two <- to(2)
-  expect_gt(min(row_lengths(as.matrix(one$refinement[paste0("given_", c("x", "y", "z"))] - two$refinement[paste0("given_", c("x", "y", "z"))]))), 0.2)
+  expect_gt(min(row_lengths(as.matrix(one$refinement[given_columns] - two$refinement[given_columns]))), 0.2)
   expect_lt(max(row_lengths(one$landmarks[names, ] - two$landmarks[names, ])), 0.01)
 })
 
@@ -39,11 +42,12 @@ test_that("neither pose, unit nor the order of the vertices changes the places",
   # Symmetric about v = 0, with a knob on a ridge.
   z <- quote(2 * exp(-v^2 / 20) + 3 * exp(-((u - 3)^2 + v^2) / 50))
   tables <- function(unit) {
-    data.frame(landmark = c("top", "mid"), kind = c("cap", "profile"), radius = 5 * unit, reach = 7 * unit, bend = c(NA, "out"),
-               mirror = c(NA, "sideL"))
+    data.frame(landmark = c("top", "mid"), kind = c("cap", "profile"), radius = 5 * unit, reach = 7 * unit,
+               bend = c(NA, "out"), mirror = c(NA, "sideL"))
   }
   scheme <- function(unit) {
-    curve_scheme(data.frame(landmark = rownames(at)), data.frame(curve = "line", from = "west", to = "east", kind = "plane", n = 2),
+    curve_scheme(data.frame(landmark = rownames(at)),
+                 data.frame(curve = "line", from = "west", to = "east", kind = "plane", n = 2),
                  pairs = data.frame(level = "landmarks", left = "sideL", right = "sideR"), definitions = tables(unit))
   }
   face <- graph_specimen(z, at)

@@ -119,7 +119,7 @@ test_that("mistakes in definitions", {
   }
   fine <- leaf_scheme(with_definitions())
   expect_equal(fine$definitions$kind, c("cap", "profile", "crossing"))
-  expect_output(print(fine), "definitions: 3 of landmarks")
+  expect_output(print(fine), "landmarks with a definition: wideL, tip, wideR")
   wrong <- function(row, column, value, words, named = column) {
     error <- expect_crestline_error(leaf_scheme(with_definitions(row, column, value)),
                                     c("definitions", sprintf("row %d", row), sprintf("column %s", named), words))

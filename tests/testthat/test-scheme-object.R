@@ -132,3 +132,16 @@ test_that("the mirrored skull, left and right swapped, has the mirrored model", 
     expect_lt(max(abs(mirror - as.matrix(own[c("x", "y", "z")]))), tolerances$invariance * 100)
   }
 })
+
+test_that("the nasal spine, put elsewhere, is found again by its definition", {
+  skull <- specimen(morpho_skull()$skull_0144_ch_fe.mesh, skull_landmarks(), id = "skull")
+  placed <- skull$landmarks["ac", ]
+  refined <- function(step) {
+    skull$landmarks["ac", ] <- as.matrix(surface_points(skull$mesh, matrix(placed + step, 1))[1:3])
+    refine_landmarks(skull, skull_scheme(), move = TRUE)$landmarks["ac", ]
+  }
+  one <- refined(c(2, 0, 0))
+  two <- refined(c(0, 1.2, -1.6))
+  expect_lt(sqrt(sum((one - two)^2)), 1e-3)
+  expect_lt(sqrt(sum((one - placed)^2)), 0.5)
+})
