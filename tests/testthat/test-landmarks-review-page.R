@@ -80,3 +80,17 @@ test_that("the page has what its script and its server look for", {
   expect_match(html, "Landmarks of &lt;a&gt;")
   expect_match(html, "sceneChange")
 })
+
+test_that("the page says who is chosen and where it belongs, what waits, and that sides look exchanged", {
+  skip_if_not_installed("shiny")
+  face <- specimen(humface_scan(), humface_landmarks(), id = "humface")
+  review <- begin_review(face, face_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
+  expect_match(as.character(chosen_html(review)), "Choose a landmark")
+  review <- select_landmark(review, "enR")
+  said <- as.character(chosen_html(review))
+  for (words in c("endocanthion", "inner corner of the eye fissure", "3 curves", "No landmark is missing")) expect_match(said, words)
+  expect_no_match(said, "mirrored")
+  rownames(face$landmarks) <- chartr("LR", "RL", rownames(face$landmarks))
+  swapped <- begin_review(face, face_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
+  expect_match(as.character(chosen_html(swapped)), "Left and right look mirrored")
+})
