@@ -182,7 +182,8 @@ by_principal_curve <- function(specimen, radius, width, n, share = 0.2) {
   high <- near$vertex[which(strength >= stats::quantile(strength, 1 - share, na.rm = TRUE))]
   ends <- specimen$landmarks
   start <- ends[rep("from", n), ] + seq(0, 1, length.out = n) * rep(ends["to", ] - ends["from", ], each = n)
-  fit <- princurve::principal_curve(t(specimen$mesh$vb[1:3, high]), start = start, stretch = 0)
+  # Its smoother warns where a coordinate is nearly constant along the curve.
+  fit <- suppressWarnings(princurve::principal_curve(t(specimen$mesh$vb[1:3, high]), start = start, stretch = 0))
   line <- fit$s[fit$ord, ]
   if (sum((line[1, ] - ends["from", ])^2) > sum((line[nrow(line), ] - ends["from", ])^2)) line <- line[nrow(line):1, ]
   rbind(ends["from", ], line, ends["to", ])

@@ -67,6 +67,7 @@ test_that("results do not depend on blocks or workers", {
   }
   whole <- once()
   expect_identical(once(block = 2), whole)
+  skip_on_cran() # two more processes
   before <- future::plan("multisession", workers = 2)
   on.exit(future::plan(before))
   expect_identical(once(block = 1), whole)
