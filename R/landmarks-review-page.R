@@ -71,7 +71,7 @@ answer_steps <- function(input, step, frame, progress) {
   }))
   shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
   shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, frame, progress)))
-  shiny::observeEvent(input$keep, step(keep_selected))
+  shiny::observeEvent(input$keep, step(function(now) keep_selected(now, progress)))
   shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, progress)))
   shiny::observeEvent(input$undo, step(undo_review))
 }

@@ -49,6 +49,8 @@ shown_surface <- function(specimen, surface, radius, most) {
 open_scene <- function(shown, view) {
   rgl::open3d(useNULL = TRUE)
   scene <- draw_surface(shown$mesh, shown$colour, view, "rgl", polygon_offset = 2)
+  # The wheel turned away from the hand comes nearer, as in most programs.
+  rgl::par3d(mouseMode = replace(rgl::par3d("mouseMode"), "wheel", "push"))
   list(device = rgl::cur3d(), scene = scene, frame = shown$frame)
 }
 
@@ -66,7 +68,7 @@ landmark_items <- function(review, size = 1.6, larger = 1.25) {
   state <- ifelse(is_doubtful(review), "doubtful", review$state)[match(names, review$about$landmark)]
   items <- Map(function(name, state) {
     chosen <- identical(name, review$selected)
-    list(landmark = name, at = place_of(review, name), colour = if (chosen) colours$selected else colours$state[[state]],
+    list(landmark = name, at = at[name, ], colour = if (chosen) colours$selected else colours$state[[state]],
          size = size * if (chosen) larger else 1)
   }, names, state)
   stats::setNames(items, paste("landmark", names))

@@ -83,12 +83,11 @@ with_landmark <- function(review, name, point) {
   after
 }
 
-#' Say that the selected landmark is right where it is
+#' Say that the selected landmark is right where it is; one that is not on the mesh (predicted) stays what it was
 #' @noRd
-keep_selected <- function(review) {
-  name <- review$selected
-  if (!length(name) || anyNA(place_of(review, name))) return(review)
-  with_landmark(review, name, landmark_point(review$specimen, name, tolerance = Inf))
+keep_selected <- function(review, progress = function(n) function() NULL) {
+  point <- if (length(review$selected)) known_point(review$specimen, review$selected)
+  if (is.null(point)) review else place_selected(review, point, progress)
 }
 
 undo_review <- function(review) {
@@ -104,11 +103,6 @@ next_open <- function(review) {
   at <- c(match(review$selected, names(open)), 0)[1]
   waiting <- names(which(open[c(seq_along(open)[seq_along(open) > at], seq_len(at))]))
   if (length(waiting)) waiting[1] else review$selected
-}
-
-place_of <- function(review, name) {
-  landmarks <- review$specimen$landmarks
-  if (name %in% rownames(landmarks)) landmarks[name, ] else c(x = NA_real_, y = NA_real_, z = NA_real_)
 }
 
 #' What a ray means: a landmark other than the selected one whose ball it meets, else a place on the surface

@@ -58,6 +58,8 @@ test_that("doubtful landmarks wait, and are settled by a word", {
   expect_equal(length(which(is_open(review))), 1)
   review <- place_selected(review, landmark_point(face, "sl"))
   expect_false(any(is_open(review)))
+  ear <- select_landmark(review, "tL")  # predicted, beside the scan
+  expect_identical(keep_selected(ear), ear)
   expect_equal(review$specimen$placing$state[review$specimen$placing$landmark %in% c("sn", "gn")], c("placed", "placed"))
 })
 
