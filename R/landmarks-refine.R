@@ -19,7 +19,7 @@
 #' of these, until none changes.
 #'
 #' @param specimen A [specimen()] with landmarks.
-#' @param scheme A [curve_scheme()] with definitions; its lengths are in the unit of the mesh.
+#' @param scheme A [curve_scheme()] with definitions.
 #' @param move Whether to take the moves: FALSE, TRUE, or the names of the landmarks that are moved.
 #' @param window Half width of the local fits by which a peak is settled between vertices, as a share of the radius
 #'   (wider where
@@ -33,6 +33,7 @@
 #' @param rounds See `tolerance`.
 #' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh, where that is known, as for
 #'   many sets of landmarks on one mesh; NULL: it is estimated where it is needed.
+#' @param unit As in [fit_shape()].
 #' @param threads Number of threads of [curvature()].
 #' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`; `state`: "found", "none"
 #'   (`reason` says why: it is left alone) or "missing" (the specimen lacks the landmark, or one that the definition
@@ -56,9 +57,9 @@
 #' @export
 refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05, share = 0.5,
                              order = "adaptive cubic", tolerance = 1e-3, rounds = 10, curvature = NULL,
-                             threads = getOption("crestline.threads", 1L)) {
+                             unit = NULL, threads = getOption("crestline.threads", 1L)) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  definitions <- definitions_of(scheme, specimen)
+  definitions <- definitions_of(scheme, specimen, unit)
   move <- check_move(move, definitions$landmark)
   settings <- list(window = check_number(window, "window", 0, open = TRUE), apart = check_number(apart, "apart", 0),
                    faint = check_number(faint, "faint", 0), share = check_number(share, "share", 0, 1, open = TRUE),
@@ -75,9 +76,9 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   specimen
 }
 
-definitions_of <- function(scheme, specimen, call = rlang::caller_env()) {
+definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme() or face_scheme()", call = call)
-  definitions <- scheme$definitions
+  definitions <- scheme_in_unit(scheme, unit, specimen)$definitions
   if (!NROW(definitions)) {
     crestline_abort(sprintf("the scheme %s has no definitions of landmarks.", scheme$name),
                     "Give curve_scheme() a table `definitions`.", stage = "scheme", call = call)

@@ -23,9 +23,7 @@
 #' @param radius Of the curvature that `surface` shows, as in [plot.specimen()].
 #' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks
 #'   are put on the mesh as it is.
-#' @param unit Factor from the mesh's unit to that of the scheme's radii and widths: 1000 for a scan in metres and
-#'   [face_scheme()]. NULL: that of [find_landmarks()] where the landmarks were found, else 1.
-#' @param bridge As in [fit_shape()].
+#' @param bridge,unit As in [fit_shape()].
 #' @param ... Passed to [shiny::runApp()]: `port`, `host`, `launch.browser`.
 #' @inheritParams curvature
 #' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were
@@ -50,7 +48,10 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rlang::check_installed("shiny", "to review landmarks.")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
-  scheme <- scheme_in_unit(scheme, if (is.null(unit)) c(specimen$match$unit, 1)[1] else unit)
+  if (!is.null(scheme)) {
+    check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+    scheme <- scheme_in_unit(scheme, unit, specimen)
+  }
   surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
   least <- check_number(least, "least", 0, 1)
   review <- begin_review(specimen, scheme, least, settings, check_number(bridge, "bridge", 0, 1), threads)
@@ -79,14 +80,4 @@ without_landmarks <- function(mesh, scheme, id = NULL) {
   empty <- matrix(NA_real_, length(names), 3, dimnames = list(names, c("x", "y", "z")))
   if (inherits(mesh, "specimen")) return(specimen(mesh$mesh, empty, mesh$id, outward = "keep"))
   specimen(mesh, empty, id)
-}
-
-#' A scheme with its lengths in the unit of a mesh
-#' @noRd
-scheme_in_unit <- function(scheme, unit) {
-  if (is.null(scheme)) return(NULL)
-  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
-  lengths <- c("radius", "width")
-  scheme$curves[lengths] <- scheme$curves[lengths] / check_number(unit, "unit", 0, open = TRUE)
-  scheme
 }

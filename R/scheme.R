@@ -191,3 +191,18 @@ surface_line <- function(x) {
 amount <- function(n, one, many = paste0(one, "s")) {
   paste(format(n, big.mark = ",", trim = TRUE), if (n == 1) one else many)
 }
+
+#' A scheme with its lengths in the unit of a specimen's mesh
+#'
+#' @param unit As in [fit_shape()].
+#' @noRd
+scheme_in_unit <- function(scheme, unit, specimen) {
+  if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
+  check_number(unit, "unit", 0, open = TRUE)
+  if (unit == 1) return(scheme)
+  for (table in c("curves", "definitions")) {
+    lengths <- intersect(c("radius", "width", "reach"), names(scheme[[table]]))
+    scheme[[table]][lengths] <- scheme[[table]][lengths] / unit
+  }
+  scheme
+}

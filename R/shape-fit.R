@@ -35,6 +35,8 @@
 #' @param column_angles Number of planes that are tried for a column (there: 51).
 #' @param column_reach A column stays within this share of the distance of its ends from the straight line between
 #'   them (there: 1).
+#' @param unit Factor from the mesh's unit to that of the scheme's lengths: 1000 for a scan in metres and [face_scheme()].
+#'   NULL: that of [find_landmarks()] where the landmarks were found, else 1.
 #' @param progress Whether to show a progress bar.
 #' @inheritParams curvature
 #' @return Object of class `shape`, a list:
@@ -59,7 +61,7 @@
 #'     (distance within which there are four triangles with such an angle above 30 degrees); lengths in the unit of the
 #'     mesh, Inf where there is none;
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
-#'   * `scheme`;
+#'   * `scheme`, its lengths in the unit of the mesh;
 #'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
 #'     shape small).
 #'
@@ -89,10 +91,11 @@
 #' }
 #' @export
 fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
-                      column_angle = pi / 4, column_angles = 51, column_reach = 1,
+                      column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  scheme <- scheme_in_unit(scheme, unit, specimen)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)

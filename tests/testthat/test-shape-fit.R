@@ -158,3 +158,15 @@ test_that("points of one place of a face agree exactly, and what is missing has 
   expect_lte(max(gap, na.rm = TRUE), 4)
   expect_gt(mean(!is.na(gap)), 0.8)
 })
+
+test_that("a scan in another unit is measured by the same scheme", {
+  ridge <- simulate_ridge(0.25, 2, noise = 0.01, seed = 1)
+  curves <- data.frame(curve = "crest", from = "from", to = "to", kind = "ridge", radius = 0.25, width = 0.4, n = 11)
+  scheme <- curve_scheme(data.frame(landmark = c("from", "to")), curves, name = "ridge")
+  small <- specimen(moved_mesh(ridge$mesh, diag(3), scale = 1e-3), ridge$landmarks / 1000, id = "small")
+  fit <- function(specimen, ...) fit_shape(specimen, scheme, ..., progress = FALSE)
+  expect_equal(coords(fit(small, unit = 1000), "curves") * 1000, coords(fit(ridge), "curves"), tolerance = 1e-6)
+  small$match <- list(unit = 1000) # as of find_landmarks()
+  expect_identical(fit(small)$scheme$curves$radius, 0.25 / 1000)
+  expect_crestline_error(fit(small, unit = 0), "unit")
+})
