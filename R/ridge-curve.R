@@ -33,9 +33,9 @@
 #' @section Standard error: the standard deviation of the curve's position across
 #'   itself if the mesh had been scanned again with independent noise at each
 #'   vertex. On simulated ridges with such noise and a radius of five spacings, at most the feature's own radius of curvature, the
-#'   crest lies within two standard errors at 93 % of the places (91 to 97 % by noise and sharpness). A wider radius leaves
-#'   a bias that the standard error does not know of (radius of seven and ten spacings: 76 to 92 %), and noise
-#'   that is smooth along the mesh makes it far too small (over one to three spacings: about 50 %). Neither can be seen
+#'   crest lies within two standard errors at 94 % of the places (91 to 98 % by noise and sharpness). A wider radius leaves
+#'   a bias that the standard error does not know of (radius of seven and ten spacings: 75 to 94 %), and noise
+#'   that is smooth along the mesh makes it far too small (over one to three spacings: 50 to 63 %). Neither can be seen
 #'   from one mesh. `vignette("how-good", "crestline")` has the tables.
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
