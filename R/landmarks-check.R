@@ -85,7 +85,8 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
   }
   refuse_landmarks(
     sprintf("off the surface by more than %s: %s.", signif(tolerance, 3), shorten(named)),
-    "Place them anew, set them to NA, or give a greater `tolerance`.", id
+    paste0(if (2 * length(named) > nrow(landmarks)) "Do they belong to this scan? If so, place" else "Place",
+           " them anew, set them to NA, or, where they are only a little off, give a greater `tolerance`."), id
   )
 }
 
@@ -93,7 +94,7 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
 # (of several, the nearest fit for its size), or NULL. `inch`: 25.4 mm.
 fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000, 25.4)) {
   changes <- c(lapply(c(factors, 1 / factors), rep, 3), list(c(-1, -1, 1)))
-  words <- c(paste("multiplied by", factors), paste("divided by", factors), "with x and y negated (LPS and RAS)")
+  words <- c(paste("multiplied by", factors), paste("divided by", factors), "with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
   if (nrow(given) < 2) return(NULL)
   misfit <- vapply(changes, function(change) {

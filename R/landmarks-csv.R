@@ -1,14 +1,23 @@
 # Landmarks and curves as comma-separated values: name, x, y, z and, for points of curves, curve, closed.
 
+# Spreadsheets write semicolons, and decimal commas, where the comma is the decimal mark; some write tabs.
+csv_separator <- function(header) {
+  marks <- c(",", ";", "\t")
+  marks[which.max(vapply(marks, function(mark) sum(strsplit(header, "")[[1]] == mark), 0))]
+}
+
 read_landmarks_csv <- function(file, options) {
+  line <- file_lines(file)
+  sep <- csv_separator(c(line, "")[1])
   table <- tryCatch(
-    suppressWarnings(utils::read.csv(text = file_lines(file), colClasses = "character", strip.white = TRUE,
+    suppressWarnings(utils::read.csv(text = line, sep = sep, colClasses = "character", strip.white = TRUE,
                                      na.strings = character(), check.names = FALSE)),
     error = function(e) refuse_csv(file, conditionMessage(e))
   )
   names(table) <- tolower(trimws(names(table)))
   xyz <- match(c("x", "y", "z"), names(table))
   if (anyNA(xyz)) refuse_csv(file, sprintf("no column %s", paste(c("x", "y", "z")[is.na(xyz)], collapse = ", ")))
+  if (sep == ";") table[xyz] <- lapply(table[xyz], sub, pattern = ",", replacement = ".", fixed = TRUE)
   x <- vapply(xyz, function(i) landmark_numbers(table[[i]], file, seq_len(nrow(table)) + 1), numeric(nrow(table)))
   x <- matrix(x, ncol = 3)
   curve <- if ("curve" %in% names(table)) table$curve else character(nrow(table))
@@ -33,7 +42,7 @@ csv_curves <- function(x, curve, closed) {
 
 refuse_csv <- function(file, reason) {
   refuse_landmark_file(file, paste("cannot be read:", reason),
-                       "Give a header line with name, x, y, z, commas between, points in numbers.")
+                       "Give a header line with name, x, y, z, and commas, semicolons or tabs between.")
 }
 
 write_landmarks_csv <- function(sets, file, options) {

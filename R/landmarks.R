@@ -16,7 +16,7 @@
 #' | `.fcsv` | 3D Slicer | one | no; a shape's as points |
 #' | `.mrk.json` | 3D Slicer | one | yes |
 #'
-#' * `.csv`: a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
+#' * `.csv`: commas, tabs, or semicolons (then with decimal points or commas) between; a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
 #'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order. Rows with something in a
 #'   column `curve` are points of that curve, closed where a column `closed` says TRUE. Other columns
 #'   are ignored; a missing landmark has NA or nothing.

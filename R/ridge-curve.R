@@ -225,7 +225,7 @@ judge_curve <- function(about, fit) {
   } else if (fit$line$at_bound) {
     "it runs along the edge of the window"
   } else if (fit$scale * about$radius < about$settings$faint) {
-    sprintf("the curvature by its reference path is faint: %.2g times the radius, below %.2g",
+    sprintf("the curvature by its reference path is faint: times the radius it is %.3g, below %.3g",
             fit$scale * about$radius, about$settings$faint)
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)

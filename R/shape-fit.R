@@ -96,6 +96,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   scheme <- scheme_in_unit(scheme, unit, specimen)
+  check_fits_scheme(specimen, scheme)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
@@ -119,6 +120,27 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   shape <- note_faults(shape, faults)
   shape$checks <- shape_checks(shape, scan, specimen, fits, faults)
   shape
+}
+
+#' Names that are all foreign, and lengths in another unit, would give a shape of nothing
+#' @noRd
+check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
+  wanted <- scheme$landmarks$landmark
+  if (!any(wanted %in% rownames(specimen$landmarks))) {
+    crestline_abort(
+      sprintf("it has none of the landmarks of the scheme %s (%s), but %s.", scheme$name, shorten(wanted),
+              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all"),
+      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
+      id = specimen$id, class = "crestline_landmark_error", call = call
+    )
+  }
+  size <- mesh_diagonal(specimen$mesh)
+  radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
+  if (radius > size / 2) {
+    crestline_abort(sprintf("the scheme's radius of %.4g is as large as the mesh, whose diagonal is %.4g.", radius, size),
+                    "Is the mesh in another unit? For a scan in metres and a scheme in mm give `unit = 1000`.",
+                    stage = "curvature", id = specimen$id, call = call)
+  }
 }
 
 check_column <- function(column_angle, column_angles, column_reach) {

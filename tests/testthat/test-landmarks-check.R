@@ -65,7 +65,7 @@ test_that("another unit or frame is named with the factor that would fit", {
   expect_crestline_error(specimen(egg(), x / 25.4), "multiplied by 25.4:")
   shifted <- egg()
   shifted$vb[1:2, ] <- shifted$vb[1:2, ] + 300
-  expect_crestline_error(specimen(shifted, (x + rep(c(300, 300, 0), each = 7)) * rep(c(-1, -1, 1), each = 7)), "negated (LPS")
+  expect_crestline_error(specimen(shifted, (x + rep(c(300, 300, 0), each = 7)) * rep(c(-1, -1, 1), each = 7)), c("negated", "frame = \"RAS\""))
 })
 
 test_that("left for right is warned of, whatever the position of the head", {

@@ -53,11 +53,17 @@ test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(csv_file(""), "cannot be read")
 })
 
-test_that("semicolons and decimal commas are refused, not misread", {
-  expect_refused(csv_file("name;x;y;z", "a;1,5;2;3"), c("no column x, y, z", "commas between"))
+test_that("decimal commas between commas, and thousands' commas between semicolons, are refused, not misread", {
+  expect_refused(csv_file("name;x;y;z", "a;1,234.5;2;3"), c("1.234.5", "decimal point"), line = 2)
   expect_refused(csv_file("name,x,y,z", 'a,"1,5",2,3'), c('"1,5" is not a number', "decimal point"), line = 2)
 })
 
 test_that("blanks at the ends of a name stay when it is quoted", {
   expect_round_trip(xyz(1, 2, 3, name = " a "), "csv")
+})
+
+test_that("semicolons with decimal commas, and tabs, are read as spreadsheets write them", {
+  for (lines in list(c("name;x;y;z", "pn;1,5;-2;3e-5", "\"sn, left\";;;"), c("name\tx\ty\tz", "pn\t1.5\t-2\t3e-5", "\"sn, left\"\t\t\t"))) {
+    expect_equal(read_landmarks(csv_file(lines)), expected, ignore_attr = TRUE)
+  }
 })

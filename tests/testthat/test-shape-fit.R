@@ -169,4 +169,12 @@ test_that("a scan in another unit is measured by the same scheme", {
   small$match <- list(unit = 1000) # as of find_landmarks()
   expect_identical(fit(small)$scheme$curves$radius, 0.25 / 1000)
   expect_crestline_error(fit(small, unit = 0), "unit")
+  small$match <- NULL
+  expect_crestline_error(fit(small), c("radius of 0.25", "unit"), "small")
+})
+
+test_that("landmarks under other names are an error that shows both", {
+  corners <- quad_corners()
+  rownames(corners) <- paste("corner", 1:4)
+  expect_crestline_error(quad_shape(landmarks = corners), c("a, b, c, d", "corner 1", "Rename"), "quad")
 })
