@@ -10,7 +10,7 @@
 #'
 #' It is a choice, and off by default: where people put a landmark is often not where curvature has its extreme. On
 #' faces, most
-#' definitions of [face_scheme()] lie 0.1 to 4 mm from where people put the points (`bench/README.md`); a landmark that was
+#' definitions of [face_scheme()] lie 0.2 to 3 mm from where people put the points (`bench/README.md`); a landmark that was
 #' placed with care is moved away from where it was meant to be, the same way in every specimen. As a flag it serves both:
 #' a landmark much farther from its defined place than those of other specimens was probably misplaced.
 #'
