@@ -3,27 +3,24 @@
 #' Landmarks beside the places that their definitions say
 #'
 #' Curves inform landmarks, too: a landmark may be where two curves cross, where one turns most or ends, or the
-#' strongest cap or
-#' cup. Where the scheme has such a definition, the place that it says near the landmark is found, and how far the
-#' landmark would move; on request it is moved there. A definition takes nothing from the landmark but where the search
-#' begins, so that two people who put it a little apart are brought to the same place.
+#' strongest cap or cup. Where the scheme has such a definition, the place that it says near the landmark is found, and
+#' how far the landmark would move; on request it is moved there. A definition takes nothing from the landmark but
+#' where the search begins, so that two people who put it a little apart are brought to the same place.
 #'
 #' It is a choice, and off by default: where people put a landmark is often not where curvature has its extreme. On
-#' faces, most
-#' definitions of [face_scheme()] lie 0.2 to 3 mm from where people put the points (`bench/README.md`); a landmark that was
-#' placed with care is moved away from where it was meant to be, the same way in every specimen. As a flag it serves both:
-#' a landmark much farther from its defined place than those of other specimens was probably misplaced.
+#' faces, most definitions of [face_scheme()] lie 0.2 to 3 mm from where people put the points (`bench/README.md`); a
+#' landmark that was placed with care is moved away from where it was meant to be, the same way in every specimen. As a
+#' flag it serves both: a landmark much farther from its defined place than those of other specimens was probably
+#' misplaced.
 #'
 #' Landmarks whose definitions build on others (the mirror plane of pairs, the ends of a curve) are found from the
-#' defined places
-#' of these, until none changes.
+#' defined places of these, until none changes.
 #'
 #' @param specimen A [specimen()] with landmarks.
 #' @param scheme A [curve_scheme()] with definitions.
 #' @param move Whether to take the moves: FALSE, TRUE, or the names of the landmarks that are moved.
 #' @param window Half width of the local fits by which a peak is settled between vertices, as a share of the radius
-#'   (wider where
-#'   the vertices are far apart).
+#'   (wider where the vertices are far apart).
 #' @param apart Distance within which only the greatest of several peaks is tried, as a share of the radius.
 #' @param faint Peaks of curvature below this, times 1 / radius, do not count.
 #' @param share A ridge ends where its strength has fallen to this share of its greatest.
@@ -35,16 +32,14 @@
 #'   many sets of landmarks on one mesh; NULL: it is estimated where it is needed.
 #' @param unit As in [fit_shape()].
 #' @param threads Number of threads of [curvature()].
-#' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`; `state`: "found", "none"
-#'   (`reason` says why: it is left alone) or "missing" (the specimen lacks the landmark, or one that the definition
-#'   builds on);
-#'   `distance`, how far the landmark would move; `value`, the curvature that is extreme there (NA for a crossing);
-#'   `moved`; `given_x`, `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`, the
-#'   defined place, on
-#'   the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its `landmarks` are moved.
+#' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`; `state`: "found",
+#'   "none" (`reason` says why: it is left alone) or "missing" (the specimen lacks the landmark, or one that the
+#'   definition builds on); `distance`, how far the landmark would move; `value`, the curvature that is extreme there
+#'   (NA for a crossing); `moved`; `given_x`, `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`,
+#'   `w1`, `w2`, `w3`, the defined place, on the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its
+#'   `landmarks` are moved.
 #' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any of their
-#'   landmarks, `move`
-#'   that names others.
+#'   landmarks, `move` that names others.
 #' @references The paper, section 7.
 #' @seealso [curve_scheme()], [find_landmarks()]
 #' @examples

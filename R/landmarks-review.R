@@ -6,11 +6,11 @@
 #' them. Choose a landmark, in the list or by a click on its ball; a click on the surface puts it there, exactly on the mesh,
 #' and the curves that hang on it are fitted anew at once. Drag turns, the wheel comes nearer, the right button shifts.
 #'
-#' `review_landmarks()` begins with the landmarks of the specimen. Those that [find_landmarks()] is not sure of are red, and
-#' chosen one after the other: move each, say that it is right, or that it is not on this scan. Green are found, blue
-#' predicted, violet placed ones, yellow is the chosen one.
-#' `place_landmarks()` begins without any, and names and describes the next one of the scheme; names that end in L
-#' belong to the subject's own left. A specimen that has some of them is gone on with by `review_landmarks()`.
+#' `review_landmarks()` begins with the landmarks of the specimen. Those that [find_landmarks()] is not sure of are
+#' red, and chosen one after the other: move each, say that it is right, or that it is not on this scan. Green are
+#' found, blue predicted, violet placed ones, yellow is the chosen one. `place_landmarks()` begins without any, and
+#' names and describes the next one of the scheme; names that end in L belong to the subject's own left. A specimen
+#' that has some of them is gone on with by `review_landmarks()`.
 #'
 #' @param specimen A [specimen()], with landmarks that were found or given.
 #' @param scheme A [curve_scheme()]: its landmarks, with their words `name` and `where`, and its curves; NULL: the landmarks
@@ -28,9 +28,9 @@
 #' @inheritParams curvature
 #' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were
 #'   ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said
-#'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them. `place_landmarks()`: a specimen
-#'   with a row for each landmark of the scheme, NA where it was not placed. A warning of class `crestline_mirrored` tells
-#'   where left and right look mirrored.
+#'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them.
+#'   `place_landmarks()`: a specimen with a row for each landmark of the scheme, NA where it was not placed. A warning
+#'   of class `crestline_mirrored` tells where left and right look mirrored.
 #' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
 #' @references The paper, section 7.
 #' @seealso [find_landmarks()], [calibrate_template()]
