@@ -94,7 +94,8 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
 # (of several, the nearest fit for its size), or NULL. `inch`: 25.4 mm.
 fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000, 25.4)) {
   changes <- c(lapply(c(factors, 1 / factors), rep, 3), list(c(-1, -1, 1)))
-  words <- c(paste("multiplied by", factors), paste("divided by", factors), "with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
+  words <- c(paste("multiplied by", factors), paste("divided by", factors),
+             "with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
   if (nrow(given) < 2) return(NULL)
   misfit <- vapply(changes, function(change) {
