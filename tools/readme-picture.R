@@ -24,7 +24,7 @@ upright_view <- function(landmarks, round) {
 draw_readme <- function(file, radius = 7) {
   face <- read_face()
   shape <- fit_shape(face, face_scheme(), progress = FALSE)
-  grDevices::png(file, width = 1100, height = 520, res = 80, type = "cairo")
+  grDevices::jpeg(file, width = 1100, height = 520, res = 80, quality = 85, type = "cairo")
   on.exit(grDevices::dev.off())
   graphics::layout(t(1:3), widths = c(1, 1, 1.24))
   view <- function(round) upright_view(face$landmarks, round)
@@ -33,4 +33,4 @@ draw_readme <- function(file, radius = 7) {
   plot(shape, face, patches = FALSE, engine = "picture", view = view(0.65), curvature = curvature(face, radius))
 }
 
-draw_readme(file.path("man", "figures", "README-face.png"))
+draw_readme(file.path("man", "figures", "README-face.jpg"))
