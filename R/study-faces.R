@@ -49,7 +49,9 @@
 #' faces
 #' faces$covariates
 #' true_points(faces)["pn", , ] # the tip of the nose on each face
+#' \donttest{
 #' plot(faces$specimens[[1]], engine = "picture")
+#' }
 #' @export
 simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, template = NULL,
                            groups = c("female", "male"), variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
