@@ -11,6 +11,16 @@
 #' @noRd
 move_landmark <- function(specimen, name, point) {
   if (is.null(point)) point <- surface_points(specimen$mesh, rep(NA_real_, 3))
+  specimen <- with_landmark_at(specimen, name, point)
+  if (!is.null(specimen$placing)) {
+    specimen$placing <- moved_placing(specimen$placing, name, unlist(point[c("x", "y", "z")]))
+  }
+  specimen
+}
+
+#' A specimen with one landmark at a point of its mesh, whoever put it there
+#' @noRd
+with_landmark_at <- function(specimen, name, point) {
   at <- unlist(point[c("x", "y", "z")])
   specimen$landmarks <- with_named_row(specimen$landmarks, at, name)
   known <- specimen$geometry
@@ -18,7 +28,6 @@ move_landmark <- function(specimen, name, point) {
   known$landmarks <- with_row(known$landmarks, row, at, name)
   known$located[row, mesh_columns] <- point[mesh_columns]
   specimen$geometry <- known
-  if (!is.null(specimen$placing)) specimen$placing <- moved_placing(specimen$placing, name, at)
   specimen
 }
 

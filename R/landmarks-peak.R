@@ -5,9 +5,8 @@
 #' Points that no other within `apart` exceeds are tried from the strongest on; each is settled by local fits, so that the
 #' peak does not depend on which points there are, nor on where the search began.
 #'
-#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve), `normal` (n x
-#'   3; NULL: the
-#'   points' own main plane or line is taken, which fails in a deep cup).
+#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve), `normal` (n x 3;
+#'   NULL: the points' own main plane or line is taken, which fails in a deep cup).
 #' @param start The place, and how far from it (`reach`) the peak may lie.
 #' @param apart Distance within which only the greatest point is tried.
 #' @param width Half width of the local fits.

@@ -66,7 +66,9 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
                            check_count(rounds, "rounds"))
   refinement <- refinement_table(specimen, definitions, places)
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
-  for (i in which(refinement$moved)) specimen <- with_place(specimen, refinement$landmark[i], refinement[i, mesh_columns])
+  for (i in which(refinement$moved)) {
+    specimen <- with_landmark_at(specimen, refinement$landmark[i], refinement[i, mesh_columns])
+  }
   specimen$refinement <- refinement
   specimen
 }
@@ -129,7 +131,8 @@ refined_places <- function(specimen, definitions, pairs, curvature, settings, to
       settled <- FALSE
       seen[[i]] <- at
       places[[i]] <- located_place(current, definitions[i, ], given, at, pairs, curvature, settings)
-      current <- with_place(current, definitions$landmark[i], places[[i]]$point)
+      point <- places[[i]]$point
+      if (!is.null(point)) current <- with_landmark_at(current, definitions$landmark[i], point)
     }
     if (settled) break
   }
@@ -162,21 +165,6 @@ located_place <- function(specimen, definition, given, inputs, pairs, curvature,
   place$state <- "found"
   place$point <- point_near(specimen$mesh, place$at, definition$radius)
   place
-}
-
-#' A specimen with one landmark at a point of its mesh
-#' @noRd
-with_place <- function(specimen, name, point) {
-  if (is.null(point)) return(specimen)
-  at <- unlist(point[c("x", "y", "z")])
-  specimen$landmarks[name, ] <- at
-  known <- specimen$geometry
-  row <- match(name, rownames(known$landmarks))
-  if (is.na(row)) row <- nrow(known$landmarks) + 1
-  known$landmarks <- with_row(known$landmarks, row, at, name)
-  known$located[row, ] <- point
-  specimen$geometry <- known
-  specimen
 }
 
 #' @return Data frame as `refinement` of [refine_landmarks()], without `moved`.
