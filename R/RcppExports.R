@@ -81,6 +81,10 @@ cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweep
     .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
 }
 
+cpp_locate <- function(vb, it, xyz, leaf) {
+    .Call(`_crestline_cpp_locate`, vb, it, xyz, leaf)
+}
+
 cpp_geodesic_distances <- function(vb, it, places) {
     .Call(`_crestline_cpp_geodesic_distances`, vb, it, places)
 }

@@ -317,6 +317,20 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_locate
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf);
+RcppExport SEXP _crestline_cpp_locate(SEXP vbSEXP, SEXP itSEXP, SEXP xyzSEXP, SEXP leafSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< int >::type leaf(leafSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_locate(vb, it, xyz, leaf));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_geodesic_distances
 NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places);
 RcppExport SEXP _crestline_cpp_geodesic_distances(SEXP vbSEXP, SEXP itSEXP, SEXP placesSEXP) {
@@ -403,6 +417,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
+    {"_crestline_cpp_locate", (DL_FUNC) &_crestline_cpp_locate, 4},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},

@@ -1,6 +1,8 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cmath>
+
 #include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
@@ -8,6 +10,7 @@
 #include "mesh_bend.h"
 #include "mesh_crop.h"
 #include "mesh_geodesic.h"
+#include "mesh_locate.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -403,6 +406,32 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
                                [] { checkUserInterrupt(); });
   for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
+// xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
+// [[Rcpp::export]]
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
+  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::FaceTree tree(mesh, leaf);
+  int n = xyz.nrow();
+  IntegerVector face(n, NA_INTEGER);
+  NumericMatrix at(n, 6);
+  NumericVector distance(n, NA_REAL);
+  std::fill(at.begin(), at.end(), NA_REAL);
+  for (int i = 0; i < n; ++i) {
+    double to[3] = {xyz(i, 0), xyz(i, 1), xyz(i, 2)};
+    if (!std::isfinite(to[0]) || !std::isfinite(to[1]) || !std::isfinite(to[2])) continue;
+    crestline::ClosestPoint found = tree.closest(to);
+    if (!std::isfinite(found.distance)) continue;
+    face[i] = found.at.face + 1;
+    distance[i] = found.distance;
+    for (int k = 0; k < 3; ++k) {
+      at(i, k) = found.xyz[k];
+      at(i, 3 + k) = found.at.w[k];
+    }
+    checkUserInterrupt();
+  }
+  return List::create(_["face"] = face, _["at"] = at, _["distance"] = distance);
 }
 
 // [[Rcpp::export]]
