@@ -53,5 +53,7 @@ unbridged_path <- function(path, mesh) {
   landing <- which(bridge & !c(bridge[-1], TRUE))
   path[landing, mesh_columns] <- surface_points(mesh, as.matrix(path[landing, c("x", "y", "z")]))
   kept <- sort(c(which(!bridge), landing))
-  structure(path[kept, ], length = attr(path, "length"), class = class(path))
+  # Its arc lengths stay those of the way over the bridges, along which it was measured.
+  structure(plain_frame(path)[kept, ], length = attr(path, "length"), key = attr(path, "key"), id = attr(path, "id"),
+            class = class(path))
 }
