@@ -125,7 +125,10 @@ comparison_ticks <- function(progress, n) {
 #' `aligned`s named by level
 #' @noRd
 aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
-  if (inherits(sample, "aligned")) return(stats::setNames(list(sample), sample$level))
+  if (inherits(sample, "aligned")) {
+    check_aligned(sample, "sample", call)
+    return(stats::setNames(list(sample), sample$level))
+  }
   as_aligned <- function(one, level) {
     areas <- identical(weights, "area") && inherits(one, "shape_sample") && !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)

@@ -97,11 +97,9 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   }
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
-  structure(list(coords = coords, mean = apply(coords, 1:2, mean),
-                 size = stats::setNames(as.vector(size), dimnames(coords)[[3]]),
-                 weights = rep(1, dim(coords)[1]), scale = scaled, tangent = FALSE, level = level,
-                 missing = data.frame(id = character(), point = character(), action = character()), moved = numeric(),
-                 triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())), class = "aligned")
+  validate_aligned(new_aligned(coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
+                               rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
+                               triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())))
 }
 
 #' Columns of covariates in the order of the specimens

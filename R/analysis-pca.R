@@ -29,11 +29,12 @@
 #' shape_at(pca, 1, 2)
 #' @export
 shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
-  check_class(aligned, "aligned", "aligned", "align()")
+  check_aligned(aligned)
   weights <- point_weights(weights, as_whole(aligned))
-  dims <- dim(aligned$coords)
+  coords <- aligned$coords
+  dims <- dim(coords)
   weight <- rep(weights, dims[2])
-  x <- t(matrix(aligned$coords, dims[1] * dims[2], dims[3]))
+  x <- t(matrix(coords, dims[1] * dims[2], dims[3]))
   center <- colMeans(x)
   parts <- thin_svd(sweep(x, 2, center) * rep(sqrt(weight), each = dims[3]), tolerance)
   if (!length(parts$d)) {
@@ -49,7 +50,7 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   direction <- if (all(weight == 1)) rotation else
     crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
   dimnames(direction) <- dimnames(rotation)
-  rownames(scores) <- dimnames(aligned$coords)[[3]]
+  rownames(scores) <- names(aligned)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE,
                  x = scores,
                  share = variance / sum(variance), direction = direction,
@@ -58,9 +59,8 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
 }
 
 as_whole <- function(aligned) {
-  places <- if (is.null(aligned$places)) rownames(aligned$mean) else aligned$places
   k <- nrow(aligned$mean)
-  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = places, given = k,
+  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = aligned$places, given = k,
        kept = seq_len(k))
 }
 

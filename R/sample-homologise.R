@@ -81,7 +81,11 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     tick()
     finish_slide(shape, cut, plan, specimen_of(shape, specimens))
   }, shapes, cuts)
-  new_sample(slid, found$template, found$convergence)
+  slid <- lapply(slid, function(shape) {
+    shape$specimen <- NULL
+    shape
+  })
+  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
