@@ -88,6 +88,20 @@ validate_curvature <- function(x) {
                   "Give what curvature() returns, whole.", stage = "curvature", id = attr(x, "id"), call = NULL)
 }
 
+#' Refuse the curvature of another mesh
+#'
+#' @param mesh The specimen or mesh that it is to be used with.
+#' @noRd
+check_curvature_on <- function(curvature, mesh) {
+  check_class(curvature, "curvature", "curvature", "curvature()")
+  check_same_mesh(curvature, mesh, "`curvature`")
+  n <- ncol(as_mesh(mesh)$vb)
+  if (length(curvature$k1) == n) return(invisible(curvature))
+  crestline_abort(sprintf("`curvature` has %d values for %d vertices.", length(curvature$k1), n),
+                  "Give what curvature() returns, whole.", stage = "curvature", id = mesh_of(mesh)$id,
+                  class = "crestline_wrong_mesh", call = NULL)
+}
+
 #' @exportS3Method
 validate.curvature <- function(x) validate_curvature(x)
 

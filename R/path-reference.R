@@ -186,8 +186,7 @@ path_strength <- function(curvature, type, keep_away, specimen) {
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
   if (is.function(curvature)) return(curvature)
   if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
-  check_class(curvature, "curvature", "curvature", "curvature()")
-  check_same_mesh(curvature, specimen, "`curvature`")
+  check_curvature_on(curvature, specimen)
   function(vertices) curvature_rows(curvature, vertices)
 }
 

@@ -30,10 +30,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
                           engine = if (interactive()) "rgl" else "picture", view = "front",
                           landmarks = TRUE, labels = FALSE, legend = TRUE, main = NULL, ...) {
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
-  if (!is.null(curvature)) {
-    check_class(curvature, "curvature", "curvature", "curvature()")
-    check_same_mesh(curvature, x, "`curvature`")
-  }
+  if (!is.null(curvature)) check_curvature_on(curvature, x)
   colour <- check_choice(colour, c("natural", "shape index", "curvature", "plain"), "colour")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   if (colour %in% c("shape index", "curvature") && is.null(curvature)) {

@@ -240,7 +240,7 @@ new_curve <- function(points, path, reference, about, verdict, key, coordinates 
 validate_curve <- function(x) {
   path <- if (is.list(x)) x$path
   right <- inherits(path, "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
-    is.numeric(x$points$s) && is.numeric(x$points$se)
+    is.numeric(x$points$s) && is_error(x$points$se)
   if (right) return(validate_mesh_path(path))
   crestline_abort("the curve lacks its path, or points with co-ordinates, faces, weights and errors.",
                   "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve", id = if (is.list(x)) x$id,
@@ -249,6 +249,9 @@ validate_curve <- function(x) {
 
 #' @exportS3Method
 validate.curve <- function(x) validate_curve(x)
+
+# Standard errors, all NA where there are none.
+is_error <- function(x) is.numeric(x) || is.logical(x) && length(x) && all(is.na(x))
 
 #' Refuse a curve that does not lie on a mesh
 #'

@@ -34,7 +34,7 @@ validate_shape <- function(x) {
   validate(x$scheme)
   points <- x$points
   named <- c("level", "part", "point")
-  own <- is.data.frame(points) && !is.null(place_columns(points)) && is.numeric(points$se) &&
+  own <- is.data.frame(points) && !is.null(place_columns(points)) && is_error(points$se) &&
     all(vapply(named, function(name) identical(as.vector(points[[name]]), as.vector(x$scheme$points[[name]])), NA))
   if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
   if (!is.list(x$paths) || !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
