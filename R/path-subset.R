@@ -66,7 +66,7 @@ rebased_path <- function(rows, key, id) {
   n <- nrow(rows)
   rows$s <- c(0, cumsum(row_lengths(xyz[-1, , drop = FALSE] - xyz[-n, , drop = FALSE])))[seq_len(n)]
   columns <- lapply(unclass(rows)[names(rows)], unname)
-  frame_of(columns, length = if (n) rows$s[n] else 0, key = key, id = id, class = "mesh_path")
+  new_mesh_path(columns, if (n) rows$s[n] else 0, key, id)
 }
 
 #' A data frame without class and attributes of its own

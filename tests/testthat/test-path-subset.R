@@ -10,7 +10,7 @@ test_that("a part of a path has its own length, arc lengths from 0, and nothing 
   expect_equal(part$s, path$s[5:20] - path$s[5])
   expect_equal(attr(part, "length"), path$s[20] - path$s[5])
   expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns], ignore_attr = TRUE)
-  expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length"))
+  expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
   expect_output(print(part), "Path of 16 points")
   expect_no_match(paste(capture.output(print(part)), collapse = " "), "angle")
 })
@@ -20,7 +20,7 @@ test_that("what a reference path knows of its criterion does not go with its par
   expect_true(all(c("optima", "criterion", "competing", "angle", "type") %in% names(attributes(path))))
   for (part in list(path[-1, ], head(path, 4), subset(path, z > -1 & s > 0.2), path[path$s > 0.2, ], rbind(path, path[0, ])[-1, ])) {
     expect_s3_class(part, "mesh_path")
-    expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length"))
+    expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
     expect_equal(part$s[1], 0)
     expect_equal(attr(part, "length"), tail(part$s, 1))
   }
@@ -54,11 +54,14 @@ test_that("the whole path stays what it is, and a path without one of its column
 })
 
 test_that("the key and the id of the mesh stay with a part", {
-  path <- structure(quarter(), key = "a", id = "ball")
+  ball <- specimen(Rvcg::vcgSphere(4), id = "ball")
+  path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
   part <- path[3:8, ]
-  expect_identical(attr(part, "key"), "a")
+  expect_identical(attr(part, "key"), ball$key)
   expect_identical(attr(part, "id"), "ball")
-  expect_identical(attr(rbind(part, path[8:9, ]), "key"), "a")
+  expect_identical(attr(rbind(part, path[8:9, ]), "key"), ball$key)
+  # It is a path of its mesh still.
+  expect_s3_class(path_coordinates(ball, path[seq(1, nrow(path), 2), ], 0.2), "path_coordinates")
 })
 
 test_that("parts put together again are the path; the common point is there once", {
@@ -74,8 +77,8 @@ test_that("parts put together again are the path; the common point is there once
 })
 
 test_that("paths of different meshes, and what is no path, are not joined", {
-  path <- structure(quarter(), key = "a", id = "ball")
-  other <- structure(quarter(), key = "b", id = "other")
+  path <- plane_path(specimen(Rvcg::vcgSphere(4), id = "ball"), c(1, 0, 0), c(0, 1, 0))
+  other <- plane_path(specimen(Rvcg::vcgSphere(3), id = "other"), c(1, 0, 0), c(0, 1, 0))
   expect_crestline_error(rbind(path, other), c("2 meshes", "ball", "other"))
   expect_crestline_error(rbind(path, as.data.frame(path)), "mesh_path")
 })
@@ -87,7 +90,7 @@ test_that("a path over a bridged hole keeps the arc lengths that it was measured
   flat <- specimen(mesh, outward = "keep")
   bridged <- bridge_holes(flat, 0.5)
   path <- plane_path(bridged, c(1, 4.3, 0), c(7, 4.3, 0))
-  clear <- unbridged_path(path, flat$mesh)
+  clear <- unbridged_path(path, flat)
   expect_lt(nrow(clear), nrow(path))
   expect_equal(attr(clear, "length"), attr(path, "length"))
   expect_true(all(clear$face <= ncol(flat$mesh$it)))
