@@ -111,6 +111,7 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
+    validate(sample)
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"

@@ -43,16 +43,14 @@ validate_aligned <- function(x, call = rlang::caller_env()) {
   x
 }
 
-#' An argument that is an alignment; its fields may have been set one by one since it was made
-#' @noRd
-check_aligned <- function(x, name = "aligned", call = rlang::caller_env()) {
-  check_class(x, "aligned", name, "align()", call)
-  k <- nrow(x$mean)
-  if (!all(vapply(as.list(x), function(one) identical(dim(one), dim(x$mean)), NA)) || length(x$weights) != k ||
-        length(x$size) != length(x)) {
-    crestline_abort(sprintf("the fields of `%s` do not fit together.", name),
-                    "Set `coords`, `mean`, `size` and `weights` alike, or align() the changed sample.", stage = "align", call = call)
-  }
+# Of an alignment whose fields may have been set one by one since it was made.
+#' @exportS3Method
+validate.aligned <- function(x) {
+  k <- nrow(attr(x, "mean"))
+  alike <- vapply(as.list(x), function(one) identical(dim(one), dim(attr(x, "mean"))), NA)
+  if (all(alike) && identical(c(length(x$weights), length(x$size)), c(k, length(x)))) return(invisible(x))
+  crestline_abort("the fields of the alignment do not fit together.",
+                  "Set `coords`, `mean`, `size` and `weights` alike, or align() the changed sample.", stage = "align", call = NULL)
 }
 
 #' The specimens of an alignment

@@ -126,7 +126,7 @@ comparison_ticks <- function(progress, n) {
 #' @noRd
 aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
   if (inherits(sample, "aligned")) {
-    check_aligned(sample, "sample", call)
+    validate(sample)
     return(stats::setNames(list(sample), sample$level))
   }
   as_aligned <- function(one, level) {

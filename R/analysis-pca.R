@@ -29,7 +29,7 @@
 #' shape_at(pca, 1, 2)
 #' @export
 shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
-  check_aligned(aligned)
+  check_class(aligned, "aligned", "aligned", "align()")
   weights <- point_weights(weights, as_whole(aligned))
   coords <- aligned$coords
   dims <- dim(coords)

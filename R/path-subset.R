@@ -46,7 +46,11 @@ NULL
 #' @export
 rbind.mesh_path <- function(..., deparse.level = 1) {
   paths <- Filter(Negate(is.null), list(...))
-  for (path in paths) check_class(path, "mesh_path", "...", "plane_path() or reference_path()")
+  strange <- Filter(function(path) !inherits(path, "mesh_path"), paths)
+  if (length(strange)) {
+    crestline_abort(sprintf("a path is joined with %s.", describe_value(strange[[1]])),
+                    "Give paths only, as of plane_path() or reference_path().", stage = "path")
+  }
   check_one_mesh(paths)
   columns <- Reduce(intersect, lapply(paths, names))
   rows <- do.call(rbind, lapply(unname(paths), function(path) plain_frame(path)[columns]))

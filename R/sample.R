@@ -23,6 +23,7 @@ validate_shape_sample <- function(x, call = rlang::caller_env()) {
   fail <- function(problem, remedy = "Make a sample with homologise().") {
     crestline_abort(problem, remedy, stage = "sample", call = call)
   }
+  if (is.null(attr(x, "template")) && "shapes" %in% names(x)) fail("the sample was made by an older version.", "Make it again with homologise().")
   shapes <- x$shapes
   check_class(x$template, "shape", "template", "symmetrise() or homologise()", call)
   if (!all(vapply(shapes, inherits, NA, "shape"))) fail("some of its members are no shapes.")
@@ -36,6 +37,9 @@ validate_shape_sample <- function(x, call = rlang::caller_env()) {
   if (!is.null(x$convergence) && !is.data.frame(x$convergence)) fail("its convergence is no table.")
   x
 }
+
+#' @exportS3Method
+validate.shape_sample <- function(x) validate_shape_sample(x, call = NULL)
 
 #' Points that are missing, by specimen and part
 #' @noRd

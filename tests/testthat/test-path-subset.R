@@ -80,7 +80,7 @@ test_that("paths of different meshes, and what is no path, are not joined", {
   path <- plane_path(specimen(Rvcg::vcgSphere(4), id = "ball"), c(1, 0, 0), c(0, 1, 0))
   other <- plane_path(specimen(Rvcg::vcgSphere(3), id = "other"), c(1, 0, 0), c(0, 1, 0))
   expect_crestline_error(rbind(path, other), c("2 meshes", "ball", "other"))
-  expect_crestline_error(rbind(path, as.data.frame(path)), "mesh_path")
+  expect_crestline_error(rbind(path, as.data.frame(path)), "joined with")
 })
 
 test_that("a path over a bridged hole keeps the arc lengths that it was measured along", {
