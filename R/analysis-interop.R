@@ -112,16 +112,20 @@ covariates <- function(data, ids, call = rlang::caller_env()) {
   if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
   clash <- intersect(names(data), c("coords", "size"))
   if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]), "Rename it: the sample's own has that name.")
-  # Numbers stand for names that were not given: then rows are taken in their order.
-  named <- !identical(ids, as.character(seq_along(ids))) && all(ids %in% rownames(data))
-  names <- if (!is.null(data[["id"]])) as.character(data[["id"]]) else if (named) rownames(data)
-  if (!is.null(names)) {
-    absent <- setdiff(ids, names)
-    if (length(absent)) fail(sprintf("`data` has no row for %s.", shorten(absent)), "Add it, or leave the specimen out.")
-    data <- data[match(ids, names), , drop = FALSE]
-  }
-  if (nrow(data) != length(ids)) {
-    fail(sprintf("`data` has %d rows for %d specimens.", nrow(data), length(ids)), "Give a row for each, or a column `id`.")
-  }
+  data <- data[rows_of_specimens(data, ids, "data", fail), , drop = FALSE]
+  for (name in names(data)) warn_alike_levels(data[[name]], name)
   as.list(data)
+}
+
+#' Values of a covariate that differ by blanks or case only make two groups of one
+#' @noRd
+warn_alike_levels <- function(x, name) {
+  value <- if (is.factor(x)) levels(droplevels(x)) else if (is.character(x)) unique(x[!is.na(x)])
+  if (length(value) >= length(x)) return(invisible())
+  alike <- alike_levels(value)
+  if (length(alike)) {
+    crestline_warn(sprintf("`%s` has %s, which differ by blanks or case only.", name,
+                           paste0("\"", alike, "\"", collapse = " and ")),
+                   "Give them one name.", stage = "arguments", class = "crestline_alike_groups")
+  }
 }

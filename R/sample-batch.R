@@ -28,8 +28,10 @@
 #'   extension; where files share it, with as many folders as tell them apart: "visit 1/anna", "visit 2/anna".
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
-#' @param landmarks With mesh files: their landmark files, one for each; `NULL`: the file beside each mesh with its name
-#'   and an extension of [read_landmarks()], where there is one.
+#' @param landmarks With mesh files: `NULL`: the file beside each mesh with its name and an extension of
+#'   [read_landmarks()], in any case, where there is one; two that differ are a failure. Or, told by the ids of the specimens: a
+#'   landmark file for each, one file for all (.tps, .nts, .csv with a column of specimens), a folder of landmark files, a list of
+#'   k x 3 matrices by name, a k x 3 x n array with names.
 #' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's
 #'   landmarks are those of the face, else none.
 #' @param doubtful As in [check_placing()].

@@ -47,6 +47,7 @@ refused_bare <- function(job, others, never) {
   problem <- if (never) "it has no landmarks, and `found` is FALSE." else
     sprintf("it has no landmarks, but %s of the batch: found landmarks are not mixed with placed ones unasked.",
             if (others == 1) "1 other has" else paste(others, "others have"))
+  if (!is.null(job$wanting)) problem <- job$wanting
   job$refusal <- tryCatch(refuse_landmarks(problem, paste0(beside, ", or have them found: found = TRUE."), job$id),
                           crestline_error = identity)
   job

@@ -3,8 +3,8 @@
 #' What is to be measured: files or specimens, by id
 #'
 #' @return Named list of jobs, each a list: `id`; `specimen`, or `mesh` (path), `landmarks` (path, matrix, or NULL where there are
-#'   none) and `reading` (list: arguments for `landmarks`, for `specimen`); `refusal`, a condition, where the landmarks
-#'   cannot be had.
+#'   none) and `reading` (list: arguments for `landmarks`, for `specimen`); `wanting`, why there are no landmarks, as far as
+#'   that is known; `refusal`, a condition, where the landmarks cannot be had.
 #' @noRd
 batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
   if (inherits(x, "specimen")) x <- list(x)
@@ -44,11 +44,12 @@ file_jobs <- function(files, landmarks, reading, call) {
   }
   reading <- check_reading(reading, call)
   ids <- file_ids(files)
-  own <- batch_landmarks(files, ids, landmarks, reading$landmarks, call)
-  stats::setNames(Map(function(mesh, id, at) {
+  own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else given_landmarks(landmarks, ids, reading$landmarks)
+  stats::setNames(Map(function(mesh, id, at, wanting) {
     failed <- inherits(at, "condition")
-    list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading, refusal = if (failed) at)
-  }, files, ids, own, USE.NAMES = FALSE), ids)
+    list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading, refusal = if (failed) at,
+         wanting = if (!is.na(wanting)) wanting)
+  }, files, ids, own, c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)], USE.NAMES = FALSE), ids)
 }
 
 #' Ids of files: their names without extension; where these are the same, with as many folders as tell them apart, else with the
@@ -70,28 +71,27 @@ file_ids <- function(files) {
   make.unique(ids, sep = " ")
 }
 
-#' Landmarks of each mesh file: a path or a matrix, NULL where there are none, a condition where they cannot be had
+#' The landmark file beside a mesh, NULL where there is none, or the condition by which it is refused
 #' @noRd
-batch_landmarks <- function(files, ids, landmarks, options, call) {
-  if (is.null(landmarks)) {
-    return(lapply(files, function(file) tryCatch({
-      beside <- landmarks_beside(file)
-      if (nzchar(beside)) beside
-    }, crestline_error = identity)))
-  }
-  if (length(landmarks) != length(files)) {
-    crestline_abort(sprintf("`landmarks` names %d files, `x` %d.", length(landmarks), length(files)),
-                    "Give one landmark file for each mesh.", stage = "arguments", call = call)
-  }
-  lapply(landmarks, function(file) if (!is.na(file) && nzchar(file)) file)
+landmarks_or_refusal <- function(file) {
+  tryCatch({
+    beside <- landmarks_beside(file)
+    if (nzchar(beside)) beside
+  }, crestline_error = identity)
 }
 
-#' The landmark file beside a mesh, "" where there is none
+#' Landmarks as [landmarks_for()] has them, none for meshes whose path is NA
 #' @noRd
-landmarks_beside <- function(file) {
-  stem <- sub("[.][^.]*$", "", file)
-  beside <- paste0(stem, ".", names(landmark_formats()))
-  c(beside[file.exists(beside)], "")[1]
+given_landmarks <- function(landmarks, ids, options) {
+  none <- if (is.character(landmarks) && length(landmarks) == length(ids)) is.na(landmarks) | !nzchar(landmarks) else FALSE
+  if (!any(none)) return(do.call(landmarks_for, c(list(landmarks, ids), options)))
+  own <- stats::setNames(vector("list", length(ids)), ids)
+  if (all(none)) return(own)
+  some <- do.call(landmarks_for, c(list(landmarks[!none], ids[!none]), options))
+  own[!none] <- some
+  problem <- rep(NA_character_, length(ids))
+  problem[!none] <- attr(some, "problem")
+  structure(own, problem = problem)
 }
 
 #' Arguments of reading, each for the function that takes it
