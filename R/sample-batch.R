@@ -120,20 +120,22 @@ batch_tasks <- function(jobs, dir, scheme, settings) {
   Map(function(task, content, file) c(task, content, list(file = file)), tasks, contents, files)
 }
 
-#' The files of results: where a result of that key is, else one of the id's name that has none of another mesh
+#' The files of results: where a result of that key is; else one of the id's name, if what is there is of the same mesh and of no use to
+#' another specimen of the batch; else one of the id's and the mesh's
 #' @noRd
 result_files <- function(dir, ids, keys, meshes) {
   files <- file.path(dir, paste0(file_stems(ids), ".shape"))
   there <- list.files(dir, "[.]shape$", full.names = TRUE)
   inside <- lapply(there, peek_kept)
   kept <- vapply(inside, `[[`, "", "key")
-  own <- match(files, there)
-  away <- which(is.na(own) | !kept[own] %in% keys | kept[own] != keys)
-  for (i in away) {
-    same <- which(kept == keys[i])[1]
-    taken <- !is.na(own[i]) && !(inside[[own[i]]]$own && inside[[own[i]]]$mesh %in% c(NA, meshes[i]))
-    if (!is.na(same) && !is.na(keys[i])) files[i] <- there[same] else
-      if (taken) files[i] <- sub("[.]shape$", sprintf("-%s.shape", substr(meshes[i], 1, 8)), files[i])
+  for (i in which(!is.na(keys))) {
+    own <- match(files[i], there)
+    if (is.na(own) && !keys[i] %in% kept || !is.na(own) && kept[own] %in% keys[i]) next
+    if (keys[i] %in% kept) {
+      files[i] <- there[match(keys[i], kept)]
+    } else if (!inside[[own]]$own || !inside[[own]]$mesh %in% c(NA, meshes[i]) || kept[own] %in% keys) {
+      files[i] <- sub("[.]shape$", sprintf("-%s.shape", substr(meshes[i], 1, 8)), files[i])
+    }
   }
   files
 }
@@ -185,10 +187,6 @@ fit_job <- function(job, scheme, settings, ear) {
   shape$warnings <- unique(rbind(shape$warnings, ear$heard))
   shape
 }
-
-#' Whether landmarks of a shape were found by [find_landmarks()], and not all corrected by hand since
-#' @noRd
-has_found <- function(shape) any(shape$placing$state == "found")
 
 #' @param fault Whether it is one of the machine, so that it is worth trying once more.
 #' @noRd

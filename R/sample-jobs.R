@@ -120,7 +120,11 @@ reading_arguments <- function() {
 #' The specimen of a job, read from its files or as it was given
 #' @noRd
 job_specimen <- function(job) {
-  if (!is.null(job$refusal)) rlang::cnd_signal(job$refusal)
+  if (!is.null(job$refusal)) {
+    # A mesh that cannot be read either is told first: landmarks would not help.
+    if (!is.null(job$mesh)) read_mesh(job$mesh, job$id)
+    rlang::cnd_signal(job$refusal)
+  }
   if (!is.null(job$specimen)) return(job$specimen)
   at <- job$landmarks
   if (is.character(at)) at <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
