@@ -13,6 +13,14 @@ cpp_mesh_key <- function(vb, it) {
     .Call(`_crestline_cpp_mesh_key`, vb, it)
 }
 
+cpp_mesh_faults <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_faults`, vb, it)
+}
+
+cpp_twin_faults <- function(it, twin) {
+    .Call(`_crestline_cpp_twin_faults`, it, twin)
+}
+
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }

@@ -9,6 +9,7 @@
 #include "landmarks_rigid.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
+#include "mesh_door.h"
 #include "mesh_geodesic.h"
 #include "mesh_key.h"
 #include "mesh_topology.h"
@@ -214,6 +215,19 @@ std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it) {
   std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(key.high),
                 static_cast<unsigned long long>(key.low));
   return text;
+}
+
+// vb has three rows or more, it three: the only entry that trusts no index.
+// [[Rcpp::export]]
+List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it) {
+  crestline::MeshFaults found = crestline::mesh_faults(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol());
+  return List::create(_["faces"] = found.faces, _["vertices"] = found.vertices);
+}
+
+// it of a sound mesh, twin of the same size.
+// [[Rcpp::export]]
+int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin) {
+  return crestline::twin_faults(it.begin(), twin.begin(), it.ncol());
 }
 
 // [[Rcpp::export]]
