@@ -13,6 +13,18 @@ cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }
 
+cpp_read_numbers <- function(text, from) {
+    .Call(`_crestline_cpp_read_numbers`, text, from)
+}
+
+cpp_read_stl <- function(text) {
+    .Call(`_crestline_cpp_read_stl`, text)
+}
+
+cpp_read_obj <- function(text) {
+    .Call(`_crestline_cpp_read_obj`, text)
+}
+
 cpp_border_loops <- function(twin) {
     .Call(`_crestline_cpp_border_loops`, twin)
 }

@@ -54,6 +54,40 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_read_numbers
+List cpp_read_numbers(RawVector text, int from);
+RcppExport SEXP _crestline_cpp_read_numbers(SEXP textSEXP, SEXP fromSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    Rcpp::traits::input_parameter< int >::type from(fromSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_numbers(text, from));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_stl
+List cpp_read_stl(RawVector text);
+RcppExport SEXP _crestline_cpp_read_stl(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_stl(text));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_obj
+List cpp_read_obj(RawVector text);
+RcppExport SEXP _crestline_cpp_read_obj(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_obj(text));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_border_loops
 List cpp_border_loops(IntegerMatrix twin);
 RcppExport SEXP _crestline_cpp_border_loops(SEXP twinSEXP) {
@@ -386,6 +420,9 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
+    {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
+    {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
