@@ -3,7 +3,7 @@
 # All bytes, unpacked where they are gzip's, whatever the file's name.
 file_bytes <- function(file, id) {
   raw <- readBin(file, "raw", file.size(file))
-  if (!length(raw)) refuse_file(file, "it is empty", id, "Export or copy it again.")
+  if (!length(raw)) refuse_file(file, "it is empty", id)
   packed <- packed_by(raw)
   if (is.null(packed)) return(raw)
   if (packed != "gzip") {

@@ -13,8 +13,7 @@ curve_tracks <- function(fits, scheme, faces) {
   cut <- !is.na(scheme$curves$cut_share[match(names(found), scheme$curves$curve)])
   Map(function(fit, cut) {
     path <- if (is.null(fit$track)) fit$path else fit$track$path
-    path <- structure(as.data.frame(path)[c("s", mesh_columns)], length = attr(path, "length"),
-                      class = c("mesh_path", "data.frame"))
+    path <- new_mesh_path(unclass(path)[c("s", mesh_columns)], attr(path, "length"), attr(path, "key"), attr(path, "id"))
     s <- ifelse(is.na(fit$points$x), NA, fit$points$s + if (is.null(fit$track)) 0 else fit$track$start)
     list(path = path, s = s, kept = if (is.null(fit$track)) fit$length else fit$track$kept, cut = cut,
          off = which(path$face > faces))
