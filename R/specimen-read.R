@@ -21,10 +21,7 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)
-  if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) {
-    landmarks <- read_landmarks(landmarks)
-  }
-  specimen(read_mesh(file, id), landmarks, id, ...)
+  specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...)
 }
 
 mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)
@@ -39,6 +36,7 @@ read_mesh <- function(file, id) {
     refuse_file(file, "the format is not known by its extension",
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
   }
+  check_stored(file, "reading", id)
   tryCatch(reader(file, id), error = function(e) {
     if (inherits(e, "crestline_error")) stop(e)
     refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
