@@ -9,20 +9,20 @@ cpp_curvature_variance <- function(vb, it, targets, directions, jacobian, sigma,
     .Call(`_crestline_cpp_curvature_variance`, vb, it, targets, directions, jacobian, sigma, settings)
 }
 
-cpp_mesh_key <- function(vb, it) {
-    .Call(`_crestline_cpp_mesh_key`, vb, it)
-}
-
-cpp_mesh_faults <- function(vb, it) {
-    .Call(`_crestline_cpp_mesh_faults`, vb, it)
-}
-
-cpp_twin_faults <- function(it, twin) {
-    .Call(`_crestline_cpp_twin_faults`, it, twin)
-}
-
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
+}
+
+cpp_read_numbers <- function(text, from) {
+    .Call(`_crestline_cpp_read_numbers`, text, from)
+}
+
+cpp_read_stl <- function(text) {
+    .Call(`_crestline_cpp_read_stl`, text)
+}
+
+cpp_read_obj <- function(text) {
+    .Call(`_crestline_cpp_read_obj`, text)
 }
 
 cpp_border_loops <- function(twin) {

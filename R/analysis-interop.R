@@ -92,9 +92,10 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
   if (is.null(size)) size <- own
-  if (!is.numeric(size) || length(size) != n) {
+  if (!is.numeric(size) || is.null(names(size)) && length(size) != n) {
     crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
   }
+  if (!is.null(names(size)) && has_ids(dimnames(coords)[[3]])) size <- sizes_by_specimen(size, dimnames(coords)[[3]])
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
   structure(list(coords = coords, mean = apply(coords, 1:2, mean),
@@ -102,6 +103,10 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
                  weights = rep(1, dim(coords)[1]), scale = scaled, tangent = FALSE, level = level,
                  missing = data.frame(id = character(), point = character(), action = character()), moved = numeric(),
                  triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())), class = "aligned")
+}
+
+sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
+  by_specimen(size, ids, "size", function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call))
 }
 
 #' Columns of covariates in the order of the specimens

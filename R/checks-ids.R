@@ -100,7 +100,8 @@ by_specimen <- function(x, ids, name, fail) {
     }
     return(x[[value]][place])
   }
-  if (!is.atomic(x) && !is.factor(x) || length(dim(x)) > 1) {
+  if (is.matrix(x) && ncol(x) == 1) x <- stats::setNames(as.vector(x), rownames(x))
+  if (!is.atomic(x) || length(dim(x)) > 1) {
     fail(sprintf("%s is %s.", what, describe_value(x)), "Give a vector with a value for each specimen.")
   }
   same <- function(i) length(unique(as.vector(x[i]))) == 1
@@ -141,7 +142,7 @@ rows_of_specimens <- function(data, ids, name, fail) {
 table_keys <- function(data) {
   column <- names(data)[is_key_column(names(data))]
   keys <- lapply(stats::setNames(nm = column), function(name) data[[name]])
-  keys <- Filter(function(key) is.atomic(key) || is.factor(key), keys)
+  keys <- Filter(is.atomic, keys)
   row <- attr(data, "row.names")
   if (is.character(row)) keys["row names"] <- list(row)
   keys

@@ -41,6 +41,7 @@ nts_body <- function(text, line, head, file) {
     label <- trimws(text[seq_len(labels)])
     word <- word[seq_along(word) > labels]
     line <- line[seq_along(line) > labels]
+    check_separators(text[seq_along(text) > labels], file, line)
     number <- landmark_numbers(unlist(word), file, rep(line, lengths(word)))
   } else if (sum(lengths(word)) == labels + wanted) {
     flat <- unlist(word)

@@ -27,8 +27,11 @@ write_file_lines <- function(line, file) {
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })
-  on.exit(close(connection))
-  writeLines(enc2utf8(line), connection, useBytes = TRUE)
+  line <- enc2utf8(line)
+  tryCatch(writeLines(line, connection, useBytes = TRUE), finally = suppressWarnings(close(connection)))
+  if (!identical(file.size(file), sum(nchar(line, "bytes") + 1))) {
+    refuse_landmark_file(file, "was not written whole", "Is the disk full, or the file a device? Write to another place.")
+  }
 }
 
 # Words to numbers, the words for a missing one to NA; `line`: the line of each word.
@@ -53,7 +56,17 @@ landmark_rows <- function(text, width, file, line) {
     refuse_landmark_file(file, sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]], width),
                          "Give every point its own line, blanks between the numbers.", line[wrong[1]])
   }
+  check_separators(text, file, line)
   matrix(landmark_numbers(unlist(word), file, rep(line, each = width)), ncol = width, byrow = TRUE)
+}
+
+# Commas in some places and blanks in others: the commas may be decimal ones, and every number another.
+check_separators <- function(text, file, line) {
+  mixed <- grepl("[^[:space:]],[^[:space:]]", text) & grepl("[^[:space:],][[:space:]]+[^[:space:],]", trimws(text))
+  if (any(mixed)) {
+    refuse_landmark_file(file, sprintf("\"%s\" has both commas and blanks between numbers", trimws(text[mixed][1])),
+                         "Write decimal points, and blanks between the numbers.", line[mixed][1])
+  }
 }
 
 # 15 digits where they give the number back, else the 17 that always do.

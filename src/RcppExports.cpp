@@ -42,42 +42,6 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_mesh_key
-std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it);
-RcppExport SEXP _crestline_cpp_mesh_key(SEXP vbSEXP, SEXP itSEXP) {
-BEGIN_RCPP
-    Rcpp::RObject rcpp_result_gen;
-    Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
-    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_mesh_key(vb, it));
-    return rcpp_result_gen;
-END_RCPP
-}
-// cpp_mesh_faults
-List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it);
-RcppExport SEXP _crestline_cpp_mesh_faults(SEXP vbSEXP, SEXP itSEXP) {
-BEGIN_RCPP
-    Rcpp::RObject rcpp_result_gen;
-    Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
-    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_mesh_faults(vb, it));
-    return rcpp_result_gen;
-END_RCPP
-}
-// cpp_twin_faults
-int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
-RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
-BEGIN_RCPP
-    Rcpp::RObject rcpp_result_gen;
-    Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
-    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_twin_faults(it, twin));
-    return rcpp_result_gen;
-END_RCPP
-}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -87,6 +51,40 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< int >::type n(nSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_mesh_topology(it, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_numbers
+List cpp_read_numbers(RawVector text, int from);
+RcppExport SEXP _crestline_cpp_read_numbers(SEXP textSEXP, SEXP fromSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    Rcpp::traits::input_parameter< int >::type from(fromSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_numbers(text, from));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_stl
+List cpp_read_stl(RawVector text);
+RcppExport SEXP _crestline_cpp_read_stl(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_stl(text));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_obj
+List cpp_read_obj(RawVector text);
+RcppExport SEXP _crestline_cpp_read_obj(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_obj(text));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -421,10 +419,10 @@ END_RCPP
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
-    {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
-    {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
-    {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
+    {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
+    {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
