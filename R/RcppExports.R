@@ -53,6 +53,10 @@ cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
 }
 
+cpp_half_area_radius <- function(vb, it, used, cap, steps) {
+    .Call(`_crestline_cpp_half_area_radius`, vb, it, used, cap, steps)
+}
+
 cpp_vertices_in_box <- function(vb, low, high) {
     .Call(`_crestline_cpp_vertices_in_box`, vb, low, high)
 }

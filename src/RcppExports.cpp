@@ -214,6 +214,21 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_half_area_radius
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps);
+RcppExport SEXP _crestline_cpp_half_area_radius(SEXP vbSEXP, SEXP itSEXP, SEXP usedSEXP, SEXP capSEXP, SEXP stepsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< LogicalVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< double >::type cap(capSEXP);
+    Rcpp::traits::input_parameter< int >::type steps(stepsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_half_area_radius(vb, it, used, cap, steps));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_vertices_in_box
 IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high);
 RcppExport SEXP _crestline_cpp_vertices_in_box(SEXP vbSEXP, SEXP lowSEXP, SEXP highSEXP) {
@@ -396,6 +411,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
