@@ -9,6 +9,10 @@ cpp_curvature_variance <- function(vb, it, targets, directions, jacobian, sigma,
     .Call(`_crestline_cpp_curvature_variance`, vb, it, targets, directions, jacobian, sigma, settings)
 }
 
+cpp_mesh_key <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_key`, vb, it)
+}
+
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }

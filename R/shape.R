@@ -1,5 +1,26 @@
 # What a shape gives: its points by level, its surface as a mesh, a summary.
 
+#' A shape from its parts: all its fields are declared here, NULL until they are filled
+#'
+#' @param id,points,status,checks,paths,scheme,tracks,column,specimen As in the value of [fit_shape()].
+#' @param key Of [mesh_key()]: of the mesh that the faces of its points and paths are numbers of; NULL of a template, whose points
+#'   lie on no mesh.
+#' @param placing Of its specimen; NULL where landmarks were placed by hand.
+#' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
+#' @param provenance List: what came from where.
+#' @param sliding,trace Of [slide()].
+#' @noRd
+new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL, column = NULL,
+                      specimen = NULL, key = specimen$key, placing = specimen$placing, warnings = no_warnings(),
+                      provenance = list(), sliding = NULL, trace = NULL) {
+  structure(
+    list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme, tracks = tracks,
+         column = column, specimen = specimen, key = key, placing = placing, warnings = warnings, provenance = provenance,
+         sliding = sliding, trace = trace),
+    class = "shape"
+  )
+}
+
 #' Co-ordinates of a shape
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.

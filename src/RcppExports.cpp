@@ -42,6 +42,18 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_mesh_key
+std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_key(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_key(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -400,6 +412,7 @@ END_RCPP
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
+    {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},

@@ -1,6 +1,8 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cstdio>
+
 #include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
@@ -9,6 +11,7 @@
 #include "mesh_crop.h"
 #include "mesh_geodesic.h"
 #include "mesh_size.h"
+#include "mesh_key.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -202,6 +205,16 @@ NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, Integer
   return wrap(crestline::curvature_variance(view(near), near.local, directions.begin(),
                                             jacobian.begin(), jacobian.nrow(), near_sigma.data(),
                                             fit, [] { checkUserInterrupt(); }));
+}
+
+// vb has three rows or more, it three.
+// [[Rcpp::export]]
+std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it) {
+  crestline::MeshKey key = crestline::mesh_key(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.size());
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(key.high),
+                static_cast<unsigned long long>(key.low));
+  return text;
 }
 
 // [[Rcpp::export]]
