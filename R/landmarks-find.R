@@ -59,7 +59,7 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
 #' @noRd
 laid_template <- function(prepared, template, scan, settings, threads, unit = NULL) {
   unit <- if (is.null(unit)) {
-    10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
+    10^round(log10(specimen_size(template$specimen) / specimen_size(scan)))
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }

@@ -35,7 +35,7 @@ given_fit <- function(row, xyz, specimen, surface, column, tolerance = 0.01) {
   knots <- surface_points(specimen$mesh, xyz)
   place <- as.matrix(knots[c("x", "y", "z")])
   off <- row_lengths(place - xyz)
-  knots[off > tolerance * mesh_diagonal(specimen$mesh) | c(row_lengths(diff(place)) == 0, FALSE), ] <- NA
+  knots[off > tolerance * specimen_size(specimen) | c(row_lengths(diff(place)) == 0, FALSE), ] <- NA
   if (!is.null(ends$from)) knots[1, ] <- ends$from
   if (!is.null(ends$to)) knots[nrow(knots), ] <- ends$to
   joined <- join_knots(as.matrix(knots), specimen, surface, column)
