@@ -12,9 +12,9 @@
 #' not measured again as long as its input (the files' or specimen's content), the scheme, the settings and the package's
 #' version are the same; only the rest is sent to the workers. Failures are tried again.
 #'
-#' Where a mesh comes without landmarks they are found by `template`, see [find_landmarks()], and the specimen is refused
-#' where they are
-#' doubtful, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder.
+#' Where a mesh comes without landmarks they are found by `template`, see [find_landmarks()]. A landmark with little
+#' confidence is left out: it costs the curves that end there, not the specimen. Where most of them have little confidence
+#' the specimen is refused, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder.
 #'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s.
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
@@ -24,7 +24,7 @@
 #' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's
 #'   landmarks
 #'   are those of the face, else none.
-#' @param doubtful As in [check_placing()].
+#' @param doubtful Greatest share of found landmarks with little confidence that are used nevertheless (and graded amber).
 #' @param ... Further arguments of [fit_shape()], the same for all.
 #' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
 #'   given two lots. Small lots cost more starts, large ones more waiting at the end.

@@ -16,7 +16,8 @@ column <- function(type, required = FALSE, default = NA, lower = -Inf, upper = I
 
 scheme_columns <- list(
   landmarks = list(
-    landmark = column("text", TRUE), name = column("text"), where = column("text")
+    landmark = column("text", TRUE), name = column("text"), where = column("text"),
+    x = column("number"), y = column("number"), z = column("number")
   ),
   curves = list(
     curve = column("text", TRUE), from = column("text", TRUE), to = column("text", TRUE),

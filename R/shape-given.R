@@ -47,7 +47,7 @@ given_fit <- function(row, xyz, specimen, surface, column, tolerance = 0.01) {
   if (joined$first > 1) said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first, row$n, joined$problem)
   list(points = cbind(points[c(mesh_columns, "s")], se = NA_real_), path = joined$path,
        length = attr(joined$path, "length"), strength = NA_real_, contrast = NA_real_, se = NA_real_,
-       competing = NA_real_, determined = NA, reason = said)
+       se_max = NA_real_, competing = NA_real_, determined = NA, reason = said)
 }
 
 #' A landmark on the mesh, NULL where it is missing

@@ -99,6 +99,7 @@ print.specimen <- function(x, ...) {
   cat(strwrap(paste0(count(length(name), "landmarks"), if (length(name)) ": ", shorten(name[!absent], 40)),
               exdent = 2), sep = "\n")
   if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
+  print_placing(x$placing)
   found <- x$report[x$report$count > 0, ]
   for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ", found$action[i], "\n", sep = "")
   invisible(x)
