@@ -80,7 +80,7 @@ check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NUL
 #' What looks exchanged by names alone: sides by the endings L and R, the mid-line by its names
 #' @noRd
 slips_by_name <- function(landmarks, located, mesh, midline) {
-  pairs <- side_pairs(rownames(landmarks)[!is.na(landmarks[, 1])])
+  pairs <- side_pairs(as.character(rownames(landmarks)[!is.na(landmarks[, 1])]))
   row <- match(c(pairs$left, pairs$right, midline), rownames(landmarks), nomatch = 0)
   exchanged_landmarks(landmarks, mean_front(mesh, located[row, ]), pairs, midline)
 }

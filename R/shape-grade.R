@@ -13,8 +13,10 @@ grade_parts <- function(parts, scores, limits, scheme) {
   parts$z[curves] <- scores[parts$part[curves]]
   judged <- judge_parts(parts, limits, scheme)
   judged <- c(judged, judge_landmarks(parts, limits, scheme))
-  level <- do.call(pmax, lapply(judged, `[[`, "level"))
-  bounds <- judge_bounds(parts, level, scheme)
+  levels <- lapply(judged, `[[`, "level")
+  level <- do.call(pmax, levels)
+  # One uncertain place of a curve is no reason to look at all of a patch.
+  bounds <- judge_bounds(parts, do.call(pmax, levels[names(judged) != "se_max"]), scheme)
   judged <- c(judged, list(bounds))
   level <- pmax(level, bounds$level)
   why <- vapply(seq_along(level), function(i) {
@@ -50,7 +52,7 @@ judge_parts <- function(parts, limits, scheme) {
     flag(parts$determined %in% FALSE, "undetermined"),
     flag(parts$guessed %in% TRUE, "guessed"),
     judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius), own(parts$se / parts$radius)),
-    judge("se_max", sprintf("its standard error is %.2g radii at one place", parts$se_max / parts$radius),
+    se_max = judge("se_max", sprintf("its standard error is %.2g radii at one place", parts$se_max / parts$radius),
           own(parts$se_max / parts$radius)),
     judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing), own(parts$competing)),
     judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast), own(parts$contrast)),
@@ -88,7 +90,7 @@ judge_landmarks <- function(parts, limits, scheme) {
               text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0), of), nrow(parts)))
   # A landmark's own reason says already that it looks exchanged.
   checks$exchanged$text[marks] <- NA
-  c(unname(checks), unname(ends), list(all))
+  unname(c(checks, ends, list(all)))
 }
 
 #' A check of landmarks as it concerns the curves that end there
