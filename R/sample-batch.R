@@ -20,9 +20,10 @@
 #' A result that cannot be written, as on a full disk, or a worker that dies costs what it held: these specimens are tried once
 #' more, each alone, and are failures if it happens again.
 #'
-#' Where no mesh comes with landmarks they are found by `template`, see [find_landmarks()], and a specimen is refused
-#' where they are doubtful, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder. `print()` and
-#' `summary()` tell how many were found.
+#' Where no mesh comes with landmarks they are found by `template`, see [find_landmarks()]. A landmark with little
+#' confidence is left out: it costs the curves that end there, not the specimen. Where most of them have little confidence
+#' the specimen is refused, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder. `print()` and
+#' `summary()` tell of which specimens landmarks were found.
 #'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file is its name without the
 #'   extension; where files share it, with as many folders as tell them apart: "visit 1/anna", "visit 2/anna".
@@ -34,7 +35,7 @@
 #'   k x 3 matrices by name, a k x 3 x n array with names.
 #' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's
 #'   landmarks are those of the face, else none.
-#' @param doubtful As in [check_placing()].
+#' @param doubtful Greatest share of found landmarks with little confidence that are used nevertheless (and graded amber).
 #' @param ... Further arguments of [fit_shape()], the same for all.
 #' @param found Whether landmarks are found where a mesh has none. `NULL`: only where none of the meshes has any, so that
 #'   found landmarks are never mixed with placed ones unasked: a mesh without them among others that have some is a failure.

@@ -6,9 +6,12 @@
 #' judges by what the fit says of itself (curvature does not determine the curve, another path is as good, points are
 #' missing), by the mesh about the part (noise, spikes, holes, coarse triangles: see `checks` of [fit_shape()]), by the
 #' mirror image of its partner where the scheme has pairs, and, of several specimens, by the lengths of the others. A
-#' patch is at least amber where a curve that bounds it is not green: its points hang on that curve.
+#' patch is at least amber where a curve that bounds it is not green: its points hang on that curve. So is a curve that ends on
+#' a landmark that was found with little confidence or predicted; on one that looks exchanged with another it is red. Where
+#' most found landmarks have little confidence nothing is green.
 #'
-#' What it cannot see: a landmark in the wrong place, unless lengths or symmetry tell; a smooth error
+#' What it cannot see: a landmark placed by hand that is in the wrong place, unless lengths, symmetry or the order of
+#' landmarks tell; a smooth error
 #' of the scan; a feature that is not the one meant.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it has any, name the
@@ -82,7 +85,8 @@ named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
 #' What is known of every part of one shape, before it is judged
 #'
 #' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`, `guessed`,
-#'   `size`, `free` (whether a curve has points between its landmarks) and `radius` (of a curve).
+#'   `size`, `free` (whether a curve has points between its landmarks), `radius` (of a curve), `se_max`, and `state`,
+#'   `confidence` and `exchanged` (of a landmark).
 #' @noRd
 part_measures <- function(shape, name) {
   status <- shape$status
@@ -98,9 +102,15 @@ part_measures <- function(shape, name) {
     checks[c("missing", "cut", "bridged", "faults", "roughness")],
     coarse = checks$edge / radius, border = checks$border / checks$size, spike = checks$spike / checks$size,
     reason = status$reason, checks[c("determined", "guessed", "size")], free = shape$scheme$curves$n[row] > 2,
-    radius = radius, row.names = NULL
+    radius = radius, se_max = recorded(status, "se_max", NA_real_), state = recorded(checks, "state", NA_character_),
+    confidence = recorded(checks, "confidence", NA_real_), exchanged = recorded(checks, "exchanged", NA_character_),
+    row.names = NULL
   )
 }
+
+#' A column of a table, or what stands for it in shapes of former versions
+#' @noRd
+recorded <- function(table, name, none) if (is.null(table[[name]])) rep(none, nrow(table)) else table[[name]]
 
 #' Scores of the lengths of curves, specimens x curves
 #'

@@ -14,6 +14,7 @@
 #include "mesh_key.h"
 #include "mesh_read_obj.h"
 #include "mesh_read_text.h"
+#include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -394,6 +395,11 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
 // [[Rcpp::export]]
 NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatrix it) {
   return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
+}
+
+// [[Rcpp::export]]
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
+  return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
 }
 
 // [[Rcpp::export]]
