@@ -9,6 +9,18 @@ cpp_curvature_variance <- function(vb, it, targets, directions, jacobian, sigma,
     .Call(`_crestline_cpp_curvature_variance`, vb, it, targets, directions, jacobian, sigma, settings)
 }
 
+cpp_mesh_key <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_key`, vb, it)
+}
+
+cpp_mesh_faults <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_faults`, vb, it)
+}
+
+cpp_twin_faults <- function(it, twin) {
+    .Call(`_crestline_cpp_twin_faults`, it, twin)
+}
+
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }
@@ -63,6 +75,10 @@ cpp_fit_columns <- function(vb, it, twin, from, to, outside, rows, settings, cho
 
 cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
+}
+
+cpp_half_area_radius <- function(vb, it, used, cap, steps) {
+    .Call(`_crestline_cpp_half_area_radius`, vb, it, used, cap, steps)
 }
 
 cpp_vertices_in_box <- function(vb, low, high) {

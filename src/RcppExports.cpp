@@ -42,6 +42,42 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_mesh_key
+std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_key(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_key(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_mesh_faults
+List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_faults(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_faults(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_twin_faults
+int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
+RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_twin_faults(it, twin));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -248,6 +284,21 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_half_area_radius
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps);
+RcppExport SEXP _crestline_cpp_half_area_radius(SEXP vbSEXP, SEXP itSEXP, SEXP usedSEXP, SEXP capSEXP, SEXP stepsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< LogicalVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< double >::type cap(capSEXP);
+    Rcpp::traits::input_parameter< int >::type steps(stepsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_half_area_radius(vb, it, used, cap, steps));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_vertices_in_box
 IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high);
 RcppExport SEXP _crestline_cpp_vertices_in_box(SEXP vbSEXP, SEXP lowSEXP, SEXP highSEXP) {
@@ -419,6 +470,9 @@ END_RCPP
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
+    {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
+    {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
+    {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
     {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
     {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
@@ -433,6 +487,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
