@@ -169,19 +169,16 @@ check_tests <- function(tests, call = rlang::caller_env()) {
 #' @noRd
 check_group <- function(group, ids, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison", call = call)
-  if (!is.null(names(group))) {
-    absent <- setdiff(ids, names(group))
-    if (length(absent)) fail(sprintf("`group` has no value for %s.", shorten(absent)),
-                             "Name its values by specimens, or not at all.")
-    group <- group[ids]
+  group <- by_specimen(group, ids, "group", fail)
+  if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)
+  absent <- is.na(group) | !nzchar(trimws(as.character(group)))
+  if (any(absent)) fail(sprintf("`group` is missing for %s.", shorten(ids[absent])), "Leave these specimens out.")
+  group <- stats::setNames(droplevels(group), ids)
+  alike <- alike_levels(levels(group))
+  if (length(alike)) {
+    fail(sprintf("the groups %s differ by blanks or case only.", paste0("\"", alike, "\"", collapse = " and ")),
+         "Give them one name.")
   }
-  if (length(group) != length(ids)) {
-    fail(sprintf("`group` has %d values for %d specimens.", length(group), length(ids)), "Give one for each.")
-  }
-  if (anyNA(group)) {
-    fail(sprintf("`group` is missing for %s.", shorten(ids[is.na(group)])), "Leave these specimens out.")
-  }
-  group <- stats::setNames(droplevels(as.factor(group)), ids)
   if (nlevels(group) < 2) fail("there is one group only.", "Give two or more.")
   if (min(table(group)) < 2) {
     fail(sprintf("the group \"%s\" has one specimen.", names(which.min(table(group)))), "Give every group two or more.")

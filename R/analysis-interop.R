@@ -92,14 +92,19 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
   if (is.null(size)) size <- own
-  if (!is.numeric(size) || length(size) != n) {
+  if (!is.numeric(size) || is.null(names(size)) && length(size) != n) {
     crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
   }
+  if (!is.null(names(size)) && has_ids(dimnames(coords)[[3]])) size <- sizes_by_specimen(size, dimnames(coords)[[3]])
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
   validate_aligned(new_aligned(coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
                                rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
                                triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())))
+}
+
+sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
+  by_specimen(size, ids, "size", function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call))
 }
 
 #' Columns of covariates in the order of the specimens
@@ -110,16 +115,20 @@ covariates <- function(data, ids, call = rlang::caller_env()) {
   if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
   clash <- intersect(names(data), c("coords", "size"))
   if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]), "Rename it: the sample's own has that name.")
-  # Numbers stand for names that were not given: then rows are taken in their order.
-  named <- !identical(ids, as.character(seq_along(ids))) && all(ids %in% rownames(data))
-  names <- if (!is.null(data[["id"]])) as.character(data[["id"]]) else if (named) rownames(data)
-  if (!is.null(names)) {
-    absent <- setdiff(ids, names)
-    if (length(absent)) fail(sprintf("`data` has no row for %s.", shorten(absent)), "Add it, or leave the specimen out.")
-    data <- data[match(ids, names), , drop = FALSE]
-  }
-  if (nrow(data) != length(ids)) {
-    fail(sprintf("`data` has %d rows for %d specimens.", nrow(data), length(ids)), "Give a row for each, or a column `id`.")
-  }
+  data <- data[rows_of_specimens(data, ids, "data", fail), , drop = FALSE]
+  for (name in names(data)) warn_alike_levels(data[[name]], name)
   as.list(data)
+}
+
+#' Values of a covariate that differ by blanks or case only make two groups of one
+#' @noRd
+warn_alike_levels <- function(x, name) {
+  value <- if (is.factor(x)) levels(droplevels(x)) else if (is.character(x)) unique(x[!is.na(x)])
+  if (length(value) >= length(x)) return(invisible())
+  alike <- alike_levels(value)
+  if (length(alike)) {
+    crestline_warn(sprintf("`%s` has %s, which differ by blanks or case only.", name,
+                           paste0("\"", alike, "\"", collapse = " and ")),
+                   "Give them one name.", stage = "arguments", class = "crestline_alike_groups")
+  }
 }

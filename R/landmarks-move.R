@@ -49,3 +49,11 @@ moved_placing <- function(placing, name, at) {
   }
   placing
 }
+
+#' The same table with the place of a landmark that a definition moved; its confidence stays
+#' @noRd
+placing_at <- function(placing, name, at) {
+  row <- match(name, placing$landmark)
+  if (!is.na(row)) placing[row, c("x", "y", "z")] <- at
+  placing
+}

@@ -70,17 +70,34 @@
 #' read_landmarks(slicer)
 #' @export
 read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
+  if (is.character(file) && length(file) == 1 && isTRUE(dir.exists(file))) {
+    return(read_landmark_folder(file, frame = frame, missing = missing, scale = scale))
+  }
+  found <- read_sets(file, frame, missing, scale)
+  if (is.matrix(found)) return(found)
+  attr(found, "numbered") <- attr(found, "alias") <- NULL
+  if (length(found) == 1) found[[1]] else found
+}
+
+#' One matrix, or a named list of them whose attributes say whether the names are but numbers of ours (`numbered`), and other
+#' names (`alias`)
+#' @noRd
+read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
   check_file(file, "landmarks")
   options <- list(frame = check_choice(frame, c("LPS", "RAS", "file"), "frame"),
                   missing = check_number(missing, "missing"), scale = isTRUE(scale))
-  found <- landmark_format(file)$read(file, options)
-  if (is.list(found) && length(found) == 1) found[[1]] else found
+  format <- landmark_format(file)
+  check_stored(file, "landmarks")
+  format$read(file, options)
 }
 
 #' @rdname read_landmarks
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   format <- landmark_format(file)
+  if (is.null(format$write)) {
+    refuse_landmark_file(file, "this format is read, not written", "Write a .pts file, which Checkpoint reads.")
+  }
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
   if (!format$curves && has_shape(x)) sets <- curves_as_points(sets, file)
@@ -101,12 +118,15 @@ landmark_formats <- function() {
     dta = nts,
     landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE, curves = FALSE),
     fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE, curves = FALSE),
-    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE, curves = TRUE)
+    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE, curves = TRUE),
+    pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE, curves = FALSE),
+    ckpt = list(read = read_landmarks_ckpt, write = NULL, several = FALSE, curves = FALSE)
   )
 }
 
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
 written_sets <- function(x, curves, file) {
+  x <- sets_of_sample(x, file)
   if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) || !is.list(x)) {
     id <- if (inherits(x, c("specimen", "shape"))) x$id else "1"
     return(stats::setNames(list(written_set(x, curves)), id))
@@ -118,6 +138,21 @@ written_sets <- function(x, curves, file) {
   sets <- lapply(x, written_set, curves = curves)
   if (is.null(names(x))) names(sets) <- specimen_names(x)
   sets
+}
+
+#' The specimens of an array, a sample, a batch or an alignment, as a list; anything else as it is
+#' @noRd
+sets_of_sample <- function(x, file) {
+  if (inherits(x, "shape_sample")) return(x$shapes)
+  if (inherits(x, "shape_batch")) x <- as.list(x)
+  if (inherits(x, "aligned")) x <- x$coords
+  if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
+  none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
+  if (length(none)) {
+    name <- if (is.null(names(x))) none else names(x)[none]
+    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)), "Leave out what failed.")
+  }
+  x
 }
 
 specimen_names <- function(x) {
@@ -198,6 +233,35 @@ check_file <- function(file, stage) {
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)
   }
+}
+
+#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and devices, which might keep R
+#' waiting for ever, have no size
+#'
+#' @param id Name of the specimen, where there is one.
+#' @noRd
+check_stored <- function(file, stage, id = NULL) {
+  refuse <- function(problem, remedy) crestline_abort(problem, remedy, stage = stage, id = id, call = NULL)
+  if (!isTRUE(file.size(file) > 0)) {
+    refuse(sprintf("%s cannot be read: it is empty, or no file on disk but a pipe or device.", file),
+           "If it is empty, export or copy it again; what comes through a pipe, save to a file first.")
+  }
+  if (file.access(file, 4) != 0) refuse(sprintf("%s cannot be read.", file), "Check the right to read it.")
+  packed <- packed_by(readBin(file, "raw", 10))
+  if (!is.na(packed)) {
+    refuse(sprintf("%s cannot be read: it is compressed by %s, whatever its name.", file, packed),
+           "Unpack it first; of a spreadsheet save the sheet as CSV.")
+  }
+}
+
+#' The program that a file's first bytes are of, NA for none
+#' @noRd
+packed_by <- function(bytes) {
+  start <- list(gzip = c(0x1f, 0x8b, 0x08), bzip2 = c(0x42, 0x5a, 0x68, NA, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59),
+                xz = c(0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00), zip = c(0x50, 0x4b, 0x03, 0x04))
+  is_of <- vapply(start, function(mark) all(as.integer(bytes)[seq_along(mark)] == mark, na.rm = TRUE) &&
+                    length(bytes) >= length(mark), NA)
+  c(names(start)[is_of], NA)[1]
 }
 
 refuse_no_path <- function(file, stage) {

@@ -119,7 +119,8 @@ measured <- function(batch) {
 }
 
 specimens_in_files <- function(x) {
-  if (inherits(x, "shape_batch") && length(unlist(attr(x, "files")))) function(id) x[[id]]$specimen
+  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
+  if (kept) function(id) x[[id]]$specimen
 }
 
 #' @param specimens As in [homologise()].

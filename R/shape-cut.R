@@ -169,7 +169,7 @@ cut_curve <- function(mesh, fit, length, n) {
   if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
   points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
   rownames(points) <- NULL
-  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se),
+  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se), se_max = largest(se),
               track = list(path = fit$path, start = start, kept = length))
   fit[names(cut)] <- cut
   add_note(fit, if (placed < n) ended)

@@ -14,6 +14,9 @@
 #include "mesh_geodesic.h"
 #include "mesh_key.h"
 #include "mesh_locate.h"
+#include "mesh_read_obj.h"
+#include "mesh_read_text.h"
+#include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -243,6 +246,34 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
                       _["nonmanifold_edges"] = t.nonmanifold_edges);
 }
 
+// The bytes of a text end with a line end.
+// [[Rcpp::export]]
+List cpp_read_numbers(RawVector text, int from) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::NumberText t = crestline::read_numbers(begin + from, begin + text.size());
+  return List::create(_["number"] = t.number, _["start"] = t.start, _["line"] = t.line,
+                      _["bad"] = t.bad, _["bad_line"] = t.bad_line);
+}
+
+// [[Rcpp::export]]
+List cpp_read_stl(RawVector text) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::StlText t = crestline::read_stl_text(begin, begin + text.size());
+  return List::create(_["vertex"] = t.vertex, _["bad"] = t.bad, _["bad_line"] = t.bad_line,
+                      _["ended"] = t.ended);
+}
+
+// [[Rcpp::export]]
+List cpp_read_obj(RawVector text) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::ObjText t = crestline::read_obj_text(begin, begin + text.size());
+  return List::create(_["vertex"] = t.vertex, _["colour"] = t.colour, _["coloured"] = t.coloured,
+                      _["uv"] = t.uv, _["corner"] = t.corner, _["texture"] = t.corner_uv,
+                      _["sides"] = t.sides, _["material"] = t.material,
+                      _["materials"] = t.materials, _["libraries"] = t.libraries,
+                      _["bad"] = t.bad, _["bad_line"] = t.bad_line);
+}
+
 // [[Rcpp::export]]
 List cpp_border_loops(IntegerMatrix twin) {
   std::vector<std::vector<int>> loops = crestline::border_loops(from_zero(twin));
@@ -366,6 +397,11 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
 // [[Rcpp::export]]
 NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatrix it) {
   return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
+}
+
+// [[Rcpp::export]]
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
+  return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
 }
 
 // [[Rcpp::export]]

@@ -1,0 +1,211 @@
+# Which landmarks belong to which mesh: the file beside it, or a set of many by the specimen's id.
+
+#' The landmark file beside a mesh
+#'
+#' Of its name without extension, in any format of [read_landmarks()] and in any case of the extension, or as MeshLab
+#' names picked points. A `.json` that holds no markups is none.
+#'
+#' @param file Path of the mesh.
+#' @return Path, "" where there is none. Refused where two files differ: landmarks, or their places by more than the
+#'   tolerance.
+#' @noRd
+landmarks_beside <- function(file) {
+  beside <- landmark_files_beside(file)
+  if (length(beside) < 2) return(c(beside, "")[1])
+  sets <- lapply(beside, read_landmarks)
+  differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+  if (length(differs)) {
+    two <- basename(beside[c(1, differs[1] + 1)])
+    refuse_landmarks(sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
+                     "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL)
+  }
+  beside[1]
+}
+
+landmark_files_beside <- function(file) {
+  stem <- sub("[.][^.]*$", "", basename(file))
+  name <- list.files(dirname(file), all.files = TRUE)
+  name <- name[startsWith(name, stem)]
+  end <- tolower(substring(name, nchar(stem) + 1))
+  known <- c(paste0(".", tolower(names(landmark_formats()))), ".json", "_picked_points.pp")
+  name <- name[end %in% known][order(match(end[end %in% known], known))]
+  beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else file.path(dirname(file), name)
+  beside[vapply(beside, is_landmark_file, NA)]
+}
+
+#' Whether a file of a format's extension holds landmarks, as far as other programs use the extension too
+#' @noRd
+is_landmark_file <- function(file) {
+  if (dir.exists(file)) return(FALSE)
+  if (!grepl("[.]json$", file, ignore.case = TRUE) || grepl("[.]mrk[.]json$", file, ignore.case = TRUE)) return(TRUE)
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) NULL)
+  is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
+}
+
+#' Whether two sets have the same landmarks in the same places
+#'
+#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks: formats differ in
+#'   their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
+#' @noRd
+same_landmarks <- function(a, b, tolerance = 1e-4) {
+  if (is.list(a) || is.list(b)) return(identical(a, b))
+  if (!setequal(rownames(a), rownames(b))) return(FALSE)
+  b <- b[rownames(a), , drop = FALSE]
+  if (!identical(is.na(unname(a)), is.na(unname(b)))) return(FALSE)
+  extent <- max(abs(sweep(a, 2, colMeans(a, na.rm = TRUE))), 0, na.rm = TRUE)
+  max(abs(a - b), 0, na.rm = TRUE) <= tolerance * extent
+}
+
+#' Landmarks of some specimens, by their ids
+#'
+#' @param landmarks One file of several specimens (TPS, NTS, .landmarkAscii, CSV with a column of specimens), a folder of
+#'   landmark files, paths of one file each, a list of k x 3 matrices (or data frames, or specimens) by name, a k x 3 x n array
+#'   with names, or a data frame with a column of specimens.
+#' @param ids Ids of the specimens.
+#' @param ... Further arguments of [read_landmarks()].
+#' @return List by id: a k x 3 matrix, or the path of the specimen's own file; NULL where there is none. The attribute
+#'   `problem` (character by id) says why, with near names, NA where all is well. Refused where no specimen has landmarks,
+#'   where an id has two that differ, and where the landmarks have no names and there are several specimens.
+#' @noRd
+landmarks_for <- function(landmarks, ids, ...) {
+  source <- landmark_source(landmarks, ids, ...)
+  if (length(ids) == 1 && length(source$sets) == 1 && (is.null(names(source$sets)) || isTRUE(source$file))) {
+    return(for_ids(source$sets, ids, NA))
+  }
+  if (is.null(names(source$sets))) {
+    refuse_landmarks(
+      sprintf("%s has %s without names of specimens, for %s.", source$what, amount(length(source$sets), "set"),
+              amount(length(ids), "specimen")),
+      sprintf("Name them by the specimens: %s.", shorten(ids)), id = NULL
+    )
+  }
+  place <- id_places(ids, names(source$sets))
+  if (!is.null(source$alias) && !any(lengths(place))) place <- id_places(ids, source$alias)
+  for (i in which(lengths(place) > 1)) check_same_sets(source, place[[i]], ids[i])
+  absent <- lengths(place) == 0
+  problem <- rep(NA_character_, length(ids))
+  problem[absent] <- vapply(ids[absent], function(id) {
+    sprintf("%s has no landmarks of %s. %s", source$what, id, near_names(id, names(source$sets)))
+  }, "")
+  if (all(absent)) {
+    refuse_landmarks(sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
+                     sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL)
+  }
+  sets <- vector("list", length(ids))
+  sets[!absent] <- source$sets[vapply(place[!absent], `[`, 1L, 1L)]
+  for_ids(sets, ids, problem)
+}
+
+#' Landmarks of one specimen, as [specimen()] takes them
+#' @noRd
+landmarks_of <- function(landmarks, id) {
+  several <- is.character(landmarks) || is.list(landmarks) && !is.data.frame(landmarks) || length(dim(landmarks)) == 3
+  if (!several || !is.null(dim(landmarks)) && length(dim(landmarks)) != 3) return(landmarks)
+  found <- landmarks_for(landmarks, id)[[1]]
+  if (is.character(found)) landmarks_of(read_landmarks(found), id) else found
+}
+
+for_ids <- function(sets, ids, problem) {
+  structure(stats::setNames(sets, ids), problem = stats::setNames(rep_len(problem, length(ids)), ids))
+}
+
+check_same_sets <- function(source, place, id) {
+  set <- lapply(source$sets[place], function(one) if (is.character(one)) read_landmarks(one) else one)
+  if (!all(vapply(set[-1], same_landmarks, NA, set[[1]]))) {
+    from <- if (is.character(source$sets[[place[1]]])) basename(unlist(source$sets[place]))
+    refuse_landmarks(paste0(source$what, " has different landmarks of ", id, if (length(from)) paste(":", shorten(from)), "."),
+                     "Leave one of them.", id = NULL)
+  }
+}
+
+#' What landmarks there are, by name
+#' @return List: `sets` (matrices or paths; no names where the specimens have none), `what` (what it is called), `alias` (other
+#'   names or NULL), `file` (whether it is one file).
+#' @noRd
+landmark_source <- function(landmarks, ids, ...) {
+  if (is.character(landmarks) && is.null(dim(landmarks)) && length(landmarks)) {
+    if (length(unique(landmarks)) > 1) return(list(sets = paths_by_name(landmarks, ids), what = "`landmarks`"))
+    file <- unname(landmarks[1])
+    if (isTRUE(dir.exists(file))) {
+      paths <- landmark_folder(file)
+      return(list(sets = stats::setNames(as.list(paths), names(paths)), what = file))
+    }
+    found <- read_sets(file, ...)
+    sets <- if (is.matrix(found)) list(found) else found
+    if (isTRUE(attr(found, "numbered"))) names(sets) <- NULL
+    return(list(sets = sets, what = basename(file), alias = attr(found, "alias"), file = TRUE))
+  }
+  list(sets = given_sets(landmarks), what = "`landmarks`")
+}
+
+#' Several paths: by their names, else by those of the files; in order where none of the files has a specimen's name
+#' @noRd
+paths_by_name <- function(landmarks, ids) {
+  if (!is.null(names(landmarks))) return(as.list(landmarks))
+  stem <- sub(id_extension(), "", basename(landmarks), ignore.case = TRUE)
+  if (any(lengths(id_places(ids, stem)) > 0) || length(landmarks) != length(ids)) {
+    return(stats::setNames(as.list(landmarks), stem))
+  }
+  stats::setNames(as.list(landmarks), ids)
+}
+
+#' Sets given in R as a list of matrices by name
+#' @noRd
+given_sets <- function(x) {
+  if (is.data.frame(x)) {
+    found <- table_sets(x)
+    return(if (is.matrix(found)) list(found) else found)
+  }
+  if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
+  if (is.matrix(x) || inherits(x, "specimen")) x <- list(x)
+  if (!is.list(x) || !length(x)) {
+    crestline_abort(sprintf("`landmarks` is %s.", describe_value(x)),
+                    "Give a file, a folder, a list of matrices by name of specimen, or an array with such names.",
+                    stage = "arguments", call = NULL)
+  }
+  if (is.null(names(x)) && all(vapply(x, inherits, NA, "specimen"))) names(x) <- vapply(x, `[[`, "", "id")
+  if (!is.null(names(x)) && !all(nzchar(names(x)))) {
+    refuse_landmarks("some of the list `landmarks` have no name.", "Name each by its specimen.", id = NULL)
+  }
+  lapply(x, function(one) if (is.character(one)) one else as_landmarks(if (inherits(one, "specimen")) one$landmarks else one))
+}
+
+#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have no names
+#' @noRd
+array_sets <- function(x) {
+  point <- if (is.null(dimnames(x)[[1]])) as.character(seq_len(dim(x)[1])) else dimnames(x)[[1]]
+  sets <- lapply(seq_len(dim(x)[3]), function(i) matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL)))
+  stats::setNames(sets, dimnames(x)[[3]])
+}
+
+#' The landmark files of a folder, named by specimen
+#' @noRd
+landmark_folder <- function(dir) {
+  file <- list.files(dir, full.names = TRUE)
+  known <- paste0("[.](", paste(c(names(landmark_formats()), "json"), collapse = "|"), ")$")
+  file <- file[grepl(known, file, ignore.case = TRUE)]
+  file <- file[vapply(file, is_landmark_file, NA)]
+  if (!length(file)) {
+    refuse_landmarks(sprintf("the folder %s has no landmark files.", dir),
+                     paste0("Known: ", paste0(".", names(landmark_formats()), collapse = ", "), "."), id = NULL)
+  }
+  stats::setNames(file, sub(id_extension(), "", sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE),
+                            ignore.case = TRUE))
+}
+
+#' @param ... As of read_sets().
+#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of one specimen must agree.
+#' @noRd
+read_landmark_folder <- function(dir, ...) {
+  file <- landmark_folder(dir)
+  sets <- do.call(c, unname(Map(function(path, name) {
+    found <- read_sets(path, ...)
+    if (is.matrix(found)) found <- list(found)
+    names(found) <- if (length(found) == 1) name else if (isTRUE(attr(found, "numbered"))) paste(name, seq_along(found)) else
+      names(found)
+    found
+  }, file, names(file))))
+  name <- names(sets)
+  for (twice in unique(name[duplicated(name)])) check_same_sets(list(sets = sets, what = dir), which(name == twice), twice)
+  sets[!duplicated(name)]
+}
