@@ -25,6 +25,18 @@ cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
 }
 
+cpp_read_numbers <- function(text, from) {
+    .Call(`_crestline_cpp_read_numbers`, text, from)
+}
+
+cpp_read_stl <- function(text) {
+    .Call(`_crestline_cpp_read_stl`, text)
+}
+
+cpp_read_obj <- function(text) {
+    .Call(`_crestline_cpp_read_obj`, text)
+}
+
 cpp_border_loops <- function(twin) {
     .Call(`_crestline_cpp_border_loops`, twin)
 }
@@ -63,6 +75,10 @@ cpp_fit_columns <- function(vb, it, twin, from, to, outside, rows, settings, cho
 
 cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
+}
+
+cpp_half_area_radius <- function(vb, it, used, cap, steps) {
+    .Call(`_crestline_cpp_half_area_radius`, vb, it, used, cap, steps)
 }
 
 cpp_vertices_in_box <- function(vb, low, high) {

@@ -90,6 +90,40 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_read_numbers
+List cpp_read_numbers(RawVector text, int from);
+RcppExport SEXP _crestline_cpp_read_numbers(SEXP textSEXP, SEXP fromSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    Rcpp::traits::input_parameter< int >::type from(fromSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_numbers(text, from));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_stl
+List cpp_read_stl(RawVector text);
+RcppExport SEXP _crestline_cpp_read_stl(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_stl(text));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_obj
+List cpp_read_obj(RawVector text);
+RcppExport SEXP _crestline_cpp_read_obj(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_obj(text));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_border_loops
 List cpp_border_loops(IntegerMatrix twin);
 RcppExport SEXP _crestline_cpp_border_loops(SEXP twinSEXP) {
@@ -247,6 +281,21 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_face_bend(vb, normals, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_half_area_radius
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps);
+RcppExport SEXP _crestline_cpp_half_area_radius(SEXP vbSEXP, SEXP itSEXP, SEXP usedSEXP, SEXP capSEXP, SEXP stepsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< LogicalVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< double >::type cap(capSEXP);
+    Rcpp::traits::input_parameter< int >::type steps(stepsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_half_area_radius(vb, it, used, cap, steps));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -439,6 +488,9 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
     {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
+    {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
+    {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
@@ -449,6 +501,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
