@@ -61,7 +61,9 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   check_scaling(scale)
   settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
                    tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
-  told_of(align_configurations(configurations(sample, level, triangles), settings), limits)
+  aligned <- align_configurations(configurations(sample, level, triangles), settings)
+  attr(aligned, "provenance") <- aligned_provenance(sample, settings)
+  told_of(aligned, limits)
 }
 
 #' @param given As of [configurations()].

@@ -100,7 +100,9 @@ NULL
   }
   if (is.null(x$settings)) return(kept_as_they_are(x, at))
   given <- c(list(coords = raw_configurations(x)[, , at, drop = FALSE]), given_of(x))
-  with_dropped(align_configurations(given, x$settings), x)
+  part <- with_dropped(align_configurations(given, x$settings), x)
+  attr(part, "provenance") <- provenance_part(x$provenance, names(part))
+  part
 }
 
 #' @rdname aligned
@@ -151,6 +153,7 @@ aligned_field <- function(x, name) if (name == "coords") as.array(x) else attr(x
   names(renamed$size) <- value
   own <- match(renamed$missing$id, names(x))
   renamed$missing$id <- ifelse(is.na(own), renamed$missing$id, value[own])
+  if (!is.null(renamed$provenance$specimens)) renamed$provenance$specimens$id <- value
   validate_aligned(do.call(new_aligned, renamed))
 }
 
@@ -187,8 +190,35 @@ c.aligned <- function(...) {
   coords <- array(unlist(raw), c(dim(first$mean), length(unlist(lapply(each, names)))),
                   c(dimnames(first$mean), list(unlist(lapply(each, names)))))
   joined <- align_configurations(c(list(coords = coords), given_of(first)), first$settings)
-  with_dropped(joined, each[[1]], each[-1])
+  joined <- do.call(with_dropped, c(list(joined), each))
+  attr(joined, "provenance") <- first$provenance
+  attr(joined, "provenance")$specimens <- do.call(rbind, lapply(each, function(one) one$provenance$specimens))
+  joined
 }
+
+#' Where an alignment came from
+#'
+#' @param settings Arguments of [align()].
+#' @noRd
+aligned_provenance <- function(sample, settings) {
+  known <- if (inherits(sample, "shape_sample")) whole_provenance(sample) else made_with()
+  known$settings$align <- settings
+  known
+}
+
+#' The same for some of its specimens
+#' @noRd
+provenance_part <- function(provenance, ids) {
+  if (!is.null(provenance$specimens)) {
+    provenance$specimens <- provenance$specimens[match(ids, provenance$specimens$id), ]
+    rownames(provenance$specimens) <- NULL
+  }
+  provenance
+}
+
+#' @rdname provenance
+#' @export
+summary.aligned <- function(object, ...) new_summary(printed_lines(object), object$provenance)
 
 #' The rest of what [configurations()] gives
 #' @noRd
@@ -200,6 +230,7 @@ reordered <- function(x, at) {
   fields <- lapply(stats::setNames(nm = aligned_fields), function(field) aligned_field(x, field))
   fields$coords <- fields$coords[, , at, drop = FALSE]
   fields$size <- fields$size[at]
+  fields$provenance <- provenance_part(fields$provenance, names(fields$size))
   do.call(new_aligned, fields)
 }
 
@@ -212,6 +243,7 @@ kept_as_they_are <- function(x, at) {
   fields$mean[] <- rowMeans(fields$coords, dims = 2)
   fields$reference <- fields$mean
   fields$missing <- fields$missing[fields$missing$id %in% names(fields$size), ]
+  fields$provenance <- provenance_part(fields$provenance, names(fields$size))
   validate_aligned(do.call(new_aligned, fields))
 }
 

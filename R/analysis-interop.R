@@ -98,7 +98,7 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (!is.null(names(size)) && has_ids(dimnames(coords)[[3]])) size <- sizes_by_specimen(size, dimnames(coords)[[3]])
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
-  validate_aligned(new_aligned(coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
+  validate_aligned(new_aligned(provenance = made_with(), coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
                                rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
                                triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())))
 }

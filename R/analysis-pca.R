@@ -55,7 +55,32 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
                  x = scores,
                  share = variance / sum(variance), direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)), size = mean(aligned$size),
-                 weights = weights, level = aligned$level, triangles = aligned$triangles), class = c("shape_pca", "prcomp"))
+                 weights = weights, level = aligned$level, triangles = aligned$triangles,
+                 provenance = with_settings(aligned$provenance, "pca", list(tolerance = tolerance))),
+            class = c("shape_pca", "prcomp"))
+}
+
+#' A provenance with the arguments of one stage more
+#' @noRd
+with_settings <- function(provenance, stage, settings) {
+  provenance$settings[[stage]] <- settings
+  provenance
+}
+
+#' @rdname provenance
+#' @export
+summary.shape_pca <- function(object, ...) {
+  found <- NextMethod()
+  found$provenance <- object$provenance
+  class(found) <- c("summary_shape_pca", class(found))
+  found
+}
+
+#' @export
+print.summary_shape_pca <- function(x, ...) {
+  NextMethod()
+  print_provenance(x$provenance)
+  invisible(x)
 }
 
 as_whole <- function(aligned) {

@@ -73,7 +73,7 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
     }
   }
   specimen$refinement <- refinement
-  specimen
+  with_origin(specimen, refinement$landmark[refinement$moved], "defined")
 }
 
 definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {

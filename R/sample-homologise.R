@@ -87,7 +87,8 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     shape$specimen <- NULL
     shape
   })
-  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence))
+  provenance <- sample_provenance(found$template, plan, list(tolerance = tolerance, rounds = rounds))
+  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {

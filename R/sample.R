@@ -17,6 +17,28 @@ new_shape_sample <- function(shapes, template, convergence = NULL, provenance = 
 
 sample_fields <- c("shapes", "template", "convergence", "missing", "provenance")
 
+#' @param settings Arguments of [homologise()].
+#' @noRd
+sample_provenance <- function(template, plan, settings) {
+  scheme <- template$provenance$scheme
+  c(made_with(), list(scheme = if (is.null(scheme)) scheme_provenance(template$scheme) else scheme, template = plan$template,
+                      settings = list(slide = lapply(unclass(plan$settings), identity), homologise = settings)))
+}
+
+#' What is known of a sample and of its specimens
+#' @noRd
+whole_provenance <- function(x) {
+  known <- x$provenance
+  measured <- shapes_provenance(x$shapes)
+  known$settings <- utils::modifyList(as.list(measured$settings), as.list(known$settings))
+  known$specimens <- measured$specimens
+  known
+}
+
+#' @rdname provenance
+#' @export
+summary.shape_sample <- function(object, ...) new_summary(printed_lines(object), whole_provenance(object))
+
 #' The rules of a sample
 #' @noRd
 validate_shape_sample <- function(x, call = rlang::caller_env()) {

@@ -99,6 +99,8 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  named <- scheme
+  if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme)
   warn_unused_names(specimen, scheme)
@@ -119,11 +121,20 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
                      shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
-                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan)
+                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan,
+                     provenance = shape_provenance(scan, named, unit, fit_settings(settings, passes, cut_scale, column, curves)))
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults), landmark_checks(shape, scan$placing, slips))
   shape
+}
+
+#' The arguments that a shape was measured with, for its provenance
+#' @noRd
+fit_settings <- function(settings, passes, cut_scale, column, curves) {
+  list(ridge = lapply(unclass(settings), identity),
+       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
+                  column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
 }
 
 check_column <- function(column_angle, column_angles, column_reach) {

@@ -47,6 +47,7 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   door <- check_mesh(mesh, id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
   new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
+               origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
                                landmarks = placed$landmarks, located = placed$located, size = placed$size,
                                slips = placed$slips))
