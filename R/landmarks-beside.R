@@ -85,7 +85,8 @@ landmarks_for <- function(landmarks, ids, ...) {
   if (!any(is.na(problem))) {
     refuse_landmarks(
       if (length(ids) == 1) problem[[1]] else sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
-      sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL
+      if (any(lengths(place))) "Leave one of them." else
+        sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL
     )
   }
   sets <- vector("list", length(ids))
