@@ -37,7 +37,8 @@ landmark_files_beside <- function(file) {
 #' @noRd
 is_landmark_file <- function(file) {
   if (dir.exists(file)) return(FALSE)
-  if (!grepl("[.]json$", file, ignore.case = TRUE) || grepl("[.]mrk[.]json$", file, ignore.case = TRUE)) return(TRUE)
+  other <- grepl("[.]json$", file, ignore.case = TRUE) && !grepl("[.]mrk[.]json$", file, ignore.case = TRUE)
+  if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
   content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) NULL)
   is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
 }

@@ -1,7 +1,7 @@
 # .pp of MeshLab: XML with one element <point x= y= z= name= active=> a picked point; an inactive one is missing.
 
 read_landmarks_pp <- function(file, options) {
-  text <- gsub("<!--.*?-->", "", paste(file_lines(file), collapse = "\n"), perl = TRUE)
+  text <- gsub("(?s)<!--.*?-->", "", paste(file_lines(file), collapse = "\n"), perl = TRUE)
   if (!grepl("<PickedPoints", text, fixed = TRUE)) {
     refuse_landmark_file(file, "no PickedPoints in it", "Save the picked points from MeshLab.")
   }
