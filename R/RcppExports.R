@@ -17,6 +17,10 @@ cpp_mesh_faults <- function(vb, it) {
     .Call(`_crestline_cpp_mesh_faults`, vb, it)
 }
 
+cpp_box_diagonal <- function(vb) {
+    .Call(`_crestline_cpp_box_diagonal`, vb)
+}
+
 cpp_twin_faults <- function(it, twin) {
     .Call(`_crestline_cpp_twin_faults`, it, twin)
 }

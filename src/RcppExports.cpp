@@ -66,6 +66,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_box_diagonal
+double cpp_box_diagonal(NumericMatrix vb);
+RcppExport SEXP _crestline_cpp_box_diagonal(SEXP vbSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_box_diagonal(vb));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_twin_faults
 int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
 RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
@@ -423,6 +434,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
+    {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
     {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
