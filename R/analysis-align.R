@@ -23,6 +23,7 @@
 #' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for pictures and areas.
 #' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its centroid size.
 #' @param rounds Most rounds.
+#' @param limits Of [sample_limits()]: from what on specimens are told of.
 #' @return Object of class `aligned`, a list:
 #'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of unit size where scaled;
 #'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete configuration);
@@ -37,7 +38,11 @@
 #'   `coords`), `missing` (number of points).
 #' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a
 #'   specimen with too few points to fit, missing points with `missing = "stop"`.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
+#'   `crestline_sample_doubt`, where the sample does not look like one, by [sample_limits()]: `crestline_far` (a specimen far
+#'   from the others), `crestline_point` (points of one far from those of the others), `crestline_size` (sizes that differ as units
+#'   do), `crestline_estimated` (points estimated for too many specimens, or too many of one), `crestline_beyond` (points
+#'   estimated far from what is there).
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
 #'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
 #'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
@@ -51,7 +56,7 @@
 #' @export
 align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
-                  rounds = 200) {
+                  rounds = 200, limits = sample_limits()) {
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
   scaling <- check_scaling(scale)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
@@ -64,9 +69,9 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
   coords <- fit$coords
   if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
-  structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, places = whole$places, scale = scale,
+  told_of(structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, places = whole$places, scale = scale,
                  tangent = tangent && scaling > 0, level = given$level, missing = whole$missing, moved = fit$moved,
-                 triangles = whole$triangles), class = "aligned")
+                 triangles = whole$triangles), class = "aligned"), limits)
 }
 
 check_scaling <- function(scale, call = rlang::caller_env()) {
@@ -250,10 +255,6 @@ print.aligned <- function(x, ...) {
   cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size), max(table$size)))
   cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n", sqrt(mean(table$distance^2)),
               max(table$distance), table$id[which.max(table$distance)]))
-  if (nrow(x$missing)) {
-    text <- paste0("missing and ", x$missing$action[1], ": ", amount(nrow(x$missing), "point"), " of ",
-                   shorten(unique(x$missing$id), 8))
-    cat(strwrap(text, indent = 2, exdent = 4), sep = "\n")
-  }
+  for (line in missing_lines(x$missing)) cat(strwrap(line, indent = 2, exdent = 4), sep = "\n")
   invisible(x)
 }

@@ -211,6 +211,9 @@ print.group_comparison <- function(x, most = 5, ...) {
   cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
       drawn, "\n", sep = "")
   if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+  for (level in names(x$aligned)) {
+    for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
+  }
   used <- x$components[!is.na(x$components)]
   if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
   if (!is.null(x$points)) {

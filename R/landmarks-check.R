@@ -71,8 +71,7 @@ check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NUL
     report_row("landmarks missing", length(missing), paste("kept as missing:", shorten(missing))),
     report_row("landmarks beside the surface", moved, sprintf(
       "put on it, moved by %.2g at most", max(0, away, na.rm = TRUE))),
-    report_row("landmarks mirrored", slips$mirrored, "kept; see the warning"),
-    report_row("landmarks exchanged", length(unlist(slips[c("groups", "either")])), "kept; see the warning")
+    report_row("landmarks mirrored", slips$mirrored, "kept; see the warning")
   )
   list(landmarks = landmarks, located = located, report = report, size = size, slips = slips)
 }

@@ -236,11 +236,24 @@ word_list <- function(x) {
   paste(paste(x[-length(x)], collapse = ", "), "and", x[length(x)])
 }
 
+#' Groups of exchanged landmarks in words
+#' @noRd
+exchange_words <- function(found) {
+  c(vapply(found$groups, word_list, ""),
+    vapply(found$either, function(two) paste(vapply(two, word_list, ""), collapse = " or else "), ""))
+}
+
+#' What print() says of exchanged landmarks
+#' @param found NULL where nothing was looked for.
+#' @noRd
+print_exchanged <- function(found) {
+  if (length(exchange_words(found))) cat(strwrap(paste("- landmarks look exchanged:", toString(exchange_words(found))), exdent = 2), sep = "\n")
+}
+
 #' @noRd
 warn_exchanged <- function(found, id) {
   if (found$mirrored) warn_mirrored(id)
-  groups <- c(vapply(found$groups, word_list, ""),
-              vapply(found$either, function(two) paste(vapply(two, word_list, ""), collapse = " or else "), ""))
+  groups <- exchange_words(found)
   if (!length(groups)) return(invisible())
   crestline_warn(
     sprintf("landmarks look exchanged: %s.", paste(groups, collapse = "; ")),

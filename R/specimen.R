@@ -100,6 +100,7 @@ print.specimen <- function(x, ...) {
               exdent = 2), sep = "\n")
   if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
   print_placing(x$placing)
+  print_exchanged(x$geometry$slips)
   found <- x$report[x$report$count > 0, ]
   for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ", found$action[i], "\n", sep = "")
   invisible(x)
