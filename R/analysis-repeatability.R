@@ -17,7 +17,8 @@
 #' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
 #'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".
 #' @param specimen N names: the specimen that each measurement is of; those that failed may be counted or not. A vector with
-#'   names is matched to the names of the measurements, one without is taken in their order.
+#'   names, or a data frame with a column of names, is matched to the names of the measurements; a vector without is taken
+#'   in their order.
 #' @param observer N names, in the same way: who made it; `NULL`: not told apart.
 #' @param level Of shapes and samples: "landmarks", "curves" or "surface".
 #' @param match In which frame specimens are compared. "specimen": all measurements of a specimen share a frame, as on
@@ -138,11 +139,12 @@ measurements <- function(shapes, level, call = rlang::caller_env()) {
 
 check_factor <- function(x, ids, name, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments", call = call)
-  if (!is.atomic(x) || is.null(names(x)) && length(x) != length(ids) || anyNA(x)) {
+  bad <- !is.atomic(x) || is.null(names(x)) && length(x) != length(ids) || anyNA(x)
+  if (bad && !is.data.frame(x)) {
     fail(sprintf("`%s` is %s, for %s.", name, describe_value(x), amount(length(ids), "measurement")),
          "Give a name for each measurement.")
   }
-  if (length(dim(x)) > 1) x <- as.vector(x)
+  if (is.matrix(x)) x <- as.vector(x)
   x <- factor(trimws(by_specimen(x, ids, name, fail)))
   alike <- alike_levels(levels(x))
   if (length(alike)) {

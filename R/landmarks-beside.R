@@ -37,7 +37,8 @@ landmark_files_beside <- function(file) {
 #' @noRd
 is_landmark_file <- function(file) {
   if (dir.exists(file)) return(FALSE)
-  if (!grepl("[.]json$", file, ignore.case = TRUE) || grepl("[.]mrk[.]json$", file, ignore.case = TRUE)) return(TRUE)
+  other <- grepl("[.]json$", file, ignore.case = TRUE) && !grepl("[.]mrk[.]json$", file, ignore.case = TRUE)
+  if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
   content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) NULL)
   is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
 }
@@ -64,8 +65,8 @@ same_landmarks <- function(a, b, tolerance = 1e-4) {
 #' @param ids Ids of the specimens.
 #' @param ... Further arguments of [read_landmarks()].
 #' @return List by id: a k x 3 matrix, or the path of the specimen's own file; NULL where there is none. The attribute
-#'   `problem` (character by id) says why, with near names, NA where all is well. Refused where no specimen has landmarks,
-#'   where an id has two that differ, and where the landmarks have no names and there are several specimens.
+#'   `problem` (character by id) says why: nothing of its name (with near names), or two that differ; NA where all is well.
+#'   Refused where no specimen has landmarks, and where they have no names and there are several specimens.
 #' @noRd
 landmarks_for <- function(landmarks, ids, ...) {
   source <- landmark_source(landmarks, ids, ...)
@@ -81,19 +82,37 @@ landmarks_for <- function(landmarks, ids, ...) {
   }
   place <- id_places(ids, names(source$sets))
   if (!is.null(source$alias) && !any(lengths(place))) place <- id_places(ids, source$alias)
-  for (i in which(lengths(place) > 1)) check_same_sets(source, place[[i]], ids[i])
-  absent <- lengths(place) == 0
-  problem <- rep(NA_character_, length(ids))
-  problem[absent] <- vapply(ids[absent], function(id) {
-    sprintf("%s has no landmarks of %s. %s", source$what, id, near_names(id, names(source$sets)))
-  }, "")
-  if (all(absent)) {
-    refuse_landmarks(sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
-                     sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL)
+  problem <- unlist(Map(function(id, place) landmarks_problem(source, id, place), ids, place))
+  if (!any(is.na(problem))) {
+    refuse_landmarks(
+      if (length(ids) == 1) problem[[1]] else sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
+      if (any(lengths(place))) "Leave one of them." else
+        sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL
+    )
   }
   sets <- vector("list", length(ids))
-  sets[!absent] <- source$sets[vapply(place[!absent], `[`, 1L, 1L)]
+  fine <- is.na(problem)
+  sets[fine] <- source$sets[vapply(place[fine], `[`, 1L, 1L)]
   for_ids(sets, ids, problem)
+}
+
+#' Why a specimen has no landmarks among some sets, NA where it has
+#' @noRd
+landmarks_problem <- function(source, id, place) {
+  if (!length(place)) {
+    return(sprintf("%s has no landmarks of %s. %s", source$what, id, near_names(id, unique(names(source$sets)))))
+  }
+  if (same_sets(source$sets[place])) return(NA_character_)
+  from <- if (is.character(source$sets[[place[1]]])) paste(":", shorten(basename(unlist(source$sets[place]))))
+  paste0(source$what, " has different landmarks of ", id, from, ".")
+}
+
+#' Whether sets, perhaps in files, are all the same
+#' @noRd
+same_sets <- function(sets) {
+  if (length(sets) < 2) return(TRUE)
+  sets <- lapply(sets, function(one) if (is.character(one)) read_landmarks(one) else one)
+  all(vapply(sets[-1], same_landmarks, NA, sets[[1]]))
 }
 
 #' Landmarks of one specimen, as [specimen()] takes them
@@ -107,15 +126,6 @@ landmarks_of <- function(landmarks, id) {
 
 for_ids <- function(sets, ids, problem) {
   structure(stats::setNames(sets, ids), problem = stats::setNames(rep_len(problem, length(ids)), ids))
-}
-
-check_same_sets <- function(source, place, id) {
-  set <- lapply(source$sets[place], function(one) if (is.character(one)) read_landmarks(one) else one)
-  if (!all(vapply(set[-1], same_landmarks, NA, set[[1]]))) {
-    from <- if (is.character(source$sets[[place[1]]])) basename(unlist(source$sets[place]))
-    refuse_landmarks(paste0(source$what, " has different landmarks of ", id, if (length(from)) paste(":", shorten(from)), "."),
-                     "Leave one of them.", id = NULL)
-  }
 }
 
 #' What landmarks there are, by name
@@ -138,7 +148,8 @@ landmark_source <- function(landmarks, ids, ...) {
   list(sets = given_sets(landmarks), what = "`landmarks`")
 }
 
-#' Several paths: by their names, else by those of the files; in order where none of the files has a specimen's name
+#' Several paths: by their names, else by those of the files. Where no file has a specimen's name they are taken in order, and
+#' that is said; refused where the order contradicts the names in the files'
 #' @noRd
 paths_by_name <- function(landmarks, ids) {
   if (!is.null(names(landmarks))) return(as.list(landmarks))
@@ -146,6 +157,14 @@ paths_by_name <- function(landmarks, ids) {
   if (any(lengths(id_places(ids, stem)) > 0) || length(landmarks) != length(ids)) {
     return(stats::setNames(as.list(landmarks), stem))
   }
+  within <- lapply(plain_id(ids), function(id) which(grepl(sub("^.*/", "", id), tolower(stem), fixed = TRUE)))
+  other <- which(mapply(function(at, i) length(at) == 1 && at != i, within, seq_along(ids)))
+  if (length(other)) {
+    refuse_landmarks(sprintf("`landmarks` has %s in the place of %s.", basename(landmarks[other[1]]), ids[other[1]]),
+                     "Put them in the order of the specimens, or give them the specimens' names.", id = NULL)
+  }
+  crestline_inform(sprintf("`landmarks`: the files are taken in the order of the specimens, %s for %s and so on.",
+                           basename(landmarks[1]), ids[1]))
   stats::setNames(as.list(landmarks), ids)
 }
 
@@ -206,6 +225,12 @@ read_landmark_folder <- function(dir, ...) {
     found
   }, file, names(file))))
   name <- names(sets)
-  for (twice in unique(name[duplicated(name)])) check_same_sets(list(sets = sets, what = dir), which(name == twice), twice)
+  for (twice in unique(name[duplicated(name)])) {
+    if (!same_sets(sets[name == twice])) {
+      from <- basename(file[names(file) == twice])
+      refuse_landmarks(sprintf("%s has different landmarks of %s%s.", dir, twice,
+                               if (length(from) > 1) paste(":", shorten(from)) else ""), "Leave one of them.", id = NULL)
+    }
+  }
   sets[!duplicated(name)]
 }

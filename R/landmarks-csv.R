@@ -32,10 +32,10 @@ csv_sets <- function(table, file, options, refuse) {
   if (!is.null(table$defined)) x[tolower(table$defined) %in% c("0", "false"), ] <- NA
   if (!is.null(frame$frame)) x <- change_frame(x, frame$frame, options$frame)
   column <- csv_columns(table, frame$columns)
-  if (is.null(column$specimen)) return(csv_set(x, table, column$label, refuse))
+  if (is.null(column$specimen)) return(csv_set(x, table, column$label, line, refuse))
   specimen <- csv_specimens(table[[column$specimen]], line, refuse)
   lapply(split(seq_along(specimen), factor(specimen, unique(specimen))), function(row) {
-    csv_set(x[row, , drop = FALSE], table[row, , drop = FALSE], column$label, refuse)
+    csv_set(x[row, , drop = FALSE], table[row, , drop = FALSE], column$label, line[row], refuse)
   })
 }
 
@@ -44,7 +44,9 @@ csv_frame <- function(table, refuse) {
   known <- list(c("x", "y", "z"), RAS = c("r", "a", "s"), LPS = c("l", "p", "s"))
   whole <- which(vapply(known, function(one) all(one %in% names(table)), NA))
   if (length(whole) > 1) refuse(sprintf("co-ordinates twice: %s", toString(unlist(known[whole]))))
-  if (!length(whole)) refuse(sprintf("no column %s", toString(setdiff(known[[1]], names(table)))))
+  if (!length(whole)) {
+    refuse(sprintf("no column %s among %s", toString(setdiff(known[[1]], names(table))), shorten(names(table))))
+  }
   list(columns = known[[whole]], frame = if (whole > 1) names(known)[whole])
 }
 
@@ -64,8 +66,8 @@ csv_columns <- function(table, xyz) {
   row <- if (is.null(table$curve)) rep(TRUE, nrow(table)) else !nzchar(table$curve)
   twice <- function(...) anyDuplicated(paste(..., sep = "\r")[row]) > 0
   if (!length(label) || !twice(table[[label[1]]])) return(one)
-  for (name in label) {
-    for (key in setdiff(intersect(c("id", label), names(table)), name)) {
+  for (name in intersect(c("landmark", "label", "name"), label)) {
+    for (key in setdiff(intersect(c("id", "name", "label"), names(table)), name)) {
       if (!twice(table[[key]], table[[name]]) && twice(table[[key]])) return(list(label = name, specimen = key))
     }
   }
@@ -85,7 +87,7 @@ csv_specimens <- function(id, line, refuse) {
   id
 }
 
-csv_set <- function(x, table, label, refuse) {
+csv_set <- function(x, table, label, line, refuse) {
   curve <- if (is.null(table$curve)) character(nrow(table)) else table$curve
   single <- !nzchar(curve)
   if (is.null(label) || is.na(label)) {
@@ -93,8 +95,16 @@ csv_set <- function(x, table, label, refuse) {
     name <- character()
   } else {
     name <- table[[label]][single]
+    check_csv_names(name, x[single, , drop = FALSE], line[single], refuse)
   }
   landmark_set(x[single, , drop = FALSE], name, csv_curves(x, curve, table))
+}
+
+# Every landmark has a name; the same name twice has the same place.
+check_csv_names <- function(name, x, line, refuse) {
+  if (any(!nzchar(name))) refuse("a point has no name", line[!nzchar(name)][1])
+  again <- which(duplicated(name) & !duplicated(data.frame(name, x)))
+  if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]), line[again[1]])
 }
 
 # The points of a curve by their numbers in a column `point` where there are such, else in the order of the rows.

@@ -84,9 +84,9 @@ fcsv_labels <- function(field, column) {
 write_landmarks_fcsv <- function(sets, file, options) {
   x <- sets[[1]]
   quoted <- ifelse(grepl("[,\"#']|^\\s|\\s$", rownames(x)), quote_name(rownames(x)), rownames(x))
-  state <- ifelse(is.na(x[, 1]), 0L, 2L)
+  state <- ifelse(is.na(x[, 1]), "0", "2")
   position <- row_text(x, missing = "0", sep = ",")
-  row <- paste(sprintf("%d", seq_len(nrow(x))), position, "0,0,0,1,1,1,0", quoted, "", "", state, 0, sep = ",")
+  row <- paste(sprintf("%d", seq_len(nrow(x))), position, "0,0,0,1,1,1,0", quoted, "", "", state, "0", sep = ",")
   write_file_lines(c(
     "# Markups fiducial file version = 4.11", paste("# CoordinateSystem =", options$frame),
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",

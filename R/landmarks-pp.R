@@ -1,7 +1,7 @@
 # .pp of MeshLab: XML with one element <point x= y= z= name= active=> a picked point; an inactive one is missing.
 
 read_landmarks_pp <- function(file, options) {
-  text <- gsub("<!--.*?-->", "", paste(file_lines(file), collapse = "\n"), perl = TRUE)
+  text <- gsub("(?s)<!--.*?-->", "", paste(file_lines(file), collapse = "\n"), perl = TRUE)
   if (!grepl("<PickedPoints", text, fixed = TRUE)) {
     refuse_landmark_file(file, "no PickedPoints in it", "Save the picked points from MeshLab.")
   }
@@ -36,6 +36,7 @@ xml_attribute <- function(element, key) {
 #' Text without XML's entities
 #' @noRd
 xml_text <- function(text) {
+  if (anyNA(text)) return(replace(text, !is.na(text), xml_text(text[!is.na(text)])))
   number <- gregexpr("&#(x[0-9A-Fa-f]{1,6}|[0-9]{1,7});", text)
   regmatches(text, number) <- lapply(regmatches(text, number), function(one) {
     code <- sub("^&#x", "0x", sub(";$", "", one))

@@ -118,6 +118,7 @@ named_columns <- function(cells, header, line, refuse) {
     refuse(sprintf("column %d holds something and has no name", beyond[1]), line[which(nzchar(cells[, beyond[1]]))[1]])
   }
   kept <- setdiff(seq_along(header), setdiff(nameless, filled))
+  header[filled] <- "row names"
   table <- lapply(kept, function(i) cells[, i])
   attributes(table) <- list(names = header[kept], row.names = seq_len(nrow(cells)), class = "data.frame")
   table

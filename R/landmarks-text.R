@@ -42,7 +42,8 @@ landmark_numbers <- function(word, file, line) {
   if (length(wrong)) {
     refuse_landmark_file(
       file, sprintf('"%s" is not a %snumber', word[wrong[1]], if (is.na(number[wrong[1]])) "" else "finite "),
-      "Write numbers with a decimal point, NA for a missing one.", rep_len(line, length(word))[wrong[1]]
+      "Write numbers with a decimal point, NA for a missing one.",
+      if (!is.null(line)) rep_len(line, length(word))[wrong[1]]
     )
   }
   number

@@ -43,7 +43,7 @@ simple_loops <- function(loop) {
 
 #' Diagonal of the bounding box of points, 3 x n
 #' @noRd
-box_diagonal <- function(xyz) sqrt(sum(vapply(1:3, function(i) diff(range(xyz[i, ])), 0)^2))
+box_diagonal <- function(xyz) cpp_box_diagonal(xyz)
 
 #' A path without its parts on bridges: straight from rim to rim
 #' @noRd

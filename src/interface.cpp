@@ -229,6 +229,9 @@ List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it) {
   return List::create(_["faces"] = found.faces, _["vertices"] = found.vertices);
 }
 
+// [[Rcpp::export]]
+double cpp_box_diagonal(NumericMatrix vb) { return crestline::box_diagonal(vb.begin(), vb.nrow(), vb.ncol()); }
+
 // it of a sound mesh, twin of the same size.
 // [[Rcpp::export]]
 int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin) {
