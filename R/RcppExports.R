@@ -9,8 +9,36 @@ cpp_curvature_variance <- function(vb, it, targets, directions, jacobian, sigma,
     .Call(`_crestline_cpp_curvature_variance`, vb, it, targets, directions, jacobian, sigma, settings)
 }
 
+cpp_mesh_key <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_key`, vb, it)
+}
+
+cpp_mesh_faults <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_faults`, vb, it)
+}
+
+cpp_twin_faults <- function(it, twin) {
+    .Call(`_crestline_cpp_twin_faults`, it, twin)
+}
+
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
+}
+
+cpp_near_pairs <- function(vb, reach, most) {
+    .Call(`_crestline_cpp_near_pairs`, vb, reach, most)
+}
+
+cpp_pair_groups <- function(pairs, n) {
+    .Call(`_crestline_cpp_pair_groups`, pairs, n)
+}
+
+cpp_vertices_on_edges <- function(vb, it, twin, sides, reach, most) {
+    .Call(`_crestline_cpp_vertices_on_edges`, vb, it, twin, sides, reach, most)
+}
+
+cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel) {
+    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel)
 }
 
 cpp_read_numbers <- function(text, from) {

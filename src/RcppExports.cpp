@@ -42,6 +42,42 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_mesh_key
+std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_key(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_key(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_mesh_faults
+List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_faults(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_faults(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_twin_faults
+int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
+RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_twin_faults(it, twin));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -51,6 +87,64 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< int >::type n(nSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_mesh_topology(it, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_near_pairs
+IntegerMatrix cpp_near_pairs(NumericMatrix vb, double reach, int most);
+RcppExport SEXP _crestline_cpp_near_pairs(SEXP vbSEXP, SEXP reachSEXP, SEXP mostSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< int >::type most(mostSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_near_pairs(vb, reach, most));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_pair_groups
+IntegerVector cpp_pair_groups(IntegerMatrix pairs, int n);
+RcppExport SEXP _crestline_cpp_pair_groups(SEXP pairsSEXP, SEXP nSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type pairs(pairsSEXP);
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_pair_groups(pairs, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_vertices_on_edges
+List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector sides, double reach, int most);
+RcppExport SEXP _crestline_cpp_vertices_on_edges(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP mostSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< int >::type most(mostSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertices_on_edges(vb, it, twin, sides, reach, most));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_other_sheets
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel);
+RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type piece(pieceSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sample(sampleSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< double >::type parallel(parallelSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -419,7 +513,14 @@ END_RCPP
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
+    {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
+    {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
+    {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_near_pairs", (DL_FUNC) &_crestline_cpp_near_pairs, 3},
+    {"_crestline_cpp_pair_groups", (DL_FUNC) &_crestline_cpp_pair_groups, 2},
+    {"_crestline_cpp_vertices_on_edges", (DL_FUNC) &_crestline_cpp_vertices_on_edges, 6},
+    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 7},
     {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
     {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
     {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
