@@ -41,6 +41,10 @@ cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel) {
     .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel)
 }
 
+cpp_numbers_at <- function(raw, places, real, sign, size, big) {
+    .Call(`_crestline_cpp_numbers_at`, raw, places, real, sign, size, big)
+}
+
 cpp_read_numbers <- function(text, from) {
     .Call(`_crestline_cpp_read_numbers`, text, from)
 }

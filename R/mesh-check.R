@@ -28,8 +28,8 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   warn_dropped(mesh, do.call(rbind, report), id)
   topology <- with_topology(mesh)$topology
   vertices <- mesh$given
-  mesh[c("topology", "given", "lost")] <- NULL
-  normal <- face_normals(mesh)
+  normal <- if (is.null(mesh$face_normals)) face_normals(mesh) else mesh$face_normals
+  mesh[c("topology", "given", "lost", "face_normals")] <- NULL
   area <- row_lengths(normal)
   if (!any(area > 0)) refuse_flat(id)
   mesh$normals <- vertex_normals(mesh, normal)
@@ -103,6 +103,7 @@ drop_far <- function(mesh, id, far = 100) {
   check <- "vertices far from all others"
   gone <- far_vertices(mesh, seq_len(ncol(mesh$vb)), far)
   if (!length(gone)) return(mended(mesh, check, 0))
+  # Those that no triangle uses are none of the surface, and may be most.
   if (ncol(mesh$it)) gone <- far_vertices(mesh, which(tabulate(mesh$it, ncol(mesh$vb)) > 0), far)
   if (length(gone)) {
     crestline_warn(

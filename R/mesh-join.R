@@ -6,12 +6,20 @@ join_effort <- 2000L
 
 # Vertices that differ by rounding, as those of single triangles that went through text, of both sides of a texture
 # seam, or of a skin that is there twice. `near`: distance, as a share of the mesh's size. Joined are ends of borders
-# that no edge joins, and vertices whose triangles then are others' duplicates; the first stands for all.
+# that no edge joins, and, of several pieces, vertices whose triangles then are others' duplicates; the first stands for
+# all.
 join_near_vertices <- function(mesh, id, near = 1e-6) {
   check <- "vertices apart by rounding"
-  pair <- cpp_near_pairs(mesh$vb, near * surface_diagonal(mesh), join_effort)
+  mesh <- with_topology(mesh)
+  border <- border_vertices(mesh)
+  several <- mesh$topology$pieces > 1
+  at <- if (several) seq_len(ncol(mesh$vb)) else border
+  pair <- matrix(at[cpp_near_pairs(mesh$vb[, at, drop = FALSE], near * surface_diagonal(mesh), join_effort)], 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
-  if (ncol(pair)) pair <- pair[, on_border(mesh, pair) | of_second_skin(mesh, pair), drop = FALSE]
+  if (ncol(pair) && several) {
+    both <- pair[1, ] %in% border & pair[2, ] %in% border
+    pair <- pair[, both | of_second_skin(mesh, pair), drop = FALSE]
+  }
   if (!ncol(pair)) return(mended(mesh, check, 0))
   stands_for <- cpp_pair_groups(pair, ncol(mesh$vb))
   kept <- stands_for == seq_along(stands_for)
@@ -33,12 +41,9 @@ joined_by_edge <- function(mesh, pair) {
   key(pair[1, ], pair[2, ]) %in% c(key(it[1, ], it[2, ]), key(it[2, ], it[3, ]), key(it[3, ], it[1, ]))
 }
 
-# Pairs of which both vertices are on a border.
-on_border <- function(mesh, pair) {
-  side <- border_sides(with_topology(mesh)$topology)
-  border <- logical(ncol(mesh$vb))
-  border[c(mesh$it[side], mesh$it[next_side(side)])] <- TRUE
-  border[pair[1, ]] & border[pair[2, ]]
+border_vertices <- function(mesh) {
+  side <- border_sides(mesh$topology)
+  sort(unique(c(mesh$it[side], mesh$it[next_side(side)])))
 }
 
 # Pairs in triangles of which two or more become one.
@@ -60,9 +65,9 @@ split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
   reach <- near * surface_diagonal(mesh)
   count <- 0
   for (round in seq_len(rounds)) {
+    mesh <- with_topology(mesh)
     found <- border_contacts(mesh, reach)
     if (!nrow(found)) break
-    mesh <- with_topology(mesh)
     first <- found$side[!duplicated((found$side - 1) %/% 3)]
     mesh <- split_sides(mesh, found[found$side %in% first, ])
     count <- count + sum(found$side %in% first)
@@ -72,8 +77,8 @@ split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
 
 # Ends of borders on the inner part of another border side: data frame `side`, `vertex`, `along`.
 border_contacts <- function(mesh, reach) {
-  topology <- with_topology(mesh)$topology
-  as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, topology$twin, border_sides(topology), reach, join_effort))
+  side <- border_sides(mesh$topology)
+  as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, mesh$topology$twin, side, reach, join_effort))
 }
 
 # Divides sides at vertices, one side a triangle: the first part keeps the triangle's number.

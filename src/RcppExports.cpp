@@ -148,6 +148,22 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_numbers_at
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big);
+RcppExport SEXP _crestline_cpp_numbers_at(SEXP rawSEXP, SEXP placesSEXP, SEXP realSEXP, SEXP signSEXP, SEXP sizeSEXP, SEXP bigSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type raw(rawSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type places(placesSEXP);
+    Rcpp::traits::input_parameter< bool >::type real(realSEXP);
+    Rcpp::traits::input_parameter< bool >::type sign(signSEXP);
+    Rcpp::traits::input_parameter< int >::type size(sizeSEXP);
+    Rcpp::traits::input_parameter< bool >::type big(bigSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_numbers_at(raw, places, real, sign, size, big));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_read_numbers
 List cpp_read_numbers(RawVector text, int from);
 RcppExport SEXP _crestline_cpp_read_numbers(SEXP textSEXP, SEXP fromSEXP) {
@@ -521,6 +537,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_pair_groups", (DL_FUNC) &_crestline_cpp_pair_groups, 2},
     {"_crestline_cpp_vertices_on_edges", (DL_FUNC) &_crestline_cpp_vertices_on_edges, 6},
     {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 7},
+    {"_crestline_cpp_numbers_at", (DL_FUNC) &_crestline_cpp_numbers_at, 6},
     {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
     {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
     {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},

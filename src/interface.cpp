@@ -14,6 +14,7 @@
 #include "mesh_join.h"
 #include "mesh_key.h"
 #include "mesh_read_obj.h"
+#include "mesh_read_ply.h"
 #include "mesh_read_text.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
@@ -283,6 +284,12 @@ NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix
                                IntegerVector sample, double reach, double parallel) {
   return wrap(crestline::other_sheets(triangulation(vb, it, twin), piece.begin(), from_zero(sample), reach,
                                       parallel));
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big) {
+  crestline::Kind kind = real ? crestline::Kind::real : sign ? crestline::Kind::whole : crestline::Kind::natural;
+  return wrap(crestline::numbers_at(raw.begin(), places.begin(), places.size(), kind, size, big));
 }
 
 // The bytes of a text end with a line end.

@@ -73,6 +73,23 @@ void mark_reached(const Triangulation& mesh, int face, const double* middle, dou
     }
 }
 
+// Single precision, not beyond `x` on the side opposite to `towards`.
+float rounded(double x, int towards) {
+  return std::nextafter(static_cast<float>(x), towards * std::numeric_limits<float>::infinity());
+}
+
+// The part of the sweep that each face takes: read in a row, faster than corners.
+void spans(const Triangulation& mesh, std::vector<float>& low, std::vector<float>& high) {
+  low.resize(mesh.m);
+  high.resize(mesh.m);
+  for (int g = 0; g < mesh.m; ++g) {
+    double a = place(corner(mesh, vertex_at(mesh, 3 * g))), b = place(corner(mesh, vertex_at(mesh, 3 * g + 1))),
+           c = place(corner(mesh, vertex_at(mesh, 3 * g + 2)));
+    low[g] = rounded(std::min(std::min(a, b), c), -1);
+    high[g] = rounded(std::max(std::max(a, b), c), 1);
+  }
+}
+
 bool beside_box(const Triangulation& mesh, int face, const double* middle, double reach) {
   const double* a = corner(mesh, vertex_at(mesh, 3 * face));
   const double* b = corner(mesh, vertex_at(mesh, 3 * face + 1));
@@ -146,6 +163,8 @@ std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
                                  const std::vector<int>& sample, double reach, double parallel) {
   std::vector<double> out;
   std::vector<int> seen(mesh.m, -1), queue;
+  std::vector<float> low, high;
+  spans(mesh, low, high);
   for (std::size_t s = 0; s < sample.size(); ++s) {
     int face = sample[s], mark = static_cast<int>(s);
     double middle[3], normal[3], other[3], nearest = std::numeric_limits<double>::infinity();
@@ -155,8 +174,9 @@ std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
     }
     face_normal(mesh, face, normal);
     mark_reached(mesh, face, middle, reach, mark, seen, queue);
+    float from = rounded(place(middle) - reach, -1), to = rounded(place(middle) + reach, 1);
     for (int g = 0; g < mesh.m; ++g) {
-      if (seen[g] == mark || beside_box(mesh, g, middle, reach)) continue;
+      if (low[g] > to || high[g] < from || seen[g] == mark || beside_box(mesh, g, middle, reach)) continue;
       double away2 = closest_on_face(mesh, g, middle).distance2;
       if (away2 > reach * reach || away2 >= nearest * nearest) continue;
       face_normal(mesh, g, other);
