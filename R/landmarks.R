@@ -250,8 +250,9 @@ check_file <- function(file, stage) {
 #' waiting for ever, have no size
 #'
 #' @param id Name of the specimen, where there is one.
+#' @param unpacks Kinds of packed files that the caller reads.
 #' @noRd
-check_stored <- function(file, stage, id = NULL) {
+check_stored <- function(file, stage, id = NULL, unpacks = character()) {
   refuse <- function(problem, remedy) crestline_abort(problem, remedy, stage = stage, id = id, call = NULL)
   if (!isTRUE(file.size(file) > 0)) {
     refuse(sprintf("%s cannot be read: it is empty, or no file on disk but a pipe or device.", file),
@@ -259,7 +260,7 @@ check_stored <- function(file, stage, id = NULL) {
   }
   if (file.access(file, 4) != 0) refuse(sprintf("%s cannot be read.", file), "Check the right to read it.")
   packed <- packed_by(readBin(file, "raw", 10))
-  if (!is.na(packed)) {
+  if (!is.na(packed) && !packed %in% unpacks) {
     refuse(sprintf("%s cannot be read: it is compressed by %s, whatever its name.", file, packed),
            "Unpack it first; of a spreadsheet save the sheet as CSV.")
   }

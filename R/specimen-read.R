@@ -38,7 +38,7 @@ read_mesh <- function(file, id) {
     refuse_file(file, "the format is not known by its extension",
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
   }
-  check_stored(file, "reading", id)
+  check_stored(file, "reading", id, unpacks = "gzip")
   tryCatch(reader(file, id), error = function(e) {
     if (inherits(e, "crestline_error")) stop(e)
     refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
@@ -57,6 +57,7 @@ mesh_of_polygons <- function(vertex, corner, sides, colour = NULL) {
   if (is.double(corner)) corner[corner != round(corner) | abs(corner) > .Machine$integer.max] <- NA
   mesh <- list(vb = rbind(t(vertex), 1), it = matrix(as.integer(corner), 3))
   if (!is.null(colour)) mesh$material <- list(color = colour)
+  if (any(sides < 3)) mesh$short <- sum(sides < 3)
   structure(mesh, class = "mesh3d")
 }
 
