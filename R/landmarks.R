@@ -226,9 +226,11 @@ landmark_format <- function(file) {
   extension <- sub("^(mrk[.])?json$", "mrk.json", file_extension(file))
   format <- match(extension, tolower(names(formats)))
   if (is.na(format)) {
+    first <- c(gz = "Unpack it first. ", bz2 = "Unpack it first. ", xz = "Unpack it first. ", zip = "Unpack it first. ",
+               xlsx = "Save the sheet as CSV. ", xls = "Save the sheet as CSV. ", ods = "Save the sheet as CSV. ")[extension]
     crestline_abort(
       sprintf("no landmark format has the extension of %s.", basename(file)),
-      paste0("Known: ", paste0(".", names(formats), collapse = ", "), "."),
+      paste0(if (!is.na(first)) first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),
       stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
   }

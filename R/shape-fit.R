@@ -82,7 +82,9 @@
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
 #'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
 #' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left
-#'   and right of all pairs). [quality()] grades them, and the curves that end there, red.
+#'   and right of all pairs). [quality()] grades them, and the curves that end there, red. Of class
+#'   `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one of another name that may
+#'   be meant (`prn` for `pn`, `CHL` for `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -103,7 +105,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme)
-  warn_unused_names(specimen, scheme)
+  warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
