@@ -124,7 +124,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                      shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
                      tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan,
-                     provenance = shape_provenance(scan, named, unit, fit_settings(settings, passes, cut_scale, column, curves)))
+                     provenance = shape_provenance(scan, named, unit, measured_with(settings, passes, cut_scale, column, curves)))
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults), landmark_checks(shape, scan$placing, slips))
@@ -133,7 +133,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
 
 #' The arguments that a shape was measured with, for its provenance
 #' @noRd
-fit_settings <- function(settings, passes, cut_scale, column, curves) {
+measured_with <- function(settings, passes, cut_scale, column, curves) {
   list(ridge = lapply(unclass(settings), identity),
        fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
                   column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
