@@ -74,6 +74,6 @@ curves_as_points <- function(sets, file) {
     names <- paste(rep(names(curves), vapply(curves, nrow, 0L)), unlist(lapply(curves, function(x) seq_len(nrow(x)))))
     points <- do.call(rbind, c(list(set), unname(curves)))
     rownames(points) <- c(rownames(set), names)
-    as_landmarks(points)
+    structure(as_landmarks(points), comments = attr(set, "comments"))
   }, sets, curves)
 }

@@ -42,6 +42,10 @@
 #' * `.pp`: a point that is not active is missing.
 #' * `.ckpt`: single points, in the file's unit; points of curves and patches are left out with a warning.
 #'
+#' Of a specimen or shape the provenance (see [summary.specimen()]) is written too, where readers of other programs pass over it:
+#' in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a field `provenance` of `.mrk.json`. In `.csv`, `.pts`,
+#' `.fcsv`, `.landmarkAscii` and `.pp` it would disturb some, and is left out.
+#'
 #' A folder is read as the landmark files in it, by their names. Two files of one specimen must agree. Empty and compressed
 #' files, pipes and devices are refused before they are opened.
 #'
@@ -173,11 +177,12 @@ specimen_names <- function(x) {
 
 written_set <- function(x, curves) {
   if (is.null(curves)) curves <- if (inherits(x, "shape")) shape_curves(x) else attr(x, "curves")
+  comments <- comment_lines(provenance_of(x))
   if (inherits(x, "specimen")) x <- x$landmarks
   if (inherits(x, "shape")) x <- coords(x, "landmarks")
   x <- as_landmarks(x)
   curves <- as_curves(curves)
-  if (length(curves)) structure(x, curves = curves) else x
+  structure(x, curves = if (length(curves)) curves, comments = if (length(comments)) paste("provenance,", comments))
 }
 
 # A named list of n x 3 matrices, each with attribute `closed`.

@@ -17,6 +17,9 @@
 #' * `.obj`: text, colours as numbers from 0 to 1.
 #' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the triangles.
 #'
+#' * `.ply` and `.obj` of a specimen or a shape have its provenance (see [summary.specimen()]) in comment lines; `.stl` has no
+#'   place for it.
+#'
 #' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer takes meshes for LPS unless told otherwise, as
 #' [write_landmarks()] does.
 #'
@@ -51,6 +54,7 @@ write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevi
   shape <- if (inherits(x, "shape")) x
   mesh <- if (is.null(shape)) written_mesh(x) else shape_mesh(shape, parts)
   painted <- painted_mesh(mesh, colour, shape, palette, limits, missing)
+  painted$comments <- c("written by crestline", comment_lines(provenance_of(x)))
   write(painted, file, isTRUE(ascii))
   if (!is.null(colour) && identical(file_extension(file), "stl")) {
     crestline_warn(sprintf("%s: .stl has no colours: they are left out.", basename(file)), "Write a .ply or .obj file.",

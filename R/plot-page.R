@@ -44,7 +44,8 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
   layers <- page_layers(curves, specimen, surface, colour, width, ...)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-                   page_scene(layers, size), page_legend(surface), tags$p(caption), html_table(table))
+                   page_scene(layers, size), page_legend(surface), tags$p(caption), html_table(table),
+                   provenance_block(provenance_of(if (inherits(curves, "shape")) curves else specimen)))
   save_page(page, file, selfcontained)
   invisible(file)
 }

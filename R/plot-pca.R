@@ -90,7 +90,8 @@ write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
                    tags$p(sprintf("%d specimens, %d points (%s). ", nrow(pca$x), nrow(pca$mean), pca$level),
                           sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd, sd)),
-                   tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks))
+                   tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks),
+                   provenance_block(pca$provenance))
   save_page(page, file, selfcontained)
   invisible(file)
 }

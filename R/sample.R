@@ -31,7 +31,7 @@ whole_provenance <- function(x) {
   known <- x$provenance
   measured <- shapes_provenance(x$shapes)
   known$settings <- utils::modifyList(as.list(measured$settings), as.list(known$settings))
-  known$specimens <- measured$specimens
+  known$specimens <- specimens_provenance(x$shapes)
   known
 }
 

@@ -46,7 +46,8 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
   tags <- htmltools::tags
   page <- tags$body(
     tags$header(tags$h1(title), report_sum(table, counts)), report_overview(counts), report_matrix(counts),
-    report_figures(figures), report_parts(table), report_limits(limits), report_data(table),
+    report_figures(figures), report_parts(table), report_limits(limits),
+    provenance_block(shapes_provenance(shapes)), report_data(table),
     tags$script(htmltools::HTML(report_text("quality.js")))
   )
   write_report(page, title, file)

@@ -98,6 +98,27 @@ setting_word <- function(value, most = 4) {
   paste(if (is.numeric(value)) signif(value, 6) else value, collapse = ", ")
 }
 
+#' The same as comments of a file: what every program reads, and no name of a file that would end a line or go on in the next
+#' @noRd
+comment_lines <- function(provenance) if (length(provenance)) comment_text(provenance_lines(provenance))
+
+comment_text <- function(text) gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
+
+#' The same as a part of a page that opens on a click
+#' @noRd
+provenance_block <- function(provenance) {
+  tags <- htmltools::tags
+  tags$details(class = "provenance", tags$summary("Where this came from"),
+               tags$pre(style = "white-space:pre-wrap", paste(provenance_lines(provenance), collapse = "\n")))
+}
+
+#' What is known of anything that is written to a file; NULL of bare meshes and matrices
+#' @noRd
+provenance_of <- function(x) {
+  if (inherits(x, "specimen")) return(specimen_provenance(x))
+  if (inherits(x, "shape")) x$provenance
+}
+
 #' A summary: what print() says, and where it came from
 #'
 #' @param lines Text.
