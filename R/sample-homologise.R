@@ -31,9 +31,10 @@
 #'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the template), `largest`
 #'     (unit of the mesh), `energy` (mean over specimens of the sum over curves), `slide` (RMS distance that curve
 #'     points have slid);
-#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`.
+#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`;
+#'   * `provenance`: what it came from, see [summary.shape_sample()].
 #'
-#'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
+#'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample]. `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
 #'   not there.
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class

@@ -63,6 +63,7 @@
 #'     given) and `exchanged` (what other landmark it looks exchanged with, text);
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
+#'   * `provenance`: what it came from, see [summary.shape()];
 #'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
 #'     shape small).
 #'

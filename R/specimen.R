@@ -31,6 +31,8 @@
 #'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing was found);
 #'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out: `values[!is.na(vertices)]`
 #'     belong to `vertices[!is.na(vertices)]`);
+#'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`, `file`, `time`: how each
+#'     landmark came, see [summary.specimen()]);
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
 #'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
