@@ -8,7 +8,7 @@ path_columns <- c("s", mesh_columns)
 #' `path[i, ]` is a path of its own: its arc lengths begin at 0 and its `length` is that of the steps between its points,
 #' straight where points between them were left out. What was true of the whole path (angle, side, optima, criterion, ...)
 #' is dropped; the mesh that it lies on is remembered. `rbind()` puts paths of one mesh behind each other; where one ends
-#' and the next begins at the same place, that point is there once.
+#' and the next begins at the same place, that point is there once. A path whose co-ordinates are set has the length of these.
 #'
 #' @param x A `mesh_path`, see [plane_path()].
 #' @param ... Rows and columns as for any data frame; of `rbind()`: `mesh_path`s of one mesh.
@@ -40,6 +40,24 @@ NULL
   kept <- attributes(x)[setdiff(names(attributes(x)), names(attributes(part)))]
   attributes(part)[names(kept)] <- kept
   part
+}
+
+#' @rdname mesh_path
+#' @param name,i A column.
+#' @param value What it shall hold; NULL takes it away.
+#' @export
+`$<-.mesh_path` <- function(x, name, value) changed_path(x, NextMethod())
+
+#' @rdname mesh_path
+#' @export
+`[[<-.mesh_path` <- function(x, i, value) changed_path(x, NextMethod())
+
+#' A path of which a column was set: without one of its own it is none, and other co-ordinates have another length
+#' @noRd
+changed_path <- function(before, after) {
+  if (!all(path_columns %in% names(after))) return(plain_frame(after))
+  moved <- !all(vapply(c("x", "y", "z"), function(name) identical(after[[name]], before[[name]]), NA))
+  if (moved) rebased_path(after, attr(before, "key"), attr(before, "id")) else after
 }
 
 #' @rdname mesh_path

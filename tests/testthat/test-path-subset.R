@@ -53,6 +53,22 @@ test_that("the whole path stays what it is, and a path without one of its column
   expect_identical(path[3:5, ]$depth, path$z[3:5])
 })
 
+test_that("a path whose columns are set stays one as long as it has them all", {
+  path <- quarter()
+  doubled <- path
+  for (axis in c("x", "y", "z")) doubled[[axis]] <- 2 * path[[axis]]
+  expect_equal(attr(doubled, "length"), 2 * attr(path, "length"))
+  expect_equal(doubled$s, 2 * path$s)
+  expect_null(attr(doubled, "angle"))
+  noted <- path
+  noted$note <- "here"
+  expect_identical(attributes(noted)[c("length", "angle", "key")], attributes(path)[c("length", "angle", "key")])
+  without <- path
+  without$face <- NULL
+  expect_identical(class(without), "data.frame")
+  expect_null(attr(without, "length"))
+})
+
 test_that("the key and the id of the mesh stay with a part", {
   ball <- specimen(Rvcg::vcgSphere(4), id = "ball")
   path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
