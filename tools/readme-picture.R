@@ -42,7 +42,7 @@ draw_lines_of_readme <- function(file) {
   utils::data("humface", package = "Rvcg", envir = data)
   face <- find_landmarks(data$humface, id = "humface")
   shape <- fit_shape(face, face_scheme(), progress = FALSE)
-  grDevices::jpeg(file, width = 620, height = 480, res = 72, quality = 85, type = "cairo")
+  grDevices::jpeg(file, width = 560, height = 430, res = 66, quality = 75, type = "cairo")
   on.exit(grDevices::dev.off())
   plot(shape, face, engine = "picture", view = t(face$match$rotation))
 }
