@@ -26,10 +26,9 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   }
   topology <- with_topology(mesh)$topology
   mesh$topology <- NULL
-  normal <- face_normals(mesh)
-  area <- row_lengths(normal)
+  area <- row_lengths(face_normals(mesh))
   if (!any(area > 0)) refuse_flat(id)
-  mesh$normals <- vertex_normals(mesh, normal)
+  mesh$normals <- vertex_normals(mesh)
   report <- c(report, describe_topology(mesh, topology, area))
   list(mesh = mesh, topology = topology, report = do.call(rbind, report))
 }
