@@ -48,8 +48,16 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
       sprintf("Make one with %s.", maker), stage = "arguments", call = call
     )
   }
+  validate(x)
   invisible(x)
 }
+
+#' Refuse an object that breaks the rules of its class: validate_<class>() of the classes that have rules
+#' @noRd
+validate <- function(x) UseMethod("validate")
+
+#' @exportS3Method
+validate.default <- function(x) invisible(x)
 
 describe_value <- function(x) {
   if (is.null(x)) return("NULL")

@@ -43,7 +43,7 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
                            threads = getOption("crestline.threads", 1L)) {
   check_class(settings, "find_settings", "settings", "find_settings()")
   if (!inherits(template, "landmark_template")) template <- landmark_template(template)
-  scan <- mesh
+  scan <- validate(mesh)
   if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads, unit)

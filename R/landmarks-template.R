@@ -96,13 +96,13 @@ least_rotation <- function(axis) {
 #' A specimen after rotation about an origin, which goes to 0
 #' @noRd
 moved_specimen <- function(specimen, rotation, origin) {
-  specimen$mesh$vb[1:3, ] <- rotation %*% (specimen$mesh$vb[1:3, ] - origin)
-  specimen$mesh$normals[1:3, ] <- rotation %*% specimen$mesh$normals[1:3, ]
-  names <- dimnames(specimen$landmarks)
-  specimen$landmarks <- t(rotation %*% (t(specimen$landmarks) - origin))
-  dimnames(specimen$landmarks) <- names
-  specimen$geometry[c("landmarks", "located")] <- list(specimen$landmarks[0, , drop = FALSE], specimen$geometry$located[0, ])
-  specimen
+  mesh <- specimen$mesh
+  mesh$vb[1:3, ] <- rotation %*% (mesh$vb[1:3, ] - origin)
+  mesh$normals[1:3, ] <- rotation %*% mesh$normals[1:3, ]
+  landmarks <- structure(t(rotation %*% (t(specimen$landmarks) - origin)), dimnames = dimnames(specimen$landmarks))
+  geometry <- specimen$geometry
+  geometry[c("landmarks", "located")] <- list(landmarks[0, , drop = FALSE], geometry$located[0, ])
+  with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key, landmarks = landmarks, geometry = geometry)
 }
 
 #' A template with what matching needs: its cloud, anchors and displacements

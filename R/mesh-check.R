@@ -46,29 +46,17 @@ refuse_mesh <- function(problem, remedy, id) {
 }
 
 as_plain_mesh <- function(mesh, id) {
-  if (!inherits(mesh, "mesh3d")) {
+  if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
     refuse_mesh(sprintf("the mesh is %s, not a mesh3d.", describe_value(mesh)),
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
   }
   vb <- mesh$vb
-  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 || ncol(vb) < 3) {
-    refuse_mesh("the mesh has no vertices (`vb` must be 4 x n, n at least 3).",
-                "Read or export it again.", id)
-  }
+  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 || ncol(vb) < 3) refuse_no_vertices(id)
   if (nrow(vb) == 3) vb <- rbind(vb, 1)
-  plain <- list(vb = unname(vb), it = index_matrix(mesh$it, 3, id), ib = index_matrix(mesh$ib, 4, id))
+  plain <- list(vb = unname(vb), it = face_matrix(mesh$it, 3, id), ib = face_matrix(mesh$ib, 4, id))
   colour <- vertex_colours(mesh)
   if (!is.null(colour)) plain$material <- list(color = colour)
   list(mesh = structure(plain, class = "mesh3d"), row = NULL)
-}
-
-index_matrix <- function(x, corners, id) {
-  if (is.null(x) || length(x) == 0) return(matrix(0L, corners, 0))
-  if (!is.numeric(x) || length(x) %% corners != 0) {
-    refuse_mesh(sprintf("the faces are not a numeric matrix of %d rows.", corners),
-                "Give `it` as 3 x m vertex numbers.", id)
-  }
-  matrix(suppressWarnings(as.integer(x)), corners)
 }
 
 normalise_homogeneous <- function(mesh, id) {
@@ -86,11 +74,7 @@ split_quads <- function(mesh, id) {
 }
 
 refuse_bad_indices <- function(mesh, id) {
-  bad <- sum(colSums(is.na(mesh$it) | mesh$it < 1 | mesh$it > ncol(mesh$vb)) > 0)
-  if (bad > 0) {
-    refuse_mesh(sprintf("%d of %d faces name vertices that do not exist.", bad, ncol(mesh$it)),
-                "The mesh is damaged: export or download it again.", id)
-  }
+  if (anyNA(mesh$it) || any(mesh$it < 1 | mesh$it > ncol(mesh$vb))) refuse_indices(mesh$it, ncol(mesh$vb), id)
   mended(mesh, "faces naming missing vertices", 0, "refused")
 }
 

@@ -79,12 +79,9 @@ refuse_writing <- function(file, reason, remedy) {
 #' A mesh of triangles, each corner a vertex that is there, with the attributes of [shape_mesh()]
 #' @noRd
 written_mesh <- function(x) {
-  mesh <- if (inherits(x, "specimen")) x$mesh else x
-  check_class(mesh, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
-  for (step in list(as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices)) mesh <- step(mesh, NULL)$mesh
-  if (!ncol(mesh$it)) {
-    refuse_mesh("the mesh has no triangles.", "Pass it through specimen(), which mends what it can.", NULL)
-  }
+  if (inherits(x, "specimen")) return(as_mesh(x))
+  check_class(x, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
+  mesh <- as_mesh(split_quads(as_plain_mesh(x, NULL)$mesh, NULL)$mesh)
   structure(mesh, row = attr(x, "row"), group = attr(x, "group"))
 }
 

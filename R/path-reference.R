@@ -186,13 +186,7 @@ path_strength <- function(curvature, type, keep_away, specimen) {
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
   if (is.function(curvature)) return(curvature)
   if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
-  check_class(curvature, "curvature", "curvature", "curvature()")
-  n <- ncol(as_mesh(specimen)$vb)
-  if (length(curvature$k1) != n) {
-    crestline_abort(sprintf("`curvature` has %d vertices, the mesh %d.", length(curvature$k1), n),
-                    "Give the curvature of this specimen's own mesh: curvature(specimen, radius).",
-                    stage = "curvature", id = specimen$id)
-  }
+  check_curvature_on(curvature, specimen)
   function(vertices) curvature_rows(curvature, vertices)
 }
 

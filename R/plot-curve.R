@@ -36,6 +36,7 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
                         engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
   curves <- check_curves(curves)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  for (i in seq_along(curves)) check_curve_on(curves[[i]], specimen, curve_label(curves, i))
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
@@ -104,6 +105,11 @@ se_along_path <- function(curve) {
 path_tangents <- function(xyz) {
   n <- nrow(xyz)
   xyz[c(2:n, n), , drop = FALSE] - xyz[c(1, 1:(n - 1)), , drop = FALSE]
+}
+
+curve_label <- function(curves, i) {
+  name <- c(names(curves)[i], "")[1]
+  if (nzchar(name)) sprintf("curve \"%s\"", name) else sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
 }
 
 check_curves <- function(curves, call = rlang::caller_env()) {

@@ -36,6 +36,7 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rgl::open3d(useNULL = TRUE)
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))

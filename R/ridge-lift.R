@@ -24,12 +24,16 @@
 #' lift(ball, window, path, s, alpha = 0.1 * sin(2 * s))
 #' @export
 lift <- function(specimen, coordinates, path, s, alpha) {
+  check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
+  check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
   surface <- walkable(specimen)
+  check_path_on(path, specimen, "`path`")
+  check_coordinates_on(coordinates, specimen, "`coordinates`")
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)
   towards <- first_direction(specimen, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
   walked <- cpp_level_path(surface$vb, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
-  if (walked$end == "arrived") return(new_path(walked$points, ends, lifted = TRUE))
+  if (walked$end == "arrived") return(new_path(walked$points, ends, surface, lifted = TRUE))
   piece_together(specimen, surface, coordinates, path, s, alpha)
 }
 
@@ -81,7 +85,7 @@ piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
     columns_of(reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf, rival = 0))
   })
-  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))), lifted = FALSE)
+  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))), surface, lifted = FALSE)
 }
 
 places_in_plane <- function(surface, coordinates, path, s, alpha) {

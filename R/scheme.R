@@ -102,10 +102,46 @@ build_scheme <- function(tables, name, labels) {
     scheme[[table]] <- typed$table
   }
   scheme$curves <- with_defaults(scheme$curves)
-  scheme$points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
-  scheme$triangles <- scheme_triangles(scheme$patches, scheme$strips, scheme$points)
-  structure(scheme, class = "curve_scheme")
+  points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
+  new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
+                   scheme_triangles(scheme$patches, scheme$strips, points))
 }
+
+#' A scheme from its parts: all its fields are declared here
+#'
+#' @param tables List of the six tables, with all their columns.
+#' @param points,triangles As in the value of [curve_scheme()].
+#' @noRd
+new_curve_scheme <- function(name, tables, points, triangles) {
+  structure(c(list(name = name), tables[names(scheme_columns)], list(points = points, triangles = triangles)),
+            class = "curve_scheme")
+}
+
+#' Refuse a scheme whose tables lack columns, or do not fit each other
+#' @noRd
+validate_curve_scheme <- function(x) {
+  refuse <- function(problem) {
+    crestline_abort(problem, "Make it anew: curve_scheme() of its tables, as.data.frame(scheme, table).", stage = "scheme",
+                    class = "crestline_scheme_error", call = NULL)
+  }
+  if (!is.list(x) || !is.character(x$name) || length(x$name) != 1) refuse("the scheme has no name.")
+  derived <- list(points = c("level", "part", "point", "place"), triangles = c("part", "group", "v1", "v2", "v3"))
+  wanted <- c(lapply(scheme_columns[setdiff(names(scheme_columns), "definitions")], names), derived)
+  for (table in names(wanted)) {
+    lacking <- if (is.data.frame(x[[table]])) setdiff(wanted[[table]], names(x[[table]])) else "all its columns"
+    if (length(lacking)) refuse(sprintf("the scheme's table %s lacks %s.", table, shorten(lacking)))
+  }
+  count <- c(landmarks = nrow(x$landmarks), curves = sum(x$curves$n), surface = sum(x$patches$n))
+  if (!identical(as.vector(table(factor(x$points$level, names(count)))), as.integer(count))) {
+    refuse("the scheme's `points` are not those of its landmarks, curves and patches.")
+  }
+  corner <- unlist(x$triangles[c("v1", "v2", "v3")])
+  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) refuse("the scheme's `triangles` name points that it does not have.")
+  invisible(x)
+}
+
+#' @exportS3Method
+validate.curve_scheme <- function(x) validate_curve_scheme(x)
 
 scheme_problems <- function(which, table, scheme) {
   check <- switch(which, landmarks = check_scheme_landmarks, curves = check_scheme_curves,

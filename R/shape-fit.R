@@ -105,17 +105,14 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   specimen <- bridge_holes(scan, column$bridge)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
-  given <- given_fits(specimen, scheme, curves, column)
+  given <- given_fits(specimen, scan, scheme, curves, column)
   fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
-  shape <- structure(
-    list(id = specimen$id, points = shape_points(scheme$points, patches$store),
-         status = shape_status(scheme, landmarks$reason, fits, patches$problems),
-         paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)), scheme = scheme,
-         tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan),
-    class = "shape"
-  )
+  shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
+                     shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
+                     paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
+                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan)
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_faults(shape, faults)
   shape$checks <- shape_checks(shape, scan, specimen, fits, faults)

@@ -34,6 +34,7 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
                        column_angles = 51, column_reach = 1) {
   check_class(x, "shape", "x", "fit_shape()")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  check_shape_on(x, specimen)
   block <- block_of(x, patch, block)
   own <- if (is.na(block$resample_a)) nrow(side_points(block$curve_a)) else block$resample_a
   columns <- check_count(if (is.null(columns)) own else columns, "columns", 2)

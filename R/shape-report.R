@@ -67,7 +67,9 @@ specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
                     "Give the specimens that the shapes were measured on; they are told by `id`.",
                     stage = "page", call = call)
   }
-  stats::setNames(specimens[match(own, id)], names(shapes))
+  found <- stats::setNames(specimens[match(own, id)], names(shapes))
+  for (name in names(shapes)) if (!is.null(found[[name]])) check_shape_on(shapes[[name]], found[[name]])
+  found
 }
 
 #' A shape's pictures as the text of a data address; NULL where there is nothing to draw

@@ -1,5 +1,75 @@
 # What a shape gives: its points by level, its surface as a mesh, a summary.
 
+#' A shape from its parts: all its fields are declared here, NULL until they are filled
+#'
+#' @param id,points,status,checks,paths,scheme,tracks,column,specimen As in the value of [fit_shape()].
+#' @param key Of [mesh_key()]: of the mesh that the faces of its points and paths are numbers of; NULL of a template, whose points
+#'   lie on no mesh.
+#' @param placing Of its specimen; NULL where landmarks were placed by hand.
+#' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
+#' @param provenance List: what came from where.
+#' @param sliding,trace Of [slide()].
+#' @noRd
+new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL, column = NULL,
+                      specimen = NULL, key = if (!is.null(specimen)) specimen_key(specimen), placing = specimen$placing, warnings = no_warnings(),
+                      provenance = list(), sliding = NULL, trace = NULL) {
+  structure(
+    list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme, tracks = tracks,
+         column = column, specimen = specimen, key = key, placing = placing, warnings = warnings, provenance = provenance,
+         sliding = sliding, trace = trace),
+    class = "shape"
+  )
+}
+
+#' Refuse a shape that lacks fields, or whose points are not those of its scheme
+#' @noRd
+validate_shape <- function(x) {
+  refuse <- function(problem) {
+    crestline_abort(problem, "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape",
+                    id = if (is.list(x) && is.character(x$id) && length(x$id) == 1) x$id, call = NULL)
+  }
+  fields <- c("id", "points", "status", "paths", "scheme")
+  if (!is.list(x) || !all(fields %in% names(x))) refuse(sprintf("a shape has the fields %s.", shorten(fields)))
+  if (!inherits(x$scheme, "curve_scheme")) refuse("the shape's `scheme` is none.")
+  validate(x$scheme)
+  points <- x$points
+  named <- c("level", "part", "point")
+  own <- is.data.frame(points) && !is.null(place_columns(points)) && is_error(points$se) &&
+    all(vapply(named, function(name) identical(as.vector(points[[name]]), as.vector(x$scheme$points[[name]])), NA))
+  if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
+  if (!is.list(x$paths) || !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
+  invisible(x)
+}
+
+#' @exportS3Method
+validate.shape <- function(x) validate_shape(x)
+
+#' Key of the mesh of a shape; of one that an older version kept worked out from its specimen, where it has that
+#' @noRd
+shape_key <- function(x) {
+  if (!is.null(x$key)) return(x$key)
+  if (inherits(x$specimen, "specimen")) specimen_key(x$specimen)
+}
+
+#' Refuse a shape that was not measured on a specimen's mesh, or that was changed since
+#'
+#' @noRd
+check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
+  if (is.null(shape_key(shape)) && all(is.na(shape$points$face))) {
+    crestline_abort("its points lie on no mesh.", "Give a shape that fit_shape() measured, not a template or a mean.",
+                    stage = "shape", id = shape$id, class = "crestline_wrong_mesh", call = call)
+  }
+  name <- paste("the shape", shape$id)
+  check_same_mesh(shape, specimen, name)
+  known <- passed_mesh(specimen$mesh, specimen$id)
+  check_places(shape$points, known, name, specimen$id)
+  for (path in Filter(Negate(is.null), shape$paths)) {
+    validate(path)
+    check_places(path, known, name, specimen$id)
+  }
+  invisible(shape)
+}
+
 #' Co-ordinates of a shape
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
@@ -75,6 +145,7 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
     return(surface_mesh(points, row, matrix(match(t(corners), row), 3), triangles$group))
   }
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen(): a denser surface needs it")
+  check_shape_on(x, specimen)
   quads <- whole_quads(x, parts)
   divided <- divide_quads(x, specimen, quads, dense, check_column(column_angle, column_angles, column_reach))
   there <- !is.na(divided$points$x)

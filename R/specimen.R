@@ -43,13 +43,35 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   landmarks <- as_landmarks(landmarks, id)
   door <- check_mesh(mesh, id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance * mesh_diagonal(door$mesh), midline)
+  new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
+               geometry = list(twin = door$topology$twin, piece = door$topology$piece,
+                               landmarks = placed$landmarks, located = placed$located))
+}
+
+#' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled
+#'
+#' @param id,mesh,landmarks,report As [specimen()] gives them.
+#' @param geometry List: `twin` and `piece` of [mesh_topology()]; `landmarks` and `located`: places that were worked out.
+#' @param key Of [mesh_key()].
+#' @param file Path that the mesh was read from, NA where there is none.
+#' @param origin How each landmark came: data frame `landmark`, `how` ("file", "given", "found", "predicted", "placed",
+#'   "moved", "defined"), `file`, `time`.
+#' @param placing,match Of [find_landmarks()]; `refinement` of [refine_landmarks()].
+#' @param vertices For every vertex that was given, its number in `mesh`, NA where it was left out.
+#' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
+#' @noRd
+new_specimen <- function(id, mesh, landmarks, report, geometry, key = mesh_key(mesh), file = NA_character_, origin = NULL,
+                         placing = NULL, match = NULL, refinement = NULL, vertices = NULL, warnings = no_warnings()) {
   structure(
-    list(id = id, mesh = door$mesh, landmarks = placed$landmarks,
-         report = rbind(door$report, placed$report),
-         geometry = list(twin = door$topology$twin, piece = door$topology$piece,
-                         landmarks = placed$landmarks, located = placed$located)),
+    list(id = id, mesh = mesh, landmarks = landmarks, report = report, key = key, file = file, origin = origin,
+         placing = placing, match = match, refinement = refinement, vertices = vertices, warnings = warnings,
+         geometry = geometry),
     class = "specimen"
   )
+}
+
+no_warnings <- function() {
+  data.frame(stage = character(), class = character(), problem = character(), remedy = character())
 }
 
 check_id <- function(id) {

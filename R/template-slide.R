@@ -56,10 +56,18 @@ check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
-  if (inherits(specimen, "specimen")) return(specimen)
+  if (inherits(specimen, "specimen")) return(specimen_of_shape(shape, specimen))
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
   crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)
+}
+
+#' A specimen after a check that it is the shape's own
+#' @noRd
+specimen_of_shape <- function(shape, specimen) {
+  validate(specimen)
+  check_shape_on(shape, specimen)
+  specimen
 }
 
 #' The patches cut anew between slid curves
@@ -68,8 +76,10 @@ kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
 #' @return List: `curves`, `fits` (slid curves as [fit_scheme_patches()] takes them), `store` (all places).
 #' @noRd
 cut_between_slid <- function(shape, state, curves, specimen) {
+  cutting <- cutting_of(shape, NULL, specimen)
+  check_tracks(shape, cutting$bridged)
   fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s, state$curves)
-  cutting <- cutting_of(shape, fits, specimen)
+  cutting$fits <- fits
   list(curves = curves, fits = fits, store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
 }
 
@@ -111,7 +121,7 @@ with_tracks <- function(shape, s, cutting) {
     if (!moved) next
     length <- attr(track$path, "length")
     path <- part_of_path(cutting$bridged$mesh, track$path, min(s[[name]], na.rm = TRUE), length)
-    shape$paths[[name]] <- unbridged_path(path, cutting$specimen$mesh)
+    shape$paths[[name]] <- unbridged_path(path, cutting$specimen)
     shape$status$length[shape$status$level == "curves" & shape$status$part == name] <- attr(path, "length")
   }
   shape

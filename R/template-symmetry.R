@@ -129,7 +129,7 @@ template_shape <- function(shape, xyz, id, se = NA_real_) {
   status$ok <- as.vector(there[paste(status$level, status$part)])
   status$reason <- NA_character_
   status[c("length", "strength", "se", "competing")] <- NA_real_
-  structure(list(id = id, points = points, status = status, paths = list(), scheme = shape$scheme), class = "shape")
+  new_shape(id, points, status, shape$scheme, provenance = shape$provenance)
 }
 
 #' Partner of every place of a scheme, in the order of its first appearance

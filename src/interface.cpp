@@ -1,6 +1,8 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cstdio>
+
 #include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
@@ -8,8 +10,10 @@
 #include "landmarks_warp.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
+#include "mesh_door.h"
 #include "mesh_geodesic.h"
 #include "mesh_normals.h"
+#include "mesh_key.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -203,6 +207,32 @@ NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, Integer
   return wrap(crestline::curvature_variance(view(near), near.local, directions.begin(),
                                             jacobian.begin(), jacobian.nrow(), near_sigma.data(),
                                             fit, [] { checkUserInterrupt(); }));
+}
+
+// vb has three rows or more, it three.
+// [[Rcpp::export]]
+std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it) {
+  crestline::MeshKey key = crestline::mesh_key(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.size());
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(key.high),
+                static_cast<unsigned long long>(key.low));
+  return text;
+}
+
+// vb has three rows or more, it three: the only entry that trusts no index.
+// [[Rcpp::export]]
+List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it) {
+  crestline::MeshFaults found = crestline::mesh_faults(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol());
+  return List::create(_["faces"] = found.faces, _["vertices"] = found.vertices);
+}
+
+// [[Rcpp::export]]
+double cpp_box_diagonal(NumericMatrix vb) { return crestline::box_diagonal(vb.begin(), vb.nrow(), vb.ncol()); }
+
+// it of a sound mesh, twin of the same size.
+// [[Rcpp::export]]
+int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin) {
+  return crestline::twin_faults(it.begin(), twin.begin(), it.ncol());
 }
 
 // [[Rcpp::export]]

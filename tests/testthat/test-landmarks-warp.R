@@ -36,9 +36,9 @@ test_that("a template bent by a known displacement is bent back to it", {
   settings <- find_settings()
   prepared <- prepared_template(own, settings, 1)
   bend <- function(xyz) xyz + cbind(3 * sin(xyz[, 2] / 40), 2 * cos(xyz[, 1] / 50), 2 * sin(xyz[, 1] / 45 + 1))
-  scan <- own$specimen
-  scan$mesh$vb[1:3, ] <- t(bend(t(scan$mesh$vb[1:3, ])))
-  cloud <- scan_cloud(specimen(scan$mesh), 1, prepared$settings, 1)
+  scan <- own$specimen$mesh
+  scan$vb[1:3, ] <- t(bend(t(scan$vb[1:3, ])))
+  cloud <- scan_cloud(specimen(scan), 1, prepared$settings, 1)
   bent <- fit_warp(prepared, cloud, prepared$settings, settings$weight)
   error <- row_lengths(bent$moved[-seq_len(ncol(prepared$xyz)), ] - bend(own$landmarks))
   expect_lt(mean(error), 0.6)
