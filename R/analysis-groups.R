@@ -32,7 +32,10 @@
 #'
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same specimens, named by level;
 #'   or an `aligned`.
-#' @param group Factor of n, or what makes one; with names, matched by the specimens' names.
+#' @param group Factor of n, or what makes one. With names it is matched by the specimens' names, as
+#'   is a data frame of one column of groups and one of the specimens (`id`, `specimen`, `file` and
+#'   the like, or row names); case, blanks and a file's extension aside. Without names it is taken
+#'   in the order of the specimens, with a message.
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
 #' @param components How many principal components: a whole number, or a share of the variance below 1. Never more than
@@ -67,7 +70,8 @@
 #'
 #'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a level.
 #' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group only, groups that do
-#'   not match the specimens, permutations that are none.
+#'   not match the specimens, a specimen in two groups, groups whose names differ by blanks or case
+#'   only, permutations that are none.
 #' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in spread and are pooled.
 #' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of the
 #'   Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized permutation tests for non-i.i.d. hypotheses,
@@ -199,19 +203,18 @@ check_tests <- function(tests, call = rlang::caller_env()) {
 #' @noRd
 check_group <- function(group, ids, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison", call = call)
-  if (!is.null(names(group))) {
-    absent <- setdiff(ids, names(group))
-    if (length(absent)) fail(sprintf("`group` has no value for %s.", shorten(absent)),
-                             "Name its values by specimens, or not at all.")
-    group <- group[ids]
+  group <- by_specimen(group, ids, "group", fail)
+  if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)
+  absent <- is.na(group) | !nzchar(trimws(as.character(group)))
+  if (any(absent)) fail(sprintf("`group` is missing for %s.", shorten(ids[absent])),
+                        "Leave these specimens out.")
+  group <- stats::setNames(droplevels(group), ids)
+  alike <- alike_levels(levels(group))
+  if (length(alike)) {
+    fail(sprintf("the groups %s differ by blanks or case only.",
+                 paste0("\"", alike, "\"", collapse = " and ")),
+         "Give them one name.")
   }
-  if (length(group) != length(ids)) {
-    fail(sprintf("`group` has %d values for %d specimens.", length(group), length(ids)), "Give one for each.")
-  }
-  if (anyNA(group)) {
-    fail(sprintf("`group` is missing for %s.", shorten(ids[is.na(group)])), "Leave these specimens out.")
-  }
-  group <- stats::setNames(droplevels(as.factor(group)), ids)
   if (nlevels(group) < 2) fail("there is one group only.", "Give two or more.")
   if (min(table(group)) < 2) {
     fail(sprintf("the group \"%s\" has one specimen.", names(which.min(table(group)))), "Give every group two or more.")

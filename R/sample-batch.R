@@ -119,14 +119,6 @@ batch_jobs <- function(x, landmarks) {
   stats::setNames(lapply(x, function(one) list(specimen = one)), make.unique(vapply(x, `[[`, "", "id"), sep = " "))
 }
 
-#' The landmark file beside a mesh, "" where there is none
-#' @noRd
-landmarks_beside <- function(file) {
-  stem <- sub("[.][^.]*$", "", file)
-  beside <- paste0(stem, ".", names(landmark_formats()))
-  c(beside[file.exists(beside)], "")[1]
-}
-
 #' Where the results go, NULL for memory; parts that a killed run left are cleared away
 #' @noRd
 batch_files <- function(names, dir) {

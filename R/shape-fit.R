@@ -79,6 +79,9 @@
 #'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
 #'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
+#' @section Warnings: of class `crestline_unused_landmarks`, when a landmark of the scheme is
+#'   missing and the specimen has one of another name that may be meant (`prn` for `pn`, `CHL` for
+#'   `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -97,6 +100,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme)
+  warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
@@ -124,9 +128,13 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
 check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
   wanted <- scheme$landmarks$landmark
   if (!any(wanted %in% rownames(specimen$landmarks))) {
+    near <- attr(unused_names(specimen$landmarks, scheme), "near")
     crestline_abort(
-      sprintf("it has none of the landmarks of the scheme %s (%s), but %s.", scheme$name, shorten(wanted),
-              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all"),
+      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
+              shorten(wanted),
+              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else
+                "no landmarks at all",
+              if (length(near)) paste("; near:", shorten(near)) else ""),
       "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
       id = specimen$id, class = "crestline_landmark_error", call = call
     )
@@ -163,6 +171,8 @@ fit_scheme_landmarks <- function(specimen, scheme) {
     found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) sub("\\.$", "", e$problem))
     if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else reason[name] <- found
   }
+  near <- attr(unused_names(specimen$landmarks, scheme), "near")
+  reason[near] <- sprintf("%s; near: %s", reason[near], names(near))
   list(points = points, reason = reason)
 }
 

@@ -214,5 +214,8 @@ print.shape <- function(x, most = 8, ...) {
     cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
   }
   if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
+  unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
+  if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
+  if (length(unused)) cat(unused, sep = "\n")
   invisible(x)
 }

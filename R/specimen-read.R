@@ -8,7 +8,9 @@
 #' double precision.
 #'
 #' @param file Path of a `.ply`, `.obj` or `.stl` file.
-#' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for [specimen()].
+#' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for
+#'   [specimen()]. Of a file or folder of several specimens, a list of matrices or a k x 3 x n array
+#'   those of the name `id` are taken.
 #' @param id Name of the specimen; the file's name without extension unless given.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to do.
@@ -21,10 +23,7 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", basename(file))
   id <- check_id(id)
-  if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) {
-    landmarks <- read_landmarks(landmarks)
-  }
-  specimen(read_mesh(file, id), landmarks, id, ...)
+  specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...)
 }
 
 mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)
@@ -36,6 +35,7 @@ read_mesh <- function(file, id) {
     refuse_file(file, "the format is not known by its extension",
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
   }
+  check_stored(file, "reading", id)
   tryCatch(reader(file, id), error = function(e) {
     if (inherits(e, "crestline_error")) stop(e)
     refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
