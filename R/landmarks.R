@@ -259,8 +259,9 @@ check_file <- function(file, stage) {
 #' devices, which might keep R waiting for ever, have no size
 #'
 #' @param id Name of the specimen, where there is one.
+#' @param unpacks Kinds of packed files that the caller reads.
 #' @noRd
-check_stored <- function(file, stage, id = NULL) {
+check_stored <- function(file, stage, id = NULL, unpacks = character()) {
   refuse <- function(problem, remedy) {
     crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
                     call = NULL)
@@ -271,7 +272,7 @@ check_stored <- function(file, stage, id = NULL) {
   }
   if (file.access(file, 4) != 0) refuse("", "Check the right to read it.")
   packed <- packed_by(readBin(file, "raw", 10))
-  if (!is.na(packed)) {
+  if (!is.na(packed) && !packed %in% unpacks) {
     refuse(sprintf(": it is compressed by %s, whatever its name", packed),
            "Unpack it first; of a spreadsheet save the sheet as CSV.")
   }

@@ -13,7 +13,11 @@
 #include "mesh_door.h"
 #include "mesh_geodesic.h"
 #include "mesh_normals.h"
+#include "mesh_join.h"
 #include "mesh_key.h"
+#include "mesh_read_obj.h"
+#include "mesh_read_ply.h"
+#include "mesh_read_text.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -244,6 +248,81 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
   return List::create(_["twin"] = twin, _["piece"] = from_one(t.piece), _["pieces"] = t.pieces,
                       _["border_edges"] = t.border_edges,
                       _["nonmanifold_edges"] = t.nonmanifold_edges);
+}
+
+// Pairs as two rows, counted from 1.
+// [[Rcpp::export]]
+IntegerMatrix cpp_near_pairs(NumericMatrix vb, double reach, int most) {
+  std::vector<crestline::Pair> pairs = crestline::near_pairs(vb.begin(), vb.nrow(), vb.ncol(), reach, most);
+  IntegerMatrix out(2, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    out(0, i) = pairs[i].first + 1;
+    out(1, i) = pairs[i].second + 1;
+  }
+  return out;
+}
+
+// [[Rcpp::export]]
+IntegerVector cpp_pair_groups(IntegerMatrix pairs, int n) {
+  std::vector<crestline::Pair> all;
+  for (int i = 0; i < pairs.ncol(); ++i) all.push_back({pairs(0, i) - 1, pairs(1, i) - 1});
+  return from_one(crestline::pair_groups(all, n));
+}
+
+// [[Rcpp::export]]
+List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector sides,
+                           double reach, int most) {
+  std::vector<crestline::VertexOnEdge> found =
+      crestline::vertices_on_edges(triangulation(vb, it, twin), from_zero(sides), reach, most);
+  IntegerVector side(found.size()), vertex(found.size());
+  NumericVector along(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    side[i] = found[i].side + 1;
+    vertex[i] = found[i].vertex + 1;
+    along[i] = found[i].along;
+  }
+  return List::create(_["side"] = side, _["vertex"] = vertex, _["along"] = along);
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece,
+                               IntegerVector sample, double reach, double parallel) {
+  return wrap(crestline::other_sheets(triangulation(vb, it, twin), piece.begin(), from_zero(sample), reach,
+                                      parallel));
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big) {
+  crestline::Kind kind = real ? crestline::Kind::real : sign ? crestline::Kind::whole : crestline::Kind::natural;
+  return wrap(crestline::numbers_at(raw.begin(), places.begin(), places.size(), kind, size, big));
+}
+
+// The bytes of a text end with a line end.
+// [[Rcpp::export]]
+List cpp_read_numbers(RawVector text, int from) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::NumberText t = crestline::read_numbers(begin + from, begin + text.size());
+  return List::create(_["number"] = t.number, _["start"] = t.start, _["line"] = t.line,
+                      _["bad"] = t.bad, _["bad_line"] = t.bad_line);
+}
+
+// [[Rcpp::export]]
+List cpp_read_stl(RawVector text) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::StlText t = crestline::read_stl_text(begin, begin + text.size());
+  return List::create(_["vertex"] = t.vertex, _["bad"] = t.bad, _["bad_line"] = t.bad_line,
+                      _["ended"] = t.ended);
+}
+
+// [[Rcpp::export]]
+List cpp_read_obj(RawVector text) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::ObjText t = crestline::read_obj_text(begin, begin + text.size());
+  return List::create(_["vertex"] = t.vertex, _["colour"] = t.colour, _["coloured"] = t.coloured,
+                      _["uv"] = t.uv, _["corner"] = t.corner, _["texture"] = t.corner_uv,
+                      _["sides"] = t.sides, _["material"] = t.material,
+                      _["materials"] = t.materials, _["libraries"] = t.libraries,
+                      _["bad"] = t.bad, _["bad_line"] = t.bad_line);
 }
 
 // [[Rcpp::export]]
