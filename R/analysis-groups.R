@@ -117,7 +117,10 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   count <- vapply(each, function(one) as.integer(one$components), 0L)
   compared <- structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
                  pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L, exact = dealt$exact,
-                 components = count, seed = seed, design = design, equal_spread = equal_spread),
+                 components = count, seed = seed, design = design, equal_spread = equal_spread,
+                 provenance = with_settings(aligned[[1]]$provenance, "compare",
+                                            list(n_perm = n_perm, components = components, tests = tests,
+                                                 exchange = design$kind, equal_spread = equal_spread))),
                         class = "group_comparison")
   warn_unequal_spread(compared)
   compared
@@ -162,7 +165,10 @@ comparison_ticks <- function(progress, n) {
 #' `aligned`s named by level
 #' @noRd
 aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
-  if (inherits(sample, "aligned")) return(stats::setNames(list(sample), sample$level))
+  if (inherits(sample, "aligned")) {
+    validate(sample)
+    return(stats::setNames(list(sample), sample$level))
+  }
   as_aligned <- function(one, level) {
     areas <- identical(weights, "area") && inherits(one, "shape_sample") && !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
@@ -237,7 +243,15 @@ summary.group_comparison <- function(object, ...) {
     own <- object$tests[object$tests$level == level, ]
     own$p_value[match(tests, own$test)]
   })
-  data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
+  table <- data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
+  structure(table, provenance = object$provenance, class = c("comparison_summary", "data.frame"))
+}
+
+#' @export
+print.comparison_summary <- function(x, ...) {
+  print.data.frame(x, row.names = FALSE)
+  if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
+  invisible(x)
 }
 
 #' @export
@@ -252,6 +266,9 @@ print.group_comparison <- function(x, most = 5, ...) {
   if (!is.null(line)) cat("  ", line, "\n", sep = "")
   said <- spread_line(x)
   if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
+  for (level in names(x$aligned)) {
+    for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
+  }
   used <- x$components[!is.na(x$components)]
   if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
   if (!is.null(x$points)) {

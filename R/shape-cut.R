@@ -28,6 +28,39 @@ cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
   fits
 }
 
+#' The multiple of the scheme's shares at which the curves of a shape were cut off; NA where none was
+#' @noRd
+cut_multiple <- function(shape) {
+  curves <- shape$scheme$curves
+  at <- list(landmarks = coords(shape, "landmarks"))
+  cut <- shape$checks$part[shape$checks$level == "curves" & !is.na(shape$checks$cut)]
+  each <- vapply(intersect(cut, names(shape$tracks)), function(name) {
+    row <- curves[match(name, curves$curve), ]
+    ends <- landmark_places(at, c(row$cut_from, row$cut_to))
+    shape$tracks[[name]]$kept / (row$cut_share * sqrt(sum((ends[1, ] - ends[2, ])^2)))
+  }, 0)
+  if (all(is.na(each))) NA_real_ else stats::median(each, na.rm = TRUE)
+}
+
+#' Tell of shapes whose curves were cut off at different multiples of the scheme's shares
+#' @param apart Least relative difference that is told.
+#' @noRd
+warn_cut_scales <- function(shapes, stage, apart = 0.02) {
+  multiple <- vapply(shapes, cut_multiple, 0)
+  multiple <- multiple[!is.na(multiple)]
+  if (length(multiple) < 2 || min(multiple) >= (1 - apart) * max(multiple)) return(invisible())
+  usual <- stats::median(multiple)
+  far <- multiple[order(-abs(log(multiple / usual)))]
+  ids <- vapply(shapes[names(far)], `[[`, "", "id")
+  crestline_warn(
+    sprintf("curves were cut off at different shares of the whole (`cut_scale`): %s.",
+            shorten(sprintf("%s at %.3g", ids, far))),
+    sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.2g), then homologise().",
+            floor(100 * min(multiple)) / 100),
+    stage = stage, class = "crestline_cut_scale"
+  )
+}
+
 #' A fit with more to say; one that failed has said why
 #' @noRd
 add_note <- function(fit, notes) {
@@ -169,7 +202,7 @@ cut_curve <- function(mesh, fit, length, n) {
   if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
   points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
   rownames(points) <- NULL
-  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se),
+  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se), se_max = largest(se),
               track = list(path = fit$path, start = start, kept = length))
   fit[names(cut)] <- cut
   add_note(fit, if (placed < n) ended)

@@ -1,6 +1,7 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "analysis_align.h"
@@ -15,9 +16,11 @@
 #include "mesh_normals.h"
 #include "mesh_join.h"
 #include "mesh_key.h"
+#include "mesh_locate.h"
 #include "mesh_read_obj.h"
 #include "mesh_read_ply.h"
 #include "mesh_read_text.h"
+#include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -451,6 +454,11 @@ NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatr
 }
 
 // [[Rcpp::export]]
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
+  return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
+}
+
+// [[Rcpp::export]]
 IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high) {
   return from_one(crestline::vertices_in_box(vb.begin(), vb.nrow(), vb.ncol(), low.begin(), high.begin()));
 }
@@ -514,6 +522,32 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
                                [] { checkUserInterrupt(); });
   for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
+// xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
+// [[Rcpp::export]]
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
+  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::FaceTree tree(mesh, leaf);
+  int n = xyz.nrow();
+  IntegerVector face(n, NA_INTEGER);
+  NumericMatrix at(n, 6);
+  NumericVector distance(n, NA_REAL);
+  std::fill(at.begin(), at.end(), NA_REAL);
+  for (int i = 0; i < n; ++i) {
+    double to[3] = {xyz(i, 0), xyz(i, 1), xyz(i, 2)};
+    if (!std::isfinite(to[0]) || !std::isfinite(to[1]) || !std::isfinite(to[2])) continue;
+    crestline::ClosestPoint found = tree.closest(to);
+    if (!std::isfinite(found.distance)) continue;
+    face[i] = found.at.face + 1;
+    distance[i] = found.distance;
+    for (int k = 0; k < 3; ++k) {
+      at(i, k) = found.xyz[k];
+      at(i, 3 + k) = found.at.w[k];
+    }
+    checkUserInterrupt();
+  }
+  return List::create(_["face"] = face, _["at"] = at, _["distance"] = distance);
 }
 
 // [[Rcpp::export]]

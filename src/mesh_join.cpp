@@ -67,7 +67,7 @@ void mark_reached(const Triangulation& mesh, int face, const double* middle, dou
     for (int c = 0; c < 3; ++c) {
       int across = twin_of(mesh, 3 * queue[i] + c);
       if (across < 0 || seen[face_of(across)] == mark) continue;
-      if (closest_on_face(mesh, face_of(across), middle).distance2 > reach * reach) continue;
+      if (closest_on_face(mesh, face_of(across), middle).distance > reach) continue;
       seen[face_of(across)] = mark;
       queue.push_back(face_of(across));
     }
@@ -177,11 +177,11 @@ std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
     float from = rounded(place(middle) - reach, -1), to = rounded(place(middle) + reach, 1);
     for (int g = 0; g < mesh.m; ++g) {
       if (low[g] > to || high[g] < from || seen[g] == mark || beside_box(mesh, g, middle, reach)) continue;
-      double away2 = closest_on_face(mesh, g, middle).distance2;
-      if (away2 > reach * reach || away2 >= nearest * nearest) continue;
+      double away = closest_on_face(mesh, g, middle).distance;
+      if (away > reach || away >= nearest) continue;
       face_normal(mesh, g, other);
       double cosine = normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2];
-      if (cosine >= parallel || (cosine <= -parallel && piece[g] != piece[face])) nearest = std::sqrt(away2);
+      if (cosine >= parallel || (cosine <= -parallel && piece[g] != piece[face])) nearest = away;
     }
     out.push_back(nearest);
   }

@@ -24,7 +24,7 @@ batch_folder <- function(specimens = batch_specimens()) {
 meshes_in <- function(dir) list.files(dir, "[.]ply$", full.names = TRUE)
 
 skip_without_futures <- function() {
-  for (package in c("future", "future.apply", "progressr")) testthat::skip_if_not_installed(package)
+  for (package in c("future", "progressr")) testthat::skip_if_not_installed(package)
 }
 
 same_points <- function(a, b, ...) {
@@ -81,13 +81,13 @@ test_that("results are kept as they come, and measured again only when something
   expect_true(all(file.exists(kept())))
   expect_identical(lengths(unclass(first), use.names = FALSE), c(0L, 0L, 0L))
   same_points(first[[3]], fit_shape(batch_specimens()[[3]], quad_scheme(), progress = FALSE), tolerance = 1e-6)
-  # A killed run: one result is missing, of another only a part was written.
+  # A killed run: one result is missing, of another only a part was written. What another run has left is not deleted.
   unlink(kept()[2])
   writeLines("half", file.path(out, "part-1.tmp"))
   Sys.setFileTime(kept()[c(1, 3)], "2001-01-01")
   again <- run()
   expect_identical(format(file.mtime(kept()), "%Y") == "2001", c(TRUE, FALSE, TRUE))
-  expect_length(list.files(out, "[.]tmp$"), 0)
+  expect_identical(list.files(out, "[.]tmp$"), "part-1.tmp")
   same_points(again[[2]], first[[2]])
   # Another landmark file, then another scheme.
   write_landmarks(batch_specimens()[[1]]$landmarks + 0.1, file.path(dir, "ball 1.csv"))
@@ -100,12 +100,15 @@ test_that("results are kept as they come, and measured again only when something
     tables
   })
   expect_false(any(format(file.mtime(kept()), "%Y") == "2001"))
-  # What cannot be read is measured again; where only the key can, it is told.
+  # A file that is not ours is left alone; one that is cut short is told, and measured again.
   writeLines("rubbish", kept()[3])
   last <- run()
   expect_s3_class(last[[3]], "shape")
+  expect_identical(readLines(kept()[3]), "rubbish")
   writeBin(readBin(kept()[2], raw(), 1000), kept()[2])
-  expect_identical(failures(run())[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
+  expect_identical(failures(last)[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
+  expect_identical(nrow(failures(run())), 0L)
+  same_points(last[[2]], first[[2]])
 })
 
 test_that("workers give what one process gives", {
@@ -138,7 +141,7 @@ test_that("arguments that serve no specimen are refused", {
   skip_without_futures()
   expect_crestline_error(fit_shapes(list(), quad_scheme()), "`x`")
   expect_crestline_error(fit_shapes(list(1), quad_scheme()), c("`x`", "specimen"))
-  expect_crestline_error(fit_shapes(c("a.ply", "b.ply"), quad_scheme(), landmarks = "a.csv"), c("1 files", "2"))
+  expect_crestline_error(fit_shapes(c("a.ply", "b.ply"), quad_scheme(), landmarks = "a.csv"), c("a.csv", "no file"))
   expect_crestline_error(fit_shapes(batch_specimens(1), quad_scheme(), dir = 1), "`dir`")
   expect_crestline_error(failures(list()), "fit_shapes()")
 })
