@@ -93,7 +93,7 @@ test_that("what was found with little confidence is amber, and what is predicted
   low <- face
   low$placing$confidence[low$placing$landmark == "exL"] <- 0.3
   shape <- fit_shape(low, face_lines(), progress = FALSE)
-  expect_equal(grades_of(shape, c("exL", "eye left", "eye right", "nose")), c("amber", "amber", "green", "green"))
+  expect_equal(grades_of(shape, c("exL", "eye left", "lip", "nose")), c("amber", "amber", "green", "green"))
   graded <- quality(shape)
   expect_match(graded$why[match("eye left", graded$part)], "it ends on exL: it was found with a confidence of 0.30 only", fixed = TRUE)
   expect_output(print(shape), "little confidence: exL (0.3)", fixed = TRUE)
