@@ -52,7 +52,8 @@
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
 #'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all in memory at once;
 #'   * `print(x)` counts and tells failures and warnings, `summary(x)` is a data frame, a row a specimen: `specimen`,
-#'     `measured`, `landmarks` ("placed", "found"), `warnings` (their number), `message` (why it failed).
+#'     `measured`, `landmarks` ("placed", "found"), `lacking` (number of the scheme's landmarks that are missing), `warnings`
+#'     (their number), `message` (why it failed).
 #' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of single specimens are kept, see
 #'   [failures()].
 #' @section Warnings: of class `crestline_keeping_warning`, when a result's file that is asked for is damaged, is gone, or has another
@@ -173,7 +174,7 @@ measure_task <- function(task, scheme, settings) {
   ear <- new_ear()
   shape <- tryCatch(fit_job(task$job, scheme, settings, ear), error = function(e) failure_of(e, ear$heard))
   if (is.null(task$file) || !inherits(shape, "shape")) return(shape)
-  about <- list(key = task$key, mesh = task$mesh, id = task$name, found = has_found(shape), warnings = shape$warnings)
+  about <- c(list(key = task$key, mesh = task$mesh, id = task$name, warnings = shape$warnings), told_of(shape))
   tryCatch({
     keep(shape, about, task$file)
     kept_shape(task, about)

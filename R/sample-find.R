@@ -45,8 +45,8 @@ refused_bare <- function(job, others, never) {
     sprintf("Put a landmark file %s.* beside it (see read_landmarks())", sub("[.][^.]*$", "", basename(job$mesh)))
   } else "Give it landmarks: place_landmarks(), find_landmarks()"
   problem <- if (never) "it has no landmarks, and `found` is FALSE." else
-    sprintf("it has no landmarks, but %s of the batch: found landmarks are not mixed with placed ones unasked.",
-            if (others == 1) "1 other has" else paste(others, "others have"))
+    sprintf("it has no landmarks, but %s of the batch %s: found landmarks are not mixed with placed ones unasked.",
+            amount(others, "other"), if (others == 1) "has" else "have")
   if (!is.null(job$wanting)) problem <- job$wanting
   job$refusal <- tryCatch(refuse_landmarks(problem, paste0(beside, ", or have them found: found = TRUE."), job$id),
                           crestline_error = identity)

@@ -137,7 +137,8 @@ job_specimen <- function(job) {
 #' @return List: `mesh`, `key`, hashes; NA and "" where a file cannot be read.
 #' @noRd
 job_content <- function(job, scheme, settings) {
-  settings <- settings[setdiff(names(settings), c("threads", "progress"))]
+  named <- sort(setdiff(names(settings), c("threads", "progress")))
+  settings <- list(named, lapply(unname(settings[named]), unclass))
   tryCatch({
     mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key
     input <- if (is.null(job$specimen)) {
@@ -145,7 +146,7 @@ job_content <- function(job, scheme, settings) {
     } else {
       c(unclass(job$specimen)[c("landmarks", "placing", "match")], job$specimen$mesh["material"])
     }
-    about <- list(mesh, input, unclass(scheme), lapply(settings, unclass), job$finder$key, answers_version)
+    about <- list(mesh, input, unclass(scheme), settings, job$finder$key, answers_version)
     list(mesh = mesh, key = content_hash(about))
   }, error = function(e) list(mesh = NA_character_, key = NA_character_))
 }

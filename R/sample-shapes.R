@@ -52,7 +52,7 @@ renewed_batch <- function(x) {
   attributes(results) <- list(names = names(results))
   kept <- !vapply(files, is.null, NA)
   results[kept] <- Map(function(file, id) {
-    kept_shape(list(key = NA_character_, file = file, name = id), list(found = FALSE, warnings = no_warnings()))
+    kept_shape(list(key = NA_character_, file = file, name = id), list())
   }, files[kept], names(results)[kept])
   failed <- vapply(results, inherits, NA, "shape_failure")
   shapes <- results
@@ -63,12 +63,23 @@ renewed_batch <- function(x) {
 #' A shape that is in a file, and is read when one of its fields is asked for
 #'
 #' @param task List: `file`, `key` that it must have, `name` (id).
-#' @param about Of the file: `found`, `warnings`.
+#' @param about Of the file: `warnings`, and what [told_of()] gives.
 #' @noRd
 kept_shape <- function(task, about) {
   warnings <- if (NROW(about$warnings)) as.data.frame(about$warnings) else no_warnings()
-  structure(list(), file = task$file, key = task$key, id = task$name, found = isTRUE(about$found), warnings = warnings,
-            class = c("kept_shape", "shape"))
+  lacking <- if (length(about$lacking)) as.integer(about$lacking) else c(0L, NA)
+  structure(list(), file = task$file, key = task$key, id = task$name, warnings = warnings, found = isTRUE(about$found),
+            lacking = lacking, class = c("kept_shape", "shape"))
+}
+
+#' What a batch tells of a shape without reading it: `found`, whether its landmarks were; `lacking`, how many of the scheme's
+#' landmarks are missing, and of how many
+#' @noRd
+told_of <- function(shape) {
+  if (is.null(shape)) return(list(found = FALSE, lacking = c(0L, NA)))
+  if (inherits(shape, "kept_shape")) return(attributes(shape)[c("found", "lacking")])
+  landmarks <- shape$status$ok[shape$status$level == "landmarks"]
+  list(found = has_found(shape), lacking = c(sum(!landmarks), length(landmarks)))
 }
 
 #' What keeps a shape from being read from its file: a failure, or NULL
@@ -230,19 +241,13 @@ as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x
 summary.shape_batch <- function(object, ...) {
   x <- renewed_batch(object)
   failed <- failures(x)
-  told <- warnings_of(x)
   at <- match(names(x), failed$id)
-  landmarks <- ifelse(found_in(x), "found", "placed")
-  count <- as.vector(table(factor(told$id, names(x))))
-  data.frame(specimen = names(x), measured = is.na(at), landmarks = ifelse(is.na(at), landmarks, NA), warnings = count,
-             message = failed$message[at])
-}
-
-#' Which specimens of a batch had their landmarks found
-#' @noRd
-found_in <- function(x) {
-  vapply(plain_list(x), function(one) if (inherits(one, "kept_shape")) attr(one, "found") else has_found(one), NA,
-         USE.NAMES = FALSE)
+  told <- lapply(plain_list(x), told_of)
+  landmarks <- ifelse(vapply(told, `[[`, NA, "found"), "found", "placed")
+  lacking <- vapply(told, function(one) as.integer(one$lacking[1]), 0L)
+  count <- as.vector(table(factor(warnings_of(x)$id, names(x))))
+  data.frame(specimen = names(x), measured = is.na(at), landmarks = unname(ifelse(is.na(at), landmarks, NA)),
+             lacking = unname(ifelse(is.na(at), lacking, NA)), warnings = count, message = failed$message[at])
 }
 
 #' @export
@@ -252,16 +257,26 @@ print.shape_batch <- function(x, most = 8, ...) {
   files <- unlist(lapply(plain_list(x), attr, "file"))
   cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed), " measured, ", nrow(failed),
       " failed", if (length(files)) paste0(", in ", shorten(unique(dirname(files)), 2)), "\n", sep = "")
-  found <- setdiff(names(x)[found_in(x)], failed$id)
-  lines <- c(
-    if (length(found)) sprintf("%s: landmarks found by the template, not placed by hand: %s.",
-                               amount(length(found), "specimen"), shorten(found, 12)),
-    warning_lines(attr(failed, "warnings"))
-  )
   told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
-  print_items(lines, most, "in warnings_of()")
+  print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]), warning_lines(attr(failed, "warnings"))),
+              most, "in warnings_of()")
   print_items(told, most, "in failures()")
   invisible(x)
+}
+
+#' Lines that tell of which shapes landmarks were found, and of which some are missing
+#' @noRd
+landmark_lines <- function(shapes) {
+  told <- lapply(shapes, told_of)
+  found <- names(shapes)[vapply(told, `[[`, NA, "found")]
+  lacking <- Filter(function(one) one$lacking[1] > 0, told)
+  counts <- vapply(lacking, function(one) paste(one$lacking, collapse = " of "), "")
+  c(
+    if (length(found)) sprintf("%s: landmarks found by the template, not placed by hand: %s.",
+                               amount(length(found), "specimen"), shorten(found, 12)),
+    if (length(lacking)) sprintf("%s: landmarks of the scheme are missing: %s.", amount(length(lacking), "specimen"),
+                                 shorten(sprintf("%s (%s)", names(lacking), counts), 12))
+  )
 }
 
 print_items <- function(lines, most, where) {

@@ -61,12 +61,13 @@ bind_warnings <- function(each) {
 #' Lines that tell warnings, one a kind with the ids
 #'
 #' Warnings are of one kind where they are of one class; those without a class of their own where their texts differ in nothing but
-#' numbers and names in it of the specimen.
+#' numbers and the specimen's id.
 #' @noRd
 warning_lines <- function(warnings) {
   if (!nrow(warnings)) return(character())
   plain <- warnings$class %in% c("crestline_warning", "simpleWarning", "warning", "rlang_warning")
-  text <- mapply(function(id, problem) gsub(id, "", problem, fixed = TRUE), warnings$id, warnings$problem)
+  own <- paste0("\\b\\Q", warnings$id, "\\E\\b")
+  text <- mapply(function(own, problem) gsub(own, "", problem, perl = TRUE), own, warnings$problem)
   kind <- ifelse(plain, gsub("[0-9.]+", "", text), warnings$class)
   lines <- lapply(split(warnings, factor(kind, unique(kind))), function(rows) {
     ids <- unique(rows$id)

@@ -103,7 +103,7 @@ study_constant <- function(width, points, more, call = rlang::caller_env()) {
                     "Further arguments are `jitter` and `end`, see simulate_ridge().", stage = "arguments", call = call)
   }
   constant <- utils::modifyList(list(width = width, points = points, jitter = 0, end = 0.95), more)
-  check_number(constant$width, "width", 0, open = TRUE, call = call)
+  check_number(constant$width, "width", 0, 2, open = TRUE, call = call)
   check_number(constant$jitter, "jitter", 0, 0.45, call = call)
   check_number(constant$end, "end", 0, 1, call = call)
   constant
