@@ -38,7 +38,7 @@ print.sample_limits <- function(x, ...) {
 #' An alignment, what is doubtful of it told
 #' @param aligned An `aligned`.
 #' @noRd
-told_of <- function(aligned, limits) {
+told_of_sample <- function(aligned, limits) {
   check_class(limits, "sample_limits", "limits", "sample_limits()")
   said <- c(said_of_sizes(aligned, limits), said_of_distances(aligned, limits), said_of_gaps(aligned, limits))
   for (kind in names(said)) {

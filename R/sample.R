@@ -200,6 +200,7 @@ c.shape_sample <- function(...) {
                           shorten(twice)),
                   "Drop them from one, sample[-i], or rename: names(sample) <- ...", rlang::caller_env())
   }
+  warn_cut_scales(shapes, "sample")
   rounds <- Filter(Negate(is.null), lapply(samples, sample_field, "convergence"))
   joined <- new_shape_sample(shapes, first$template, if (length(rounds)) rounds[[1]], first$provenance)
   validate_shape_sample(joined)
