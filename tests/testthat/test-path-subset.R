@@ -9,7 +9,8 @@ test_that("a part of a path has its own length, arc lengths from 0, and nothing 
   expect_equal(attr(part, "length"), sum(steps(part)))
   expect_equal(part$s, path$s[5:20] - path$s[5])
   expect_equal(attr(part, "length"), path$s[20] - path$s[5])
-  expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns], ignore_attr = TRUE)
+  expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns],
+               ignore_attr = TRUE)
   expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
   expect_output(print(part), "Path of 16 points")
   expect_no_match(paste(capture.output(print(part)), collapse = " "), "angle")
@@ -17,8 +18,10 @@ test_that("a part of a path has its own length, arc lengths from 0, and nothing 
 
 test_that("what a reference path knows of its criterion does not go with its parts", {
   path <- reference_path(Rvcg::vcgSphere(4), c(1, 0, 0), c(0, 1, 0), "plane")
-  expect_true(all(c("optima", "criterion", "competing", "angle", "type") %in% names(attributes(path))))
-  for (part in list(path[-1, ], head(path, 4), subset(path, z > -1 & s > 0.2), path[path$s > 0.2, ], rbind(path, path[0, ])[-1, ])) {
+  expect_true(all(c("optima", "criterion", "competing", "angle",
+                    "type") %in% names(attributes(path))))
+  for (part in list(path[-1, ], head(path, 4), subset(path, z > -1 & s > 0.2), path[path$s > 0.2, ],
+                    rbind(path, path[0, ])[-1, ])) {
     expect_s3_class(part, "mesh_path")
     expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
     expect_equal(part$s[1], 0)
@@ -62,7 +65,8 @@ test_that("a path whose columns are set stays one as long as it has them all", {
   expect_null(attr(doubled, "angle"))
   noted <- path
   noted$note <- "here"
-  expect_identical(attributes(noted)[c("length", "angle", "key")], attributes(path)[c("length", "angle", "key")])
+  expect_identical(attributes(noted)[c("length", "angle", "key")],
+                   attributes(path)[c("length", "angle", "key")])
   without <- path
   without$face <- NULL
   expect_identical(class(without), "data.frame")

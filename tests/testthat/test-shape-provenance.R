@@ -3,7 +3,8 @@ shapes <- paired_sample()
 test_that("a shape knows scheme, mesh, landmarks and settings", {
   shape <- shapes[[2]]
   known <- shape$provenance
-  expect_identical(known$scheme, list(name = "paired", hash = scheme_hash(paired_scheme()), unit = 1))
+  expect_identical(known$scheme,
+                   list(name = "paired", hash = scheme_hash(paired_scheme()), unit = 1))
   expect_identical(known$mesh$key, shape$key)
   expect_setequal(known$landmarks$landmark, rownames(paired_corners()))
   expect_identical(unique(known$landmarks$how), "given")
@@ -16,7 +17,8 @@ test_that("a shape knows scheme, mesh, landmarks and settings", {
 
 test_that("measuring twice gives the same provenance, other settings another", {
   expect_identical(paired_shape(id = "ball1")$provenance, shapes[[1]]$provenance)
-  coarse <- fit_shape(stretched_ball(id = "ball1"), paired_scheme(), ridge_settings(error = FALSE), cut_scale = 0.9, unit = 1,
+  coarse <- fit_shape(stretched_ball(id = "ball1"), paired_scheme(), ridge_settings(error = FALSE),
+                      cut_scale = 0.9, unit = 1,
                       progress = FALSE)
   expect_identical(coarse$provenance$settings$fit$cut_scale, 0.9)
   expect_match(provenance_lines(coarse$provenance), "cut_scale = 0.9", all = FALSE)
@@ -27,7 +29,8 @@ test_that("the unit of the scheme's lengths is told, with the hash of the scheme
   mesh <- metres$mesh
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] / 1000
   small <- specimen(mesh, metres$landmarks / 1000, id = "small")
-  shape <- fit_shape(small, paired_scheme(), ridge_settings(error = FALSE), unit = 1000, progress = FALSE)
+  shape <- fit_shape(small, paired_scheme(), ridge_settings(error = FALSE), unit = 1000,
+                     progress = FALSE)
   expect_identical(shape$provenance$scheme$hash, shapes[[1]]$provenance$scheme$hash)
   expect_match(provenance_lines(shape$provenance), "lengths divided by 1000", all = FALSE)
 })
@@ -49,8 +52,11 @@ test_that("a slid shape and its sample name the template that they were slid aga
 test_that("results carry what their sample carries, and their own settings", {
   sample <- homologise(shapes, progress = FALSE)
   aligned <- align(sample, "curves", scale = FALSE)
-  results <- list(aligned, aligned[-1], c(align(sample[1:2], "curves", scale = FALSE), align(sample[3:4], "curves", scale = FALSE)),
-                  shape_pca(aligned), compare_groups(sample, c("a", "a", "b", "b"), "curves", n_perm = 5, components = 1, progress = FALSE),
+  results <- list(aligned, aligned[-1],
+                  c(align(sample[1:2], "curves", scale = FALSE),
+                    align(sample[3:4], "curves", scale = FALSE)),
+                  shape_pca(aligned), compare_groups(sample, c("a", "a", "b", "b"), "curves",
+                                                     n_perm = 5, components = 1, progress = FALSE),
                   repeatability(sample, c("a", "a", "b", "b")))
   for (result in results) {
     known <- result$provenance
@@ -79,7 +85,8 @@ test_that("of an array only what it was made with is known, and of an old shape 
 })
 
 test_that("settings that differ between specimens are told of", {
-  other <- fit_shape(stretched_ball(id = "other"), paired_scheme(), ridge_settings(error = FALSE), passes = 2, progress = FALSE)
+  other <- fit_shape(stretched_ball(id = "other"), paired_scheme(), ridge_settings(error = FALSE),
+                     passes = 2, progress = FALSE)
   said <- settings_lines(shapes_provenance(list(shapes[[1]], other))$settings)
   expect_match(said, "fit differs = between specimens", fixed = TRUE)
   expect_match(said, "ridge error = FALSE", fixed = TRUE)

@@ -1,4 +1,6 @@
-ball <- function(...) specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0), gone = c(NA, NA, NA)), id = "ball", ...)
+ball <- function(...) specimen(Rvcg::vcgSphere(3),
+                               rbind(top = c(0, 0, 1), front = c(1, 0, 0),
+                                     gone = c(NA, NA, NA)), id = "ball", ...)
 
 how_of <- function(x) stats::setNames(origin_of(x)$how, origin_of(x)$landmark)
 
@@ -54,11 +56,15 @@ test_that("moving, placing and defining by the package's own functions is record
   one <- move_landmark(ball(), "top", surface_points(ball()$mesh, cbind(0, 0.6, 0.8)))
   expect_identical(how_of(one)[["top"]], "moved")
   expect_false(is.na(one$origin$time[1]))
-  confirmed <- move_landmark(ball(), "front", surface_points(ball()$mesh, ball()$landmarks["front", , drop = FALSE]))
+  confirmed <- move_landmark(ball(), "front",
+                             surface_points(ball()$mesh, ball()$landmarks["front", , drop = FALSE]))
   expect_identical(how_of(confirmed)[["front"]], "placed")
-  expect_identical(how_of(move_landmark(ball(), "gone", surface_points(ball()$mesh, cbind(0, 1, 0))))[["gone"]], "placed")
+  expect_identical(how_of(move_landmark(ball(), "gone",
+                                        surface_points(ball()$mesh,
+                                                       cbind(0, 1, 0))))[["gone"]], "placed")
   expect_identical(how_of(move_landmark(ball(), "top", NULL))[["top"]], NA_character_)
-  expect_identical(how_of(with_origin(ball(), "front", "defined")), c(top = "given", front = "defined", gone = NA))
+  expect_identical(how_of(with_origin(ball(), "front", "defined")),
+                   c(top = "given", front = "defined", gone = NA))
 })
 
 test_that("a specimen of an older version has its landmarks given", {
@@ -73,6 +79,7 @@ test_that("the record is told in words", {
   expect_identical(origin_words(one$origin), "2 given")
   one <- from_files(one, "a/face.ply", "a/face.csv")
   one$landmarks["top", ] <- c(0, 0.6, 0.8)
-  expect_identical(sub("; .*Z", "; then", origin_words(one$origin)), "1 from a file (face.csv), 1 moved by hand (top; then)")
+  expect_identical(sub("; .*Z", "; then", origin_words(one$origin)),
+                   "1 from a file (face.csv), 1 moved by hand (top; then)")
   expect_identical(origin_words(specimen(Rvcg::vcgSphere(2))$origin), "none")
 })

@@ -10,18 +10,25 @@ test_that("a summary tells of package, mesh and landmarks, on one screen", {
   text <- capture.output(print(said))
   expect_lte(length(text), 24)
   expect_lte(max(nchar(text)), 80)
-  for (word in c(R.version$major, one$key, "from ball.ply", "2 from a file (ball.csv)")) expect_match(paste(text, collapse = " "), word, fixed = TRUE)
+  for (word in c(R.version$major, one$key, "from ball.ply",
+                 "2 from a file (ball.csv)")) expect_match(paste(text, collapse = " "), word,
+                                                           fixed = TRUE)
 })
 
 test_that("only settings that are not as by default are told, in every stage", {
-  lines <- settings_lines(list(ridge = utils::modifyList(unclass(ridge_settings()), list(error = FALSE)),
-                               fit = list(passes = 1, cut_scale = 0.8), slide = unclass(slide_settings("paper")), align = list()))
-  expect_match(lines, "ridge error = FALSE; fit cut_scale = 0.8; slide energy = own, nugget = 0", fixed = TRUE)
+  lines <- settings_lines(list(ridge = utils::modifyList(unclass(ridge_settings()),
+                                                         list(error = FALSE)),
+                               fit = list(passes = 1,
+                                          cut_scale = 0.8), slide = unclass(slide_settings("paper")), align = list()))
+  expect_match(lines, "ridge error = FALSE; fit cut_scale = 0.8; slide energy = own, nugget = 0",
+               fixed = TRUE)
   expect_match(settings_lines(list(fit = list(passes = 1L))), "fit as by default", fixed = TRUE)
   expect_null(settings_lines(list()))
-  defaults <- lapply(stats::setNames(nm = c("ridge", "slide", "fit", "homologise", "align", "pca", "compare")), default_settings)
+  defaults <- lapply(stats::setNames(nm = c("ridge", "slide", "fit", "homologise", "align", "pca",
+                                            "compare")), default_settings)
   expect_true(all(lengths(defaults) > 0))
-  for (stage in names(defaults)) expect_identical(changed_words(defaults[[stage]], defaults[[stage]]), "as by default")
+  for (stage in names(defaults)) expect_identical(changed_words(defaults[[stage]],
+                                                                defaults[[stage]]), "as by default")
 })
 
 test_that("comments of files are single lines of ASCII", {
@@ -47,7 +54,8 @@ test_that("files of meshes and landmarks carry it, and our readers read them as 
   for (extension in c("tps", "nts", "dta", "mrk.json", "csv", "pts", "fcsv", "landmarkAscii")) {
     file <- tempfile(fileext = paste0(".", extension))
     write_landmarks(odd, file)
-    expect_identical(any(grepl(one$key, readLines(file), fixed = TRUE)), extension %in% c("tps", "nts", "dta", "mrk.json"))
+    expect_identical(any(grepl(one$key, readLines(file), fixed = TRUE)),
+                     extension %in% c("tps", "nts", "dta", "mrk.json"))
     expect_equal(unclass(read_landmarks(file)), one$landmarks, ignore_attr = "curves")
   }
   for (extension in c("ply", "obj")) {
