@@ -32,12 +32,9 @@
 #'   * `weights`: k, of mean 1; `scale`, `tangent`, `level`;
 #'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated", "dropped");
 #'   * `moved`: the greatest move of the mean by round;
-#'   * `triangles`: 3 x m, rows of `mean`, or `NULL`;
-#'   * `settings`, `reference`, `provenance`: how it was aligned, what `mean` was laid onto, and where all came from, see
-#'     [summary.aligned()].
+#'   * `triangles`: 3 x m, rows of `mean`, or `NULL`.
 #'
-#'   It is a container of its configurations: `aligned[ids]` aligns these again, see [aligned]. `as.data.frame()` gives a row a
-#'   specimen: `id`, `size`, `distance` (Procrustes distance from the mean, in the unit of
+#'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from the mean, in the unit of
 #'   `coords`), `missing` (number of points).
 #' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a
 #'   specimen with too few points to fit, missing points with `missing = "stop"`.
@@ -66,7 +63,7 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
                    tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
   aligned <- align_configurations(configurations(sample, level, triangles), settings)
   attr(aligned, "provenance") <- aligned_provenance(sample, settings)
-  told_of_sample(aligned, limits)
+  warn_of_doubts(aligned, limits)
 }
 
 #' @param given As of [configurations()].
