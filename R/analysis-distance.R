@@ -32,6 +32,7 @@ curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("p
                            scale = FALSE) {
   match <- check_choice(match, c("none", "procrustes"), "match")
   between <- check_choice(between, c("points", "curves"), "between")
+  if (inherits(a, "shape") && inherits(b, "shape")) warn_cut_scales(list(a = a, b = b), "distance")
   a <- curve_list(a, level, "a")
   b <- curve_list(b, level, "b")
   both <- intersect(names(a), names(b))
@@ -65,7 +66,10 @@ curve_list <- function(x, level, name, call = rlang::caller_env()) {
     return(split_rows(as.matrix(own[c("x", "y", "z")]), own$part))
   }
   if (is.matrix(x) && is.numeric(x) && ncol(x) == 3 && !is.null(rownames(x))) {
-    return(split_rows(x, sub(" [^ ]*$", "", rownames(x))))
+    part <- sub(" [^ ]*$", "", rownames(x))
+    number <- suppressWarnings(as.numeric(sub("^.* ", "", rownames(x))))
+    order <- if (anyNA(number)) seq_along(part) else order(match(part, part), number)
+    return(split_rows(x[order, , drop = FALSE], part[order]))
   }
   fine <- is.list(x) && length(x) && !is.null(names(x)) && !anyDuplicated(names(x)) &&
     all(vapply(x, function(one) is.matrix(one) && is.numeric(one) && ncol(one) == 3, NA))

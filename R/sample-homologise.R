@@ -18,8 +18,9 @@
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
 #' @param settings [slide_settings()].
-#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them by id, or a function
-#'   that gives the specimen of an id (so that only one at a time is in memory).
+#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
+#'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
+#'   only one at a time is in memory).
 #' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about
 #'   0.01 mm on a face).
 #' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
@@ -35,7 +36,8 @@
 #'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
 #'   not there.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
+#'   `crestline_cut_scale`, when curves were cut off at different shares (`cut_scale`), with the one to measure all by.
 #' @references The paper, section 4; departures: [slide_settings()], and the gauge.
 #' @examples
 #' \donttest{
@@ -62,6 +64,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
                        progress = interactive()) {
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
+  warn_cut_scales(shapes, "homologise")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
   rounds <- check_count(rounds, "rounds", lower = 0)
@@ -81,7 +84,12 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     tick()
     finish_slide(shape, cut, plan, specimen_of(shape, specimens))
   }, shapes, cuts)
-  new_sample(slid, found$template, found$convergence)
+  slid <- lapply(slid, function(shape) {
+    shape$specimen <- NULL
+    shape
+  })
+  provenance <- sample_provenance(found$template, plan, list(tolerance = tolerance, rounds = rounds))
+  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
@@ -115,12 +123,17 @@ measured <- function(batch) {
 }
 
 specimens_in_files <- function(x) {
-  if (inherits(x, "shape_batch") && length(unlist(attr(x, "files")))) function(id) x[[id]]$specimen
+  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
+  if (kept) function(id) x[[id]]$specimen
 }
 
 #' @param specimens As in [homologise()].
 #' @noRd
 specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
+  nameless <- is.list(specimens) && is.null(names(specimens))
+  if (nameless && all(vapply(specimens, inherits, NA, "specimen"))) {
+    names(specimens) <- vapply(specimens, `[[`, "", "id")
+  }
   specimen <- if (is.null(specimens)) shape$specimen else
     if (is.function(specimens)) specimens(shape$id) else specimens[[shape$id]]
   kept_specimen(shape, specimen, call)

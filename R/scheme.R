@@ -6,7 +6,8 @@
 #' one. The tables are checked as a whole; a mistake is named by table, row and column.
 #'
 #' @param landmarks Data frame, a row a landmark: `landmark` (its name); if wanted `name` and `where` (words for the
-#'   reader).
+#'   reader), and `x`, `y`, `z`: where it lies on a typical object, in the scheme's unit, in any pose. By them [fit_shape()]
+#'   sees that a specimen is in another unit, and which landmarks are exchanged.
 #' @param curves Data frame, a row a curve from one landmark to another:
 #'   * `curve` (its name, without `[ ] + |`), `from`, `to` (landmarks), `kind` ("ridge", "valley" or "plane": the
 #'     shortest plane cut), `n` (points at equal chords, both ends counted);
@@ -239,6 +240,7 @@ scheme_in_unit <- function(scheme, unit, specimen) {
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   check_number(unit, "unit", 0, open = TRUE)
   if (unit == 1) return(scheme)
+  scheme$landmarks[c("x", "y", "z")] <- scheme$landmarks[c("x", "y", "z")] / unit
   for (table in c("curves", "definitions")) {
     lengths <- intersect(c("radius", "width", "reach"), names(scheme[[table]]))
     scheme[[table]][lengths] <- scheme[[table]][lengths] / unit

@@ -209,10 +209,14 @@ print.shape <- function(x, most = 8, ...) {
       sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
     }, "\n", sep = "")
   }
+  print_placing(x$placing)
   said <- x$status[!is.na(x$status$reason), ]
   for (i in utils::head(seq_len(nrow(said)), most)) {
     cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
   }
   if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
+  unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
+  if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
+  if (length(unused)) cat(unused, sep = "\n")
   invisible(x)
 }
