@@ -31,7 +31,11 @@
 #'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing was found);
 #'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out: `values[!is.na(vertices)]`
 #'     belong to `vertices[!is.na(vertices)]`);
+#'   * `key` (hash of the vertices and triangles, in their order): what is measured on the mesh carries it, and is refused with
+#'     any other (errors of class `crestline_wrong_mesh`);
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
+#'
+#'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
 #'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
 #'   the surface, in another unit.
