@@ -13,7 +13,8 @@
 #' @return A `mesh_path` from the first to the last point of `path`. Attribute `lifted` is `FALSE`
 #'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
 #'   the places of the curve.
-#' @section Errors: of class `crestline_path_error`, when neither way gives a path.
+#' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class `crestline_wrong_mesh`, when
+#'   the path or its co-ordinates belong to another mesh.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.3;
 #'   the walk takes the place of its Delaunay triangulation of (s, d).
 #' @examples

@@ -36,7 +36,7 @@
 #'
 #'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample]. `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
-#'   not there.
+#'   not there, or has another mesh than the shape was measured on.
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
 #'   `crestline_cut_scale`, when curves were cut off at different shares (`cut_scale`), with the one to measure all by.
 #' @references The paper, section 4; departures: [slide_settings()], and the gauge.

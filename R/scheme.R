@@ -121,6 +121,7 @@ new_curve_scheme <- function(name, tables, points, triangles) {
 #' Refuse a scheme whose tables lack columns, or do not fit each other
 #' @noRd
 validate_curve_scheme <- function(x) {
+  if (passed_lately(x, "curve_scheme")) return(invisible(x))
   refuse <- function(problem) {
     crestline_abort(problem, "Make it anew: curve_scheme() of its tables, as.data.frame(scheme, table).", stage = "scheme",
                     class = "crestline_scheme_error", call = NULL)
@@ -137,8 +138,10 @@ validate_curve_scheme <- function(x) {
     refuse("the scheme's `points` are not those of its landmarks, curves and patches.")
   }
   corner <- unlist(x$triangles[c("v1", "v2", "v3")])
-  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) refuse("the scheme's `triangles` name points that it does not have.")
-  invisible(x)
+  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) {
+    refuse("the scheme's `triangles` name points that it does not have.")
+  }
+  remember_passed(x, "curve_scheme")
 }
 
 #' @exportS3Method

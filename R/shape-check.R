@@ -11,7 +11,7 @@
 #'   from the specimen's normals at its corners; "doubled"; "crossing"), `group` (the patch or strip of the triangle, as in the
 #'   scheme's `triangles`), `v1`, `v2`, `v3` (rows of the surface points), and for crossings `other` (group of the
 #'   triangle that it passes through).
-#' @section Errors: as [shape_mesh()].
+#' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another mesh.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

@@ -64,6 +64,8 @@
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
 #'   * `provenance`: what it came from, see [summary.shape()];
+#'   * `key`: of the specimen's mesh, see [specimen()]; what takes a shape and a specimen refuses another mesh, and one whose
+#'     vertices or triangles stand in another order, by name (an error of class `crestline_wrong_mesh`);
 #'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
 #'     shape small).
 #'

@@ -18,7 +18,7 @@
 #'   triangles with a missing point are left out. Attribute `points`: data frame `column`, `row`, `x`, `y`, `z`, `face`,
 #'   `w1`, `w2`, `w3` of all points on the specimen's mesh (NA where a column is missing; these have no vertex).
 #' @section Errors: of class `crestline_error`, when there is no such patch or block, it is a single row of points, a
-#'   bounding curve is missing, or no column is left.
+#'   bounding curve is missing, or no column is left; of class `crestline_wrong_mesh`, for a specimen with another mesh.
 #' @seealso [shape_mesh()]
 #' @examples
 #' \donttest{

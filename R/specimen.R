@@ -33,7 +33,11 @@
 #'     belong to `vertices[!is.na(vertices)]`);
 #'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`, `file`, `time`: how each
 #'     landmark came, see [summary.specimen()]);
+#'   * `key` (hash of the vertices and triangles, in their order): what is measured on the mesh carries it, and is refused with
+#'     any other (errors of class `crestline_wrong_mesh`);
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
+#'
+#'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
 #'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
 #'   the surface, in another unit.

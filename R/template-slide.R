@@ -24,7 +24,8 @@
 #'     mesh), `longest` (largest distance that a point has slid, along its curve, or straight);
 #'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`, `longest` (slide of
 #'     that sweep).
-#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen.
+#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen; of
+#'   class `crestline_wrong_mesh`: a specimen with another mesh than the shape's.
 #' @references The paper, section 4. Where the default departs from it: `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
 #' @examples
