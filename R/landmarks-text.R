@@ -26,6 +26,9 @@ wide_encoding <- function(bytes) {
 }
 
 write_file_lines <- function(line, file) {
+  if (is_pipe(file)) {
+    refuse_landmark_file(file, "is a pipe, no file on disk", "Write to a file.")
+  }
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })
@@ -38,9 +41,12 @@ write_file_lines <- function(line, file) {
   }
 }
 
+# NA and NaN as R, C and the compilers of Windows write them (-nan(ind), -1.#IND, 1.#QNAN0).
+missing_word <- "^(|na|[-+]?(s|q)?nan(\\([a-z]*\\))?|[-+]?1\\.#(ind|[sq]?nan)0*)$"
+
 # Words to numbers, the words for a missing one to NA; `line`: the line of each word.
 landmark_numbers <- function(word, file, line) {
-  missing <- tolower(word) %in% c("", "na", "nan", "-nan", "nan(ind)", "-nan(ind)")
+  missing <- grepl(missing_word, word, ignore.case = TRUE)
   number <- suppressWarnings(as.numeric(ifelse(missing, NA, word)))
   wrong <- which(!is.finite(number) & !missing)
   if (length(wrong)) {
