@@ -123,8 +123,8 @@ counted_cells <- function(field, header, line, refuse) {
   }
   if (!even) {
     wrong <- which(lengths(field) != length(header))[1]
-    refuse(sprintf("%d fields where the header has %d", length(field[[wrong]]), length(header)),
-           line[wrong])
+    refuse(sprintf("%s where the header has %d", amount(length(field[[wrong]]), "field"),
+                   length(header)), line[wrong])
   }
   cells <- matrix(as.character(unlist(field)), ncol = width, byrow = TRUE)
   cells[, seq_len(min(width, length(header))), drop = FALSE]

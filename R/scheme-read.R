@@ -10,6 +10,8 @@
 #' @return As [curve_scheme()].
 #' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or file that is
 #'   not there or cannot be read.
+#' @section Warnings: of class `crestline_unread_table`, when a file has nearly the name of a table
+#'   that is not there (`pair.csv`).
 #' @examples
 #' face <- read_scheme(system.file("extdata", "face_scheme", package = "crestline"))
 #' head(as.data.frame(face, "curves"))
