@@ -79,8 +79,9 @@
 #'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
 #'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
-#' @section Warnings: of class `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one
-#'   of another name that may be meant (`prn` for `pn`, `CHL` for `chL`).
+#' @section Warnings: of class `crestline_unused_landmarks`, when a landmark of the scheme is
+#'   missing and the specimen has one of another name that may be meant (`prn` for `pn`, `CHL` for
+#'   `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -132,8 +133,10 @@ check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
   if (!any(wanted %in% rownames(specimen$landmarks))) {
     near <- attr(unused_names(specimen$landmarks, scheme), "near")
     crestline_abort(
-      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name, shorten(wanted),
-              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
+      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
+              shorten(wanted),
+              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else
+                "no landmarks at all",
               if (length(near)) paste("; near:", shorten(near)) else ""),
       "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
       id = specimen$id, class = "crestline_landmark_error", call = call
