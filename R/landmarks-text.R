@@ -46,9 +46,11 @@ missing_word <- "^(|na|[-+]?(s|q)?nan(\\([a-z]*\\))?|[-+]?1\\.#(ind|[sq]?nan)0*)
 
 # Words to numbers, the words for a missing one to NA; `line`: the line of each word.
 landmark_numbers <- function(word, file, line) {
-  missing <- grepl(missing_word, word, ignore.case = TRUE)
-  number <- suppressWarnings(as.numeric(ifelse(missing, NA, word)))
-  wrong <- which(!is.finite(number) & !missing)
+  number <- suppressWarnings(as.numeric(word))
+  odd <- which(!is.finite(number))
+  missing <- grepl(missing_word, word[odd], ignore.case = TRUE)
+  number[odd[missing]] <- NA
+  wrong <- odd[!missing]
   if (length(wrong)) {
     refuse_landmark_file(
       file, sprintf('"%s" is not a %snumber', word[wrong[1]], if (is.na(number[wrong[1]])) "" else "finite "),
