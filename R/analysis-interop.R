@@ -99,8 +99,10 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
   if (is.null(size)) size <- own
-  if (!is.numeric(size) || is.null(names(size)) && length(size) != n) {
-    crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
+  fits <- length(size) == n || !is.null(names(size))
+  if (!is.numeric(size) || !fits || !all(is.finite(size) & size > 0)) {
+    crestline_abort(sprintf("`size` is %s.", describe_value(size)),
+                    sprintf("Give %d centroid sizes above 0.", n), stage = "align")
   }
   ids <- dimnames(coords)[[3]]
   if (!is.null(names(size)) && has_ids(ids)) size <- sizes_by_specimen(size, ids)
