@@ -37,10 +37,15 @@ read_mesh <- function(file, id) {
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
   }
   check_stored(file, "reading", id, unpacks = "gzip")
-  tryCatch(reader(file, id), error = function(e) {
+  mesh <- tryCatch(reader(file, id), error = function(e) {
     if (inherits(e, "crestline_error")) stop(e)
     refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
   })
+  if (!is.null(mesh$short)) {
+    warn_file(file, sprintf("has %d polygons with fewer than three corners", mesh$short),
+              "Look whether the surface is whole: the header's numbers may be wrong, or export it again.", id)
+  }
+  mesh
 }
 
 refuse_file <- function(file, reason, id, remedy = "The file is damaged or cut short: export or copy it again.") {
