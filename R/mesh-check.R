@@ -252,21 +252,23 @@ describe_topology <- function(mesh, topology, area) {
   )
 }
 
-# What may cost curves and cannot be mended.
+# What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
 tell_contacts <- function(mesh, topology, area, id) {
   edge <- sqrt(2 / sqrt(3) * stats::median(area))  # of equilateral triangles of the median area; `area` is twice it
-  warn_loose(topology, id)
-  list(tell_seams(mesh, topology, edge, id), tell_second_skin(mesh, topology, edge, id))
+  loose <- warn_loose(topology, id)
+  list(tell_seams(mesh, topology, edge, id, silent = loose), tell_second_skin(mesh, topology, edge, id))
 }
 
-# `share` of triangles without any neighbour.
-warn_loose <- function(topology, id, share = 0.1) {
-  loose <- mean(colSums(topology$twin > 0) == 0)
-  if (loose < share) return(invisible())
+# Whether that `share` of the triangles, and so many at `least`, have no neighbour.
+warn_loose <- function(topology, id, share = 0.1, least = 10) {
+  loose <- sum(colSums(topology$twin > 0) == 0)
+  if (loose < max(least, share * length(topology$piece))) return(FALSE)
   crestline_warn(
-    sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.", 100 * loose),
+    sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.",
+            100 * loose / length(topology$piece)),
     "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id, class = "crestline_loose_triangles"
   )
+  TRUE
 }
 
 # Border loops beyond the one outer loop of each piece that has a border.

@@ -115,13 +115,13 @@ split_sides <- function(mesh, found) {
 
 # Borders beside one another: a row of the report, and a warning where so many vertices make a seam. `gap`: as a share
 # of the usual length of an edge; `least`: vertices.
-tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10) {
+tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent = FALSE) {
   mesh$topology <- topology
   border <- border_vertices(mesh)
   pair <- matrix(border[cpp_near_pairs(mesh$vb[, border, drop = FALSE], gap * edge, join_effort)], 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   beside <- length(unique(c(pair, border_contacts(mesh, gap * edge)$vertex)))
-  if (beside >= least) {
+  if (beside >= least && !silent) {
     crestline_warn(
       sprintf("%d vertices of the border lie beside another border, less than %.2g apart: no curve crosses such a seam.",
               beside, gap * edge),

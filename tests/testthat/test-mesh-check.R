@@ -196,7 +196,7 @@ test_that("a mesh that falls apart is refused or told of", {
     structure(list(vb = rbind(x + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1), it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
   }
   expect_crestline_error(specimen(pieces(1001), id = "p"), c("p, mesh", "1001 pieces", "corners do not meet"))
-  expect_warning(specimen(pieces(300)), "100 % of the triangles touch no other", class = "crestline_loose_triangles")
+  expect_warning(s <- specimen(pieces(300)), "100 % of the triangles touch no other", class = "crestline_loose_triangles")
 })
 
 test_that("polygons of two corners are counted", {
