@@ -65,7 +65,10 @@ curve_list <- function(x, level, name, call = rlang::caller_env()) {
     return(split_rows(as.matrix(own[c("x", "y", "z")]), own$part))
   }
   if (is.matrix(x) && is.numeric(x) && ncol(x) == 3 && !is.null(rownames(x))) {
-    return(split_rows(x, sub(" [^ ]*$", "", rownames(x))))
+    part <- sub(" [^ ]*$", "", rownames(x))
+    number <- suppressWarnings(as.numeric(sub("^.* ", "", rownames(x))))
+    order <- if (anyNA(number)) seq_along(part) else order(match(part, part), number)
+    return(split_rows(x[order, , drop = FALSE], part[order]))
   }
   fine <- is.list(x) && length(x) && !is.null(names(x)) && !anyDuplicated(names(x)) &&
     all(vapply(x, function(one) is.matrix(one) && is.numeric(one) && ncol(one) == 3, NA))

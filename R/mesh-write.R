@@ -121,6 +121,7 @@ shape_errors <- function(shape) {
 
 # Bytes, or lines of text.
 write_content <- function(content, file) {
+  if (is_pipe(file)) refuse_writing(file, "it is a pipe, no file on disk", "Write to a file.")
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
   })

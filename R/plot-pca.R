@@ -7,7 +7,7 @@
 #' @param x A `shape_pca`.
 #' @param what "scores" or "shapes": the surfaces at `-sd` and `sd` standard deviations, side by side ("picture").
 #' @param component Two components for "scores", one for "shapes".
-#' @param group Factor, one value a specimen, or `NULL`.
+#' @param group Factor, one value a specimen, as in [compare_groups()], or `NULL`.
 #' @param colour Colours of the groups, or of the surfaces.
 #' @param sd Standard deviations.
 #' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to [graphics::plot.default()].

@@ -79,6 +79,8 @@
 #'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
 #'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
+#' @section Warnings: of class `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one
+#'   of another name that may be meant (`prn` for `pn`, `CHL` for `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -97,7 +99,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme)
-  warn_unused_names(specimen, scheme)
+  warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
