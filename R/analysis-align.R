@@ -23,6 +23,7 @@
 #' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for pictures and areas.
 #' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its centroid size.
 #' @param rounds Most rounds.
+#' @param limits Of [sample_limits()]: from what on specimens are told of.
 #' @return Object of class `aligned`, a list:
 #'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of unit size where scaled;
 #'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete configuration);
@@ -37,11 +38,15 @@
 #'   `coords`), `missing` (number of points).
 #' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a
 #'   specimen with too few points to fit, missing points with `missing = "stop"`.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
+#'   `crestline_sample_doubt`, where the sample does not look like one, by [sample_limits()]: `crestline_far` (a specimen far
+#'   from the others), `crestline_point` (points of one far from those of the others), `crestline_size` (sizes that differ as units
+#'   do), `crestline_estimated` (points estimated for too many specimens, or too many of one), `crestline_beyond` (points
+#'   estimated far from what is there).
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
 #'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
 #'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
-#' @seealso [shape_pca()], [compare_groups()], [as_geomorph()]
+#' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()], [as_geomorph()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' shapes <- shapes + rnorm(120, sd = 0.05)
@@ -51,22 +56,31 @@
 #' @export
 align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
-                  rounds = 200) {
+                  rounds = 200, limits = sample_limits()) {
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
-  scaling <- check_scaling(scale)
-  tolerance <- check_number(tolerance, "tolerance", lower = 0)
-  rounds <- check_count(rounds, "rounds")
-  given <- configurations(sample, level, triangles)
-  whole <- complete_configurations(given, missing)
-  weight <- point_weights(weights, whole)
-  fit <- fit_alignment(whole, weight, scaling, tolerance, rounds)
-  check_extent(fit$size)
-  if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
-  coords <- fit$coords
-  if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
-  structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, places = whole$places, scale = scale,
-                 tangent = tangent && scaling > 0, level = given$level, missing = whole$missing, moved = fit$moved,
-                 triangles = whole$triangles), class = "aligned")
+  check_scaling(scale)
+  settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
+                   tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
+  aligned <- align_configurations(configurations(sample, level, triangles), settings)
+  attr(aligned, "provenance") <- aligned_provenance(sample, settings)
+  told_of(aligned, limits)
+}
+
+#' @param given As of [configurations()].
+#' @param settings List of arguments of [align()]: `scale`, `weights`, `missing`, `tangent`, `tolerance`, `rounds`.
+#' @noRd
+align_configurations <- function(given, settings, call = rlang::caller_env()) {
+  scaling <- check_scaling(settings$scale, call)
+  whole <- complete_configurations(given, settings$missing, call)
+  weight <- point_weights(settings$weights, whole, call)
+  if (is.numeric(settings$weights)) settings$weights <- settings$weights[whole$kept]
+  fit <- fit_alignment(whole, weight, scaling, settings$tolerance, settings$rounds)
+  check_extent(fit$size, call)
+  if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
+  projected <- settings$tangent && scaling > 0
+  coords <- if (projected) tangent_projection(fit$coords, fit$mean, weight) else fit$coords
+  validate_aligned(new_aligned(coords, fit$mean, fit$size, weight, whole$places, settings$scale, projected, given$level,
+                               whole$missing, fit$moved, whole$triangles, settings, whole$reference))
 }
 
 check_scaling <- function(scale, call = rlang::caller_env()) {
@@ -104,6 +118,7 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
+    validate(sample)
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"
@@ -119,7 +134,8 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
   }
   ids <- dimnames(coords)[[3]]
   if (length(ids) < 2) {
-    crestline_abort("there is one specimen only.", "Give two or more.", stage = "align", call = call)
+    crestline_abort(sprintf("there is %s specimen%s.", if (length(ids)) "one" else "no", if (length(ids)) " only" else ""),
+                    "Give two or more.", stage = "align", call = call)
   }
   list(coords = coords, reference = reference, triangles = check_triangles(triangles, dim(coords)[1], call),
        places = places, level = level)
@@ -130,8 +146,9 @@ sample_levels <- c("landmarks", "curves", "surface", "model")
 #' Array of every place of a sample's shapes once
 #' @noRd
 every_place <- function(sample) {
+  like <- places_of(sample$template)
   each <- lapply(sample$shapes, places_of)
-  array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(names(each))))
+  array(as.numeric(unlist(each)), c(dim(like), length(each)), c(dimnames(like), list(names(each))))
 }
 
 #' Triangles of a scheme between its surface points, or between all its places
@@ -250,10 +267,6 @@ print.aligned <- function(x, ...) {
   cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size), max(table$size)))
   cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n", sqrt(mean(table$distance^2)),
               max(table$distance), table$id[which.max(table$distance)]))
-  if (nrow(x$missing)) {
-    text <- paste0("missing and ", x$missing$action[1], ": ", amount(nrow(x$missing), "point"), " of ",
-                   shorten(unique(x$missing$id), 8))
-    cat(strwrap(text, indent = 2, exdent = 4), sep = "\n")
-  }
+  for (line in missing_lines(x$missing)) cat(strwrap(line, indent = 2, exdent = 4), sep = "\n")
   invisible(x)
 }

@@ -32,6 +32,7 @@ curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("p
                            scale = FALSE) {
   match <- check_choice(match, c("none", "procrustes"), "match")
   between <- check_choice(between, c("points", "curves"), "between")
+  if (inherits(a, "shape") && inherits(b, "shape")) warn_cut_scales(list(a = a, b = b), "distance")
   a <- curve_list(a, level, "a")
   b <- curve_list(b, level, "b")
   both <- intersect(names(a), names(b))

@@ -34,6 +34,13 @@ check_choice <- function(x, choices, name, call = rlang::caller_env()) {
   x[[1]]
 }
 
+check_flag <- function(x, name, call = rlang::caller_env()) {
+  if (!isTRUE(x) && !isFALSE(x)) {
+    crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)), "Give TRUE or FALSE.", stage = "arguments", call = call)
+  }
+  x
+}
+
 check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   if (!inherits(x, class)) {
     crestline_abort(
@@ -48,6 +55,24 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
 #' Refuse an object that breaks the rules of its class: validate_<class>() of the classes that have rules
 #' @noRd
 validate <- function(x) UseMethod("validate")
+
+#' Whether an object passed its rules lately
+#'
+#' It is known by its place in memory: R changes nothing that something else holds, so that what was touched lies elsewhere.
+#' @noRd
+passed_lately <- function(x, class) {
+  for (one in passed_objects[[class]]) if (rlang::is_reference(x, one)) return(TRUE)
+  FALSE
+}
+
+passed_objects <- new.env(parent = emptyenv())
+
+#' @param most Number of objects that are remembered: a scan, and the same with its holes bridged.
+#' @noRd
+remember_passed <- function(x, class, most = 2) {
+  passed_objects[[class]] <- utils::head(c(list(x), passed_objects[[class]]), most)
+  invisible(x)
+}
 
 #' @exportS3Method
 validate.default <- function(x) invisible(x)

@@ -55,11 +55,12 @@ curvature <- function(mesh, radius, order = "adaptive",
                       threads = getOption("crestline.threads", 1L), vertices = NULL,
                       shrinkage = 6, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
   of <- mesh_of(mesh)
+  whole <- mesh
   mesh <- as_mesh(mesh)
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
   threads <- check_count(threads, "threads")
   check_number(widen, "widen", lower = 1)
-  check_radius(radius, mesh)
+  check_radius(radius, whole)
   n <- ncol(mesh$vb)
   targets <- vertex_indices(vertices, n)
   out <- curvature_at(mesh, targets, settings, threads, widen)
@@ -137,7 +138,7 @@ curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
 curvature_source <- function(specimen, radius, order, threads) {
   mesh <- as_mesh(specimen)
   settings <- fit_settings(radius, order)
-  check_radius(radius, mesh)
+  check_radius(radius, specimen)
   row <- integer(ncol(mesh$vb))
   known <- curvature_rows(empty_curvature(0), integer())
   function(vertices) {
@@ -200,9 +201,9 @@ vertex_indices <- function(vertices, n) {
 #' A ball as large as the object holds no local shape: most likely another unit
 #' @noRd
 check_radius <- function(radius, mesh) {
-  size <- mesh_diagonal(mesh)
+  size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_size(mesh)
   if (radius > size / 2) {
-    crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose diagonal is %.4g.", radius, size),
+    crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.", radius, size),
                     "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
   }
 }

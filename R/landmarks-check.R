@@ -50,32 +50,44 @@ refuse_landmarks <- function(problem, remedy, id) {
 #' @param landmarks k x 3 matrix of as_landmarks().
 #' @param mesh A checked mesh.
 #' @param id Name of the specimen.
-#' @param tolerance Greatest distance from the surface, in the mesh's unit.
+#' @param tolerance Greatest distance from the surface, as a share of the size.
 #' @param midline Names of landmarks of the midline from top to bottom.
-#' @return A list: `landmarks` on the surface, `located` (see surface_points()), `report`.
+#' @param piece Number of the piece of every triangle.
+#' @param size Of [mesh_size()]; NULL: that of the pieces that carry the landmarks.
+#' @return A list: `landmarks` on the surface, `located` (see surface_points()), `report`, `size`, `slips` (of
+#'   [exchanged_landmarks()]).
 #' @noRd
-check_landmarks <- function(landmarks, mesh, id, tolerance, midline) {
+check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NULL, size = NULL) {
   located <- surface_points(mesh, landmarks)
+  if (is.null(size)) size <- carrying_size(mesh, piece, located)
   away <- sqrt(rowSums((as.matrix(located[c("x", "y", "z")]) - landmarks)^2))
-  if (any(away > tolerance, na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance)
-  mirrored <- handedness(landmarks, located, mesh, midline)
-  if (mirrored < 0) warn_mirrored(id)
-  moved <- sum(away > 1e-6 * mesh_diagonal(mesh), na.rm = TRUE)
+  if (any(away > tolerance * size, na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance, size)
+  slips <- slips_by_name(landmarks, located, mesh, midline)
+  warn_exchanged(slips, id)
+  moved <- sum(away > 1e-6 * size, na.rm = TRUE)
   missing <- rownames(landmarks)[is.na(away)]
   landmarks[] <- as.matrix(located[c("x", "y", "z")])
   report <- rbind(
     report_row("landmarks missing", length(missing), paste("kept as missing:", shorten(missing))),
     report_row("landmarks beside the surface", moved, sprintf(
       "put on it, moved by %.2g at most", max(0, away, na.rm = TRUE))),
-    report_row("landmarks mirrored", mirrored < 0, "kept; see the warning")
+    report_row("landmarks mirrored", slips$mirrored, "kept; see the warning")
   )
-  list(landmarks = landmarks, located = located, report = report)
+  list(landmarks = landmarks, located = located, report = report, size = size, slips = slips)
 }
 
-refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
-  off <- which(away > tolerance)
+#' What looks exchanged by names alone: sides by the endings L and R, the mid-line by its names
+#' @noRd
+slips_by_name <- function(landmarks, located, mesh, midline) {
+  pairs <- side_pairs(as.character(rownames(landmarks)[!is.na(landmarks[, 1])]))
+  row <- match(c(pairs$left, pairs$right, midline), rownames(landmarks), nomatch = 0)
+  exchanged_landmarks(landmarks, mean_front(mesh, located[row, ]), pairs, midline)
+}
+
+refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
+  off <- which(away > tolerance * size)
   off <- off[order(-away[off])]
-  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh, tolerance)
+  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh, tolerance * mesh_size(mesh))
   named <- paste0(rownames(landmarks)[off], " (by ", signif(away[off], 3), ")")
   if (!is.null(fit)) {
     refuse_landmarks(
@@ -84,52 +96,80 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance) {
     )
   }
   refuse_landmarks(
-    sprintf("off the surface by more than %s: %s.", signif(tolerance, 3), shorten(named)),
+    sprintf("off the surface by more than %s: %s.", signif(tolerance * size, 3), shorten(named)),
     paste0(if (2 * length(named) > nrow(landmarks)) "Do they belong to this scan? If so, place" else "Place",
            " them anew, set them to NA, or, where they are only a little off, give a greater `tolerance`."), id
   )
 }
 
-# In words the change of unit or axes after which at least half of the landmarks are on the surface
-# (of several, the nearest fit for its size), or NULL. `inch`: 25.4 mm.
-fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000, 25.4)) {
-  changes <- c(lapply(c(factors, 1 / factors), rep, 3), list(c(-1, -1, 1)))
-  words <- c(paste("multiplied by", factors), paste("divided by", factors),
-             "with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
+#' In words the change of unit or axes after which at least half of the landmarks are on the surface
+#'
+#' Units first, then axes turned, then mirrored, then both; of several of a kind the nearest for its size.
+#' @param tolerance Greatest distance from the surface.
+#' @param factors Of units; inch: 25.4 mm.
+#' @param tried How many changes of a kind are looked at closely: those that come nearest to the triangles' centres.
+#' @return NULL where there is none.
+#' @noRd
+fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000, 25.4), tried = 6) {
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
   if (nrow(given) < 2) return(NULL)
-  misfit <- vapply(changes, function(change) {
-    moved <- sweep(given, 2, change, "*")
-    away <- sqrt(rowSums((as.matrix(surface_points(mesh, moved)[1:3]) - moved)^2))
-    spread <- sqrt(sum(apply(moved, 2, stats::var)))
-    if (stats::median(away) <= min(tolerance, spread / 2)) stats::median(away) / spread else Inf
-  }, 0)
-  if (any(is.finite(misfit))) words[which.min(misfit)]
-}
-
-# Positive where (left, up, front) is right-handed, as in life; negative where mirrored; 0 where it
-# cannot be told. Left: from names ...R to names ...L; up: along the midline; front: the normals there.
-handedness <- function(landmarks, located, mesh, midline) {
-  name <- rownames(landmarks)[!is.na(landmarks[, 1])]
-  left <- name[grepl("L$", name) & sub("L$", "R", name) %in% name]
-  middle <- midline[midline %in% name]
-  if (!length(left) || length(middle) < 2) return(0)
-  across <- colSums(landmarks[left, , drop = FALSE] - landmarks[sub("L$", "R", left), , drop = FALSE])
-  up <- landmarks[middle[1], ] - landmarks[middle[length(middle)], ]
-  face <- located$face[match(c(left, sub("L$", "R", left), middle), rownames(landmarks))]
-  front <- colSums(t(mesh$normals[1:3, mesh$it[, face]]))
-  sides <- cbind(across, up, front)
-  sign(det(sweep(sides, 2, pmax(sqrt(colSums(sides^2)), .Machine$double.xmin), "/")))
-}
-
-warn_mirrored <- function(id) {
-  crestline_warn(
-    paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
-          "should be on the viewer's right (the subject's own left)."),
-    paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
-          "change the sign of x of mesh and landmarks."),
-    stage = "landmarks", id = id, class = "crestline_mirrored"
+  turns <- axis_turns()
+  turned <- vapply(turns, function(turn) det(turn) > 0, NA)
+  units <- lapply(c(factors, 1 / factors), diag, 3)
+  words <- c(paste("multiplied by", factors), paste("divided by", factors))
+  both <- expand.grid(unit = seq_along(units), turn = which(turned))
+  kinds <- list(
+    list(change = units, words = words), list(change = turns[turned], words = turn_words(turns[turned])),
+    list(change = turns[!turned], words = turn_words(turns[!turned])),
+    list(change = Map(function(i, j) units[[i]] %*% turns[[j]], both$unit, both$turn),
+         words = paste(words[both$unit], "and", turn_words(turns)[both$turn]))
   )
+  for (kind in kinds) {
+    near <- utils::head(order(centre_misfits(kind$change, given, mesh)), tried)
+    misfit <- vapply(kind$change[near], surface_misfit, 0, given, mesh, tolerance)
+    if (any(is.finite(misfit))) return(kind$words[near[which.min(misfit)]])
+  }
+}
+
+#' The 47 ways to exchange axes and turn their signs, as matrices for points in rows
+#' @noRd
+axis_turns <- function() {
+  orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
+  signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
+  all <- unlist(lapply(orders, function(order) lapply(seq_len(8), function(i) diag(3)[, order] %*% diag(signs[i, ]))),
+                recursive = FALSE)
+  all[-1]
+}
+
+turn_words <- function(turns) {
+  vapply(turns, function(turn) {
+    from <- apply(turn != 0, 2, which)
+    axes <- paste0(ifelse(turn[cbind(from, 1:3)] < 0, "-", ""), c("x", "y", "z")[from], collapse = ", ")
+    if (axes == "-x, -y, z") return("with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
+    sprintf("with their axes turned, as (%s)%s", axes,
+            if (det(turn) < 0) ": a mirror image" else if (grepl("^-?x, -?z", axes)) ": here y, there z points up" else "")
+  }, "")
+}
+
+#' Median distance from the nearest centre of a triangle after each change, as a share of the spread
+#' @noRd
+centre_misfits <- function(changes, given, mesh) {
+  moved <- lapply(changes, function(change) given %*% change)
+  centre <- face_centres(mesh)
+  at <- do.call(rbind, moved)
+  away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]), nrow(given))
+  apply(away, 2, stats::median) / vapply(moved, spread_of, 0)
+}
+
+spread_of <- function(xyz) sqrt(sum(apply(xyz, 2, stats::var)))
+
+#' The same from the surface; Inf where that is too much
+#' @noRd
+surface_misfit <- function(change, given, mesh, tolerance) {
+  moved <- given %*% change
+  away <- stats::median(row_lengths(as.matrix(surface_points(mesh, moved)[1:3]) - moved))
+  spread <- spread_of(moved)
+  if (away <= min(tolerance, spread / 2)) away / spread else Inf
 }
 
 mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)

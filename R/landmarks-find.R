@@ -26,9 +26,13 @@
 #'     the mesh;
 #'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor to the template's
 #'     unit), `scale` (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (the triangles
-#'     faced the other way), `doubtful` (score above the setting `poor`), `template`.
+#'     faced the other way), `doubtful` (the share of found landmarks with little confidence is above the setting `wrong`),
+#'     `template`.
 #' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score
 #'   above the setting `refuse`).
+#' @section Warnings: of class `crestline_doubtful_placing`, where most landmarks have little confidence (settings `low`,
+#'   `wrong`): most likely the scan is not the object, or not whole enough. [quality()] then grades nothing green. A single
+#'   landmark with little confidence is told by `print()`, and graded amber with the curves that end there.
 #' @references The paper, section 7.
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
@@ -48,10 +52,16 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads, unit)
   placed <- carried_landmarks(prepared, template, scan, laid)
-  if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
-  with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
-                                  rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
-                                  doubtful = laid$score > settings$poor, template = template$id))
+  if (laid$inverted) {
+    turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
+    scan <- with_fields(turned, file = scan$file)
+  }
+  doubt <- placing_doubt(placed, settings$low)
+  found <- with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
+                                           rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
+                                           doubtful = doubt$share > settings$wrong, template = template$id))
+  if (found$match$doubtful) warn_doubtful(doubt, found)
+  found
 }
 
 #' The template laid on a scan, or an error where it does not fit
@@ -59,7 +69,7 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
 #' @noRd
 laid_template <- function(prepared, template, scan, settings, threads, unit = NULL) {
   unit <- if (is.null(unit)) {
-    10^round(log10(mesh_diagonal(template$specimen$mesh) / mesh_diagonal(scan$mesh)))
+    10^round(log10(specimen_size(template$specimen) / specimen_size(scan)))
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }
@@ -87,7 +97,7 @@ with_placing <- function(scan, placing, match) {
   scan$geometry[c("landmarks", "located")] <- placed[c("landmarks", "located")]
   scan$placing <- placing
   scan$match <- match
-  scan
+  with_origin(scan, placing$landmark, ifelse(placing$state == "absent", NA, placing$state))
 }
 
 #' The template's landmarks carried to a scan, with what speaks for each

@@ -37,7 +37,7 @@
 #'   definition builds on); `distance`, how far the landmark would move; `value`, the curvature that is extreme there
 #'   (NA for a crossing); `moved`; `given_x`, `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`,
 #'   `w1`, `w2`, `w3`, the defined place, on the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its
-#'   `landmarks` are moved.
+#'   `landmarks` are moved, and their places in `placing`, where it has that: what was doubted before still is.
 #' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any of their
 #'   landmarks, `move` that names others.
 #' @references The paper, section 7.
@@ -68,14 +68,18 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
   for (i in which(refinement$moved)) {
     specimen <- with_landmark_at(specimen, refinement$landmark[i], refinement[i, mesh_columns])
+    if (!is.null(specimen$placing)) {
+      specimen$placing <- placing_at(specimen$placing, refinement$landmark[i], refinement[i, c("x", "y", "z")])
+    }
   }
   specimen$refinement <- refinement
-  specimen
+  with_origin(specimen, refinement$landmark[refinement$moved], "defined")
 }
 
 definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme() or face_scheme()", call = call)
-  definitions <- scheme_in_unit(scheme, unit, specimen)$definitions
+  scheme <- scheme_in_unit(scheme, unit, specimen)
+  definitions <- scheme$definitions
   if (!NROW(definitions)) {
     crestline_abort(sprintf("the scheme %s has no definitions of landmarks.", scheme$name),
                     "Give curve_scheme() a table `definitions`.", stage = "scheme", call = call)
@@ -84,6 +88,7 @@ definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
     refuse_landmarks(sprintf("it has none of the landmarks that %s defines.", scheme$name),
                      near_names(definitions$landmark[1], rownames(specimen$landmarks)), specimen$id)
   }
+  check_scale(specimen, scheme, call = call)
   definitions
 }
 
@@ -160,10 +165,10 @@ located_place <- function(specimen, definition, given, inputs, pairs, curvature,
   if (anyNA(start) || anyNA(inputs)) return(list(state = "missing", reason = "a landmark is missing"))
   place <- defined_place(specimen, definition, start, pairs, curvature, settings)
   if (!is.null(place$reason)) {
-    return(list(state = "none", reason = place$reason, point = point_near(specimen$mesh, start, definition$radius)))
+    return(list(state = "none", reason = place$reason, point = surface_points(specimen$mesh, matrix(start, 1))))
   }
   place$state <- "found"
-  place$point <- point_near(specimen$mesh, place$at, definition$radius)
+  place$point <- surface_points(specimen$mesh, matrix(place$at, 1))
   place
 }
 

@@ -140,7 +140,7 @@ chosen_html <- function(review) {
 
 looks_mirrored <- function(specimen) {
   known <- specimen$geometry
-  handedness(known$landmarks, known$located, specimen$mesh, eval(formals(crestline::specimen)$midline)) < 0
+  slips_by_name(known$landmarks, known$located, specimen$mesh, eval(formals(crestline::specimen)$midline))$mirrored
 }
 
 #' The list of landmarks: a row a landmark, with its state

@@ -15,7 +15,7 @@
 #'     ones; `tight`, `loose`: bounds of the scale at first and where the fit is poor;
 #'   * `cosine`: least cosine of the angle between normals of points that are matched;
 #'   * `saturation`: distance from which on a point of the template counts as not matched in the score; `poor`: score
-#'     above which other ways are tried and the answer is doubted; `refuse`: above which there is none;
+#'     above which other ways are tried and confidence is lowered; `refuse`: above which there is none;
 #'   * `left_over`: weight of the share of the scan that has no like in the template, against the share of the template
 #'     without one in the scan, when poses are compared;
 #'   * `kernel_length`, `kernel_sd`: lengths and standard deviations of the Gaussian processes that make the displacement;
@@ -30,6 +30,9 @@
 #'     scan lacks adds; `near`: radius of what is about a landmark, at least so many points of the template as `about`; `lost`:
 #'     share of points without a match about a landmark at which its place is missing; `slip`: distance along the surface, in
 #'     units of `cluster`, from which on a match is none;
+#'   * `low`: confidence below which a found landmark is doubted; `wrong`: share of the found landmarks that are doubted
+#'     from which on the answer as a whole is. On 42 faces that are found right it is at most 0.47, on two that are found
+#'     wrong and on objects that are no face at least 0.68 (`bench/README.md`);
 #'   * `fewest`: matches without which the template is not bent.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not numeric.
@@ -44,14 +47,14 @@ find_settings <- function(...) {
                    kernel_length = c(60, 30, 15), kernel_sd = c(4, 2.5, 1.5), affine = 5, uneven = 0.3, rank = 220,
                    weight = 80, warp_reach = c(15, 6), warp_steps = 15, error = 3, robust = 1.5, along = 0.1,
                    points = 2500, thin = 200,
-                   moved = 2, off = 2.5, vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2, fewest = 30)
+                   moved = 2, off = 2.5, vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2, low = 0.5, wrong = 0.6, fewest = 30)
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))
   if (length(unknown) || (length(change) && is.null(names(change)))) {
     crestline_abort(sprintf("there is no setting %s.", paste0("\"", unknown, "\"", collapse = ", ")),
                     paste0("Settings are: ", paste(names(settings), collapse = ", "), "."), stage = "arguments")
   }
-  may_be_none <- c("cap", "affine", "uneven", "weight", "along", "left_over", "lost", "cosine")
+  may_be_none <- c("cap", "affine", "uneven", "weight", "along", "left_over", "lost", "cosine", "low")
   for (name in names(change)) {
     value <- change[[name]]
     size <- length(settings[[name]])

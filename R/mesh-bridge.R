@@ -5,7 +5,7 @@
 #' A fan of triangles about its centre is laid over every loop of the border that is not too large. The mesh's own
 #' vertices and faces keep their numbers.
 #'
-#' @param largest Diagonal of the bounding box of a hole, as a share of that of the mesh, up to which it is bridged.
+#' @param largest Diagonal of the bounding box of a hole, as a share of the object's size ([mesh_size()]), up to which it is bridged.
 #' @return The specimen, with more vertices and faces where there are such holes.
 #' @noRd
 bridge_holes <- function(specimen, largest) {
@@ -13,7 +13,7 @@ bridge_holes <- function(specimen, largest) {
   corners <- lapply(cpp_border_loops(specimen$geometry$twin), function(loop) simple_loops(mesh$it[loop]))
   corners <- unlist(corners, recursive = FALSE)
   size <- vapply(corners, function(loop) box_diagonal(mesh$vb[1:3, loop, drop = FALSE]), 0)
-  holes <- corners[lengths(corners) >= 3 & size > 0 & size <= largest * mesh_diagonal(mesh)]
+  holes <- corners[lengths(corners) >= 3 & size > 0 & size <= largest * specimen_size(specimen)]
   if (!length(holes)) return(specimen)
   centre <- ncol(mesh$vb) + seq_along(holes)
   middle <- function(x) vapply(holes, function(loop) rowMeans(x[, loop, drop = FALSE]), numeric(nrow(x)))
@@ -43,7 +43,7 @@ simple_loops <- function(loop) {
 
 #' Diagonal of the bounding box of points, 3 x n
 #' @noRd
-box_diagonal <- function(xyz) sqrt(sum(vapply(1:3, function(i) diff(range(xyz[i, ])), 0)^2))
+box_diagonal <- function(xyz) cpp_box_diagonal(xyz)
 
 #' A path without its parts on bridges: straight from rim to rim
 #' @noRd
@@ -56,5 +56,6 @@ unbridged_path <- function(path, specimen) {
   landing <- which(bridge & !c(bridge[-1], TRUE))
   path[landing, mesh_columns] <- surface_points(mesh, as.matrix(path[landing, c("x", "y", "z")]))
   kept <- sort(c(which(!bridge), landing))
+  # Its arc lengths stay those of the way over the bridges, along which it was measured.
   new_mesh_path(lapply(unclass(path)[c("s", mesh_columns)], `[`, kept), attr(path, "length"), attr(path, "key"), attr(path, "id"))
 }

@@ -7,7 +7,8 @@
 #' neighbouring fits share. The chain of derivatives is followed through all of them; the
 #' heights' errors are independent with the residual standard deviation of each local fit. The
 #' result is inflated by `settings$inflation`, and the change of the line when lambda is
-#' divided by ten stands for its bias.
+#' divided by ten stands for its bias. Near an end, which is fixed, the offset is at most as large as the way from there,
+#' and so is its error.
 #'
 #' @param specimen The mesh.
 #' @param coordinates,surface,line The stages of the fit.
@@ -33,7 +34,8 @@ ridge_error <- function(specimen, coordinates, surface, line, strength, scale, r
   )
   loose <- ridge_line(surface, scale, radius, loosen(settings))
   bias <- line$alpha - loose$alpha
-  c(0, sqrt(settings$inflation^2 * variance + bias[-c(1, length(bias))]^2), 0)
+  error <- c(0, sqrt(settings$inflation^2 * variance + bias[-c(1, length(bias))]^2), 0)
+  pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)
 }
 
 #' Settings with a tenth of the roughness penalty

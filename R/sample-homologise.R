@@ -36,7 +36,8 @@
 #'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
 #'   not there.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
+#'   `crestline_cut_scale`, when curves were cut off at different shares (`cut_scale`), with the one to measure all by.
 #' @references The paper, section 4; departures: [slide_settings()], and the gauge.
 #' @examples
 #' \donttest{
@@ -63,6 +64,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
                        progress = interactive()) {
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
+  warn_cut_scales(shapes, "homologise")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
   rounds <- check_count(rounds, "rounds", lower = 0)
@@ -82,7 +84,12 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     tick()
     finish_slide(shape, cut, plan, specimen_of(shape, specimens))
   }, shapes, cuts)
-  new_sample(slid, found$template, found$convergence)
+  slid <- lapply(slid, function(shape) {
+    shape$specimen <- NULL
+    shape
+  })
+  provenance <- sample_provenance(found$template, plan, list(tolerance = tolerance, rounds = rounds))
+  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
@@ -116,7 +123,8 @@ measured <- function(batch) {
 }
 
 specimens_in_files <- function(x) {
-  if (inherits(x, "shape_batch") && length(unlist(attr(x, "files")))) function(id) x[[id]]$specimen
+  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
+  if (kept) function(id) x[[id]]$specimen
 }
 
 #' @param specimens As in [homologise()].

@@ -20,7 +20,8 @@ most_points <- 1e5
 
 scheme_columns <- list(
   landmarks = list(
-    landmark = column("text", TRUE), name = column("text"), where = column("text")
+    landmark = column("text", TRUE), name = column("text"), where = column("text"),
+    x = column("number"), y = column("number"), z = column("number")
   ),
   curves = list(
     curve = column("text", TRUE), from = column("text", TRUE), to = column("text", TRUE),

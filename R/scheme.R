@@ -6,7 +6,8 @@
 #' one. The tables are checked as a whole; a mistake is named by table, row and column.
 #'
 #' @param landmarks Data frame, a row a landmark: `landmark` (its name); if wanted `name` and `where` (words for the
-#'   reader).
+#'   reader), and `x`, `y`, `z`: where it lies on a typical object, in the scheme's unit, in any pose. By them [fit_shape()]
+#'   sees that a specimen is in another unit, and which landmarks are exchanged.
 #' @param curves Data frame, a row a curve from one landmark to another:
 #'   * `curve` (its name, without `[ ] + |`), `from`, `to` (landmarks), `kind` ("ridge", "valley" or "plane": the
 #'     shortest plane cut), `n` (points at equal chords, both ends counted);
@@ -120,6 +121,7 @@ new_curve_scheme <- function(name, tables, points, triangles) {
 #' Refuse a scheme whose tables lack columns, or do not fit each other
 #' @noRd
 validate_curve_scheme <- function(x) {
+  if (passed_lately(x, "curve_scheme")) return(invisible(x))
   refuse <- function(problem) {
     crestline_abort(problem, "Make it anew: curve_scheme() of its tables, as.data.frame(scheme, table).", stage = "scheme",
                     class = "crestline_scheme_error", call = NULL)
@@ -136,8 +138,10 @@ validate_curve_scheme <- function(x) {
     refuse("the scheme's `points` are not those of its landmarks, curves and patches.")
   }
   corner <- unlist(x$triangles[c("v1", "v2", "v3")])
-  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) refuse("the scheme's `triangles` name points that it does not have.")
-  invisible(x)
+  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) {
+    refuse("the scheme's `triangles` name points that it does not have.")
+  }
+  remember_passed(x, "curve_scheme")
 }
 
 #' @exportS3Method
@@ -236,6 +240,7 @@ scheme_in_unit <- function(scheme, unit, specimen) {
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   check_number(unit, "unit", 0, open = TRUE)
   if (unit == 1) return(scheme)
+  scheme$landmarks[c("x", "y", "z")] <- scheme$landmarks[c("x", "y", "z")] / unit
   for (table in c("curves", "definitions")) {
     lengths <- intersect(c("radius", "width", "reach"), names(scheme[[table]]))
     scheme[[table]][lengths] <- scheme[[table]][lengths] / unit

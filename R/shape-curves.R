@@ -7,7 +7,7 @@
 #' @param given Fits of curves that are not to be found, see [given_fits()].
 #' @param tick Called after every curve.
 #' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA
-#'   where the mesh ends before), `path`, `length`, `strength`, `contrast`, `se`, `competing`, `determined`, `cut` (of curves
+#'   where the mesh ends before), `path`, `length`, `strength`, `contrast`, `se`, `se_max`, `competing`, `determined`, `cut` (of curves
 #'   that are cut off: their share of the length asked for), `guessed` (of these: whether way or length did without a
 #'   landmark on the mesh), `reason` (NA where there is nothing to say) or, where it
 #'   failed, of `reason` alone.
@@ -118,9 +118,12 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
     fit_curved(row, specimen, sources[[as.character(row$radius)]], fits, settings, passes)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
-       strength = curve$strength, contrast = curve_contrast(curve), se = curve$se,
+       strength = curve$strength, contrast = curve_contrast(curve), se = curve$se, se_max = largest(curve$points$se),
        competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined, reason = curve$reason)
 }
+
+#' @noRd
+largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
 
 #' A ridge or valley with the constraints of its row
 #' @noRd

@@ -28,6 +28,37 @@ cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
   fits
 }
 
+#' The `cut_scale` that a shape was measured with; NA where no curve was cut off
+#' @noRd
+asked_cut_scale <- function(shape) {
+  curves <- shape$scheme$curves
+  at <- list(landmarks = coords(shape, "landmarks"))
+  checks <- shape$checks[shape$checks$level == "curves" & !is.na(shape$checks$cut), ]
+  each <- vapply(intersect(checks$part, names(shape$tracks)), function(name) {
+    row <- curves[match(name, curves$curve), ]
+    ends <- landmark_places(at, c(row$cut_from, row$cut_to))
+    kept <- shape$tracks[[name]]$kept / checks$cut[match(name, checks$part)]
+    kept / (row$cut_share * sqrt(sum((ends[1, ] - ends[2, ])^2)))
+  }, 0)
+  if (all(is.na(each))) NA_real_ else stats::median(each, na.rm = TRUE)
+}
+
+#' Tell of shapes that were measured with different `cut_scale`s
+#' @param apart Least relative difference that is told.
+#' @noRd
+warn_cut_scales <- function(shapes, stage, apart = 0.02) {
+  scale <- vapply(unname(shapes), asked_cut_scale, 0)
+  ids <- vapply(unname(shapes), `[[`, "", "id")[!is.na(scale)]
+  scale <- scale[!is.na(scale)]
+  if (length(scale) < 2 || min(scale) >= (1 - apart) * max(scale)) return(invisible())
+  far <- order(-abs(log(scale / stats::median(scale))))
+  crestline_warn(
+    sprintf("the curves were cut off by different factors (`cut_scale`): %s.", shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
+    sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.3g), then homologise().", min(scale)),
+    stage = stage, class = "crestline_cut_scale"
+  )
+}
+
 #' A fit with more to say; one that failed has said why
 #' @noRd
 add_note <- function(fit, notes) {
@@ -169,7 +200,7 @@ cut_curve <- function(mesh, fit, length, n) {
   if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
   points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
   rownames(points) <- NULL
-  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se),
+  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se), se_max = largest(se),
               track = list(path = fit$path, start = start, kept = length))
   fit[names(cut)] <- cut
   add_note(fit, if (placed < n) ended)

@@ -27,7 +27,7 @@
 #'   them, another gets points at equal chords. The other curves are found as ever.
 #' @param cut_scale Factor on the shares at which curves are cut off (no unit): to give several specimens the same smaller
 #'   one. Lowered where a curve is too short for it.
-#' @param bridge Holes up to this size (diagonal of the bounding box, as a share of that of the mesh) are bridged by
+#' @param bridge Holes up to this size (diagonal of the bounding box, as a share of the object's size) are bridged by
 #'   flat triangles, so that curves and columns run on where the surface would be; their points there are missing. With 0
 #'   they run round holes, as they do round larger ones.
 #' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
@@ -49,7 +49,7 @@
 #'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `contrast` (strength over the mean strength
 #'     beside the curve, in its window but farther than `settings$core` radii from it: 1, no more than its surroundings),
 #'     `se` (median), `competing` (how good the best other reference path is, as a share of the one chosen: near 1, a
-#'     rival; NA: none);
+#'     rival; NA: none), `se_max` (largest standard error at its points);
 #'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`, `level`, `missing`
 #'     (share of the points); of curves `determined` (by curvature, see [ridge_curve()]; NA where there is no point but
 #'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `guessed`
@@ -59,7 +59,8 @@
 #'     (mean angle in degrees between the normals of its triangles and those at their corners), `edge` (mean edge of its
 #'     triangles), `border` (distance to the nearest border that is not bridged, but for the ends of a curve), `spike`
 #'     (distance within which there are four triangles with such an angle above 30 degrees); lengths in the unit of the
-#'     mesh, Inf where there is none;
+#'     mesh, Inf where there is none; of landmarks `state` and `confidence` (of [find_landmarks()], NA where they were
+#'     given) and `exchanged` (what other landmark it looks exchanged with, text);
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
 #'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
@@ -78,9 +79,18 @@
 #'     pair, that through the landmarks of the middle.
 #'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
 #'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
+<<<<<<< HEAD
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
 #' @section Warnings: of class `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one
 #'   of another name that may be meant (`prn` for `pn`, `CHL` for `chL`).
+=======
+#' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
+#'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
+#' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left
+#'   and right of all pairs). [quality()] grades them, and the curves that end there, red. Of class
+#'   `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one of another name that may
+#'   be meant (`prn` for `pn`, `CHL` for `chL`).
+>>>>>>> objects
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -97,6 +107,8 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  named <- scheme
+  if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme)
   warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
@@ -105,25 +117,29 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   column <- check_column(column_angle, column_angles, column_reach)
   column$bridge <- check_number(bridge, "bridge", 0, 1)
   scan <- with_located(specimen)
+  if (!is.null(scan$placing)) scan$placing <- current_placing(scan)
   specimen <- bridge_holes(scan, column$bridge)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scan, scheme, curves, column)
+  slips <- scheme_slips(scan, scheme)
   fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
                      shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
-                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan)
+                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan,
+                     provenance = shape_provenance(scan, named, unit, measured_with(settings, passes, cut_scale, column, curves)))
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
-  shape <- note_faults(shape, faults)
-  shape$checks <- shape_checks(shape, scan, specimen, fits, faults)
+  shape <- note_slips(note_faults(shape, faults), slips)
+  shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults), landmark_checks(shape, scan$placing, slips))
   shape
 }
 
-#' Names that are all foreign, and lengths in another unit, would give a shape of nothing
+#' The arguments that a shape was measured with, for its provenance
 #' @noRd
+<<<<<<< HEAD
 check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
   wanted <- scheme$landmarks$landmark
   if (!any(wanted %in% rownames(specimen$landmarks))) {
@@ -143,6 +159,12 @@ check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
                     "Is the mesh in another unit? For a scan in metres and a scheme in mm give `unit = 1000`.",
                     stage = "curvature", id = specimen$id, call = call)
   }
+=======
+measured_with <- function(settings, passes, cut_scale, column, curves) {
+  list(ridge = lapply(unclass(settings), identity),
+       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
+                  column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
+>>>>>>> objects
 }
 
 check_column <- function(column_angle, column_angles, column_reach) {
@@ -166,6 +188,7 @@ fit_scheme_landmarks <- function(specimen, scheme) {
   reason <- stats::setNames(rep(NA_character_, length(names)), names)
   for (name in names) {
     found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) sub("\\.$", "", e$problem))
+    if (is.character(found)) found <- c(left_out_reason(specimen, name), found)[1]
     if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else reason[name] <- found
   }
   near <- attr(unused_names(specimen$landmarks, scheme), "near")
@@ -214,11 +237,12 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
     data.frame(part = part, level = rep(level, length(part)), kind = kind, ok = ok, reason = reason,
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
                contrast = rep(NA_real_, length(part)), se = rep(NA_real_, length(part)),
-               competing = rep(NA_real_, length(part)))
+               competing = rep(NA_real_, length(part)),
+               se_max = rep(NA_real_, length(part)))
   }
   whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
   curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole, vapply(fits, `[[`, "", "reason"))
-  measures <- c("length", "strength", "contrast", "se", "competing")
+  measures <- c("length", "strength", "contrast", "se", "competing", "se_max")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
     lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)), is.na(landmark_reasons),

@@ -39,7 +39,7 @@ given_fit <- function(row, xyz, specimen, surface, column, tolerance = 0.01) {
   knots <- surface_points(specimen$mesh, xyz)
   place <- as.matrix(knots[c("x", "y", "z")])
   off <- row_lengths(place - xyz)
-  knots[off > tolerance * mesh_diagonal(specimen$mesh) | c(row_lengths(diff(place)) == 0, FALSE), ] <- NA
+  knots[off > tolerance * specimen_size(specimen) | c(row_lengths(diff(place)) == 0, FALSE), ] <- NA
   if (!is.null(ends$from)) knots[1, ] <- ends$from
   if (!is.null(ends$to)) knots[nrow(knots), ] <- ends$to
   joined <- join_knots(as.matrix(knots), specimen, surface, column)
@@ -51,7 +51,7 @@ given_fit <- function(row, xyz, specimen, surface, column, tolerance = 0.01) {
   if (joined$first > 1) said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first, row$n, joined$problem)
   list(points = cbind(points[c(mesh_columns, "s")], se = NA_real_), path = joined$path,
        length = attr(joined$path, "length"), strength = NA_real_, contrast = NA_real_, se = NA_real_,
-       competing = NA_real_, determined = NA, reason = said)
+       se_max = NA_real_, competing = NA_real_, determined = NA, reason = said)
 }
 
 #' A landmark on the mesh, NULL where it is missing

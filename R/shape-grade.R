@@ -12,8 +12,11 @@ grade_parts <- function(parts, scores, limits, scheme) {
   curves <- parts$level == "curves"
   parts$z[curves] <- scores[parts$part[curves]]
   judged <- judge_parts(parts, limits, scheme)
-  level <- do.call(pmax, lapply(judged, `[[`, "level"))
-  bounds <- judge_bounds(parts, level, scheme)
+  judged <- c(judged, judge_landmarks(parts, limits, scheme))
+  levels <- lapply(judged, `[[`, "level")
+  level <- do.call(pmax, levels)
+  # One uncertain place of a curve is no reason to look at all of a patch.
+  bounds <- judge_bounds(parts, do.call(pmax, levels[names(judged) != "se_max"]), scheme)
   judged <- c(judged, list(bounds))
   level <- pmax(level, bounds$level)
   why <- vapply(seq_along(level), function(i) {
@@ -49,6 +52,8 @@ judge_parts <- function(parts, limits, scheme) {
     flag(parts$determined %in% FALSE, "undetermined"),
     flag(parts$guessed %in% TRUE, "guessed"),
     judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius), own(parts$se / parts$radius)),
+    se_max = judge("se_max", sprintf("its standard error is %.2g radii at one place", parts$se_max / parts$radius),
+          own(parts$se_max / parts$radius)),
     judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing), own(parts$competing)),
     judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast), own(parts$contrast)),
     judge("z", sprintf("its length is off the others' (z = %.1f)", parts$z), abs(parts$z)),
@@ -62,6 +67,46 @@ judge_parts <- function(parts, limits, scheme) {
     judge("cut", NA),
     judge("faults", NA)
   )
+}
+
+#' What is doubted of landmarks, and so of the curves that end there; where most are, of all parts
+#'
+#' @return List of checks, as of [judge_parts()].
+#' @noRd
+judge_landmarks <- function(parts, limits, scheme) {
+  marks <- parts$level == "landmarks"
+  as_level <- function(bad, name) ifelse(bad, match(limits[[name]], grades) - 1, 0)
+  low <- level_beyond(parts$confidence, limits$confidence, TRUE) * (parts$state %in% "found")
+  checks <- list(
+    exchanged = list(level = as_level(!is.na(parts$exchanged), "exchanged"), text = parts$exchanged),
+    low = list(level = low, text = sprintf("it was found with a confidence of %.2f only", parts$confidence)),
+    predicted = list(level = as_level(parts$state %in% "predicted", "predicted"),
+                     text = rep("it is predicted by the other landmarks", nrow(parts)))
+  )
+  ends <- lapply(checks, judge_ends, parts, scheme)
+  of <- sum(parts$state %in% c("found", "placed"))
+  share <- if (any(parts$state %in% "found")) sum(low > 0) / of else 0
+  all <- list(level = rep(level_beyond(share, limits$doubtful, FALSE), nrow(parts)),
+              text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0), of), nrow(parts)))
+  # A landmark's own reason says already that it looks exchanged.
+  checks$exchanged$text[marks] <- NA
+  unname(c(checks, ends, list(all)))
+}
+
+#' A check of landmarks as it concerns the curves that end there
+#' @noRd
+judge_ends <- function(check, parts, scheme) {
+  level <- numeric(nrow(parts))
+  text <- rep(NA_character_, nrow(parts))
+  marks <- which(parts$level == "landmarks" & check$level > 0)
+  for (i in which(parts$level == "curves")) {
+    row <- match(parts$part[i], scheme$curves$curve)
+    at <- marks[parts$part[marks] %in% unlist(scheme$curves[row, c("from", "to")])]
+    if (!length(at)) next
+    level[i] <- max(check$level[at])
+    text[i] <- paste(sprintf("it ends on %s: %s", parts$part[at], check$text[at]), collapse = "; ")
+  }
+  list(level = level, text = text)
 }
 
 per_cent <- function(share, least = 0.1) {

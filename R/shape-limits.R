@@ -10,6 +10,9 @@
 #'   * `missing`: share of the part's points that are not there;
 #'   * `se`: median standard error across a curve, in radii of its curvature estimate (0.2 is where [ridge_settings()]
 #'     calls a curve not determined);
+#'   * `se_max`: largest standard error across a curve, in radii;
+#'   * `doubtful`: share of the found landmarks whose confidence is below the first limit of `confidence`: of all parts of
+#'     a specimen;
 #'   * `competing`: how good the best other reference path is, as a share of the one chosen;
 #'   * `z`: size of the z-score of the length against other specimens;
 #'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner, as a share of its length;
@@ -20,6 +23,7 @@
 #'   * `faults`: number of flipped, doubled or crossing triangles of a patch;
 #'
 #'   and below
+#'   * `confidence`: of a landmark that [find_landmarks()] found, and of the curves that end there;
 #'   * `contrast`: mean strength along a curve over that beside it;
 #'   * `cut`: what was left of a curve that the scheme cuts off, as a share of what was asked for;
 #'   * `border`: distance from a border of the mesh or of a hole, as a share of the part's size (a curve's length, the
@@ -29,6 +33,9 @@
 #' @param undetermined What curves are that curvature does not determine: "green", "amber" or "red".
 #' @param guessed What curves are whose way or length had to do without a landmark on the mesh (see [fit_shape()]):
 #'   "green", "amber" or "red".
+#' @param exchanged What landmarks are that look exchanged with another, and the curves that end there: "green", "amber" or "red".
+#' @param predicted What landmarks are that [find_landmarks()] predicts (those at the ears: 10 mm off on average), and
+#'   the curves that end there: "green", "amber" or "red".
 #' @param others Fewest other specimens for a z-score.
 #' @param spread Least spread of a length across specimens (as a share of it) that z-scores count with, so that a
 #'   sample of nearly equal specimens flags nobody.
@@ -37,8 +44,10 @@
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))
 #' @export
-quality_limits <- function(..., undetermined = "amber", guessed = "amber", others = 10, spread = 0.01) {
-  limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
+quality_limits <- function(..., undetermined = "amber", guessed = "amber", exchanged = "red", predicted = "amber",
+                           others = 10, spread = 0.01) {
+  limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), se_max = c(0.8, Inf), doubtful = c(0.6, Inf), confidence = c(0.5, -Inf),
+                 competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
                  roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2), faults = c(0, Inf),
                  contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.07, 0.02))
   change <- list(...)
@@ -50,13 +59,15 @@ quality_limits <- function(..., undetermined = "amber", guessed = "amber", other
   for (name in names(change)) limits[[name]] <- check_limit(change[[name]], name, name %in% small_is_bad)
   structure(c(limits, list(undetermined = check_choice(undetermined, grades, "undetermined"),
                            guessed = check_choice(guessed, grades, "guessed"),
+                           exchanged = check_choice(exchanged, grades, "exchanged"),
+                           predicted = check_choice(predicted, grades, "predicted"),
                            others = check_count(others, "others", lower = 2),
                            spread = check_number(spread, "spread", lower = 0))),
             class = "quality_limits")
 }
 
 grades <- c("green", "amber", "red")
-small_is_bad <- c("contrast", "cut", "border", "spike")
+small_is_bad <- c("confidence", "contrast", "cut", "border", "spike")
 
 check_limit <- function(x, name, falling, call = rlang::caller_env()) {
   ordered <- is.numeric(x) && length(x) == 2 && !anyNA(x) && (if (falling) x[1] >= x[2] else x[1] <= x[2])
@@ -75,6 +86,7 @@ print.quality_limits <- function(x, ...) {
   side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")
   cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1), vapply(pairs, `[`, 0, 2)), sep = "")
   cat(sprintf("  not determined by curvature: %s; without a landmark on the mesh: %s\n", x$undetermined, x$guessed))
+  cat(sprintf("  landmarks exchanged: %s; predicted: %s\n", x$exchanged, x$predicted))
   cat(sprintf("  z-scores against at least %d others, with a spread of at least %g\n", x$others, x$spread))
   invisible(x)
 }

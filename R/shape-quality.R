@@ -6,9 +6,12 @@
 #' judges by what the fit says of itself (curvature does not determine the curve, another path is as good, points are
 #' missing), by the mesh about the part (noise, spikes, holes, coarse triangles: see `checks` of [fit_shape()]), by the
 #' mirror image of its partner where the scheme has pairs, and, of several specimens, by the lengths of the others. A
-#' patch is at least amber where a curve that bounds it is not green: its points hang on that curve.
+#' patch is at least amber where a curve that bounds it is not green: its points hang on that curve. So is a curve that ends on
+#' a landmark that was found with little confidence or predicted; on one that looks exchanged with another it is red. Where
+#' most found landmarks have little confidence nothing is green.
 #'
-#' What it cannot see: a landmark in the wrong place, unless lengths or symmetry tell; a smooth error
+#' What it cannot see: a landmark placed by hand that is in the wrong place, unless lengths, symmetry or the order of
+#' landmarks tell; a smooth error
 #' of the scan; a feature that is not the one meant.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it has any, name the
@@ -29,9 +32,11 @@
 #'   * `grade`: ordered factor green < amber < red;
 #'   * `why`: text, NA where there is nothing to say.
 #'
-#'   A specimen that could not be measured is one row with level "specimen", red. `print()` gives the counts and the
-#'   worst parts, `summary()` a data frame with a row for each specimen: `specimen`, and the number of parts that are
-#'   `green`, `amber`, `red`.
+#'   A specimen that could not be measured is one row with level "specimen", red; one that was warned of while it was
+#'   measured (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the
+#'   worst parts, and the specimens whose landmarks were found and not placed by hand; `summary()` a data frame with a row for each
+#'   specimen: `specimen`, the number of parts that are `green`, `amber`, `red`, and `landmarks` ("found" or "placed"; NA
+#'   where it could not be measured).
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
 #' @seealso [quality_report()] for a page with pictures.
 #' @examples
@@ -51,12 +56,18 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   parts <- Map(part_measures, measured, names(measured))
   scores <- sample_scores(measured, if (!is.null(others)) named_shapes(others, "others"), limits)
   parts <- Map(function(part, name) grade_parts(part, scores[name, ], limits, measured[[name]]$scheme), parts, names(parts))
+  noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
   lost <- lapply(setdiff(names(shapes), names(measured)), lost_specimen)
-  table <- do.call(rbind, c(unname(parts), lost))
+  table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
   rownames(table) <- NULL
-  structure(table, class = c("shape_quality", "data.frame"))
+  found <- vapply(measured, has_found, NA)
+  structure(table, found = names(measured)[found], class = c("shape_quality", "data.frame"))
 }
+
+#' Whether landmarks of a shape were found by [find_landmarks()], and not all corrected by hand since
+#' @noRd
+has_found <- function(shape) any(shape$placing$state == "found")
 
 #' A list of shapes by name of specimen; every name once
 #' @noRd
@@ -74,7 +85,8 @@ named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
 #' What is known of every part of one shape, before it is judged
 #'
 #' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`, `guessed`,
-#'   `size`, `free` (whether a curve has points between its landmarks) and `radius` (of a curve).
+#'   `size`, `free` (whether a curve has points between its landmarks), `radius` (of a curve), `se_max`, and `state`,
+#'   `confidence` and `exchanged` (of a landmark).
 #' @noRd
 part_measures <- function(shape, name) {
   status <- shape$status
@@ -90,9 +102,15 @@ part_measures <- function(shape, name) {
     checks[c("missing", "cut", "bridged", "faults", "roughness")],
     coarse = checks$edge / radius, border = checks$border / checks$size, spike = checks$spike / checks$size,
     reason = status$reason, checks[c("determined", "guessed", "size")], free = shape$scheme$curves$n[row] > 2,
-    radius = radius, row.names = NULL
+    radius = radius, se_max = recorded(status, "se_max", NA_real_), state = recorded(checks, "state", NA_character_),
+    confidence = recorded(checks, "confidence", NA_real_), exchanged = recorded(checks, "exchanged", NA_character_),
+    row.names = NULL
   )
 }
+
+#' A column of a table, or what stands for it in shapes of former versions
+#' @noRd
+recorded <- function(table, name, none) if (is.null(table[[name]])) rep(none, nrow(table)) else table[[name]]
 
 #' Scores of the lengths of curves, specimens x curves
 #'
@@ -114,11 +132,19 @@ sample_scores <- function(shapes, others, limits) {
 
 #' A specimen that is not there
 #' @noRd
-lost_specimen <- function(name) {
+lost_specimen <- function(name) specimen_row(name, "red", "it was not measured")
+
+#' What a specimen was warned of while it was measured; NULL where it was not
+#' @noRd
+noted_specimen <- function(name, warnings) {
+  if (NROW(warnings)) specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
+}
+
+specimen_row <- function(name, grade, why) {
   empty <- stats::setNames(as.list(rep(NA_real_, length(quality_columns))), quality_columns)
-  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen", why = "it was not measured")
+  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen", why = why)
   empty[names(said)] <- said
-  empty$grade <- factor("red", grades, ordered = TRUE)
+  empty$grade <- factor(grade, grades, ordered = TRUE)
   empty$faults <- NA_integer_
   as.data.frame(empty)
 }
@@ -134,8 +160,18 @@ as.data.frame.shape_quality <- function(x, ...) structure(x, class = "data.frame
 summary.shape_quality <- function(object, ...) {
   specimen <- factor(object$specimen, unique(object$specimen))
   counts <- table(specimen, object$grade)
-  data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]), amber = as.vector(counts[, "amber"]),
-             red = as.vector(counts[, "red"]))
+  counted <- data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]),
+                        amber = as.vector(counts[, "amber"]), red = as.vector(counts[, "red"]))
+  found <- attr(object, "found")
+  if (!is.null(found)) counted$landmarks <- landmarks_came(counted$specimen, object)
+  counted
+}
+
+#' How the landmarks of specimens came: "found", "placed", NA where they were not measured
+#' @noRd
+landmarks_came <- function(specimens, table) {
+  lost <- table$specimen[table$level == "specimen" & table$grade == "red"]
+  ifelse(specimens %in% attr(table, "found"), "found", ifelse(specimens %in% lost, NA, "placed"))
 }
 
 #' @export
@@ -145,13 +181,18 @@ print.shape_quality <- function(x, most = 10, ...) {
   counts <- counts[order(-counts$red, -counts$amber), ]
   cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
       paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
+  found <- attr(x, "found")
+  if (length(found)) {
+    cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s", amount(length(found), "specimen"),
+                        shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
+  }
   if (nrow(counts) > 1) {
     shown <- utils::head(counts, most)
     cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
     if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
   }
   worst <- x[x$grade > "green", ]
-  worst <- worst[order(-as.integer(worst$grade)), ]
+  worst <- worst[order(worst$level != "specimen", -as.integer(worst$grade)), ]
   for (i in utils::head(seq_len(nrow(worst)), most)) {
     of <- if (nrow(counts) > 1) paste0(" of ", worst$specimen[i])
     line <- paste0("- ", worst$grade[i], ": ", worst$part[i], of, ": ", worst$why[i])

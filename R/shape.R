@@ -209,6 +209,7 @@ print.shape <- function(x, most = 8, ...) {
       sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
     }, "\n", sep = "")
   }
+  print_placing(x$placing)
   said <- x$status[!is.na(x$status$reason), ]
   for (i in utils::head(seq_len(nrow(said)), most)) {
     cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")

@@ -23,7 +23,8 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)
-  specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...)
+  beside <- if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) landmarks else NA_character_
+  from_files(specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...), file, beside)
 }
 
 mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)

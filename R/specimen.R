@@ -15,11 +15,14 @@
 #'   warning, when its triangles clearly look towards the middle of the mesh (the area-weighted mean cosine
 #'   between normal and direction away from the centroid is below -0.4; face scans have 0.55 to 0.85);
 #'   "keep" leaves the sense as it is (a small or hollow surface), "flip" turns all.
-#' @param tolerance Greatest distance of a landmark from the surface, as a share of the diagonal of the mesh's
-#'   bounding box (0.01 is 3 to 4 mm on a face). Nearer landmarks are put on the surface; farther ones are an error.
+#' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's size (0.01 is 3 to 4 mm
+#'   on a face). Nearer landmarks are put on the surface; farther ones are an error. The size is that of the pieces that
+#'   carry the landmarks, by where most of their surface lies: about the diagonal of the bounding box on a face, and
+#'   neither a platform nor a stray vertex changes it.
 #' @param debris Pieces with less than this share of the mesh's faces are left out.
 #' @param midline Names of midline landmarks from top to bottom; with names that end in L and R they
-#'   tell whether left and right are mirrored (a warning of class `crestline_mirrored`).
+#'   tell whether left and right are mirrored (a warning of class `crestline_mirrored`), or two landmarks exchanged (of
+#'   class `crestline_exchanged`): left for right, two of the midline, or two of one side.
 #' @return An object of class `specimen`, a list:
 #'   * `id` (character);
 #'   * `mesh` (`mesh3d`; `vb` with fourth row 1, `it`, outward unit `normals` 4 x n, and `material$color`, one
@@ -44,17 +47,20 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   landmarks <- as_landmarks(landmarks, id)
   door <- check_mesh(mesh, id, outward, debris)
-  placed <- check_landmarks(landmarks, door$mesh, id, tolerance * mesh_diagonal(door$mesh), midline)
+  placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
   new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
+               origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
-                               landmarks = placed$landmarks, located = placed$located),
+                               landmarks = placed$landmarks, located = placed$located, size = placed$size,
+                               slips = placed$slips),
                vertices = door$vertices)
 }
 
 #' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled
 #'
 #' @param id,mesh,landmarks,report As [specimen()] gives them.
-#' @param geometry List: `twin` and `piece` of [mesh_topology()]; `landmarks` and `located`: places that were worked out.
+#' @param geometry List: `twin` and `piece` of [mesh_topology()]; `landmarks` and `located`: places that were worked out;
+#'   `size` of [mesh_size()]; `slips` of [exchanged_landmarks()] at the door.
 #' @param key Of [mesh_key()].
 #' @param file Path that the mesh was read from, NA where there is none.
 #' @param origin How each landmark came: data frame `landmark`, `how` ("file", "given", "found", "predicted", "placed",
@@ -97,6 +103,8 @@ print.specimen <- function(x, ...) {
   cat(strwrap(paste0(count(length(name), "landmarks"), if (length(name)) ": ", shorten(name[!absent], 40)),
               exdent = 2), sep = "\n")
   if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
+  print_placing(x$placing)
+  print_exchanged(x$geometry$slips)
   found <- x$report[x$report$count > 0, ]
   for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ", found$action[i], "\n", sep = "")
   invisible(x)
@@ -126,7 +134,7 @@ landmark_point <- function(specimen, name, tolerance = 0.01) {
     return(specimen$geometry$located[before, ])
   }
   landmarks <- as_landmarks(specimen$landmarks[name, , drop = FALSE], id)
-  check_landmarks(landmarks, specimen$mesh, id, tolerance * mesh_diagonal(specimen$mesh), character())$located
+  check_landmarks(landmarks, specimen$mesh, id, tolerance, character(), size = specimen_size(specimen))$located
 }
 
 #' A specimen whose landmarks that were changed since are located once, for many uses
@@ -145,7 +153,7 @@ with_located <- function(specimen, tolerance = 0.01) {
   if (!length(changed)) return(specimen)
   found <- surface_points(specimen$mesh, at[changed, , drop = FALSE])
   away <- row_lengths(as.matrix(found[c("x", "y", "z")]) - at[changed, , drop = FALSE])
-  for (i in which(away <= tolerance * mesh_diagonal(specimen$mesh))) {
+  for (i in which(away <= tolerance * specimen_size(specimen))) {
     name <- rownames(at)[changed[i]]
     row <- match(name, rownames(before$landmarks), nomatch = nrow(before$landmarks) + 1)
     before$landmarks <- with_row(before$landmarks, row, at[name, ], name)

@@ -110,7 +110,17 @@ face_definitions <- function() {
   rows[order(match(rows$landmark, landmarks$landmark)), ]
 }
 
+# Where the landmarks lie on the template of find_landmarks(), the mean of each with the mirror image of its partner: unit and names
+# of a specimen's are held against them.
+typical_places <- function(landmarks) {
+  at <- read.csv(file.path("inst", "extdata", "face_template", "landmarks.csv"), row.names = 1)[c("x", "y", "z")]
+  own <- as.matrix(at[landmarks$landmark, ])
+  other <- as.matrix(at[vapply(landmarks$landmark, mirrored, ""), ])
+  round((own + other %*% diag(c(-1, 1, 1))) / 2, 1)
+}
+
 landmarks <- spec("landmarks.csv")[c("landmark", "name", "where")]
+landmarks[c("x", "y", "z")] <- typical_places(landmarks)
 dir.create(to, showWarnings = FALSE, recursive = TRUE)
 write(landmarks, "landmarks.csv")
 write(face_curves(), "curves.csv")

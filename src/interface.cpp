@@ -1,21 +1,26 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
 #include "landmarks_rigid.h"
+#include "landmarks_warp.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
 #include "mesh_door.h"
 #include "mesh_geodesic.h"
+#include "mesh_normals.h"
 #include "mesh_join.h"
 #include "mesh_key.h"
+#include "mesh_locate.h"
 #include "mesh_read_obj.h"
 #include "mesh_read_ply.h"
 #include "mesh_read_text.h"
+#include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
 #include "path_plane.h"
@@ -227,6 +232,9 @@ List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it) {
   crestline::MeshFaults found = crestline::mesh_faults(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol());
   return List::create(_["faces"] = found.faces, _["vertices"] = found.vertices);
 }
+
+// [[Rcpp::export]]
+double cpp_box_diagonal(NumericMatrix vb) { return crestline::box_diagonal(vb.begin(), vb.nrow(), vb.ncol()); }
 
 // it of a sound mesh, twin of the same size.
 // [[Rcpp::export]]
@@ -446,6 +454,11 @@ NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatr
 }
 
 // [[Rcpp::export]]
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
+  return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
+}
+
+// [[Rcpp::export]]
 IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high) {
   return from_one(crestline::vertices_in_box(vb.begin(), vb.nrow(), vb.ncol(), low.begin(), high.begin()));
 }
@@ -509,6 +522,32 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
                                [] { checkUserInterrupt(); });
   for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
+// xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
+// [[Rcpp::export]]
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
+  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::FaceTree tree(mesh, leaf);
+  int n = xyz.nrow();
+  IntegerVector face(n, NA_INTEGER);
+  NumericMatrix at(n, 6);
+  NumericVector distance(n, NA_REAL);
+  std::fill(at.begin(), at.end(), NA_REAL);
+  for (int i = 0; i < n; ++i) {
+    double to[3] = {xyz(i, 0), xyz(i, 1), xyz(i, 2)};
+    if (!std::isfinite(to[0]) || !std::isfinite(to[1]) || !std::isfinite(to[2])) continue;
+    crestline::ClosestPoint found = tree.closest(to);
+    if (!std::isfinite(found.distance)) continue;
+    face[i] = found.at.face + 1;
+    distance[i] = found.distance;
+    for (int k = 0; k < 3; ++k) {
+      at(i, k) = found.xyz[k];
+      at(i, 3 + k) = found.at.w[k];
+    }
+    checkUserInterrupt();
+  }
+  return List::create(_["face"] = face, _["at"] = at, _["distance"] = distance);
 }
 
 // [[Rcpp::export]]
@@ -577,4 +616,37 @@ List cpp_fit_poses(NumericMatrix xyz, NumericMatrix normal, NumericMatrix to_xyz
     checkUserInterrupt();
   }
   return List::create(_["poses"] = poses, _["score"] = score);
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight,
+                            double along, double across) {
+  crestline::Basis functions[3];
+  int p = 0;
+  for (int k = 0; k < 3; ++k) {
+    NumericMatrix values = basis[k];
+    functions[k] = {values.begin(), values.nrow(), values.ncol()};
+    p += values.ncol();
+  }
+  std::vector<double> gram = crestline::warp_gram(functions, from_zero(used), normal.begin(), weight.begin(), along,
+                                                  across, [] { checkUserInterrupt(); });
+  return NumericMatrix(p, p, gram.begin());
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it) {
+  NumericMatrix out(it.ncol(), 3);
+  crestline::face_normals(vb.begin(), vb.nrow(), it.begin(), it.ncol(), 1, out.begin());
+  return out;
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it) {
+  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  NumericMatrix out(4, vb.ncol());
+  for (int v = 0; v < vb.ncol(); ++v) {
+    for (int i = 0; i < 3; ++i) out(i, v) = normals[3 * static_cast<std::size_t>(v) + i];
+    out(3, v) = 1;
+  }
+  return out;
 }

@@ -41,4 +41,19 @@ int twin_faults(const int* it, const int* twin, int m) {
   return found;
 }
 
+double box_diagonal(const double* vb, int rows, int n) {
+  double low[3], high[3], total = 0, seen = 0;
+  for (int k = 0; k < 3; ++k) low[k] = high[k] = vb[k];
+  for (int i = 0; i < n; ++i) {
+    const double* x = vb + rows * static_cast<std::size_t>(i);
+    for (int k = 0; k < 3; ++k) {
+      if (x[k] < low[k]) low[k] = x[k];
+      if (x[k] > high[k]) high[k] = x[k];
+      seen += x[k] - x[k];
+    }
+  }
+  for (int k = 0; k < 3; ++k) total += (high[k] - low[k]) * (high[k] - low[k]);
+  return std::sqrt(total) + seen;
+}
+
 }  // namespace crestline

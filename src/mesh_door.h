@@ -15,4 +15,7 @@ MeshFaults mesh_faults(const double* vb, int rows, int n, const int* it, int m);
 // a twin of 0 at borders.
 int twin_faults(const int* it, const int* twin, int m);
 
+// Diagonal of the box that holds n points, n at least 1; NaN where a co-ordinate is.
+double box_diagonal(const double* vb, int rows, int n);
+
 }  // namespace crestline

@@ -67,7 +67,7 @@ void mark_reached(const Triangulation& mesh, int face, const double* middle, dou
     for (int c = 0; c < 3; ++c) {
       int across = twin_of(mesh, 3 * queue[i] + c);
       if (across < 0 || seen[face_of(across)] == mark) continue;
-      if (closest_on_face(mesh, face_of(across), middle).distance2 > reach * reach) continue;
+      if (closest_on_face(mesh, face_of(across), middle).distance > reach) continue;
       seen[face_of(across)] = mark;
       queue.push_back(face_of(across));
     }
@@ -179,15 +179,15 @@ std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
     for (int g = 0; g < mesh.m; ++g) {
       if (low[g] > to || high[g] < from || seen[g] == mark || beside_box(mesh, g, middle, reach)) continue;
       ClosestPoint there = closest_on_face(mesh, g, middle);
-      double away2 = there.distance2, height = 0;
-      if (away2 > reach * reach || away2 >= nearest * nearest) continue;
+      double away = there.distance, height = 0;
+      if (away > reach || away >= nearest) continue;
       // Above or below, not beside.
       for (int k = 0; k < 3; ++k) height += normal[k] * (there.xyz[k] - middle[k]);
-      if (std::abs(height) < parallel * std::sqrt(away2)) continue;
+      if (std::abs(height) < parallel * away) continue;
       face_normal(mesh, g, other);
       double cosine = normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2];
-      bool apart = piece[g] != piece[face] || away2 <= hollow * hollow * reach * reach;
-      if (cosine >= parallel || (cosine <= -parallel && apart)) nearest = std::sqrt(away2);
+      bool apart = piece[g] != piece[face] || away <= hollow * reach;
+      if (cosine >= parallel || (cosine <= -parallel && apart)) nearest = away;
     }
     out.push_back(nearest);
   }

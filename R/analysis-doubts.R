@@ -1,0 +1,144 @@
+# The sample as a sample: what an alignment shows of single specimens that no specimen shows of itself.
+
+#' Limits from which on an alignment is doubted
+#'
+#' Everything that [align()] warns of, each with its limit; `Inf` switches one off. No limit depends on the unit.
+#'
+#' @param far Robust z-score of a specimen's distance from the median shape: how many spreads (1.4826 MAD, at least 0.15 times
+#'   the median distance) it is above the median distance. On 23 and 11 faces of two collections the greatest is 2.3; a face
+#'   with two landmarks of a pair exchanged has 5 to 40.
+#' @param point How many times as far from its median place as others one point of a specimen may lie. On those faces the
+#'   greatest is 3.7; of exchanged neighbours 6 to 29.
+#' @param size Greatest ratio between the size of a specimen and the median size, either way: a power of ten is another
+#'   unit.
+#' @param estimated Greatest share of the specimens that lack a point, and of the points that a specimen lacks.
+#' @param beyond How far an estimated point may lie beyond all points that the specimen has, seen from their middle, on the
+#'   mean and as a share of its RMS radius: there the spline extrapolates. Half a face lacks points 1 radius beyond.
+#' @param fewest Specimens without which distances are not compared.
+#' @return List of class `sample_limits`.
+#' @section Errors: of class `crestline_error`, for values that are no numbers above 0.
+#' @seealso [align()]
+#' @examples
+#' sample_limits(far = Inf)
+#' @export
+sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyond = 0.5, fewest = 6) {
+  limits <- list(far = far, point = point, size = size, estimated = estimated, beyond = beyond)
+  for (name in names(limits)) {
+    if (!identical(limits[[name]], Inf)) limits[[name]] <- check_number(limits[[name]], name, 0, open = TRUE)
+  }
+  structure(c(limits, list(fewest = check_count(fewest, "fewest", lower = 3))), class = "sample_limits")
+}
+
+#' @export
+print.sample_limits <- function(x, ...) {
+  cat("Limits of a sample:", paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
+  invisible(x)
+}
+
+#' An alignment, what is doubtful of it told
+#' @param aligned An `aligned`.
+#' @noRd
+told_of <- function(aligned, limits) {
+  check_class(limits, "sample_limits", "limits", "sample_limits()")
+  said <- c(said_of_sizes(aligned, limits), said_of_distances(aligned, limits), said_of_gaps(aligned, limits))
+  for (kind in names(said)) {
+    crestline_warn(sprintf("%s: %s", aligned$level, said[[kind]]), sample_remedies[[kind]], stage = "align",
+                   class = c(paste0("crestline_", kind), "crestline_sample_doubt"))
+  }
+  aligned
+}
+
+sample_remedies <- c(
+  size = "Are they in another unit? Measure them in one unit: see `unit` of fit_shape() and read_specimen().",
+  far = "Look at these specimens: are landmarks exchanged or misplaced, or is it another object? Leave out what is wrong.",
+  point = "Look at these points on these specimens: are two landmarks exchanged, or one misplaced?",
+  estimated = "Use missing = \"drop\" for such points, or leave such specimens out: estimates follow the mean of the others.",
+  beyond = "Use missing = \"drop\", or leave these specimens out: so far from what a specimen has, estimates are the mean's shape."
+)
+
+said_of_sizes <- function(aligned, limits) {
+  ratio <- aligned$size / stats::median(aligned$size)
+  off <- which(ratio > limits$size | ratio < 1 / limits$size)
+  if (!length(off)) return(NULL)
+  named <- sprintf("%s (%.2g times)", names(aligned$size)[off], ratio[off])
+  list(size = sprintf("sizes differ as units do; from the median is off %s.", shorten(named)))
+}
+
+#' @param floor Least spread, as a share of the median distance.
+#' @param alike Distances below this share of the shapes' size are those of copies, of which nothing is said.
+#' @noRd
+said_of_distances <- function(aligned, limits, floor = 0.15, alike = 1e-6) {
+  n <- dim(aligned$coords)[3]
+  if (n < limits$fewest) return(NULL)
+  off <- aligned$coords - as.vector(apply(aligned$coords, 1:2, stats::median))
+  apart <- sqrt(apply(off^2 * aligned$weights, c(1, 3), sum))
+  least <- alike * sqrt(sum(aligned$mean^2))
+  whole <- sqrt(colSums(apart^2))
+  middle <- stats::median(whole)
+  score <- (whole - middle) / max(stats::mad(whole), floor * middle, least)
+  far <- which(score > limits$far)
+  ids <- dimnames(aligned$coords)[[3]]
+  said <- list()
+  if (length(far)) {
+    said$far <- sprintf("far from the others: %s.", shorten(sprintf("%s (%.3g times as far)", ids[far], whole[far] / middle)))
+  }
+  usual <- pmax(apply(apart, 1, stats::median), least)
+  ratio <- apart / usual
+  near <- setdiff(which(apply(ratio, 2, max) > limits$point), far)
+  names <- rownames(aligned$mean)
+  each <- vapply(near, function(i) {
+    sprintf("%s of %s", shorten(names[ratio[, i] > limits$point], 3), ids[i])
+  }, "")
+  if (length(near)) said$point <- sprintf("points far from those of the others: %s.", shorten(each))
+  said
+}
+
+said_of_gaps <- function(aligned, limits) {
+  gone <- aligned$missing[aligned$missing$action == "estimated", ]
+  if (!nrow(gone)) return(NULL)
+  ids <- dimnames(aligned$coords)[[3]]
+  names <- rownames(aligned$mean)
+  gap <- matrix(FALSE, length(names), length(ids))
+  gap[cbind(match(gone$point, names), match(gone$id, ids))] <- TRUE
+  c(said_of_shares(gap, ids, names, limits$estimated), said_of_reach(aligned$mean, gap, ids, limits$beyond))
+}
+
+said_of_shares <- function(gap, ids, names, limit) {
+  few <- names[rowMeans(gap) > limit]
+  poor <- ids[colMeans(gap) > limit]
+  share <- sprintf("more than %.0f %%", 100 * limit)
+  said <- c(if (length(few)) sprintf("estimated for %s of the specimens: %s (%s)", share, shorten(few), amount(length(few), "point")),
+            if (length(poor)) sprintf("%s of the points are estimated of %s", share, shorten(poor)))
+  if (length(said)) list(estimated = paste0(paste(said, collapse = "; "), "."))
+}
+
+said_of_reach <- function(mean, gap, ids, limit) {
+  radius <- sqrt(mean(rowSums(sweep(mean, 2, colMeans(mean))^2)))
+  reach <- vapply(which(colSums(gap) > 0), function(i) {
+    reach_beyond(mean[!gap[, i], , drop = FALSE], mean[gap[, i], , drop = FALSE])
+  }, 0) / radius
+  far <- reach > limit
+  if (!any(far)) return(NULL)
+  named <- sprintf("%s (%.2g radii)", ids[colSums(gap) > 0][far], reach[far])
+  list(beyond = sprintf("points are estimated far from those that are there: of %s.", shorten(named)))
+}
+
+#' How far the farthest of some points lies beyond all others, in its direction from their middle; 0 within
+#' @noRd
+reach_beyond <- function(known, gone) {
+  middle <- colMeans(known)
+  out <- sweep(gone, 2, middle)
+  length <- sqrt(rowSums(out^2))
+  extent <- apply(tcrossprod(sweep(known, 2, middle), out / pmax(length, .Machine$double.xmin)), 2, max)
+  max(0, length - extent)
+}
+
+#' How many points of whom were estimated or dropped, as lines of text
+#' @param missing Of an `aligned`.
+#' @noRd
+missing_lines <- function(missing, most = 8) {
+  if (!nrow(missing)) return(character())
+  count <- table(factor(missing$id, unique(missing$id)))
+  sprintf("missing and %s: %s of %s; most, %d, of %s", missing$action[1], amount(nrow(missing), "point"),
+          shorten(names(count), most), max(count), names(count)[which.max(count)])
+}

@@ -1,0 +1,121 @@
+# The landmarks of a specimen held against those of a scheme: names, unit, and what looks exchanged.
+
+#' Names that are all foreign, and lengths in another unit, would give a shape of nothing
+#' @noRd
+check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
+  wanted <- scheme$landmarks$landmark
+  if (!any(wanted %in% rownames(specimen$landmarks))) {
+    near <- attr(unused_names(specimen$landmarks, scheme), "near")
+    crestline_abort(
+      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name, shorten(wanted),
+              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
+              if (length(near)) paste("; near:", shorten(near)) else ""),
+      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
+      id = specimen$id, class = "crestline_landmark_error", call = call
+    )
+  }
+  check_scale(specimen, scheme, call = call)
+  size <- specimen_size(specimen)
+  radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
+  if (radius > size / 2) {
+    crestline_abort(sprintf("the scheme's radius of %.4g is as large as the mesh, whose size is %.4g.", radius, size),
+                    "Is the mesh in another unit? For a scan in metres and a scheme in mm give `unit = 1000`.",
+                    stage = "curvature", id = specimen$id, call = call)
+  }
+}
+
+#' The landmarks must be about as far apart as those of the scheme
+#'
+#' @param scheme With its lengths in what should be the specimen's unit.
+#' @param apart Greatest factor between them, either way. On 45 faces of adults it is 1.15; a child of a year has 0.7 of an
+#'   adult's face. Centimetres are 10, inches 25.4.
+#' @param units Factors between units.
+#' @noRd
+check_scale <- function(specimen, scheme, apart = 2.5, units = c(10, 25.4, 100, 1000), call = rlang::caller_env()) {
+  scale <- landmark_scale(specimen$landmarks, typical_landmarks(scheme))
+  if (is.na(scale) || (scale >= 1 / apart && scale <= apart)) return(invisible())
+  known <- c(units, 1 / units)
+  nearest <- known[which.min(abs(log(known * scale)))]
+  asked <- if (abs(log(nearest * scale)) < log(2)) nearest else signif(1 / scale, 2)
+  crestline_abort(
+    sprintf("its landmarks are %.3g times as far apart as those of the scheme %s: it is in another unit than the scheme's lengths.",
+            scale, scheme$name),
+    sprintf("Give `unit = %.4g` times what you gave (1 if nothing): the factor from the mesh's unit to the scheme's.", asked),
+    stage = "landmarks", id = specimen$id, class = c("crestline_unit_error", "crestline_landmark_error"), call = call
+  )
+}
+
+#' Where the scheme says that landmarks lie on a typical object, k x 3 with row names
+#' @noRd
+typical_landmarks <- function(scheme) {
+  at <- as.matrix(scheme$landmarks[intersect(c("x", "y", "z"), names(scheme$landmarks))])
+  if (ncol(at) < 3) return(NULL)
+  rownames(at) <- scheme$landmarks$landmark
+  at[stats::complete.cases(at), , drop = FALSE]
+}
+
+#' How many times as far apart landmarks are as those of a reference: the median over their distances
+#' @param fewest Landmarks without which nothing is said.
+#' @noRd
+landmark_scale <- function(at, reference, fewest = 4) {
+  at <- at[!is.na(at[, 1]), , drop = FALSE]
+  both <- intersect(rownames(at), rownames(reference))
+  if (length(both) < fewest) return(NA_real_)
+  apart <- as.vector(stats::dist(at[both, ])) / as.vector(stats::dist(reference[both, ]))
+  stats::median(apart[is.finite(apart)])
+}
+
+#' What looks exchanged among the landmarks of a specimen, told unless the door has told it
+#' @return As [exchanged_landmarks()].
+#' @noRd
+scheme_slips <- function(specimen, scheme) {
+  pairs <- scheme$pairs[scheme$pairs$level == "landmarks", c("left", "right")]
+  own <- intersect(rownames(specimen$landmarks), scheme$landmarks$landmark)
+  midline <- setdiff(eval(formals(crestline::specimen)$midline), unlist(pairs))
+  located <- specimen$geometry$located[match(own, rownames(specimen$geometry$landmarks), nomatch = 0), ]
+  slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE], mean_front(specimen$mesh, located), pairs, midline,
+                               typical_landmarks(scheme))
+  if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
+  slips$said <- exchange_reasons(slips, own, unlist(pairs))
+  slips
+}
+
+#' Whether the door has told of all that looks exchanged
+#' @param before What it found, NULL where that is not known.
+#' @noRd
+is_told <- function(slips, before) {
+  named <- function(found) unlist(found[c("groups", "either")])
+  isTRUE(before$mirrored) || !slips$mirrored && all(named(slips) %in% named(before))
+}
+
+#' The status with what looks exchanged
+#' @noRd
+note_slips <- function(shape, slips) {
+  said <- slips$said[!is.na(slips$said)]
+  row <- match(names(said), ifelse(shape$status$level == "landmarks", shape$status$part, NA))
+  shape$status$reason[row] <- ifelse(is.na(shape$status$reason[row]), said, paste(shape$status$reason[row], said, sep = "; "))
+  shape
+}
+
+#' What is known of every landmark of a shape, a row a part
+#' @param placing Of the specimen, NULL where its landmarks were given.
+#' @return Data frame `state`, `confidence`, `exchanged`, NA but for landmarks.
+#' @noRd
+landmark_checks <- function(shape, placing, slips) {
+  name <- ifelse(shape$status$level == "landmarks", shape$status$part, NA)
+  row <- match(name, placing$landmark, incomparables = NA)
+  of <- function(values, none) if (is.null(values)) rep(none, length(name)) else values[row]
+  data.frame(state = of(placing$state, NA_character_), confidence = of(placing$confidence, NA_real_),
+             exchanged = unname(slips$said[name]))
+}
+
+#' Why a landmark that was found is not used
+#' @return Text, NULL where that is not so.
+#' @noRd
+left_out_reason <- function(specimen, name) {
+  row <- match(name, specimen$placing$landmark)
+  if (is.na(row) || !anyNA(specimen$landmarks[name, ])) return(NULL)
+  found <- specimen$placing[row, ]
+  low <- found$state == "found" && found$confidence < find_settings()$low
+  if (isTRUE(low)) sprintf("landmark %s was found with a confidence of %.2f only: left out", name, found$confidence)
+}

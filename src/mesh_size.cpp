@@ -1,0 +1,97 @@
+#include "mesh_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace crestline {
+
+namespace {
+
+struct Patch {
+  double at[3];
+  double weight;
+  double far2;
+};
+
+// The patches whose squared distance is least and that have half of the weight come first; how many they are.
+std::size_t nearer_half(std::vector<Patch>& patches, double total) {
+  auto low = patches.begin();
+  auto high = patches.end();
+  double below = 0;
+  while (high - low > 1) {
+    auto middle = low + (high - low) / 2;
+    std::nth_element(low, middle, high, [](const Patch& a, const Patch& b) { return a.far2 < b.far2; });
+    double here = 0;
+    for (auto p = low; p != middle; ++p) here += p->weight;
+    if (below + here >= total / 2) {
+      high = middle;
+    } else {
+      below += here;
+      low = middle;
+    }
+  }
+  return low - patches.begin() + 1;
+}
+
+void measure_from(std::vector<Patch>& patches, const double* middle) {
+  for (Patch& p : patches) {
+    p.far2 = 0;
+    for (int i = 0; i < 3; ++i) p.far2 += (p.at[i] - middle[i]) * (p.at[i] - middle[i]);
+  }
+}
+
+// The mean of the patches by their weight (near < 0), or by weight over distance, a step of Weiszfeld;
+// distances below `near` count as that.
+void step_to_middle(const std::vector<Patch>& patches, double near, double* middle) {
+  double total = 0, sum[3] = {0, 0, 0};
+  for (const Patch& p : patches) {
+    double weight = near < 0 ? p.weight : p.weight / std::max(std::sqrt(p.far2), near);
+    total += weight;
+    for (int i = 0; i < 3; ++i) sum[i] += weight * p.at[i];
+  }
+  for (int i = 0; i < 3; ++i) middle[i] = sum[i] / total;
+}
+
+std::vector<Patch> patches_of(const double* vb, int rows, const int* it, int m, const int* used) {
+  std::vector<Patch> patches;
+  patches.reserve(m);
+  for (int f = 0; f < m; ++f) {
+    if (!used[f]) continue;
+    const double* corner[3];
+    for (int c = 0; c < 3; ++c) corner[c] = vb + rows * static_cast<std::size_t>(it[3 * static_cast<std::size_t>(f) + c] - 1);
+    double a[3], b[3];
+    Patch p;
+    for (int i = 0; i < 3; ++i) {
+      a[i] = corner[1][i] - corner[0][i];
+      b[i] = corner[2][i] - corner[0][i];
+      p.at[i] = (corner[0][i] + corner[1][i] + corner[2][i]) / 3;
+    }
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+    p.weight = std::sqrt(x * x + y * y + z * z) / 2;
+    if (p.weight > 0) patches.push_back(p);
+  }
+  return patches;
+}
+
+}  // namespace
+
+double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used, double cap, int steps) {
+  std::vector<Patch> patches = patches_of(vb, rows, it, m, used);
+  if (patches.empty()) return 0;
+  std::vector<double> area(patches.size());
+  std::transform(patches.begin(), patches.end(), area.begin(), [](const Patch& p) { return p.weight; });
+  std::nth_element(area.begin(), area.begin() + area.size() / 2, area.end());
+  double most = cap * area[area.size() / 2], total = 0, middle[3];
+  for (Patch& p : patches) total += p.weight = std::min(p.weight, most);
+  step_to_middle(patches, -1, middle);
+  for (int step = 0; step < steps; ++step) {
+    measure_from(patches, middle);
+    step_to_middle(patches, std::sqrt(most), middle);
+  }
+  measure_from(patches, middle);
+  return std::sqrt(patches[nearer_half(patches, total) - 1].far2);
+}
+
+}  // namespace crestline
