@@ -255,41 +255,27 @@ check_file <- function(file, stage) {
   }
 }
 
-#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and devices, which might keep R
-#' waiting for ever, have no size
+#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and
+#' devices, which might keep R waiting for ever, have no size
 #'
 #' @param id Name of the specimen, where there is one.
 #' @param unpacks Kinds of packed files that the caller reads.
 #' @noRd
 check_stored <- function(file, stage, id = NULL, unpacks = character()) {
-<<<<<<< HEAD
-  refuse <- function(problem, remedy) crestline_abort(problem, remedy, stage = stage, id = id, call = NULL)
-  if (!isTRUE(file.size(file) > 0)) {
-    refuse(sprintf("%s cannot be read: it is empty, or no file on disk but a pipe or device.", file),
-           "If it is empty, export or copy it again; what comes through a pipe, save to a file first.")
-=======
   refuse <- function(problem, remedy) {
     crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
                     call = NULL)
->>>>>>> objects
   }
-  if (file.access(file, 4) != 0) refuse(sprintf("%s cannot be read.", file), "Check the right to read it.")
+  if (!isTRUE(file.size(file) > 0)) {
+    refuse(": it is empty, or no file on disk but a pipe or device",
+           "If it is empty, export or copy it again; save what comes through a pipe first.")
+  }
+  if (file.access(file, 4) != 0) refuse("", "Check the right to read it.")
   packed <- packed_by(readBin(file, "raw", 10))
   if (!is.na(packed) && !packed %in% unpacks) {
-<<<<<<< HEAD
-    refuse(sprintf("%s cannot be read: it is compressed by %s, whatever its name.", file, packed),
-=======
     refuse(sprintf(": it is compressed by %s, whatever its name", packed),
->>>>>>> objects
            "Unpack it first; of a spreadsheet save the sheet as CSV.")
   }
-}
-
-#' Whether a path is a pipe, which would keep R waiting for a reader. R cannot tell, the shell can
-#' @noRd
-is_pipe <- function(file) {
-  if (.Platform$OS.type != "unix" || !isTRUE(file.size(file) == 0)) return(FALSE)
-  system2("test", c("-p", shQuote(path.expand(file)))) == 0
 }
 
 #' The program that a file's first bytes are of, NA for none

@@ -79,18 +79,12 @@
 #'     pair, that through the landmarks of the middle.
 #'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
 #'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
-<<<<<<< HEAD
-#' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be.
-#' @section Warnings: of class `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one
-#'   of another name that may be meant (`prn` for `pn`, `CHL` for `chL`).
-=======
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
 #'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
 #' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left
 #'   and right of all pairs). [quality()] grades them, and the curves that end there, red. Of class
 #'   `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one of another name that may
 #'   be meant (`prn` for `pn`, `CHL` for `chL`).
->>>>>>> objects
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -139,32 +133,10 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
 
 #' The arguments that a shape was measured with, for its provenance
 #' @noRd
-<<<<<<< HEAD
-check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
-  wanted <- scheme$landmarks$landmark
-  if (!any(wanted %in% rownames(specimen$landmarks))) {
-    near <- attr(unused_names(specimen$landmarks, scheme), "near")
-    crestline_abort(
-      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name, shorten(wanted),
-              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
-              if (length(near)) paste("; near:", shorten(near)) else ""),
-      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
-      id = specimen$id, class = "crestline_landmark_error", call = call
-    )
-  }
-  size <- mesh_diagonal(specimen$mesh)
-  radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
-  if (radius > size / 2) {
-    crestline_abort(sprintf("the scheme's radius of %.4g is as large as the mesh, whose diagonal is %.4g.", radius, size),
-                    "Is the mesh in another unit? For a scan in metres and a scheme in mm give `unit = 1000`.",
-                    stage = "curvature", id = specimen$id, call = call)
-  }
-=======
 measured_with <- function(settings, passes, cut_scale, column, curves) {
   list(ridge = lapply(unclass(settings), identity),
        fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
                   column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
->>>>>>> objects
 }
 
 check_column <- function(column_angle, column_angles, column_reach) {
