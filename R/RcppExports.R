@@ -17,6 +17,10 @@ cpp_mesh_faults <- function(vb, it) {
     .Call(`_crestline_cpp_mesh_faults`, vb, it)
 }
 
+cpp_box_diagonal <- function(vb) {
+    .Call(`_crestline_cpp_box_diagonal`, vb)
+}
+
 cpp_twin_faults <- function(it, twin) {
     .Call(`_crestline_cpp_twin_faults`, it, twin)
 }
@@ -97,6 +101,10 @@ cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
 }
 
+cpp_half_area_radius <- function(vb, it, used, cap, steps) {
+    .Call(`_crestline_cpp_half_area_radius`, vb, it, used, cap, steps)
+}
+
 cpp_vertices_in_box <- function(vb, low, high) {
     .Call(`_crestline_cpp_vertices_in_box`, vb, low, high)
 }
@@ -125,6 +133,10 @@ cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweep
     .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
 }
 
+cpp_locate <- function(vb, it, xyz, leaf) {
+    .Call(`_crestline_cpp_locate`, vb, it, xyz, leaf)
+}
+
 cpp_geodesic_distances <- function(vb, it, places) {
     .Call(`_crestline_cpp_geodesic_distances`, vb, it, places)
 }
@@ -139,5 +151,17 @@ cpp_match_clouds <- function(xyz, normal, feature, to_xyz, to_normal, to_feature
 
 cpp_fit_poses <- function(xyz, normal, to_xyz, to_normal, starts, settings) {
     .Call(`_crestline_cpp_fit_poses`, xyz, normal, to_xyz, to_normal, starts, settings)
+}
+
+cpp_warp_gram <- function(basis, used, normal, weight, along, across) {
+    .Call(`_crestline_cpp_warp_gram`, basis, used, normal, weight, along, across)
+}
+
+cpp_face_normals <- function(vb, it) {
+    .Call(`_crestline_cpp_face_normals`, vb, it)
+}
+
+cpp_vertex_normals <- function(vb, it) {
+    .Call(`_crestline_cpp_vertex_normals`, vb, it)
 }
 

@@ -112,7 +112,7 @@ split_sides <- function(mesh, found) {
 # of the usual length of an edge; `least`: vertices.
 tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent = FALSE) {
   mesh$topology <- topology
-  border <- border_vertices(mesh)
+  border <- sort(border_vertices(mesh$it, topology$twin))
   pair <- matrix(border[cpp_near_pairs(mesh$vb[, border, drop = FALSE], gap * edge, join_effort)], 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   beside <- length(unique(c(pair, border_contacts(mesh, gap * edge)$vertex)))

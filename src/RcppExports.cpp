@@ -66,6 +66,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_box_diagonal
+double cpp_box_diagonal(NumericMatrix vb);
+RcppExport SEXP _crestline_cpp_box_diagonal(SEXP vbSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_box_diagonal(vb));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_twin_faults
 int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
 RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
@@ -359,6 +370,21 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_half_area_radius
+double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps);
+RcppExport SEXP _crestline_cpp_half_area_radius(SEXP vbSEXP, SEXP itSEXP, SEXP usedSEXP, SEXP capSEXP, SEXP stepsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< LogicalVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< double >::type cap(capSEXP);
+    Rcpp::traits::input_parameter< int >::type steps(stepsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_half_area_radius(vb, it, used, cap, steps));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_vertices_in_box
 IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVector high);
 RcppExport SEXP _crestline_cpp_vertices_in_box(SEXP vbSEXP, SEXP lowSEXP, SEXP highSEXP) {
@@ -462,6 +488,20 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_locate
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf);
+RcppExport SEXP _crestline_cpp_locate(SEXP vbSEXP, SEXP itSEXP, SEXP xyzSEXP, SEXP leafSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< int >::type leaf(leafSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_locate(vb, it, xyz, leaf));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_geodesic_distances
 NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places);
 RcppExport SEXP _crestline_cpp_geodesic_distances(SEXP vbSEXP, SEXP itSEXP, SEXP placesSEXP) {
@@ -526,12 +566,53 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_warp_gram
+NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight, double along, double across);
+RcppExport SEXP _crestline_cpp_warp_gram(SEXP basisSEXP, SEXP usedSEXP, SEXP normalSEXP, SEXP weightSEXP, SEXP alongSEXP, SEXP acrossSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< List >::type basis(basisSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type weight(weightSEXP);
+    Rcpp::traits::input_parameter< double >::type along(alongSEXP);
+    Rcpp::traits::input_parameter< double >::type across(acrossSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_warp_gram(basis, used, normal, weight, along, across));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_face_normals
+NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_face_normals(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_face_normals(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_vertex_normals
+NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_vertex_normals(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertex_normals(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
+    {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
     {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
     {"_crestline_cpp_near_pairs", (DL_FUNC) &_crestline_cpp_near_pairs, 3},
@@ -552,6 +633,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
@@ -559,10 +641,14 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
+    {"_crestline_cpp_locate", (DL_FUNC) &_crestline_cpp_locate, 4},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},
     {"_crestline_cpp_fit_poses", (DL_FUNC) &_crestline_cpp_fit_poses, 6},
+    {"_crestline_cpp_warp_gram", (DL_FUNC) &_crestline_cpp_warp_gram, 6},
+    {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
+    {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {NULL, NULL, 0}
 };
 

@@ -106,7 +106,7 @@ test_that("a second skin is joined where it differs by rounding, else told of", 
     expect_equal(report_count(s, "per cent of the surface with a second skin"), 100)
   }
   lid <- two_skins(wavy(), 0.05)
-  rim <- border_vertices(with_topology(wavy()))
+  rim <- border_vertices(wavy()$it, mesh_topology(wavy())$twin)
   lid$it[lid$it %in% (rim + 441)] <- lid$it[lid$it %in% (rim + 441)] - 441
   expect_warning(specimen(lid, outward = "keep"), class = "crestline_double_skin")
   # A wall is no second skin, nor is the sheet beside a cut.
