@@ -278,6 +278,13 @@ check_stored <- function(file, stage, id = NULL, unpacks = character()) {
   }
 }
 
+#' Whether a path is a pipe, which would keep R waiting for a reader. R cannot tell, the shell can
+#' @noRd
+is_pipe <- function(file) {
+  if (.Platform$OS.type != "unix" || !isTRUE(file.size(file) == 0)) return(FALSE)
+  system2("test", c("-p", shQuote(path.expand(file)))) == 0
+}
+
 #' The program that a file's first bytes are of, NA for none
 #' @noRd
 packed_by <- function(bytes) {
