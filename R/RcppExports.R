@@ -41,8 +41,8 @@ cpp_vertices_on_edges <- function(vb, it, twin, sides, reach, most) {
     .Call(`_crestline_cpp_vertices_on_edges`, vb, it, twin, sides, reach, most)
 }
 
-cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel) {
-    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel)
+cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel, hollow) {
+    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel, hollow)
 }
 
 cpp_numbers_at <- function(raw, places, real, sign, size, big) {

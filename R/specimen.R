@@ -38,6 +38,13 @@
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #'
 #'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
+#' @section Warnings: Of class `crestline_warning`, and each of a class of its own: triangles that were
+#'   made from points (`crestline_triangulated`); more than 1 % of the triangles left out
+#'   (`crestline_triangles_dropped`); vertices 50 times as far from the middle as half of the others, left
+#'   out (`crestline_far_vertices`); triangles that touch no other (`crestline_loose_triangles`); borders
+#'   that lie beside one another (`crestline_seam`); a surface that is there twice, one skin a hair from the
+#'   other (`crestline_double_skin`). Corners within 1e-6 of the size are joined, without a warning: both
+#'   sides of a seam, single triangles, vertices on the edge of another triangle.
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
 #'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
 #'   the surface, in another unit.

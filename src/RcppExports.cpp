@@ -143,8 +143,8 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_other_sheets
-NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel);
-RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP) {
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel, double hollow);
+RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP, SEXP hollowSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -155,7 +155,8 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerVector >::type sample(sampleSEXP);
     Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
     Rcpp::traits::input_parameter< double >::type parallel(parallelSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel));
+    Rcpp::traits::input_parameter< double >::type hollow(hollowSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel, hollow));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -617,7 +618,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_near_pairs", (DL_FUNC) &_crestline_cpp_near_pairs, 3},
     {"_crestline_cpp_pair_groups", (DL_FUNC) &_crestline_cpp_pair_groups, 2},
     {"_crestline_cpp_vertices_on_edges", (DL_FUNC) &_crestline_cpp_vertices_on_edges, 6},
-    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 7},
+    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 8},
     {"_crestline_cpp_numbers_at", (DL_FUNC) &_crestline_cpp_numbers_at, 6},
     {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
     {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},

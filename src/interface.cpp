@@ -289,9 +289,9 @@ List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twi
 
 // [[Rcpp::export]]
 NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece,
-                               IntegerVector sample, double reach, double parallel) {
+                               IntegerVector sample, double reach, double parallel, double hollow) {
   return wrap(crestline::other_sheets(triangulation(vb, it, twin), piece.begin(), from_zero(sample), reach,
-                                      parallel));
+                                      parallel, hollow));
 }
 
 // [[Rcpp::export]]

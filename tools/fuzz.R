@@ -101,6 +101,76 @@ write_case <- function(case, kind) {
   file
 }
 
+# Files as they are in the wild: written anew by hands of their own, so that the same mesh must come out, or, where `told`,
+# a warning or a refusal.
+wild_lines <- list(
+  comments = function(x, kind) if (kind == "obj") c("# C:\\dir\\", ifelse(runif(length(x)) < 0.3, paste(x, "# 1 2 3"), x)) else x,
+  continued = function(x, kind) if (kind == "obj") ifelse(runif(length(x)) < 0.3, sub(" ([^ ]+)$", " \\\\\n\\1", x), x) else x,
+  other_lines = function(x, kind) if (kind == "obj") c("mtllib none.mtl", "o a", x, "l 1 2", "p 1", "g b") else x,
+  negative = function(x, kind) if (kind == "obj") negative_faces(x) else x,
+  capitals = function(x, kind) if (kind == "stl") toupper(x) else x,
+  names = function(x, kind) if (kind == "stl") c("solid facet vertex 1 2 3", x[-c(1, length(x))], "endsolid vertex") else x,
+  header = function(x, kind) if (kind == "ply") append(x, rep("comment end_header of old", pick(c(3, 4000))), 2) else x,
+  blanks = function(x, kind) paste0(pick(c("", " ", "\t"), length(x)), gsub(" ", pick(c("  ", "\t")), x), pick(c("", " "), length(x))),
+  empty_lines = function(x, kind) if (kind == "ply") x else as.vector(rbind(x, "")),
+  exponents = function(x, kind) gsub("([ ^])([0-9][.][0-9]+)( |$)", "\\1\\2E+00\\3", x)
+)
+
+negative_faces <- function(x) {
+  face <- startsWith(x, "f ")
+  n <- sum(startsWith(x, "v "))
+  corner <- strsplit(x[face], " ")
+  x[face] <- vapply(corner, function(w) paste("f", paste(as.integer(w[-1]) - n - 1L, collapse = " ")), "")
+  x
+}
+
+wild_bytes <- list(
+  none = function(r) r,
+  returns = function(r) { r[r == 10] <- as.raw(13); r },
+  both = function(r) charToRaw(gsub("\n", "\r\n", rawToChar(r), fixed = TRUE)),
+  mark = function(r) c(as.raw(c(0xef, 0xbb, 0xbf)), r),
+  wide = function(r) as.vector(rbind(r, as.raw(0))),
+  wide_mark = function(r) c(as.raw(c(0xfe, 0xff)), as.vector(rbind(as.raw(0), r)))
+)
+
+wild_told <- list(
+  none = function(x, kind) x,
+  commas = function(x, kind) { i <- grepl("^ *(v|vertex|[-0-9.]+) ", x); x[i] <- gsub("([0-9])[.]([0-9])", "\\1,\\2", x[i]); x },
+  half_index = function(x, kind) if (kind == "obj") sub("^f ([0-9]+) .*", "f \\1 2 3.5", x) else wild_told$commas(x, kind),
+  count = function(x, kind) if (kind == "ply") sub("element vertex .*", paste("element vertex", sample(400, 1)), x) else wild_told$commas(x, kind),
+  windows = function(x, kind) { i <- utils::tail(grep("^ *(v|vertex|[-0-9.]+) [-0-9.]+ [-0-9.]+", x), 3); x[i] <- sub(" [-0-9.e+]+", " -1.#IND00", x[i]); x }
+)
+
+# What a case of the wild did to a mesh: "" where it came out right or was told of, else what is wrong.
+wild_case <- function(tell) {
+  case <- sound_case()
+  kind <- pick(c("ply", "obj", "stl"))
+  file <- tempfile(fileext = paste0(".", kind))
+  crestline::write_mesh(case$mesh, file, ascii = TRUE)
+  true <- crestline::read_specimen(file, case$landmarks, outward = "keep", tolerance = 0.05)
+  line <- readLines(file)
+  told <- pick(names(wild_told), prob = c(4, 1, 1, 1, 1))
+  changes <- sample(names(wild_lines), sample(0:3, 1))
+  bytes <- pick(names(wild_bytes))
+  packed <- runif(1) < 0.2
+  tell(paste("wild", kind, if (told == "none") "as it was" else told))
+  for (name in changes) line <- wild_lines[[name]](line, kind)
+  raw <- wild_bytes[[bytes]](charToRaw(paste0(paste(wild_told[[told]](line, kind), collapse = "\n"), "\n")))
+  if (packed) file <- paste0(file, ".gz")
+  connection <- if (packed) gzfile(file, "wb") else file(file, "wb")
+  writeBin(raw, connection)
+  close(connection)
+  on.exit(unlink(file))
+  warned <- FALSE
+  got <- withCallingHandlers(crestline::read_specimen(file, case$landmarks, outward = "keep", tolerance = 0.05),
+                             warning = function(w) { warned <<- TRUE; invokeRestart("muffleWarning") })
+  same <- identical(dim(got$mesh$it), dim(true$mesh$it)) && isTRUE(all.equal(got$mesh$vb[, got$mesh$it], true$mesh$vb[, true$mesh$it]))
+  silent <- !warned && got$report$count[got$report$check == "non-finite co-ordinates"] == 0
+  if (!same && silent) stop(paste(c("another mesh without a word:", kind, changes, bytes, told), collapse = " "))
+  if (told == "none" && (!same || warned)) stop(paste(c("not the same mesh:", kind, changes, bytes), collapse = " "))
+  got
+}
+
 damage_file <- function(file) {
   raw <- readBin(file, "raw", file.size(file))
   change <- pick(names(byte_mutations))
@@ -110,6 +180,7 @@ damage_file <- function(file) {
 
 # A specimen from one seed; `tell` gets the words for what was done.
 make_specimen <- function(tell) {
+  if (runif(1) < 0.15) return(wild_case(tell))
   case <- sound_case()
   kind <- pick(c("memory", "memory", "memory", "ply_ascii", "ply_binary", "obj", "stl_ascii", "stl_binary", landmark_kinds),
                prob = c(rep(1, 8), rep(0.25, length(landmark_kinds))))
