@@ -204,7 +204,7 @@ by_reference <- function(true, at, reference, pairs, least) {
 #' @param rounds Times that weights are taken anew.
 #' @param least Least distance, as a share of the size, that a weight is taken of.
 #' @noRd
-robustly_laid <- function(x, y, rounds = 20, least = 0.01) {
+robustly_laid <- function(x, y, rounds = 10, least = 0.01) {
   weight <- rep(1, nrow(x))
   size <- sqrt(mean(rowSums(sweep(y, 2, colMeans(y))^2)))
   for (round in seq_len(rounds)) {
