@@ -100,7 +100,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   scheme <- scheme_in_unit(scheme, unit, specimen)
-  check_fits_scheme(specimen, scheme)
+  check_fits_scheme(specimen, scheme, unit)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)

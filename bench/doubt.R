@@ -1,4 +1,5 @@
-# What is doubted, of good faces and of what is no face: `CRESTLINE_SHARED=../shared/data Rscript bench/doubt.R good|none|exchanged`.
+# What is doubted, of good faces and of what is no face: `CRESTLINE_SHARED=../shared/data Rscript
+# bench/doubt.R good|none|exchanged`.
 library(crestline)
 options(rgl.useNULL = TRUE)
 data <- Sys.getenv("CRESTLINE_SHARED")
