@@ -201,7 +201,7 @@ vertex_indices <- function(vertices, n) {
 #' A ball as large as the object holds no local shape: most likely another unit
 #' @noRd
 check_radius <- function(radius, mesh) {
-  size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_size(mesh)
+  size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_diagonal(mesh)
   if (radius > size / 2) {
     crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.", radius, size),
                     "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")

@@ -88,7 +88,7 @@ definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
     refuse_landmarks(sprintf("it has none of the landmarks that %s defines.", scheme$name),
                      near_names(definitions$landmark[1], rownames(specimen$landmarks)), specimen$id)
   }
-  check_scale(specimen, scheme, call = call)
+  check_scale(specimen, scheme, unit, call)
   definitions
 }
 

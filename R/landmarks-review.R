@@ -30,7 +30,8 @@
 #'   ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said
 #'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them.
 #'   `place_landmarks()`: a specimen with a row for each landmark of the scheme, NA where it was not placed. A warning
-#'   of class `crestline_mirrored` tells where left and right look mirrored.
+#'   of class `crestline_mirrored` tells where left and right look mirrored, one of class `crestline_exchanged` which landmarks
+#'   look exchanged.
 #' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
 #' @references The paper, section 7.
 #' @seealso [find_landmarks()], [calibrate_template()]
@@ -60,7 +61,7 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   shown <- shown_surface(specimen, surface, check_number(radius, "radius", 0, open = TRUE), check_count(faces, "faces"))
   app <- shiny::shinyApp(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view))
   reviewed <- shiny::runApp(app, ...)
-  if (looks_mirrored(reviewed)) warn_mirrored(reviewed$id)
+  warn_exchanged(specimen_slips(reviewed), reviewed$id)
   reviewed
 }
 

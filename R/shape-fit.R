@@ -107,7 +107,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   named <- scheme
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
-  check_fits_scheme(specimen, scheme)
+  check_fits_scheme(specimen, scheme, unit)
   warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
