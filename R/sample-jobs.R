@@ -136,7 +136,7 @@ job_specimen <- function(job) {
 #' @return List: `mesh`, `key`, hashes; NA and "" where a file cannot be read.
 #' @noRd
 job_content <- function(job, scheme, settings) {
-  named <- sort(setdiff(names(settings), c("threads", "progress")))
+  named <- sort(setdiff(as.character(names(settings)), c("threads", "progress")))
   settings <- list(named, lapply(unname(settings[named]), unclass))
   tryCatch({
     mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key
