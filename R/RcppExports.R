@@ -17,12 +17,36 @@ cpp_mesh_faults <- function(vb, it) {
     .Call(`_crestline_cpp_mesh_faults`, vb, it)
 }
 
+cpp_box_diagonal <- function(vb) {
+    .Call(`_crestline_cpp_box_diagonal`, vb)
+}
+
 cpp_twin_faults <- function(it, twin) {
     .Call(`_crestline_cpp_twin_faults`, it, twin)
 }
 
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
+}
+
+cpp_near_pairs <- function(vb, reach, most) {
+    .Call(`_crestline_cpp_near_pairs`, vb, reach, most)
+}
+
+cpp_pair_groups <- function(pairs, n) {
+    .Call(`_crestline_cpp_pair_groups`, pairs, n)
+}
+
+cpp_vertices_on_edges <- function(vb, it, twin, sides, reach, most) {
+    .Call(`_crestline_cpp_vertices_on_edges`, vb, it, twin, sides, reach, most)
+}
+
+cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel) {
+    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel)
+}
+
+cpp_numbers_at <- function(raw, places, real, sign, size, big) {
+    .Call(`_crestline_cpp_numbers_at`, raw, places, real, sign, size, big)
 }
 
 cpp_read_numbers <- function(text, from) {
@@ -107,6 +131,10 @@ cpp_slide_on_tracks <- function(b, x, paths, rows, strain, sweeps) {
 
 cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweeps) {
     .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
+}
+
+cpp_locate <- function(vb, it, xyz, leaf) {
+    .Call(`_crestline_cpp_locate`, vb, it, xyz, leaf)
 }
 
 cpp_geodesic_distances <- function(vb, it, places) {

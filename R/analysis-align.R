@@ -46,7 +46,7 @@
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
 #'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
 #'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
-#' @seealso [shape_pca()], [compare_groups()], [as_geomorph()]
+#' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()], [as_geomorph()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' shapes <- shapes + rnorm(120, sd = 0.05)
@@ -58,20 +58,29 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
                   rounds = 200, limits = sample_limits()) {
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
-  scaling <- check_scaling(scale)
-  tolerance <- check_number(tolerance, "tolerance", lower = 0)
-  rounds <- check_count(rounds, "rounds")
-  given <- configurations(sample, level, triangles)
-  whole <- complete_configurations(given, missing)
-  weight <- point_weights(weights, whole)
-  fit <- fit_alignment(whole, weight, scaling, tolerance, rounds)
-  check_extent(fit$size)
-  if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
-  coords <- fit$coords
-  if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
-  told_of(structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, places = whole$places, scale = scale,
-                 tangent = tangent && scaling > 0, level = given$level, missing = whole$missing, moved = fit$moved,
-                 triangles = whole$triangles), class = "aligned"), limits)
+  check_scaling(scale)
+  settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
+                   tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
+  aligned <- align_configurations(configurations(sample, level, triangles), settings)
+  attr(aligned, "provenance") <- aligned_provenance(sample, settings)
+  told_of(aligned, limits)
+}
+
+#' @param given As of [configurations()].
+#' @param settings List of arguments of [align()]: `scale`, `weights`, `missing`, `tangent`, `tolerance`, `rounds`.
+#' @noRd
+align_configurations <- function(given, settings, call = rlang::caller_env()) {
+  scaling <- check_scaling(settings$scale, call)
+  whole <- complete_configurations(given, settings$missing, call)
+  weight <- point_weights(settings$weights, whole, call)
+  if (is.numeric(settings$weights)) settings$weights <- settings$weights[whole$kept]
+  fit <- fit_alignment(whole, weight, scaling, settings$tolerance, settings$rounds)
+  check_extent(fit$size, call)
+  if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
+  projected <- settings$tangent && scaling > 0
+  coords <- if (projected) tangent_projection(fit$coords, fit$mean, weight) else fit$coords
+  validate_aligned(new_aligned(coords, fit$mean, fit$size, weight, whole$places, settings$scale, projected, given$level,
+                               whole$missing, fit$moved, whole$triangles, settings, whole$reference))
 }
 
 check_scaling <- function(scale, call = rlang::caller_env()) {
@@ -109,6 +118,7 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
+    validate(sample)
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"
@@ -124,7 +134,8 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
   }
   ids <- dimnames(coords)[[3]]
   if (length(ids) < 2) {
-    crestline_abort("there is one specimen only.", "Give two or more.", stage = "align", call = call)
+    crestline_abort(sprintf("there is %s specimen%s.", if (length(ids)) "one" else "no", if (length(ids)) " only" else ""),
+                    "Give two or more.", stage = "align", call = call)
   }
   list(coords = coords, reference = reference, triangles = check_triangles(triangles, dim(coords)[1], call),
        places = places, level = level)
@@ -135,8 +146,9 @@ sample_levels <- c("landmarks", "curves", "surface", "model")
 #' Array of every place of a sample's shapes once
 #' @noRd
 every_place <- function(sample) {
+  like <- places_of(sample$template)
   each <- lapply(sample$shapes, places_of)
-  array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(names(each))))
+  array(as.numeric(unlist(each)), c(dim(like), length(each)), c(dimnames(like), list(names(each))))
 }
 
 #' Triangles of a scheme between its surface points, or between all its places

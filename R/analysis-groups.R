@@ -88,7 +88,10 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   count <- vapply(each, function(one) as.integer(one$components), 0L)
   structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
                  pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L, exact = dealt$exact,
-                 components = count, seed = seed), class = "group_comparison")
+                 components = count, seed = seed,
+                 provenance = with_settings(aligned[[1]]$provenance, "compare",
+                                            list(n_perm = n_perm, components = components, tests = tests))),
+            class = "group_comparison")
 }
 
 #' The tests of one level
@@ -127,7 +130,10 @@ comparison_ticks <- function(progress, n) {
 #' `aligned`s named by level
 #' @noRd
 aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
-  if (inherits(sample, "aligned")) return(stats::setNames(list(sample), sample$level))
+  if (inherits(sample, "aligned")) {
+    validate(sample)
+    return(stats::setNames(list(sample), sample$level))
+  }
   as_aligned <- function(one, level) {
     areas <- identical(weights, "area") && inherits(one, "shape_sample") && !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
@@ -200,7 +206,15 @@ summary.group_comparison <- function(object, ...) {
     own <- object$tests[object$tests$level == level, ]
     own$p_value[match(tests, own$test)]
   })
-  data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
+  table <- data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
+  structure(table, provenance = object$provenance, class = c("comparison_summary", "data.frame"))
+}
+
+#' @export
+print.comparison_summary <- function(x, ...) {
+  print.data.frame(x, row.names = FALSE)
+  if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
+  invisible(x)
 }
 
 #' @export

@@ -31,9 +31,10 @@
 shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   check_class(aligned, "aligned", "aligned", "align()")
   weights <- point_weights(weights, as_whole(aligned))
-  dims <- dim(aligned$coords)
+  coords <- aligned$coords
+  dims <- dim(coords)
   weight <- rep(weights, dims[2])
-  x <- t(matrix(aligned$coords, dims[1] * dims[2], dims[3]))
+  x <- t(matrix(coords, dims[1] * dims[2], dims[3]))
   center <- colMeans(x)
   parts <- thin_svd(sweep(x, 2, center) * rep(sqrt(weight), each = dims[3]), tolerance)
   if (!length(parts$d)) {
@@ -49,18 +50,42 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   direction <- if (all(weight == 1)) rotation else
     crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
   dimnames(direction) <- dimnames(rotation)
-  rownames(scores) <- dimnames(aligned$coords)[[3]]
+  rownames(scores) <- names(aligned)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE,
                  x = scores,
                  share = variance / sum(variance), direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)), size = mean(aligned$size),
-                 weights = weights, level = aligned$level, triangles = aligned$triangles), class = c("shape_pca", "prcomp"))
+                 weights = weights, level = aligned$level, triangles = aligned$triangles,
+                 provenance = with_settings(aligned$provenance, "pca", list(tolerance = tolerance))),
+            class = c("shape_pca", "prcomp"))
+}
+
+#' A provenance with the arguments of one stage more
+#' @noRd
+with_settings <- function(provenance, stage, settings) {
+  provenance$settings[[stage]] <- settings
+  provenance
+}
+
+#' @rdname provenance
+#' @export
+summary.shape_pca <- function(object, ...) {
+  found <- NextMethod()
+  found$provenance <- object$provenance
+  class(found) <- c("summary_shape_pca", class(found))
+  found
+}
+
+#' @export
+print.summary_shape_pca <- function(x, ...) {
+  NextMethod()
+  print_provenance(x$provenance)
+  invisible(x)
 }
 
 as_whole <- function(aligned) {
-  places <- if (is.null(aligned$places)) rownames(aligned$mean) else aligned$places
   k <- nrow(aligned$mean)
-  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = places, given = k,
+  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = aligned$places, given = k,
        kept = seq_len(k))
 }
 

@@ -81,8 +81,9 @@ normal_displacements <- function(aligned) {
 #' List of n x k matrices, one a co-ordinate, centred
 #' @noRd
 coordinate_blocks <- function(aligned) {
+  coords <- aligned$coords
   lapply(seq_len(ncol(aligned$mean)), function(d) {
-    part <- t(aligned$coords[, d, ])
+    part <- t(coords[, d, ])
     sweep(part, 2, colMeans(part))
   })
 }

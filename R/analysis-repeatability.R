@@ -77,9 +77,18 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves", m
   parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)), component_table(by_part))
   structure(list(parts = parts, points = points, missing = missing, failed = names(failed)[failed],
                  counts = c(specimens = nlevels(specimen), observers = nlevels(observer), measurements = n,
-                            failed = sum(failed))),
+                            failed = sum(failed)),
+                 provenance = repeats_provenance(shapes)),
             class = "repeatability")
 }
+
+repeats_provenance <- function(shapes) {
+  if (inherits(shapes, "shape_sample")) whole_provenance(shapes) else if (is.list(shapes)) shapes_provenance(shapes) else made_with()
+}
+
+#' @rdname provenance
+#' @export
+summary.repeatability <- function(object, ...) new_summary(printed_lines(object), object$provenance)
 
 #' Which measurements of a list failed, with a warning that names them
 #'

@@ -22,13 +22,18 @@ landmarks_beside <- function(file) {
   beside[1]
 }
 
+#' All of them; where none has the mesh's name exactly, those that differ in case and are not of another mesh
+#' @noRd
 landmark_files_beside <- function(file) {
   stem <- sub("[.][^.]*$", "", basename(file))
   name <- list.files(dirname(file), all.files = TRUE)
-  name <- name[startsWith(name, stem)]
+  name <- name[startsWith(tolower(name), tolower(stem))]
+  own <- substr(name, 1, nchar(stem))
   end <- tolower(substring(name, nchar(stem) + 1))
   known <- c(paste0(".", tolower(names(landmark_formats()))), ".json", "_picked_points.pp")
-  name <- name[end %in% known][order(match(end[end %in% known], known))]
+  meant <- if (stem %in% own[end %in% known]) stem else setdiff(own, own[end %in% paste0(".", names(mesh_readers()))])
+  fits <- end %in% known & own %in% meant
+  name <- name[fits][order(match(end[fits], known))]
   beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else file.path(dirname(file), name)
   beside[vapply(beside, is_landmark_file, NA)]
 }
@@ -118,8 +123,14 @@ same_sets <- function(sets) {
 #' Landmarks of one specimen, as [specimen()] takes them
 #' @noRd
 landmarks_of <- function(landmarks, id) {
-  several <- is.character(landmarks) || is.list(landmarks) && !is.data.frame(landmarks) || length(dim(landmarks)) == 3
-  if (!several || !is.null(dim(landmarks)) && length(dim(landmarks)) != 3) return(landmarks)
+  by_id <- if (is.data.frame(landmarks)) {
+    any(is_key_column(setdiff(tolower(names(landmarks)), c("name", "landmark", "label"))))
+  } else if (is.matrix(landmarks)) {
+    FALSE
+  } else {
+    is.character(landmarks) || is.list(landmarks) || length(dim(landmarks)) == 3
+  }
+  if (!by_id) return(landmarks)
   found <- landmarks_for(landmarks, id)[[1]]
   if (is.character(found)) landmarks_of(read_landmarks(found), id) else found
 }

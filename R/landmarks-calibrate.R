@@ -16,6 +16,7 @@
 #' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the template.
 #' @references The paper, section 7.
 #' @seealso [find_landmarks()]
+#' @section Warnings: of class `crestline_unused_landmarks`, as [fit_shape()].
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -36,6 +37,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
                     stage = "arguments")
   }
   for (one in specimens) check_class(one, "specimen", "specimens", "specimen() or read_specimen()")
+  known <- data.frame(landmark = rownames(template$landmarks), name = NA)
+  for (one in specimens) warn_unused_names(one, list(landmarks = known), "the template")
   prepared <- prepared_template(template, settings, threads)
   fits <- lapply(specimens, calibration_fit, prepared, template, settings, threads)
   before <- template

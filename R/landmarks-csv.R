@@ -103,7 +103,7 @@ csv_set <- function(x, table, label, line, refuse) {
 # Every landmark has a name; the same name twice has the same place.
 check_csv_names <- function(name, x, line, refuse) {
   if (any(!nzchar(name))) refuse("a point has no name", line[!nzchar(name)][1])
-  again <- which(duplicated(name) & !duplicated(data.frame(name, x)))
+  again <- if (anyDuplicated(name)) which(duplicated(name) & !duplicated(data.frame(name, x)))
   if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]), line[again[1]])
 }
 

@@ -40,13 +40,10 @@ fcsv_frame <- function(comment) {
 
 # The fields of each line.
 fcsv_fields <- function(text, line, column, file) {
-  lapply(seq_along(text), function(i) {
-    value <- split_fields(text[i], ",")[[1]]
-    if (length(value) < max(match(c("x", "y", "z"), column))) {
-      refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[i])
-    }
-    value
-  })
+  field <- split_fields(text, ",")
+  few <- which(lengths(field) < max(match(c("x", "y", "z"), column)))
+  if (length(few)) refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[few[1]])
+  field
 }
 
 # As many fields as there are columns, or two more: the state of the point, and whether it was made by itself.

@@ -19,12 +19,14 @@ unused_names <- function(landmarks, scheme, most = 8) {
 }
 
 #' A warning where a landmark of the scheme is missing and one of another name may be meant
+#' @param scheme A scheme, or a list with its `landmarks`.
+#' @param of What it is called.
 #' @noRd
-warn_unused_names <- function(specimen, scheme) {
+warn_unused_names <- function(specimen, scheme, of) {
   unused <- unused_names(specimen$landmarks, scheme)
   near <- attr(unused, "near")
   if (!length(near)) return(invisible())
-  crestline_warn(sprintf("landmarks of the scheme %s are missing, and others have names like them: %s.", scheme$name, unused),
+  crestline_warn(sprintf("landmarks of %s are missing, and others have names like them: %s.", of, unused),
                  sprintf("If they are meant, rename them: %s.", shorten(paste(names(near), "to", near))),
                  stage = "landmarks", id = specimen$id, class = "crestline_unused_landmarks")
 }

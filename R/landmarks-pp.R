@@ -29,14 +29,15 @@ pp_numbers <- function(word, key, file) {
 #' The values of an attribute of XML elements, NA where one has none
 #' @noRd
 xml_attribute <- function(element, key) {
-  found <- regmatches(element, regexec(sprintf("\\s%s\\s*=\\s*(\"([^\"]*)\"|'([^']*)')", key), element))
-  xml_text(vapply(found, function(part) if (length(part)) paste0(part[3], part[4]) else NA_character_, ""))
+  pattern <- sprintf("(?s)^.*?\\s%s\\s*=\\s*(?:\"([^\"]*)\"|'([^']*)').*$", key)
+  xml_text(ifelse(grepl(pattern, element, perl = TRUE), sub(pattern, "\\1\\2", element, perl = TRUE), NA_character_))
 }
 
 #' Text without XML's entities
 #' @noRd
 xml_text <- function(text) {
-  if (anyNA(text)) return(replace(text, !is.na(text), xml_text(text[!is.na(text)])))
+  coded <- grepl("&", text, fixed = TRUE)
+  if (!all(coded)) return(replace(text, coded, if (any(coded)) xml_text(text[coded])))
   number <- gregexpr("&#(x[0-9A-Fa-f]{1,6}|[0-9]{1,7});", text)
   regmatches(text, number) <- lapply(regmatches(text, number), function(one) {
     code <- sub("^&#x", "0x", sub(";$", "", one))

@@ -73,7 +73,7 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
     }
   }
   specimen$refinement <- refinement
-  specimen
+  with_origin(specimen, refinement$landmark[refinement$moved], "defined")
 }
 
 definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
@@ -165,10 +165,10 @@ located_place <- function(specimen, definition, given, inputs, pairs, curvature,
   if (anyNA(start) || anyNA(inputs)) return(list(state = "missing", reason = "a landmark is missing"))
   place <- defined_place(specimen, definition, start, pairs, curvature, settings)
   if (!is.null(place$reason)) {
-    return(list(state = "none", reason = place$reason, point = point_near(specimen$mesh, start, definition$radius)))
+    return(list(state = "none", reason = place$reason, point = surface_points(specimen$mesh, matrix(start, 1))))
   }
   place$state <- "found"
-  place$point <- point_near(specimen$mesh, place$at, definition$radius)
+  place$point <- surface_points(specimen$mesh, matrix(place$at, 1))
   place
 }
 

@@ -78,6 +78,8 @@ place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
 without_landmarks <- function(mesh, scheme, id = NULL) {
   names <- scheme$landmarks$landmark
   empty <- matrix(NA_real_, length(names), 3, dimnames = list(names, c("x", "y", "z")))
-  if (inherits(mesh, "specimen")) return(specimen(as_mesh(mesh), empty, mesh$id, outward = "keep"))
+  if (inherits(mesh, "specimen")) {
+    return(with_fields(specimen(as_mesh(mesh), empty, mesh$id, outward = "keep"), file = mesh$file))
+  }
   specimen(mesh, empty, id)
 }

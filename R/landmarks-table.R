@@ -67,19 +67,29 @@ table_records <- function(line, at, sep, refuse) {
 #' @noRd
 split_fields <- function(text, sep) {
   field <- strsplit(paste0(text, sep, "|"), sep, fixed = TRUE)
-  field <- lapply(field, function(one) trimws(one[-length(one)]))
-  quoted <- grepl("\"", text, fixed = TRUE)
-  pattern <- gsub("@", paste0("\\Q", sep, "\\E"), "@(?: *\"[^\"]*(?:\"\"[^\"]*)*\" *| *[^\" @][^@]*| *)(?=@|\\z)", fixed = TRUE)
-  whole <- paste0(sep, text[quoted])
-  part <- regmatches(whole, gregexpr(pattern, whole, perl = TRUE))
-  fits <- vapply(part, function(one) sum(nchar(one)), 0L) == nchar(whole)
-  field[quoted] <- Map(function(part, fits) if (fits) bare_fields(substring(part, 2)) else character(), part, fits)
+  last <- cumsum(lengths(field))
+  line <- rep(seq_along(field), lengths(field))[-last]
+  cell <- unlist(field)[-last]
+  loose <- grepl("^\\s|\\s$", cell)
+  cell[loose] <- trimws(cell[loose])
+  marked <- which(grepl("\"", cell, fixed = TRUE))
+  inner <- substr(cell[marked], 2, nchar(cell[marked]) - 1)
+  whole <- cell[marked] == paste0("\"", inner, "\"") & !grepl("\"", inner, fixed = TRUE)
+  cell[marked[whole]] <- inner[whole]
+  field <- unname(split(cell, factor(line, seq_along(text))))
+  again <- unique(line[marked[!whole]])
+  field[again] <- lapply(text[again], quoted_fields, sep)
   field
 }
 
-# Without quotation marks, which keep the blanks within them.
-bare_fields <- function(part) {
-  part <- trimws(part)
+#' Fields of one text by the rule: a field is quoted as a whole, with quotes in it doubled, or has none at its start
+#' @noRd
+quoted_fields <- function(text, sep) {
+  pattern <- gsub("@", paste0("\\Q", sep, "\\E"), "@(?: *\"[^\"]*(?:\"\"[^\"]*)*\" *| *[^\" @][^@]*| *)(?=@|\\z)", fixed = TRUE)
+  whole <- paste0(sep, text)
+  part <- regmatches(whole, gregexpr(pattern, whole, perl = TRUE))[[1]]
+  if (sum(nchar(part)) != nchar(whole)) return(character())
+  part <- trimws(substring(part, 2))
   quoted <- startsWith(part, "\"")
   part[quoted] <- gsub("\"\"", "\"", substr(part[quoted], 2, nchar(part[quoted]) - 1), fixed = TRUE)
   part

@@ -226,9 +226,11 @@ landmark_format <- function(file) {
   extension <- sub("^(mrk[.])?json$", "mrk.json", file_extension(file))
   format <- match(extension, tolower(names(formats)))
   if (is.na(format)) {
+    first <- c(gz = "Unpack it first. ", bz2 = "Unpack it first. ", xz = "Unpack it first. ", zip = "Unpack it first. ",
+               xlsx = "Save the sheet as CSV. ", xls = "Save the sheet as CSV. ", ods = "Save the sheet as CSV. ")[extension]
     crestline_abort(
       sprintf("no landmark format has the extension of %s.", basename(file)),
-      paste0("Known: ", paste0(".", names(formats), collapse = ", "), "."),
+      paste0(if (!is.na(first)) first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),
       stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
   }
@@ -250,8 +252,9 @@ check_file <- function(file, stage) {
 #' waiting for ever, have no size
 #'
 #' @param id Name of the specimen, where there is one.
+#' @param unpacks Kinds of packed files that the caller reads.
 #' @noRd
-check_stored <- function(file, stage, id = NULL) {
+check_stored <- function(file, stage, id = NULL, unpacks = character()) {
   refuse <- function(problem, remedy) crestline_abort(problem, remedy, stage = stage, id = id, call = NULL)
   if (!isTRUE(file.size(file) > 0)) {
     refuse(sprintf("%s cannot be read: it is empty, or no file on disk but a pipe or device.", file),
@@ -259,7 +262,7 @@ check_stored <- function(file, stage, id = NULL) {
   }
   if (file.access(file, 4) != 0) refuse(sprintf("%s cannot be read.", file), "Check the right to read it.")
   packed <- packed_by(readBin(file, "raw", 10))
-  if (!is.na(packed)) {
+  if (!is.na(packed) && !packed %in% unpacks) {
     refuse(sprintf("%s cannot be read: it is compressed by %s, whatever its name.", file, packed),
            "Unpack it first; of a spreadsheet save the sheet as CSV.")
   }

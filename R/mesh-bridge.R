@@ -56,5 +56,6 @@ unbridged_path <- function(path, specimen) {
   landing <- which(bridge & !c(bridge[-1], TRUE))
   path[landing, mesh_columns] <- surface_points(mesh, as.matrix(path[landing, c("x", "y", "z")]))
   kept <- sort(c(which(!bridge), landing))
+  # Its arc lengths stay those of the way over the bridges, along which it was measured.
   new_mesh_path(lapply(unclass(path)[c("s", mesh_columns)], `[`, kept), attr(path, "length"), attr(path, "key"), attr(path, "id"))
 }

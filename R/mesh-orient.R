@@ -62,8 +62,10 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
   if (outward == "keep") return(mended(mesh, check, 0))
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
-  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece), tabulate(piece), certainty)
+  normal <- face_normals(mesh)
+  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece, normal), tabulate(piece), certainty)
   face <- which(inward[piece])
+  if (!length(face)) mesh$face_normals <- normal
   if (outward == "detect" && length(face)) {
     crestline_warn(
       sprintf("%d of %d triangles looked inwards and were turned round.", length(face), length(piece)),
@@ -82,10 +84,9 @@ looks_inward <- function(outwardness, size, certainty) {
 # For each piece the area-weighted mean of cos(normal, direction away from the mesh's centroid):
 # positive outside a closed surface, and on the outer side of an open, mainly convex one. Unlike
 # the signed volume a far rim counts no more than its area.
-outwardness <- function(mesh, piece) {
+outwardness <- function(mesh, piece, normal = face_normals(mesh)) {
   corner <- face_corners(mesh)
   middle <- (corner[[1]] + corner[[2]] + corner[[3]]) / 3
-  normal <- face_normals(mesh, corner)
   area <- row_lengths(normal)
   away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin), each = nrow(middle))
   cosine <- row_products(normal, away) / pmax(row_lengths(away), .Machine$double.xmin)

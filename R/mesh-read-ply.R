@@ -169,13 +169,7 @@ ply_check_lines <- function(text, start, end, lines, file, id) {
 }
 
 ply_numbers <- function(raw, at, type, endian) {
-  size <- ply_types()[[type]]
-  bytes <- raw[rep(at, each = size) + seq_len(size)]
-  if (grepl("float|double", type)) return(readBin(bytes, "double", length(at), size, endian = endian))
-  unsigned <- startsWith(type, "u")
-  number <- as.numeric(readBin(bytes, "integer", length(at), size, signed = size > 2 || !unsigned, endian = endian))
-  if (size == 4 && unsigned) number[which(number < 0)] <- number[which(number < 0)] + 2^32
-  number
+  cpp_numbers_at(raw, at, grepl("float|double", type), !startsWith(type, "u"), ply_types()[[type]], endian == "big")
 }
 
 # `table`: every element as a named list, a vector for each property, list(value, sides) for a list; `start`: where all

@@ -3,24 +3,17 @@
 # All bytes, unpacked where they are gzip's, whatever the file's name.
 file_bytes <- function(file, id) {
   raw <- readBin(file, "raw", file.size(file))
-  if (!length(raw)) refuse_file(file, "it is empty", id)
-  packed <- packed_by(raw)
-  if (is.null(packed)) return(raw)
-  if (packed != "gzip") {
-    refuse_file(file, sprintf("it is %s, not a mesh", packed), id, "Unpack it, or export the mesh again.")
+  if (identical(packed_by(utils::head(raw, 10)), "gzip")) raw <- unpacked_bytes(file, raw, id)
+  for (kind in names(foreign_files)) {
+    if (length(grepRaw(foreign_files[[kind]], utils::head(raw, 200), ignore.case = TRUE))) {
+      refuse_file(file, sprintf("it is %s", kind), id, "Download the mesh itself.")
+    }
   }
-  unpacked_bytes(file, raw, id)
+  raw
 }
 
-# What the first bytes say of a file that no mesh format begins with, or NULL.
-packed_by <- function(raw) {
-  first <- list(gzip = c(0x1f, 0x8b), "a zip archive" = c(0x50, 0x4b, 3, 4), "packed by bzip2" = c(0x42, 0x5a, 0x68),
-                "packed by xz" = c(0xfd, 0x37, 0x7a, 0x58), "packed by zstd" = c(0x28, 0xb5, 0x2f, 0xfd),
-                "a page of the web" = utf8ToInt("<!DOCTYPE html"), "a page of the web" = utf8ToInt("<html"),
-                "a pointer of Git LFS" = utf8ToInt("version https://git-lfs"))
-  is <- vapply(first, function(bytes) identical(raw[seq_along(bytes)], as.raw(bytes)), NA)
-  if (any(is)) names(first)[is][1]
-}
+# What a download may leave in place of a mesh, by what it begins with.
+foreign_files <- list("a page of the web" = "^\\s*<(!doctype )?html", "a pointer of Git LFS" = "^version https://git-lfs")
 
 # A cut file unpacks without a word: its last four bytes are then not the length.
 unpacked_bytes <- function(file, raw, id, chunk = 2^24) {

@@ -68,19 +68,9 @@ draw_curve_band <- function(scene, curve, mesh, colour) {
   if (n < 2) return(scene)
   middle <- (sides$left + sides$right) / 2
   xyz <- rbind(sides$left, sides$right)
-  reach <- 2 * max(row_lengths(sides$left - middle))
-  near <- faces_in_box(mesh, apply(middle, 2, min) - reach, apply(middle, 2, max) + reach)
-  outer <- columns_of(surface_points(near, xyz))[, 1:3]
+  outer <- columns_of(surface_points(mesh, xyz))[, 1:3]
   scene <- draw_band(scene, outer[seq_len(n), ], middle, colour)
   draw_band(scene, middle, outer[n + seq_len(n), ], colour)
-}
-
-# The mesh with only those faces whose bounding boxes meet a box.
-faces_in_box <- function(mesh, low, high) {
-  corner <- lapply(1:3, function(i) mesh$vb[1:3, mesh$it[i, ], drop = FALSE])
-  meets <- do.call(pmax, corner) >= low & do.call(pmin, corner) <= high
-  mesh$it <- mesh$it[, colSums(meets) == 3, drop = FALSE]
-  mesh
 }
 
 # The two sides of the band along the path: `multiple` standard errors across it, along the surface.

@@ -18,7 +18,8 @@
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
 #' @param settings [slide_settings()].
-#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them by id, or a function
+#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them, by its names or else
+#'   by their own ids, or a function
 #'   that gives the specimen of an id (so that only one at a time is in memory).
 #' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about
 #'   0.01 mm on a face).
@@ -83,7 +84,12 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     tick()
     finish_slide(shape, cut, plan, specimen_of(shape, specimens))
   }, shapes, cuts)
-  new_sample(slid, found$template, found$convergence)
+  slid <- lapply(slid, function(shape) {
+    shape$specimen <- NULL
+    shape
+  })
+  provenance <- sample_provenance(found$template, plan, list(tolerance = tolerance, rounds = rounds))
+  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
@@ -124,6 +130,8 @@ specimens_in_files <- function(x) {
 #' @param specimens As in [homologise()].
 #' @noRd
 specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
+  own <- is.list(specimens) && is.null(names(specimens)) && all(vapply(specimens, inherits, NA, "specimen"))
+  if (own) names(specimens) <- vapply(specimens, `[[`, "", "id")
   specimen <- if (is.null(specimens)) shape$specimen else
     if (is.function(specimens)) specimens(shape$id) else specimens[[shape$id]]
   kept_specimen(shape, specimen, call)

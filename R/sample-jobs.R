@@ -127,8 +127,9 @@ job_specimen <- function(job) {
   }
   if (!is.null(job$specimen)) return(job$specimen)
   at <- job$landmarks
-  if (is.character(at)) at <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
-  do.call(read_specimen, c(list(job$mesh, at, job$id), job$reading$specimen))
+  if (!is.character(at)) return(do.call(read_specimen, c(list(job$mesh, at, job$id), job$reading$specimen)))
+  points <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
+  from_files(do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen)), job$mesh, at)
 }
 
 #' What the answers of a job depend on: its content, not the names of its files

@@ -187,6 +187,14 @@ arc_lengths_on <- function(path, xyz, tolerance) {
   s
 }
 
+#' Row by row: the share of the way along a segment at which it is closest to a point
+#' @noRd
+closest_on_segments <- function(p, a, b) {
+  along <- row_products(p - a, b - a) / row_products(b - a, b - a)
+  along[!is.finite(along)] <- 0
+  pmin(pmax(along, 0), 1)
+}
+
 #' The points inside quads, on cuts between those opposite sides that are bowed more
 #' @return `points`, filled.
 #' @noRd

@@ -82,7 +82,9 @@
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
 #'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
 #' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left
-#'   and right of all pairs). [quality()] grades them, and the curves that end there, red.
+#'   and right of all pairs). [quality()] grades them, and the curves that end there, red. Of class
+#'   `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one of another name that may
+#'   be meant (`prn` for `pn`, `CHL` for `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -99,9 +101,11 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  named <- scheme
+  if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme)
-  warn_unused_names(specimen, scheme)
+  warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
@@ -119,11 +123,20 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
                      shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
-                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan)
+                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan,
+                     provenance = shape_provenance(scan, named, unit, measured_with(settings, passes, cut_scale, column, curves)))
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults), landmark_checks(shape, scan$placing, slips))
   shape
+}
+
+#' The arguments that a shape was measured with, for its provenance
+#' @noRd
+measured_with <- function(settings, passes, cut_scale, column, curves) {
+  list(ridge = lapply(unclass(settings), identity),
+       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
+                  column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
 }
 
 check_column <- function(column_angle, column_angles, column_reach) {

@@ -109,6 +109,7 @@ with_fields <- function(x, ...) {
   if (name == "landmarks") value <- as_landmarks(value, x$id)
   if (name == "id") value <- check_id(value)
   fields <- unclass(x)
+  if (name == "landmarks") fields["origin"] <- list(origin_after(x, value))
   fields[name] <- list(value)
   class(fields) <- oldClass(x)
   fields

@@ -22,7 +22,8 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)
-  specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...)
+  beside <- if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) landmarks else NA_character_
+  from_files(specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...), file, beside)
 }
 
 mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)
@@ -37,7 +38,7 @@ read_mesh <- function(file, id) {
     refuse_file(file, "the format is not known by its extension",
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
   }
-  check_stored(file, "reading", id)
+  check_stored(file, "reading", id, unpacks = "gzip")
   tryCatch(reader(file, id), error = function(e) {
     if (inherits(e, "crestline_error")) stop(e)
     refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
@@ -56,6 +57,7 @@ mesh_of_polygons <- function(vertex, corner, sides, colour = NULL) {
   if (is.double(corner)) corner[corner != round(corner) | abs(corner) > .Machine$integer.max] <- NA
   mesh <- list(vb = rbind(t(vertex), 1), it = matrix(as.integer(corner), 3))
   if (!is.null(colour)) mesh$material <- list(color = colour)
+  if (any(sides < 3)) mesh$short <- sum(sides < 3)
   structure(mesh, class = "mesh3d")
 }
 

@@ -29,6 +29,8 @@
 #'     colour a vertex, where there is natural colour);
 #'   * `landmarks` (k x 3 matrix with row names, exactly on the surface; perhaps no row);
 #'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing was found);
+#'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out: `values[!is.na(vertices)]`
+#'     belong to `vertices[!is.na(vertices)]`);
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
 #'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
@@ -47,9 +49,11 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   door <- check_mesh(mesh, id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
   new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
+               origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
                                landmarks = placed$landmarks, located = placed$located, size = placed$size,
-                               slips = placed$slips))
+                               slips = placed$slips),
+               vertices = door$vertices)
 }
 
 #' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled

@@ -2,7 +2,7 @@
 
 #' A template and settings, made ready for many specimens
 #'
-#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `radius` (RMS distance of landmarks and curve
+#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `template` (its id and hash), `radius` (RMS distance of landmarks and curve
 #'   points from their centre), `nugget` (of every place), `kept` (environment: sets by name and by what is missing).
 #' @noRd
 slide_plan <- function(template, settings) {
@@ -11,6 +11,7 @@ slide_plan <- function(template, settings) {
   core <- xyz[points$level[!duplicated(points$place)] != "surface" & !is.na(xyz[, 1]), , drop = FALSE]
   radius <- sqrt(mean(rowSums(sweep(core, 2, colMeans(core))^2)))
   list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
+       template = template_provenance(template$id, xyz),
        nugget = nugget_shares(template, settings), kept = new.env(parent = emptyenv()))
 }
 

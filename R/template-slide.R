@@ -97,6 +97,8 @@ finish_slide <- function(shape, cut, plan, specimen) {
   shape <- with_tracks(with_places(shape, surface$store), cut$curves$s, cutting)
   shape$sliding <- rbind(cut$curves$sliding, surface$sliding)
   shape$trace <- c(cut$curves$trace, surface$trace)
+  shape$provenance$template <- plan$template
+  shape$provenance$settings$slide <- lapply(unclass(plan$settings), identity)
   shape
 }
 

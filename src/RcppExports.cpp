@@ -66,6 +66,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_box_diagonal
+double cpp_box_diagonal(NumericMatrix vb);
+RcppExport SEXP _crestline_cpp_box_diagonal(SEXP vbSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_box_diagonal(vb));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_twin_faults
 int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
 RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
@@ -87,6 +98,80 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< int >::type n(nSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_mesh_topology(it, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_near_pairs
+IntegerMatrix cpp_near_pairs(NumericMatrix vb, double reach, int most);
+RcppExport SEXP _crestline_cpp_near_pairs(SEXP vbSEXP, SEXP reachSEXP, SEXP mostSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< int >::type most(mostSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_near_pairs(vb, reach, most));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_pair_groups
+IntegerVector cpp_pair_groups(IntegerMatrix pairs, int n);
+RcppExport SEXP _crestline_cpp_pair_groups(SEXP pairsSEXP, SEXP nSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type pairs(pairsSEXP);
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_pair_groups(pairs, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_vertices_on_edges
+List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector sides, double reach, int most);
+RcppExport SEXP _crestline_cpp_vertices_on_edges(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP mostSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< int >::type most(mostSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertices_on_edges(vb, it, twin, sides, reach, most));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_other_sheets
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel);
+RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type piece(pieceSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sample(sampleSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< double >::type parallel(parallelSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_numbers_at
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big);
+RcppExport SEXP _crestline_cpp_numbers_at(SEXP rawSEXP, SEXP placesSEXP, SEXP realSEXP, SEXP signSEXP, SEXP sizeSEXP, SEXP bigSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type raw(rawSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type places(placesSEXP);
+    Rcpp::traits::input_parameter< bool >::type real(realSEXP);
+    Rcpp::traits::input_parameter< bool >::type sign(signSEXP);
+    Rcpp::traits::input_parameter< int >::type size(sizeSEXP);
+    Rcpp::traits::input_parameter< bool >::type big(bigSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_numbers_at(raw, places, real, sign, size, big));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -402,6 +487,20 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_locate
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf);
+RcppExport SEXP _crestline_cpp_locate(SEXP vbSEXP, SEXP itSEXP, SEXP xyzSEXP, SEXP leafSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< int >::type leaf(leafSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_locate(vb, it, xyz, leaf));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_geodesic_distances
 NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places);
 RcppExport SEXP _crestline_cpp_geodesic_distances(SEXP vbSEXP, SEXP itSEXP, SEXP placesSEXP) {
@@ -472,8 +571,14 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
+    {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
     {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_near_pairs", (DL_FUNC) &_crestline_cpp_near_pairs, 3},
+    {"_crestline_cpp_pair_groups", (DL_FUNC) &_crestline_cpp_pair_groups, 2},
+    {"_crestline_cpp_vertices_on_edges", (DL_FUNC) &_crestline_cpp_vertices_on_edges, 6},
+    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 7},
+    {"_crestline_cpp_numbers_at", (DL_FUNC) &_crestline_cpp_numbers_at, 6},
     {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
     {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
     {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
@@ -495,6 +600,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
+    {"_crestline_cpp_locate", (DL_FUNC) &_crestline_cpp_locate, 4},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},

@@ -1,6 +1,7 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "analysis_align.h"
@@ -11,8 +12,11 @@
 #include "mesh_crop.h"
 #include "mesh_door.h"
 #include "mesh_geodesic.h"
+#include "mesh_join.h"
 #include "mesh_key.h"
+#include "mesh_locate.h"
 #include "mesh_read_obj.h"
+#include "mesh_read_ply.h"
 #include "mesh_read_text.h"
 #include "mesh_size.h"
 #include "mesh_topology.h"
@@ -247,6 +251,53 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
                       _["nonmanifold_edges"] = t.nonmanifold_edges);
 }
 
+// Pairs as two rows, counted from 1.
+// [[Rcpp::export]]
+IntegerMatrix cpp_near_pairs(NumericMatrix vb, double reach, int most) {
+  std::vector<crestline::Pair> pairs = crestline::near_pairs(vb.begin(), vb.nrow(), vb.ncol(), reach, most);
+  IntegerMatrix out(2, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    out(0, i) = pairs[i].first + 1;
+    out(1, i) = pairs[i].second + 1;
+  }
+  return out;
+}
+
+// [[Rcpp::export]]
+IntegerVector cpp_pair_groups(IntegerMatrix pairs, int n) {
+  std::vector<crestline::Pair> all;
+  for (int i = 0; i < pairs.ncol(); ++i) all.push_back({pairs(0, i) - 1, pairs(1, i) - 1});
+  return from_one(crestline::pair_groups(all, n));
+}
+
+// [[Rcpp::export]]
+List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector sides,
+                           double reach, int most) {
+  std::vector<crestline::VertexOnEdge> found =
+      crestline::vertices_on_edges(triangulation(vb, it, twin), from_zero(sides), reach, most);
+  IntegerVector side(found.size()), vertex(found.size());
+  NumericVector along(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    side[i] = found[i].side + 1;
+    vertex[i] = found[i].vertex + 1;
+    along[i] = found[i].along;
+  }
+  return List::create(_["side"] = side, _["vertex"] = vertex, _["along"] = along);
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece,
+                               IntegerVector sample, double reach, double parallel) {
+  return wrap(crestline::other_sheets(triangulation(vb, it, twin), piece.begin(), from_zero(sample), reach,
+                                      parallel));
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big) {
+  crestline::Kind kind = real ? crestline::Kind::real : sign ? crestline::Kind::whole : crestline::Kind::natural;
+  return wrap(crestline::numbers_at(raw.begin(), places.begin(), places.size(), kind, size, big));
+}
+
 // The bytes of a text end with a line end.
 // [[Rcpp::export]]
 List cpp_read_numbers(RawVector text, int from) {
@@ -469,6 +520,32 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
                                [] { checkUserInterrupt(); });
   for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
+// xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
+// [[Rcpp::export]]
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
+  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::FaceTree tree(mesh, leaf);
+  int n = xyz.nrow();
+  IntegerVector face(n, NA_INTEGER);
+  NumericMatrix at(n, 6);
+  NumericVector distance(n, NA_REAL);
+  std::fill(at.begin(), at.end(), NA_REAL);
+  for (int i = 0; i < n; ++i) {
+    double to[3] = {xyz(i, 0), xyz(i, 1), xyz(i, 2)};
+    if (!std::isfinite(to[0]) || !std::isfinite(to[1]) || !std::isfinite(to[2])) continue;
+    crestline::ClosestPoint found = tree.closest(to);
+    if (!std::isfinite(found.distance)) continue;
+    face[i] = found.at.face + 1;
+    distance[i] = found.distance;
+    for (int k = 0; k < 3; ++k) {
+      at(i, k) = found.xyz[k];
+      at(i, 3 + k) = found.at.w[k];
+    }
+    checkUserInterrupt();
+  }
+  return List::create(_["face"] = face, _["at"] = at, _["distance"] = distance);
 }
 
 // [[Rcpp::export]]

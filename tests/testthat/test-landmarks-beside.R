@@ -19,6 +19,12 @@ test_that("the file beside a mesh is found in any format and any case of its ext
   expect_equal(beside(new_folder_of(g.csv = at(1), f2.csv = at(1), f.txt = "x", f.ply = "x")), "")
 })
 
+test_that("a name that differs in case is taken where it is no other mesh's", {
+  expect_equal(beside(new_folder_of(F.csv = at(1), f.ply = "x")), "F.csv")
+  expect_equal(beside(new_folder_of(F.csv = at(1), f.ply = "x", F.PLY = "x")), "")
+  expect_equal(beside(new_folder_of(F.csv = at(1), f.csv = at(2))), "f.csv")
+})
+
 test_that("a .json of another program is no landmark file; a damaged one is not passed over", {
   expect_equal(beside(new_folder_of(f.json = '{"camera": 1}', f.pts = at(1))), "f.pts")
   expect_equal(beside(new_folder_of(f.json = "[1, 2]")), "")
@@ -93,7 +99,8 @@ test_that("read_specimen() takes its own landmarks of several", {
   ball <- ball_mesh(3)
   ball$vb[1:3, ] <- 2 * ball$vb[1:3, ]
   Rvcg::vcgPlyWrite(ball, mesh)
-  for (landmarks in list(file.path(dir, "all.tps"), several)) {
+  table <- data.frame(id = rep(names(several), each = 2), landmark = c("a", "b"), do.call(rbind, unname(several)))
+  for (landmarks in list(file.path(dir, "all.tps"), several, table)) {
     expect_equal(read_specimen(mesh, landmarks)$landmarks, at(2), tolerance = 1e-6)
   }
   expect_crestline_error(read_specimen(mesh, file.path(dir, "all.tps"), id = "S9"), c("no landmarks of S9", "S01, S02, S03"))
