@@ -13,8 +13,10 @@
 defined_place <- function(specimen, definition, start, pairs, curvature, settings) {
   find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile, turn = place_of_turn,
                  end = place_of_end, crossing = place_of_crossing)
-  tryCatch(find(specimen, definition, start, pairs, curvature, settings),
-           crestline_error = function(e) list(reason = sub("\n.*", "", conditionMessage(e))))
+  tryCatch(find(specimen, definition, start, pairs, curvature, settings), crestline_error = function(e) {
+    if (inherits(e, "crestline_wrong_mesh")) rlang::cnd_signal(e)
+    list(reason = sub("\n.*", "", conditionMessage(e)))
+  })
 }
 
 #' Peak of a field as a place

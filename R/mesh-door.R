@@ -24,7 +24,7 @@ as_mesh <- function(mesh) {
 #' @noRd
 passed_mesh <- function(mesh, id) {
   if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
-    refuse_mesh(sprintf("the mesh is %s, not of class \"mesh3d\".", describe_value(mesh)),
+    refuse_mesh(sprintf("the mesh is %s, not a mesh3d.", describe_value(mesh)),
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
   }
   for (known in passed_meshes$last) {

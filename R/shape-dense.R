@@ -237,7 +237,8 @@ side_bow <- function(side, points, normal) {
   bow <- numeric(nrow(side))
   for (k in seq_len(last)[-c(1, last)]) {
     share <- (k - 1) / (last - 1)
-    gap <- xyz[side[, k], ] - (1 - share) * xyz[side[, 1], ] - share * xyz[side[, last], ]
+    at <- function(j) xyz[side[, j], , drop = FALSE]
+    gap <- at(k) - (1 - share) * at(1) - share * at(last)
     bow <- pmax(bow, row_lengths(gap - row_products(gap, normal) * normal), na.rm = TRUE)
   }
   bow

@@ -19,3 +19,25 @@ curve_tracks <- function(fits, scheme, faces) {
          off = which(path$face > faces))
   }, found, cut)
 }
+
+#' Refuse tracks that do not lie on the mesh of a shape, or whose points do not lie on them
+#'
+#' @param bridged The shape's specimen with its holes bridged.
+#' @noRd
+check_tracks <- function(shape, bridged) {
+  known <- passed_mesh(bridged$mesh, bridged$id)
+  for (name in names(shape$tracks)) {
+    track <- shape$tracks[[name]]
+    said <- sprintf("the track of %s", name)
+    check_class(track$path, "mesh_path", said, "fit_shape()")
+    check_places(track$path, known, said, shape$id)
+    s <- track$s[!is.na(track$s)]
+    right <- is.numeric(track$s) && length(track$s) == sum(shape$points$level == "curves" & shape$points$part == name) &&
+      !is.unsorted(s) && all(abs(s / attr(track$path, "length") - 0.5) <= 0.5 + 1e-9)
+    if (!right) {
+      crestline_abort(sprintf("%s has points that are not on it, in order.", said),
+                      "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape", id = shape$id,
+                      class = "crestline_wrong_mesh", call = NULL)
+    }
+  }
+}

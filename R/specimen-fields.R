@@ -142,7 +142,7 @@ with_fields <- function(x, ...) {
 #' A specimen with another mesh: dressed anew where its vertices and triangles are the same, else through the door again
 #' @noRd
 with_other_mesh <- function(x, mesh) {
-  known <- passed_mesh(mesh, x$id)
+  known <- tryCatch(passed_mesh(mesh, x$id), crestline_mesh_error = function(e) NULL)
   if (identical(known$key, specimen_key(x))) {
     mesh[c("vb", "it")] <- list(known$vb, known$it)
     if (!fits_vertices(mesh$normals, ncol(known$vb))) mesh$normals <- vertex_normals(mesh)

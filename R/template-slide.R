@@ -76,8 +76,10 @@ specimen_of_shape <- function(shape, specimen) {
 #' @return List: `curves`, `fits` (slid curves as [fit_scheme_patches()] takes them), `store` (all places).
 #' @noRd
 cut_between_slid <- function(shape, state, curves, specimen) {
+  cutting <- cutting_of(shape, NULL, specimen)
+  check_tracks(shape, cutting$bridged)
   fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s, state$curves)
-  cutting <- cutting_of(shape, fits, specimen)
+  cutting$fits <- fits
   list(curves = curves, fits = fits, store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
 }
 

@@ -263,3 +263,17 @@ complete_case <- function() {
   case$across <- ridge_curve(case$specimen, "lowL", "lowR", "plane", n = 5)
   case
 }
+
+# Calls that were not refused by name, as text.
+not_refused <- function(calls, case, wrong) {
+  said <- lapply(names(calls), function(call) {
+    lapply(names(wrong), function(name) {
+      refused <- tryCatch({
+        suppressWarnings(draw_quietly(calls[[call]](case, wrong[[name]])))
+        "answered"
+      }, crestline_error = function(e) NULL, error = function(e) conditionMessage(e))
+      if (!is.null(refused)) paste(call, name, refused, sep = ": ")
+    })
+  })
+  unlist(said)
+}
