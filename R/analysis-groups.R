@@ -18,9 +18,10 @@
 #'
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same specimens, named by level;
 #'   or an `aligned`.
-#' @param group Factor of n, or what makes one. With names it is matched by the specimens' names, as is a data frame of one
-#'   column of groups and one of the specimens (`id`, `specimen`, `file` and the like, or row names); case, blanks and a
-#'   file's extension aside. Without names it is taken in the order of the specimens, with a message.
+#' @param group Factor of n, or what makes one. With names it is matched by the specimens' names, as
+#'   is a data frame of one column of groups and one of the specimens (`id`, `specimen`, `file` and
+#'   the like, or row names); case, blanks and a file's extension aside. Without names it is taken
+#'   in the order of the specimens, with a message.
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
 #' @param components How many principal components: a whole number, or a share of the variance below 1. Never more than
@@ -51,8 +52,8 @@
 #'
 #'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a level.
 #' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group only, groups that do
-#'   not match the specimens, a specimen in two groups, groups whose names differ by blanks or case only, permutations that
-#'   are none.
+#'   not match the specimens, a specimen in two groups, groups whose names differ by blanks or case
+#'   only, permutations that are none.
 #' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of the
 #'   Royal Statistical Society B* 53, 285-339; Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest
 #'   statistics); Phipson and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in Genetics
@@ -177,11 +178,13 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
   group <- by_specimen(group, ids, "group", fail)
   if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)
   absent <- is.na(group) | !nzchar(trimws(as.character(group)))
-  if (any(absent)) fail(sprintf("`group` is missing for %s.", shorten(ids[absent])), "Leave these specimens out.")
+  if (any(absent)) fail(sprintf("`group` is missing for %s.", shorten(ids[absent])),
+                        "Leave these specimens out.")
   group <- stats::setNames(droplevels(group), ids)
   alike <- alike_levels(levels(group))
   if (length(alike)) {
-    fail(sprintf("the groups %s differ by blanks or case only.", paste0("\"", alike, "\"", collapse = " and ")),
+    fail(sprintf("the groups %s differ by blanks or case only.",
+                 paste0("\"", alike, "\"", collapse = " and ")),
          "Give them one name.")
   }
   if (nlevels(group) < 2) fail("there is one group only.", "Give two or more.")

@@ -14,10 +14,11 @@
 #'
 #' @param sample A `shape_sample`, an `aligned`, or an array, k x 3 x n.
 #' @param level Level of a `shape_sample`, as in [align()].
-#' @param data Data frame of covariates, a row a specimen, or `NULL`. Rows are matched to the specimens by a column of their
-#'   names (`id`, `specimen`, `subject`, `name`, `file`, `sample`, `scan` and the like, in any case) or by row names; case and
-#'   blanks of the names and a file's extension aside. Rows are taken in order only where the specimens have no names
-#'   and the table none, with a message.
+#' @param data Data frame of covariates, a row a specimen, or `NULL`. Rows are matched to the
+#'   specimens by a column of their names (`id`, `specimen`, `subject`, `name`, `file`, `sample`,
+#'   `scan` and the like, in any case) or by row names; case and blanks of the names and a file's
+#'   extension aside. Rows are taken in order only where the specimens have no names and the table
+#'   none, with a message.
 #' @param ... Passed to [align()]: `scale`, `weights`, `missing`.
 #' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned), `size` (centroid
 #'   sizes), and the
@@ -27,9 +28,10 @@
 #'   `as_morpho()`: list
 #'   of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata` (after), `mshape`, `PCs`, `PCscores`,
 #'   `eigenvalues`, `Variance`, `rho`.
-#' @section Errors: of class `crestline_error`: `data` that lacks a specimen, has different rows of one or no column of the
-#'   specimens' names, or has a column `coords` or `size`.
-#' @section Warnings: of class `crestline_alike_groups`, when values of a column differ by blanks or case only.
+#' @section Errors: of class `crestline_error`: `data` that lacks a specimen, has different rows of
+#'   one or no column of the specimens' names, or has a column `coords` or `size`.
+#' @section Warnings: of class `crestline_alike_groups`, when values of a column differ by blanks or
+#'   case only.
 #' @seealso [compare_groups()]; `vignette("interop")`
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -85,8 +87,8 @@ before_projection <- function(aligned) {
 #' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or `Morpho::procSym()` returns, or an
 #'   array of
 #'   aligned configurations.
-#' @param size Centroid sizes, matched by name where they have names; `NULL`: those that `x` has (`size`, `Csize`), else of
-#'   `coords`.
+#' @param size Centroid sizes, matched by name where they have names; `NULL`: those that `x` has
+#'   (`size`, `Csize`), else of `coords`.
 #' @param triangles As in [align()].
 #' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
 #' @export
@@ -100,7 +102,8 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (!is.numeric(size) || is.null(names(size)) && length(size) != n) {
     crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
   }
-  if (!is.null(names(size)) && has_ids(dimnames(coords)[[3]])) size <- sizes_by_specimen(size, dimnames(coords)[[3]])
+  ids <- dimnames(coords)[[3]]
+  if (!is.null(names(size)) && has_ids(ids)) size <- sizes_by_specimen(size, ids)
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
   validate_aligned(new_aligned(provenance = made_with(), coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
@@ -109,7 +112,8 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
 }
 
 sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
-  by_specimen(size, ids, "size", function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call))
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call)
+  by_specimen(size, ids, "size", fail)
 }
 
 #' Columns of covariates in the order of the specimens

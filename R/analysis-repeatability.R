@@ -16,9 +16,9 @@
 #'
 #' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
 #'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".
-#' @param specimen N names: the specimen that each measurement is of; those that failed may be counted or not. A vector with
-#'   names, or a data frame with a column of names, is matched to the names of the measurements; a vector without is taken
-#'   in their order.
+#' @param specimen N names: the specimen that each measurement is of; those that failed may be
+#'   counted or not. A vector with names, or a data frame with a column of names, is matched to the
+#'   names of the measurements; a vector without is taken in their order.
 #' @param observer N names, in the same way: who made it; `NULL`: not told apart.
 #' @param level Of shapes and samples: "landmarks", "curves" or "surface".
 #' @param match In which frame specimens are compared. "specimen": all measurements of a specimen share a frame, as on
@@ -60,7 +60,8 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves", m
   n <- dim(coords)[3]
   ids <- measurement_names(shapes, n)
   specimen <- check_factor(without_failed(specimen, failed), ids, "specimen")
-  if (!is.null(observer)) observer <- check_factor(without_failed(observer, failed), ids, "observer")
+  if (!is.null(observer)) observer <- check_factor(without_failed(observer, failed), ids,
+                                                   "observer")
   gap <- rowSums(is.na(matrix(coords, dim(coords)[1]))) > 0
   missing <- rownames(coords)[gap]
   coords <- coords[!gap, , , drop = FALSE]
@@ -109,12 +110,15 @@ failed_measurements <- function(shapes) {
 
 #' Values by measurement of those that are there, where those that failed are counted too
 #' @noRd
-without_failed <- function(x, failed) if (is.null(names(x)) && length(x) == length(failed)) x[!failed] else x
+without_failed <- function(x, failed) if (is.null(names(x)) &&
+                                          length(x) == length(failed)) x[!failed] else x
 
-#' Names of the measurements: of the list or array, else the shapes' ids where each has its own; else numbers
+#' Names of the measurements: of the list or array, else the shapes' ids where each has its own;
+#' else numbers
 #' @noRd
 measurement_names <- function(shapes, n) {
-  name <- if (is.array(shapes)) dimnames(shapes)[[3]] else if (inherits(shapes, "shape_sample")) names(shapes$shapes) else
+  name <- if (is.array(shapes)) dimnames(shapes)[[3]] else
+    if (inherits(shapes, "shape_sample")) names(shapes$shapes) else
     names(shapes)
   if (is.null(name) && is.list(shapes)) name <- vapply(shapes, `[[`, "", "id")
   if (is.null(name) || anyDuplicated(name)) as.character(seq_len(n)) else name
@@ -138,17 +142,20 @@ measurements <- function(shapes, level, call = rlang::caller_env()) {
 }
 
 check_factor <- function(x, ids, name, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments", call = call)
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments",
+                                                    call = call)
   bad <- !is.atomic(x) || is.null(names(x)) && length(x) != length(ids) || anyNA(x)
   if (bad && !is.data.frame(x)) {
-    fail(sprintf("`%s` is %s, for %s.", name, describe_value(x), amount(length(ids), "measurement")),
+    fail(sprintf("`%s` is %s, for %s.", name, describe_value(x),
+                 amount(length(ids), "measurement")),
          "Give a name for each measurement.")
   }
   if (is.matrix(x)) x <- as.vector(x)
   x <- factor(trimws(by_specimen(x, ids, name, fail)))
   alike <- alike_levels(levels(x))
   if (length(alike)) {
-    fail(sprintf("`%s` has %s, which differ by blanks or case only.", name, paste0("\"", alike, "\"", collapse = " and ")),
+    fail(sprintf("`%s` has %s, which differ by blanks or case only.", name,
+                 paste0("\"", alike, "\"", collapse = " and ")),
          "Give them one name.")
   }
   x

@@ -1,9 +1,12 @@
-# Names of specimens: matched between a sample and what the user gives by specimen, never by position.
+# Names of specimens: matched between a sample and what the user gives by specimen, never by
+# position.
 
-#' Whether columns may hold names of specimens, by their own names: any of the usual words, in any case, with or without id
+#' Whether columns may hold names of specimens, by their own names: any of the usual words, in any
+#' case, with or without id
 #' @noRd
 is_key_column <- function(name) {
-  word <- "(specimen|subject|individual|participant|patient|sample|scan|case|mesh|file|path|name|label|key)s?"
+  word <- paste0("(specimen|subject|individual|participant|patient|sample|scan|case|mesh|",
+                 "file|path|name|label|key)s?")
   bare <- tolower(gsub("^\ufeff|^\u00ef..|^X\\.U\\.FEFF\\.|[[:space:]._-]", "", name))
   grepl(paste0("^(ids?|", word, "|", word, "(ids?|names?|no|number|code)|filepaths?)$"), bare)
 }
@@ -16,7 +19,10 @@ plain_id <- function(id) {
 }
 
 # Extensions of meshes, landmarks and pictures, so that a point in an id stays.
-id_extension <- function() "([.](ply|obj|stl|mrk[.]json|json|csv|pts|tps|nts|dta|landmarkascii|fcsv|pp|ckpt|jpe?g|png|tiff?|bmp))+$"
+id_extension <- function() {
+  paste0("([.](ply|obj|stl|mrk[.]json|json|csv|pts|tps|nts|dta|landmarkascii|fcsv|pp|ckpt|",
+         "jpe?g|png|tiff?|bmp))+$")
+}
 
 #' Ids as text: whole numbers in all their digits, in every session
 #' @noRd
@@ -27,12 +33,15 @@ id_text <- function(id) {
 
 #' The places of ids among names, by their plain form
 #'
-#' A folder counts only where both have one. Ids that differ by no more than their plain form hides are matched exactly.
+#' A folder counts only where both have one. Ids that differ by no more than their plain form hides
+#' are matched exactly.
 #'
 #' @return List of integer vectors, one an id; empty where the name is not there.
 #' @noRd
 id_places <- function(ids, names) {
-  places <- function(id, name) unname(split(seq_along(name), factor(name, unique(id)))[match(id, unique(id))])
+  places <- function(id, name) {
+    unname(split(seq_along(name), factor(name, unique(id)))[match(id, unique(id))])
+  }
   again <- function(x) x %in% x[duplicated(x)]
   id <- plain_id(ids)
   name <- plain_id(names)
@@ -61,19 +70,25 @@ id_places <- function(ids, names) {
 #' @noRd
 places_of_specimens <- function(names, n, ids, what, value, same, fail) {
   if (is.null(names)) {
-    if (n != length(ids)) fail(sprintf("%s has %d %ss for %d specimens.", what, n, value, length(ids)), "Give one for each.")
-    crestline_inform(sprintf("%s has no names of specimens: its %ss are taken in the order of the specimens.", what, value))
+    if (n != length(ids)) {
+      fail(sprintf("%s has %d %ss for %d specimens.", what, n, value, length(ids)),
+           "Give one for each.")
+    }
+    crestline_inform(paste0(what, " has no names of specimens: its ", value,
+                            "s are taken in the order of the specimens."))
     return(seq_len(n))
   }
   place <- id_places(ids, names)
   absent <- ids[lengths(place) == 0]
   if (length(absent)) {
     fail(sprintf("%s has no %s for %s.", what, value, shorten(absent)),
-         sprintf("The specimens are %s; it has %s. Name it alike.", shorten(ids), shorten(id_text(names))))
+         sprintf("The specimens are %s; it has %s. Name it alike.", shorten(ids),
+                 shorten(id_text(names))))
   }
   for (i in which(lengths(place) > 1)) {
     if (!same(place[[i]])) {
-      fail(sprintf("%s has %d different %ss for %s.", what, length(place[[i]]), value, ids[i]), "Leave one of them.")
+      fail(sprintf("%s has %d different %ss for %s.", what, length(place[[i]]), value, ids[i]),
+           "Leave one of them.")
     }
   }
   vapply(place, `[`, 1L, 1L)
@@ -85,8 +100,8 @@ has_ids <- function(ids) !identical(as.character(ids), as.character(seq_along(id
 
 #' Values by specimen, in the order of the specimens
 #'
-#' @param x Vector, named by specimen or, where it has no names, in their order; or a data frame with a column of
-#'   specimens and one of values.
+#' @param x Vector, named by specimen or, where it has no names, in their order; or a data frame
+#'   with a column of specimens and one of values.
 #' @param ids,fail As in [places_of_specimens()].
 #' @param name Name of the argument.
 #' @noRd
@@ -96,13 +111,15 @@ by_specimen <- function(x, ids, name, fail) {
     place <- rows_of_specimens(x, ids, name, fail)
     value <- setdiff(names(x), attr(place, "key"))
     if (length(value) != 1) {
-      fail(sprintf("%s has the columns %s.", what, toString(names(x))), "Give one column of values, and one of the specimens.")
+      fail(sprintf("%s has the columns %s.", what, toString(names(x))),
+           "Give one column of values, and one of the specimens.")
     }
     return(x[[value]][place])
   }
   if (is.matrix(x) && ncol(x) == 1) x <- stats::setNames(as.vector(x), rownames(x))
   if (!is.atomic(x) || length(dim(x)) > 1) {
-    fail(sprintf("%s is %s.", what, describe_value(x)), "Give a vector with a value for each specimen.")
+    fail(sprintf("%s is %s.", what, describe_value(x)),
+         "Give a vector with a value for each specimen.")
   }
   same <- function(i) length(unique(as.vector(x[i]))) == 1
   unname(x[places_of_specimens(names(x), length(x), ids, what, "value", same, fail)])
@@ -110,7 +127,8 @@ by_specimen <- function(x, ids, name, fail) {
 
 #' The rows of a table in the order of the specimens
 #'
-#' @param data Data frame; its key is a column of one of the usual names, or row names, whichever holds all specimens.
+#' @param data Data frame; its key is a column of one of the usual names, or row names, whichever
+#'   holds all specimens.
 #' @return Integer, with the attribute `key`: the column's name, "" for row names.
 #' @noRd
 rows_of_specimens <- function(data, ids, name, fail) {
@@ -126,10 +144,11 @@ rows_of_specimens <- function(data, ids, name, fail) {
   key <- c(names(keys), "")[1]
   column <- setdiff(names(data), key)
   same <- function(i) nrow(unique(as.data.frame(lapply(data[column], function(x) x[i])))) == 1
-  place <- places_of_specimens(if (length(keys)) keys[[1]], nrow(data), ids, what, "row", same, fail)
+  own <- if (length(keys)) keys[[1]]
+  place <- places_of_specimens(own, nrow(data), ids, what, "row", same, fail)
   for (other in names(keys)[-1][known[names(keys)[-1]] == 1]) {
     if (any(vapply(id_places(ids, keys[[other]]), `[`, 1L, 1L) != place)) {
-      fail(sprintf("the columns `%s` and `%s` of %s name other specimens in the same row.", key, other, what),
+      fail(sprintf("the columns `%s` and `%s` of %s name different specimens.", key, other, what),
            "Leave one of them out.")
     }
   }

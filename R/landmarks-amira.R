@@ -17,7 +17,8 @@ read_landmarks_amira <- function(file, options) {
   section <- amira_sections(line, file)
   sets <- lapply(section, function(at) landmark_set(amira_rows(line, at, n, file), name))
   specimen <- amira_names(line, "Sets", length(sets))
-  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen), numbered = is.null(specimen))
+  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen),
+            numbered = is.null(specimen))
 }
 
 # The numbers after @ of every set of co-ordinates, in the order of their declaration.

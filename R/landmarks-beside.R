@@ -2,12 +2,12 @@
 
 #' The landmark file beside a mesh
 #'
-#' Of its name without extension, in any format of [read_landmarks()] and in any case of the extension, or as MeshLab
-#' names picked points. A `.json` that holds no markups is none.
+#' Of its name without extension, in any format of [read_landmarks()] and in any case of the
+#' extension, or as MeshLab names picked points. A `.json` that holds no markups is none.
 #'
 #' @param file Path of the mesh.
-#' @return Path, "" where there is none. Refused where two files differ: landmarks, or their places by more than the
-#'   tolerance.
+#' @return Path, "" where there is none. Refused where two files differ: landmarks, or their places
+#'   by more than the tolerance.
 #' @noRd
 landmarks_beside <- function(file) {
   beside <- landmark_files_beside(file)
@@ -16,13 +16,16 @@ landmarks_beside <- function(file) {
   differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
   if (length(differs)) {
     two <- basename(beside[c(1, differs[1] + 1)])
-    refuse_landmarks(sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
-                     "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL)
+    refuse_landmarks(
+      sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
+      "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL
+    )
   }
   beside[1]
 }
 
-#' All of them; where none has the mesh's name exactly, those that differ in case and are not of another mesh
+#' All of them; where none has the mesh's name exactly, those that differ in case and are not of
+#' another mesh
 #' @noRd
 landmark_files_beside <- function(file) {
   stem <- sub("[.][^.]*$", "", basename(file))
@@ -31,27 +34,31 @@ landmark_files_beside <- function(file) {
   own <- substr(name, 1, nchar(stem))
   end <- tolower(substring(name, nchar(stem) + 1))
   known <- c(paste0(".", tolower(names(landmark_formats()))), ".json", "_picked_points.pp")
-  meant <- if (stem %in% own[end %in% known]) stem else setdiff(own, own[end %in% paste0(".", names(mesh_readers()))])
+  meant <- if (stem %in% own[end %in% known]) stem else
+    setdiff(own, own[end %in% paste0(".", names(mesh_readers()))])
   fits <- end %in% known & own %in% meant
   name <- name[fits][order(match(end[fits], known))]
-  beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else file.path(dirname(file), name)
+  beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else
+    file.path(dirname(file), name)
   beside[vapply(beside, is_landmark_file, NA)]
 }
 
-#' Whether a file of a format's extension holds landmarks, as far as other programs use the extension too
+#' Whether a file of a format's extension holds landmarks, as far as other programs use the
+#' extension too
 #' @noRd
 is_landmark_file <- function(file) {
   if (dir.exists(file)) return(FALSE)
-  other <- grepl("[.]json$", file, ignore.case = TRUE) && !grepl("[.]mrk[.]json$", file, ignore.case = TRUE)
+  other <- grepl("(?<![.]mrk)[.]json$", tolower(file), perl = TRUE)
   if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
-  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) NULL)
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
+                      error = function(e) NULL)
   is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
 }
 
 #' Whether two sets have the same landmarks in the same places
 #'
-#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks: formats differ in
-#'   their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
+#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks:
+#'   formats differ in their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
 #' @noRd
 same_landmarks <- function(a, b, tolerance = 1e-4) {
   if (is.list(a) || is.list(b)) return(identical(a, b))
@@ -64,24 +71,27 @@ same_landmarks <- function(a, b, tolerance = 1e-4) {
 
 #' Landmarks of some specimens, by their ids
 #'
-#' @param landmarks One file of several specimens (TPS, NTS, .landmarkAscii, CSV with a column of specimens), a folder of
-#'   landmark files, paths of one file each, a list of k x 3 matrices (or data frames, or specimens) by name, a k x 3 x n array
-#'   with names, or a data frame with a column of specimens.
+#' @param landmarks One file of several specimens (TPS, NTS, .landmarkAscii, CSV with a column of
+#'   specimens), a folder of landmark files, paths of one file each, a list of k x 3 matrices (or
+#'   data frames, or specimens) by name, a k x 3 x n array with names, or a data frame with a column
+#'   of specimens.
 #' @param ids Ids of the specimens.
 #' @param ... Further arguments of [read_landmarks()].
-#' @return List by id: a k x 3 matrix, or the path of the specimen's own file; NULL where there is none. The attribute
-#'   `problem` (character by id) says why: nothing of its name (with near names), or two that differ; NA where all is well.
-#'   Refused where no specimen has landmarks, and where they have no names and there are several specimens.
+#' @return List by id: a k x 3 matrix, or the path of the specimen's own file; NULL where there is
+#'   none. The attribute `problem` (character by id) says why: nothing of its name (with near
+#'   names), or two that differ; NA where all is well. Refused where no specimen has landmarks, and
+#'   where they have no names and there are several specimens.
 #' @noRd
 landmarks_for <- function(landmarks, ids, ...) {
   source <- landmark_source(landmarks, ids, ...)
-  if (length(ids) == 1 && length(source$sets) == 1 && (is.null(names(source$sets)) || isTRUE(source$file))) {
+  if (length(ids) == 1 && length(source$sets) == 1 &&
+      (is.null(names(source$sets)) || isTRUE(source$file))) {
     return(for_ids(source$sets, ids, NA))
   }
   if (is.null(names(source$sets))) {
     refuse_landmarks(
-      sprintf("%s has %s without names of specimens, for %s.", source$what, amount(length(source$sets), "set"),
-              amount(length(ids), "specimen")),
+      sprintf("%s has %s without names of specimens, for %s.", source$what,
+              amount(length(source$sets), "set"), amount(length(ids), "specimen")),
       sprintf("Name them by the specimens: %s.", shorten(ids)), id = NULL
     )
   }
@@ -90,7 +100,8 @@ landmarks_for <- function(landmarks, ids, ...) {
   problem <- unlist(Map(function(id, place) landmarks_problem(source, id, place), ids, place))
   if (!any(is.na(problem))) {
     refuse_landmarks(
-      if (length(ids) == 1) problem[[1]] else sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
+      if (length(ids) == 1) problem[[1]] else
+        sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
       if (any(lengths(place))) "Leave one of them." else
         sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL
     )
@@ -105,10 +116,12 @@ landmarks_for <- function(landmarks, ids, ...) {
 #' @noRd
 landmarks_problem <- function(source, id, place) {
   if (!length(place)) {
-    return(sprintf("%s has no landmarks of %s. %s", source$what, id, near_names(id, unique(names(source$sets)))))
+    return(sprintf("%s has no landmarks of %s. %s", source$what, id,
+                   near_names(id, unique(names(source$sets)))))
   }
   if (same_sets(source$sets[place])) return(NA_character_)
-  from <- if (is.character(source$sets[[place[1]]])) paste(":", shorten(basename(unlist(source$sets[place]))))
+  file <- Filter(is.character, source$sets[place])
+  from <- if (length(file)) paste0(": ", shorten(basename(unlist(file))))
   paste0(source$what, " has different landmarks of ", id, from, ".")
 }
 
@@ -136,16 +149,19 @@ landmarks_of <- function(landmarks, id) {
 }
 
 for_ids <- function(sets, ids, problem) {
-  structure(stats::setNames(sets, ids), problem = stats::setNames(rep_len(problem, length(ids)), ids))
+  problem <- stats::setNames(rep_len(problem, length(ids)), ids)
+  structure(stats::setNames(sets, ids), problem = problem)
 }
 
 #' What landmarks there are, by name
-#' @return List: `sets` (matrices or paths; no names where the specimens have none), `what` (what it is called), `alias` (other
-#'   names or NULL), `file` (whether it is one file).
+#' @return List: `sets` (matrices or paths; no names where the specimens have none), `what` (what it
+#'   is called), `alias` (other names or NULL), `file` (whether it is one file).
 #' @noRd
 landmark_source <- function(landmarks, ids, ...) {
   if (is.character(landmarks) && is.null(dim(landmarks)) && length(landmarks)) {
-    if (length(unique(landmarks)) > 1) return(list(sets = paths_by_name(landmarks, ids), what = "`landmarks`"))
+    if (length(unique(landmarks)) > 1) {
+      return(list(sets = paths_by_name(landmarks, ids), what = "`landmarks`"))
+    }
     file <- unname(landmarks[1])
     if (isTRUE(dir.exists(file))) {
       paths <- landmark_folder(file)
@@ -159,8 +175,9 @@ landmark_source <- function(landmarks, ids, ...) {
   list(sets = given_sets(landmarks), what = "`landmarks`")
 }
 
-#' Several paths: by their names, else by those of the files. Where no file has a specimen's name they are taken in order, and
-#' that is said; refused where the order contradicts the names in the files'
+#' Several paths: by their names, else by those of the files. Where no file has a specimen's name
+#' they are taken in order, and that is said; refused where the order contradicts the names in the
+#' files'
 #' @noRd
 paths_by_name <- function(landmarks, ids) {
   if (!is.null(names(landmarks))) return(as.list(landmarks))
@@ -168,14 +185,19 @@ paths_by_name <- function(landmarks, ids) {
   if (any(lengths(id_places(ids, stem)) > 0) || length(landmarks) != length(ids)) {
     return(stats::setNames(as.list(landmarks), stem))
   }
-  within <- lapply(plain_id(ids), function(id) which(grepl(sub("^.*/", "", id), tolower(stem), fixed = TRUE)))
+  within <- lapply(sub("^.*/", "", plain_id(ids)), function(id) {
+    which(grepl(id, tolower(stem), fixed = TRUE))
+  })
   other <- which(mapply(function(at, i) length(at) == 1 && at != i, within, seq_along(ids)))
   if (length(other)) {
-    refuse_landmarks(sprintf("`landmarks` has %s in the place of %s.", basename(landmarks[other[1]]), ids[other[1]]),
-                     "Put them in the order of the specimens, or give them the specimens' names.", id = NULL)
+    at <- other[1]
+    refuse_landmarks(
+      sprintf("`landmarks` has %s in the place of %s.", basename(landmarks[at]), ids[at]),
+      "Put them in the order of the specimens, or give them the specimens' names.", id = NULL
+    )
   }
-  crestline_inform(sprintf("`landmarks`: the files are taken in the order of the specimens, %s for %s and so on.",
-                           basename(landmarks[1]), ids[1]))
+  crestline_inform(paste0("`landmarks` are taken in the order of the specimens, ",
+                          basename(landmarks[1]), " for ", ids[1], " and so on."))
   stats::setNames(as.list(landmarks), ids)
 }
 
@@ -190,21 +212,27 @@ given_sets <- function(x) {
   if (is.matrix(x) || inherits(x, "specimen")) x <- list(x)
   if (!is.list(x) || !length(x)) {
     crestline_abort(sprintf("`landmarks` is %s.", describe_value(x)),
-                    "Give a file, a folder, a list of matrices by name of specimen, or an array with such names.",
+                    "Give a file, a folder, or a list of matrices or an array by name of specimen.",
                     stage = "arguments", call = NULL)
   }
-  if (is.null(names(x)) && all(vapply(x, inherits, NA, "specimen"))) names(x) <- vapply(x, `[[`, "", "id")
+  specimen <- vapply(x, inherits, NA, "specimen")
+  if (is.null(names(x)) && all(specimen)) names(x) <- vapply(x, `[[`, "", "id")
   if (!is.null(names(x)) && !all(nzchar(names(x)))) {
-    refuse_landmarks("some of the list `landmarks` have no name.", "Name each by its specimen.", id = NULL)
+    refuse_landmarks("some of the list `landmarks` have no name.", "Name each by its specimen.",
+                     id = NULL)
   }
-  lapply(x, function(one) if (is.character(one)) one else as_landmarks(if (inherits(one, "specimen")) one$landmarks else one))
+  x[specimen] <- lapply(x[specimen], `[[`, "landmarks")
+  lapply(x, function(one) if (is.character(one)) one else as_landmarks(one))
 }
 
-#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have no names
+#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have
+#' no names
 #' @noRd
 array_sets <- function(x) {
   point <- if (is.null(dimnames(x)[[1]])) as.character(seq_len(dim(x)[1])) else dimnames(x)[[1]]
-  sets <- lapply(seq_len(dim(x)[3]), function(i) matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL)))
+  sets <- lapply(seq_len(dim(x)[3]), function(i) {
+    matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL))
+  })
   stats::setNames(sets, dimnames(x)[[3]])
 }
 
@@ -216,31 +244,34 @@ landmark_folder <- function(dir) {
   file <- file[grepl(known, file, ignore.case = TRUE)]
   file <- file[vapply(file, is_landmark_file, NA)]
   if (!length(file)) {
+    known <- paste0(".", names(landmark_formats()), collapse = ", ")
     refuse_landmarks(sprintf("the folder %s has no landmark files.", dir),
-                     paste0("Known: ", paste0(".", names(landmark_formats()), collapse = ", "), "."), id = NULL)
+                     sprintf("Known: %s.", known), id = NULL)
   }
-  stats::setNames(file, sub(id_extension(), "", sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE),
-                            ignore.case = TRUE))
+  name <- sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE)
+  stats::setNames(file, sub(id_extension(), "", name, ignore.case = TRUE))
 }
 
 #' @param ... As of read_sets().
-#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of one specimen must agree.
+#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of
+#'   one specimen must agree.
 #' @noRd
 read_landmark_folder <- function(dir, ...) {
   file <- landmark_folder(dir)
   sets <- do.call(c, unname(Map(function(path, name) {
     found <- read_sets(path, ...)
     if (is.matrix(found)) found <- list(found)
-    names(found) <- if (length(found) == 1) name else if (isTRUE(attr(found, "numbered"))) paste(name, seq_along(found)) else
-      names(found)
+    if (isTRUE(attr(found, "numbered"))) names(found) <- paste(name, seq_along(found))
+    if (length(found) == 1) names(found) <- name
     found
   }, file, names(file))))
   name <- names(sets)
   for (twice in unique(name[duplicated(name)])) {
     if (!same_sets(sets[name == twice])) {
       from <- basename(file[names(file) == twice])
-      refuse_landmarks(sprintf("%s has different landmarks of %s%s.", dir, twice,
-                               if (length(from) > 1) paste(":", shorten(from)) else ""), "Leave one of them.", id = NULL)
+      from <- if (length(from) > 1) paste0(": ", shorten(from))
+      refuse_landmarks(paste0(dir, " has different landmarks of ", twice, from, "."),
+                       "Leave one of them.", id = NULL)
     }
   }
   sets[!duplicated(name)]

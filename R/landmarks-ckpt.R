@@ -1,11 +1,13 @@
-# .ckpt of Stratovan Checkpoint, read only: sections in square brackets; under [Landmarks] the number of points and a line
-# each, "number: ? state ? x y z, a normal and the name in quotes", the state N, or M of a missing point. [SinglePoints]
-# lists those that are landmarks; the others are of curves and patches.
+# .ckpt of Stratovan Checkpoint, read only: sections in square brackets; under [Landmarks] the
+# number of points and a line each, "number: ? state ? x y z, a normal and the name in quotes", the
+# state N, or M of a missing point. [SinglePoints] lists those that are landmarks; the others are of
+# curves and patches.
 
 read_landmarks_ckpt <- function(file, options) {
   line <- file_lines(file)
   if (!any(grepl("Checkpoint", utils::head(line, 5), fixed = TRUE))) {
-    refuse_landmark_file(file, "not a file of Stratovan Checkpoint", "Save it anew from Checkpoint, or export .pts.")
+    refuse_landmark_file(file, "not a file of Stratovan Checkpoint",
+                         "Save it anew from Checkpoint, or export .pts.")
   }
   row <- ckpt_rows(line, "NumberOfPoints", file)
   part <- ckpt_parts(line[row], file, row)
@@ -13,8 +15,11 @@ read_landmarks_ckpt <- function(file, options) {
   x[part[, 2] != "N", ] <- NA
   single <- ckpt_single(line, part[, 1], file)
   if (any(!single)) {
-    crestline_warn(sprintf("%s: %d points of curves and patches are left out.", basename(file), sum(!single)),
-                   "Export them from Checkpoint as .pts.", stage = "landmarks", class = "crestline_format_warning")
+    crestline_warn(
+      sprintf("%s: %d points of curves and patches are left out.", basename(file), sum(!single)),
+      "Export them from Checkpoint as .pts.", stage = "landmarks",
+      class = "crestline_format_warning"
+    )
   }
   name <- ifelse(nzchar(part[, 6]), part[, 6], part[, 1])
   landmark_set(x[single, , drop = FALSE], name[single])
@@ -33,7 +38,8 @@ ckpt_rows <- function(line, key, file, needed = TRUE) {
   within <- seq_len(end[end > at][1] - 1)
   row <- within[within > at & grepl("^\\s*[0-9]+:", line[within])]
   if (length(row) != said) {
-    refuse_landmark_file(file, sprintf("%d points are announced, %d follow", said, length(row)), "Put the whole file.", at)
+    refuse_landmark_file(file, sprintf("%d points are announced, %d follow", said, length(row)),
+                         "Put the whole file.", at)
   }
   row
 }
@@ -41,17 +47,19 @@ ckpt_rows <- function(line, key, file, needed = TRUE) {
 #' Number, state, co-ordinates and name of every point
 #' @noRd
 ckpt_parts <- function(text, file, line) {
-  pattern <- "^\\s*([0-9]+):\\s+\\S+\\s+(\\S+)\\s+\\S+\\s+(\\S+)\\s+(\\S+)\\s+(\\S+)(?:\\s+[^\\s\"]+)*\\s+\"(.*)\"[^\"]*$"
+  pattern <- paste0("^\\s*([0-9]+):\\s+\\S+\\s+(\\S+)\\s+\\S+\\s+(\\S+)\\s+(\\S+)\\s+(\\S+)",
+                    "(?:\\s+[^\\s\"]+)*\\s+\"(.*)\"[^\"]*$")
   part <- regmatches(text, regexec(pattern, text, perl = TRUE))
   wrong <- which(lengths(part) == 0)
   if (length(wrong)) {
-    refuse_landmark_file(file, "not a point of Checkpoint", "Write: 0: 0 N 0x8 x y z, a normal, \"name\" 0 1.", line[wrong[1]])
+    refuse_landmark_file(file, "not a point of Checkpoint",
+                         "Write: 0: 0 N 0x8 x y z, a normal, \"name\" 0 1.", line[wrong[1]])
   }
   part <- matrix(as.character(unlist(part)), ncol = 7, byrow = TRUE)[, -1, drop = FALSE]
   state <- which(!part[, 2] %in% c("N", "M", "U"))
   if (length(state)) {
-    refuse_landmark_file(file, sprintf("the state of a point is \"%s\", not N or M", part[state[1], 2]), "Save it anew.",
-                         line[state[1]])
+    said <- sprintf("the state of a point is \"%s\", not N or M", part[state[1], 2])
+    refuse_landmark_file(file, said, "Save it anew.", line[state[1]])
   }
   part
 }

@@ -1,5 +1,6 @@
-# Landmarks and curves as comma-separated values: name, x, y, z and, for points of curves, curve, closed. 3D Slicer
-# exports its lists as such tables with r, a, s (or l, p, s) in place of x, y, z; several specimens have a column of them.
+# Landmarks and curves as comma-separated values: name, x, y, z and, for points of curves, curve,
+# closed. 3D Slicer exports its lists as such tables with r, a, s (or l, p, s) in place of x, y, z;
+# several specimens have a column of them.
 
 read_landmarks_csv <- function(file, options) {
   refuse <- function(problem, line = NULL) refuse_csv(file, problem, line)
@@ -13,10 +14,14 @@ table_sets <- function(x) {
     refuse_landmarks(sprintf("the table of landmarks cannot be read: %s.", problem),
                      "Give the columns name, x, y, z, and one of the specimens.", id = NULL)
   }
-  text <- lapply(x, function(column) if (is.double(column)) number_text(column, "") else as.character(column))
+  text <- lapply(x, function(column) {
+    if (is.double(column)) number_text(column, "") else as.character(column)
+  })
   text <- lapply(text, function(column) replace(column, is.na(column), ""))
-  table <- structure(text, names = trimws(names(x)), row.names = seq_len(nrow(x)), class = "data.frame")
-  csv_sets(structure(table, line = seq_len(nrow(x)), sep = ","), "the table", list(frame = "LPS"), refuse)
+  table <- structure(text, names = trimws(names(x)), row.names = seq_len(nrow(x)),
+                     class = "data.frame")
+  csv_sets(structure(table, line = seq_len(nrow(x)), sep = ","), "the table", list(frame = "LPS"),
+           refuse)
 }
 
 #' @param table As of [text_table()].
@@ -27,7 +32,8 @@ csv_sets <- function(table, file, options, refuse) {
   frame <- csv_frame(table, refuse)
   table <- decimal_points(table, frame$columns, refuse)
   line <- attr(table, "line")
-  x <- vapply(frame$columns, function(name) landmark_numbers(table[[name]], file, line), numeric(nrow(table)))
+  x <- vapply(frame$columns, function(name) landmark_numbers(table[[name]], file, line),
+              numeric(nrow(table)))
   x <- matrix(x, ncol = 3)
   if (!is.null(table$defined)) x[tolower(table$defined) %in% c("0", "false"), ] <- NA
   if (!is.null(frame$frame)) x <- change_frame(x, frame$frame, options$frame)
@@ -45,15 +51,16 @@ csv_frame <- function(table, refuse) {
   whole <- which(vapply(known, function(one) all(one %in% names(table)), NA))
   if (length(whole) > 1) refuse(sprintf("co-ordinates twice: %s", toString(unlist(known[whole]))))
   if (!length(whole)) {
-    refuse(sprintf("no column %s among %s", toString(setdiff(known[[1]], names(table))), shorten(names(table))))
+    refuse(sprintf("no column %s among %s", toString(setdiff(known[[1]], names(table))),
+                   shorten(names(table))))
   }
   list(columns = known[[whole]], frame = if (whole > 1) names(known)[whole])
 }
 
 #' Which column names the landmarks, and which the specimens
 #'
-#' A column called id or name may number the points as well: it names specimens only where landmarks would be named twice
-#' without it.
+#' A column called id or name may number the points as well: it names specimens only where landmarks
+#' would be named twice without it.
 #'
 #' @return List: `label`, `specimen`: names of columns, NULL where there is none.
 #' @noRd
@@ -68,7 +75,8 @@ csv_columns <- function(table, xyz) {
   if (!length(label) || !twice(table[[label[1]]])) return(one)
   for (name in intersect(c("landmark", "label", "name"), label)) {
     for (key in setdiff(intersect(c("id", "name", "label"), names(table)), name)) {
-      if (!twice(table[[key]], table[[name]]) && twice(table[[key]])) return(list(label = name, specimen = key))
+      if (!twice(table[[key]], table[[name]]) &&
+          twice(table[[key]])) return(list(label = name, specimen = key))
     }
   }
   one
@@ -82,7 +90,8 @@ csv_specimens <- function(id, line, refuse) {
   alike <- which(duplicated(plain_id(name)))
   if (length(alike)) {
     first <- name[match(plain_id(name[alike[1]]), plain_id(name))]
-    refuse(sprintf("\"%s\" and \"%s\" seem to be one specimen", first, name[alike[1]]), line[match(name[alike[1]], id)])
+    refuse(sprintf("\"%s\" and \"%s\" seem to be one specimen", first, name[alike[1]]),
+           line[match(name[alike[1]], id)])
   }
   id
 }
@@ -104,14 +113,17 @@ csv_set <- function(x, table, label, line, refuse) {
 check_csv_names <- function(name, x, line, refuse) {
   if (any(!nzchar(name))) refuse("a point has no name", line[!nzchar(name)][1])
   again <- if (anyDuplicated(name)) which(duplicated(name) & !duplicated(data.frame(name, x)))
-  if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]), line[again[1]])
+  if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]),
+                            line[again[1]])
 }
 
-# The points of a curve by their numbers in a column `point` where there are such, else in the order of the rows.
+# The points of a curve by their numbers in a column `point` where there are such, else in the order
+# of the rows.
 csv_curves <- function(x, curve, table) {
   name <- unique(curve[nzchar(curve)])
   is_closed <- tolower(table$closed) %in% c("true", "t", "yes", "1")
-  number <- if (is.null(table$point)) seq_along(curve) else suppressWarnings(as.numeric(table$point))
+  number <- if (is.null(table$point)) seq_along(curve) else
+    suppressWarnings(as.numeric(table$point))
   lapply(stats::setNames(name, name), function(one) {
     row <- which(curve == one)
     if (!anyNA(number[row])) row <- row[order(number[row])]
@@ -121,7 +133,8 @@ csv_curves <- function(x, curve, table) {
 
 refuse_csv <- function(file, reason, line = NULL) {
   refuse_landmark_file(file, paste("cannot be read:", reason),
-                       "Give a header line with name, x, y, z, and commas, semicolons or tabs between.", line)
+                       "Give a header line with name, x, y, z; commas, semicolons or tabs between.",
+                       line)
 }
 
 write_landmarks_csv <- function(sets, file, options) {

@@ -42,17 +42,22 @@ fcsv_frame <- function(comment) {
 fcsv_fields <- function(text, line, column, file) {
   field <- split_fields(text, ",")
   few <- which(lengths(field) < max(match(c("x", "y", "z"), column)))
-  if (length(few)) refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[few[1]])
+  if (length(few)) {
+    refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.",
+                         line[few[1]])
+  }
   field
 }
 
-# As many fields as there are columns, or two more: the state of the point, and whether it was made by itself.
+# As many fields as there are columns, or two more: the state of the point, and whether it was made
+# by itself.
 check_fcsv_fields <- function(field, column, line, file) {
   state <- vapply(field, function(value) value[length(column) + 1], "")
   more <- lengths(field) - length(column)
   wrong <- which(!(more == 0 | more == 2 & trimws(state) %in% c("", 0:3)))
   if (length(wrong)) {
-    refuse_landmark_file(file, sprintf("%d fields where there are %d columns", lengths(field)[wrong[1]], length(column)),
+    refuse_landmark_file(file, sprintf("%d fields where there are %d columns",
+                                       lengths(field)[wrong[1]], length(column)),
                          "Quote labels and descriptions that hold commas.", line[wrong[1]])
   }
 }
@@ -83,7 +88,8 @@ write_landmarks_fcsv <- function(sets, file, options) {
   quoted <- ifelse(grepl("[,\"#']|^\\s|\\s$", rownames(x)), quote_name(rownames(x)), rownames(x))
   state <- ifelse(is.na(x[, 1]), "0", "2")
   position <- row_text(x, missing = "0", sep = ",")
-  row <- paste(sprintf("%d", seq_len(nrow(x))), position, "0,0,0,1,1,1,0", quoted, "", "", state, "0", sep = ",")
+  row <- paste(sprintf("%d", seq_len(nrow(x))), position, "0,0,0,1,1,1,0", quoted, "", "", state,
+               "0", sep = ",")
   write_file_lines(c(
     "# Markups fiducial file version = 4.11", paste("# CoordinateSystem =", options$frame),
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",

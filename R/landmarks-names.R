@@ -4,8 +4,9 @@
 #'
 #' @param landmarks k x 3 matrix with row names, or the names.
 #' @param scheme A scheme.
-#' @return One string such as "not used: prn, CHL; near: pn, chL", NULL where all are used. The attribute `near` (character,
-#'   the scheme's missing landmarks that may be meant, named by what is not used) is empty where there are none.
+#' @return One string such as "not used: prn, CHL; near: pn, chL", NULL where all are used. The
+#'   attribute `near` (character, the scheme's missing landmarks that may be meant, named by what is
+#'   not used) is empty where there are none.
 #' @noRd
 unused_names <- function(landmarks, scheme, most = 8) {
   name <- if (is.character(landmarks)) landmarks else rownames(landmarks)
@@ -26,16 +27,20 @@ warn_unused_names <- function(specimen, scheme, of) {
   unused <- unused_names(specimen$landmarks, scheme)
   near <- attr(unused, "near")
   if (!length(near)) return(invisible())
-  crestline_warn(sprintf("landmarks of %s are missing, and others have names like them: %s.", of, unused),
-                 sprintf("If they are meant, rename them: %s.", shorten(paste(names(near), "to", near))),
+  crestline_warn(paste0("landmarks of ", of, " are missing, and others have names like them: ",
+                        unused, "."),
+                 paste0("If they are meant, rename them: ",
+                        shorten(paste(names(near), "to", near)), "."),
                  stage = "landmarks", id = specimen$id, class = "crestline_unused_landmarks")
 }
 
-#' For each name the missing landmark that it may stand for: the same but for case, blanks and signs, the landmark's long
-#' name, or a letter or two more or fewer; the two sides of a pair are never near
+#' For each name the missing landmark that it may stand for: the same but for case, blanks and
+#' signs, the landmark's long name, or a letter or two more or fewer; the two sides of a pair are
+#' never near
 #'
 #' @param missing Rows of the scheme's landmarks.
-#' @param letters Most letters added or left out, and most letters exchanged in names of 5 letters and more.
+#' @param letters Most letters added or left out, and most letters exchanged in names of 5 letters
+#'   and more.
 #' @return Character by unused name, without those that are near none or several.
 #' @noRd
 near_landmarks <- function(unused, missing, letters = 1) {
@@ -45,18 +50,21 @@ near_landmarks <- function(unused, missing, letters = 1) {
   near <- lapply(own, function(name) {
     same <- which(name == short | name == long)
     if (length(same)) return(same)
-    added <- abs(nchar(name) - nchar(short)) == utils::adist(name, short) & utils::adist(name, short) <= letters
-    exchanged <- nchar(short) >= 5 & utils::adist(name, short) <= letters
-    mirrored <- grepl("[lr]$", name) & grepl("[lr]$", short) & substring(name, nchar(name)) != substring(short, nchar(short))
-    which((added | exchanged) & !mirrored & pmin(nchar(name), nchar(short)) > 1)
+    distance <- as.vector(utils::adist(name, short))
+    added <- abs(nchar(name) - nchar(short)) == distance
+    mirrored <- grepl("l$", name) & grepl("r$", short) | grepl("r$", name) & grepl("l$", short)
+    long_enough <- pmin(nchar(name), nchar(short)) > 1
+    which(distance <= letters & (added | nchar(short) >= 5) & !mirrored & long_enough)
   })
   one <- lengths(near) == 1
   stats::setNames(missing$landmark[unlist(near[one])], unused[one])
 }
 
-#' Names of landmarks as they are compared: small letters, no blanks nor signs, the side as a letter at the end
+#' Names of landmarks as they are compared: small letters, no blanks nor signs, the side as a letter
+#' at the end
 #' @noRd
 plain_landmark <- function(name) {
-  name <- gsub("[^[:alnum:]]", "", tolower(sub("^(left|right)[^[:alnum:]]+(.*)$", "\\2 \\1", tolower(name))))
+  name <- sub("^(left|right)[^[:alnum:]]+(.*)$", "\\2 \\1", tolower(name))
+  name <- gsub("[^[:alnum:]]", "", name)
   sub("left$", "l", sub("right$", "r", name))
 }

@@ -2,13 +2,14 @@
 
 #' A table from the lines of a file
 #'
-#' Fields are counted against the header, so that no value can move into another column. What spreadsheets leave is
-#' taken off: a line `sep=;`, comments (#) above the header, empty rows and columns, a separator at the end of all rows.
+#' Fields are counted against the header, so that no value can move into another column. What
+#' spreadsheets leave is taken off: a line `sep=;`, comments (#) above the header, empty rows and
+#' columns, a separator at the end of all rows.
 #'
 #' @param line Lines of text, as of file_lines().
 #' @param refuse Function that stops, of a problem and the number of its line.
-#' @return Data frame of text, without blanks around unquoted cells, "" where empty; attributes `line` (of each row) and
-#'   `sep`.
+#' @return Data frame of text, without blanks around unquoted cells, "" where empty; attributes
+#'   `line` (of each row) and `sep`.
 #' @noRd
 text_table <- function(line, refuse) {
   start <- table_start(line)
@@ -29,14 +30,15 @@ text_table <- function(line, refuse) {
 #' @noRd
 table_start <- function(line) {
   at <- which(grepl("\\S", line))
-  said <- regmatches(line[at[1]], regexec("^\\s*\"?sep=(.)\"?[,;\t]*$", line[at[1]], ignore.case = TRUE))
-  said <- if (length(at)) said[[1]]
+  sep <- regexec("^\\s*\"?sep=(.)\"?[,;\t]*$", line[at[1]], ignore.case = TRUE)
+  said <- if (length(at)) regmatches(line[at[1]], sep)[[1]]
   if (length(said)) at <- at[-1]
   comment <- cumprod(grepl("^\\s*\"?#", line[at])) == 1
   list(at = at[!comment], sep = if (length(said)) said[2])
 }
 
-# Spreadsheets write semicolons, and decimal commas, where the comma is the decimal mark; some write tabs.
+# Spreadsheets write semicolons, and decimal commas, where the comma is the decimal mark; some write
+# tabs.
 table_separator <- function(header) {
   bare <- strsplit(gsub("\"[^\"]*\"", "", header), "")[[1]]
   marks <- c(",", ";", "\t")
@@ -57,7 +59,9 @@ table_records <- function(line, at, sep, refuse) {
       field[i] <- split_fields(paste(text[i:end], collapse = "\n"), sep)
       if (length(field[[i]])) break
     }
-    if (!length(field[[i]])) refuse("a quotation mark is not closed, or text stands behind a closed one", at[i])
+    if (!length(field[[i]])) {
+      refuse("a quotation mark is not closed, or text stands behind a closed one", at[i])
+    }
     text[setdiff(i:end, i)] <- NA
   }
   list(field = field[!is.na(text)], line = at[!is.na(text)])
@@ -82,10 +86,12 @@ split_fields <- function(text, sep) {
   field
 }
 
-#' Fields of one text by the rule: a field is quoted as a whole, with quotes in it doubled, or has none at its start
+#' Fields of one text by the rule: a field is quoted as a whole, with quotes in it doubled, or has
+#' none at its start
 #' @noRd
 quoted_fields <- function(text, sep) {
-  pattern <- gsub("@", paste0("\\Q", sep, "\\E"), "@(?: *\"[^\"]*(?:\"\"[^\"]*)*\" *| *[^\" @][^@]*| *)(?=@|\\z)", fixed = TRUE)
+  pattern <- gsub("@", paste0("\\Q", sep, "\\E"),
+                  "@(?: *\"[^\"]*(?:\"\"[^\"]*)*\" *| *[^\" @][^@]*| *)(?=@|\\z)", fixed = TRUE)
   whole <- paste0(sep, text)
   part <- regmatches(whole, gregexpr(pattern, whole, perl = TRUE))[[1]]
   if (sum(nchar(part)) != nchar(whole)) return(character())
@@ -100,24 +106,32 @@ check_table_header <- function(header, line, refuse) {
     refuse("there is no header line: the first line holds numbers", line)
   }
   name <- tolower(header[nzchar(header)])
-  if (anyDuplicated(name)) refuse(sprintf("two columns are called \"%s\"", name[anyDuplicated(name)]), line)
+  again <- name[anyDuplicated(name)]
+  if (length(again)) refuse(sprintf("two columns are called \"%s\"", again), line)
 }
 
-#' Rows of as many cells as the header has names; all rows may end in the same number of empty cells more
+#' Rows of as many cells as the header has names; all rows may end in the same number of empty cells
+#' more
 #' @return Matrix of text.
 #' @noRd
 counted_cells <- function(field, header, line, refuse) {
   named <- max(which(nzchar(header)), 0)
   width <- if (length(field)) length(field[[1]]) else length(header)
   even <- all(lengths(field) == width) && width >= named
-  if (!even || width != length(header) && any(nzchar(unlist(lapply(field, `[`, -seq_len(named)))))) {
-    wrong <- which(lengths(field) != length(header))[1]
-    refuse(sprintf("%d fields where the header has %d", length(field[[wrong]]), length(header)), line[wrong])
+  if (even && width != length(header)) {
+    even <- !any(nzchar(unlist(lapply(field, utils::tail, width - named))))
   }
-  matrix(as.character(unlist(field)), ncol = width, byrow = TRUE)[, seq_len(min(width, length(header))), drop = FALSE]
+  if (!even) {
+    wrong <- which(lengths(field) != length(header))[1]
+    refuse(sprintf("%d fields where the header has %d", length(field[[wrong]]), length(header)),
+           line[wrong])
+  }
+  cells <- matrix(as.character(unlist(field)), ncol = width, byrow = TRUE)
+  cells[, seq_len(min(width, length(header))), drop = FALSE]
 }
 
-#' Columns under their names. Empty ones without a name are left out; the first may do without, as row names have none
+#' Columns under their names. Empty ones without a name are left out; the first may do without, as
+#' row names have none
 #' @noRd
 named_columns <- function(cells, header, line, refuse) {
   header <- header[seq_len(ncol(cells))]
@@ -125,18 +139,21 @@ named_columns <- function(cells, header, line, refuse) {
   filled <- nameless[colSums(cells[, nameless, drop = FALSE] != "") > 0]
   beyond <- setdiff(filled, 1)
   if (length(beyond)) {
-    refuse(sprintf("column %d holds something and has no name", beyond[1]), line[which(nzchar(cells[, beyond[1]]))[1]])
+    refuse(sprintf("column %d holds something and has no name", beyond[1]),
+           line[which(nzchar(cells[, beyond[1]]))[1]])
   }
   kept <- setdiff(seq_along(header), setdiff(nameless, filled))
   header[filled] <- "row names"
   table <- lapply(kept, function(i) cells[, i])
-  attributes(table) <- list(names = header[kept], row.names = seq_len(nrow(cells)), class = "data.frame")
+  attributes(table) <- list(names = header[kept], row.names = seq_len(nrow(cells)),
+                            class = "data.frame")
   table
 }
 
 #' Decimal commas as points in some columns of a table whose separator is none
 #'
-#' @return The table. Refused where some numbers have a comma and others a point: one of them would be of thousands.
+#' @return The table. Refused where some numbers have a comma and others a point: one of them would
+#'   be of thousands.
 #' @noRd
 decimal_points <- function(table, columns, refuse) {
   if (attr(table, "sep") == ",") return(table)
@@ -145,7 +162,8 @@ decimal_points <- function(table, columns, refuse) {
   point <- grepl(".", text, fixed = TRUE)
   if (any(comma & !point) && any(point & !comma)) {
     at <- which(comma & !point)[1]
-    refuse(sprintf("\"%s\" has a decimal comma, \"%s\" a point", text[at], text[which(point & !comma)[1]]),
+    other <- text[point & !comma][1]
+    refuse(sprintf("\"%s\" has a decimal comma, \"%s\" a point", text[at], other),
            attr(table, "line")[row(text)[at]])
   }
   table[columns] <- lapply(table[columns], sub, pattern = ",", replacement = ".", fixed = TRUE)

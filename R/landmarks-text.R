@@ -1,7 +1,7 @@
 # What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets, errors.
 
-# The lines of a text file, ended as on any system. UTF-8 or UTF-16, with or without a mark of it; else taken for Latin 1,
-# as Windows writes names with accents.
+# The lines of a text file, ended as on any system. UTF-8 or UTF-16, with or without a mark of it;
+# else taken for Latin 1, as Windows writes names with accents.
 file_lines <- function(file) {
   bytes <- readBin(file, "raw", file.size(file))
   bytes <- if (is.na(wide <- wide_encoding(bytes))) bytes[bytes != 0] else {
@@ -14,13 +14,15 @@ file_lines <- function(file) {
   line
 }
 
-# The UTF-16 of a text: by its mark, else where every second byte is 0, as in names and numbers; NA for none.
+# The UTF-16 of a text: by its mark, else where every second byte is 0, as in names and numbers; NA
+# for none.
 wide_encoding <- function(bytes) {
   if (length(bytes) < 2) return(NA_character_)
   mark <- paste(bytes[1:2], collapse = "")
   if (mark %in% c("fffe", "feff")) return(if (mark == "fffe") "UTF-16LE" else "UTF-16BE")
   zero <- c(mean(bytes[c(TRUE, FALSE)] == 0), mean(bytes[c(FALSE, TRUE)] == 0))
-  if (zero[2] > 0.5 && zero[1] == 0) "UTF-16LE" else if (zero[1] > 0.5 && zero[2] == 0) "UTF-16BE" else NA_character_
+  if (zero[2] > 0.5 && zero[1] == 0) "UTF-16LE" else
+    if (zero[1] > 0.5 && zero[2] == 0) "UTF-16BE" else NA_character_
 }
 
 write_file_lines <- function(line, file) {
@@ -28,9 +30,11 @@ write_file_lines <- function(line, file) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })
   line <- enc2utf8(line)
-  tryCatch(writeLines(line, connection, useBytes = TRUE), finally = suppressWarnings(close(connection)))
+  tryCatch(writeLines(line, connection, useBytes = TRUE),
+           finally = suppressWarnings(close(connection)))
   if (!identical(file.size(file), sum(nchar(line, "bytes") + 1))) {
-    refuse_landmark_file(file, "was not written whole", "Is the disk full, or the file a device? Write to another place.")
+    refuse_landmark_file(file, "was not written whole",
+                         "Is the disk full, or the file a device? Write to another place.")
   }
 }
 
@@ -61,11 +65,14 @@ landmark_rows <- function(text, width, file, line) {
   matrix(landmark_numbers(unlist(word), file, rep(line, each = width)), ncol = width, byrow = TRUE)
 }
 
-# Commas in some places and blanks in others: the commas may be decimal ones, and every number another.
+# Commas in some places and blanks in others: the commas may be decimal ones, and every number
+# another.
 check_separators <- function(text, file, line) {
-  mixed <- grepl("[^[:space:]],[^[:space:]]", text) & grepl("[^[:space:],][[:space:]]+[^[:space:],]", trimws(text))
+  mixed <- grepl("[^[:space:]],[^[:space:]]",
+                 text) & grepl("[^[:space:],][[:space:]]+[^[:space:],]", trimws(text))
   if (any(mixed)) {
-    refuse_landmark_file(file, sprintf("\"%s\" has both commas and blanks between numbers", trimws(text[mixed][1])),
+    refuse_landmark_file(file, sprintf("\"%s\" has both commas and blanks between numbers",
+                                       trimws(text[mixed][1])),
                          "Write decimal points, and blanks between the numbers.", line[mixed][1])
   }
 }

@@ -117,7 +117,8 @@ write_landmarks_tps <- function(sets, file, options) {
 
 tps_lines <- function(x, id) {
   curves <- attr(x, "curves")
-  c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves), paste0("ID=", id),
+  c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves),
+    paste0("ID=", id),
     tps_comment(name_comment(rownames(x), "landmarks")),
     tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))))
 }
@@ -130,7 +131,8 @@ tps_curve_lines <- function(curves) {
   run <- rle(as.vector(closed))
   first <- cumsum(c(1, run$lengths))
   head <- character(length(curves))
-  head[first[seq_along(run$lengths)]] <- sprintf("%s%d", ifelse(run$values, "OUTLINES=", "CURVES="), run$lengths)
+  head[first[seq_along(run$lengths)]] <- sprintf("%s%d", ifelse(run$values, "OUTLINES=", "CURVES="),
+                                                 run$lengths)
   unlist(lapply(seq_along(curves), function(i) {
     c(head[i][nzchar(head[i])], sprintf("POINTS=%d", nrow(curves[[i]])), row_text(curves[[i]]))
   }))

@@ -2,9 +2,9 @@
 
 #' Read and write landmarks and curves of points
 #'
-#' The format goes by the file's extension, in any case. Files are taken for UTF-8 or UTF-16, else Latin 1, and
-#' written in UTF-8, numbers with as many digits as give them back to the last bit. What is written is
-#' read back identically, except where the list below says otherwise.
+#' The format goes by the file's extension, in any case. Files are taken for UTF-8 or UTF-16, else
+#' Latin 1, and written in UTF-8, numbers with as many digits as give them back to the last bit.
+#' What is written is read back identically, except where the list below says otherwise.
 #'
 #' | extension | from | specimens in a file | curves |
 #' |---|---|---|---|
@@ -19,13 +19,14 @@
 #' | `.ckpt` | Checkpoint | one, read only | no |
 #'
 #' * `.csv`: commas, tabs, or semicolons (then with decimal points or commas) between; a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
-#'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order; or in `r`, `a`, `s` or `l`, `p`, `s`, as 3D Slicer
-#'   exports its lists (`defined` 0: missing). Rows with something in a
-#'   column `curve` are points of that curve, in the order of a column `point`, closed where a column `closed` says TRUE. A
-#'   column of specimens (`specimen`, `subject`, `file`, `scan`, ...; `id` where landmarks repeat) makes a list of them. Other columns
-#'   are ignored; a missing landmark has NA or nothing. Fields are counted: a row with more or fewer than the header is
-#'   refused. What spreadsheets leave is taken off: a line `sep=;`, comments (#) above the header, empty rows and columns, a
-#'   separator at the end of all rows.
+#'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order; or in `r`, `a`, `s` or
+#'   `l`, `p`, `s`, as 3D Slicer exports its lists (`defined` 0: missing). Rows with something in a
+#'   column `curve` are points of that curve, in the order of a column `point`, closed where a
+#'   column `closed` says TRUE. A column of specimens (`specimen`, `subject`, `file`, `scan`, ...;
+#'   `id` where landmarks repeat) makes a list of them. Other columns are ignored; a missing
+#'   landmark has NA or nothing. Fields are counted: a row with more or fewer than the header is
+#'   refused. What spreadsheets leave is taken off: a line `sep=;`, comments (#) above the header,
+#'   empty rows and columns, a separator at the end of all rows.
 #' * `.pts`: names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get
 #'   numbers, and closed ones are opened, with a warning.
 #' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. Names of landmarks and curves, which the format has
@@ -40,10 +41,11 @@
 #'   lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Lists of other
 #'   types are left out with a warning. Numbers stay in the file's unit.
 #' * `.pp`: a point that is not active is missing.
-#' * `.ckpt`: single points, in the file's unit; points of curves and patches are left out with a warning.
+#' * `.ckpt`: single points, in the file's unit; points of curves and patches are left out with a
+#'   warning.
 #'
-#' A folder is read as the landmark files in it, by their names. Two files of one specimen must agree. Empty and compressed
-#' files, pipes and devices are refused before they are opened.
+#' A folder is read as the landmark files in it, by their names. Two files of one specimen must
+#' agree. Empty and compressed files, pipes and devices are refused before they are opened.
 #'
 #' Of a `shape` landmarks and curves are written, with what is missing of them as missing points. Where the format
 #' has no curves their points are landmarks, named "curve point" as in [coords()], with a warning (`curves = list()` leaves
@@ -60,15 +62,16 @@
 #'   only some specimens have one is refused.
 #' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z, a
 #'   [specimen()], a `shape` as [fit_shape()] returns it, NULL for no landmarks, or, where the format holds several
-#'   specimens, a list of them, a k x 3 x n array, a `shape_sample`, a `shape_batch` or an `aligned`.
+#'   specimens, a list of them, a k x 3 x n array, a `shape_sample`, a `shape_batch` or an
+#'   `aligned`.
 #' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of data
 #'   frames with columns x, y, z, or of values of [ridge_curve()]. NULL: those of the shape, or the attribute
 #'   `curves` of `x`, if any; `list()`: none.
 #' @return `read_landmarks()`: k x 3 numeric matrix with row names and columns `x`, `y`, `z`, in the
 #'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA in all
 #'   three co-ordinates of a missing one. Where the file has curves, the attribute `curves`: named list of n x 3
-#'   matrices, each with the attribute `closed`. For a file of several specimens, or a folder, a named list of such
-#'   matrices. `write_landmarks()`: `file`, invisibly. Errors are of class
+#'   matrices, each with the attribute `closed`. For a file of several specimens, or a folder, a
+#'   named list of such matrices. `write_landmarks()`: `file`, invisibly. Errors are of class
 #'   `crestline_landmark_error` and name file, line and remedy.
 #' @examples
 #' file <- tempfile(fileext = ".csv")
@@ -90,8 +93,8 @@ read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999
   if (length(found) == 1) found[[1]] else found
 }
 
-#' One matrix, or a named list of them whose attributes say whether the names are but numbers of ours (`numbered`), and other
-#' names (`alias`)
+#' One matrix, or a named list of them whose attributes say whether the names are but numbers of
+#' ours (`numbered`), and other names (`alias`)
 #' @noRd
 read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
   check_file(file, "landmarks")
@@ -107,7 +110,8 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   format <- landmark_format(file)
   if (is.null(format$write)) {
-    refuse_landmark_file(file, "this format is read, not written", "Write a .pts file, which Checkpoint reads.")
+    refuse_landmark_file(file, "this format is read, not written",
+                         "Write a .pts file, which Checkpoint reads.")
   }
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
@@ -129,8 +133,10 @@ landmark_formats <- function() {
     dta = nts,
     landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE, curves = FALSE),
     fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE, curves = FALSE),
-    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE, curves = TRUE),
-    pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE, curves = FALSE),
+    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE,
+                    curves = TRUE),
+    pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE,
+              curves = FALSE),
     ckpt = list(read = read_landmarks_ckpt, write = NULL, several = FALSE, curves = FALSE)
   )
 }
@@ -161,7 +167,8 @@ sets_of_sample <- function(x, file) {
   none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
   if (length(none)) {
     name <- if (is.null(names(x))) none else names(x)[none]
-    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)), "Leave out what failed.")
+    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)),
+                         "Leave out what failed.")
   }
   x
 }
@@ -226,11 +233,11 @@ landmark_format <- function(file) {
   extension <- sub("^(mrk[.])?json$", "mrk.json", file_extension(file))
   format <- match(extension, tolower(names(formats)))
   if (is.na(format)) {
-    first <- c(gz = "Unpack it first. ", bz2 = "Unpack it first. ", xz = "Unpack it first. ", zip = "Unpack it first. ",
-               xlsx = "Save the sheet as CSV. ", xls = "Save the sheet as CSV. ", ods = "Save the sheet as CSV. ")[extension]
+    first <- if (extension %in% c("gz", "bz2", "xz", "zip")) "Unpack it first. " else
+      if (extension %in% c("xlsx", "xls", "ods")) "Save the sheet as CSV. "
     crestline_abort(
       sprintf("no landmark format has the extension of %s.", basename(file)),
-      paste0(if (!is.na(first)) first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),
+      paste0(first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),
       stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
   }
@@ -248,8 +255,8 @@ check_file <- function(file, stage) {
   }
 }
 
-#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and devices, which might keep R
-#' waiting for ever, have no size
+#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and
+#' devices, which might keep R waiting for ever, have no size
 #'
 #' @param id Name of the specimen, where there is one.
 #' @param unpacks Kinds of packed files that the caller reads.
@@ -271,10 +278,13 @@ check_stored <- function(file, stage, id = NULL, unpacks = character()) {
 #' The program that a file's first bytes are of, NA for none
 #' @noRd
 packed_by <- function(bytes) {
-  start <- list(gzip = c(0x1f, 0x8b, 0x08), bzip2 = c(0x42, 0x5a, 0x68, NA, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59),
-                xz = c(0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00), zip = c(0x50, 0x4b, 0x03, 0x04))
-  is_of <- vapply(start, function(mark) all(as.integer(bytes)[seq_along(mark)] == mark, na.rm = TRUE) &&
-                    length(bytes) >= length(mark), NA)
+  start <- list(gzip = c(0x1f, 0x8b, 0x08), zip = c(0x50, 0x4b, 0x03, 0x04),
+                bzip2 = c(0x42, 0x5a, 0x68, NA, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59),
+                xz = c(0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00))
+  is_of <- vapply(start, function(mark) {
+    length(bytes) >= length(mark) &&
+      all(as.integer(bytes)[seq_along(mark)] == mark, na.rm = TRUE)
+  }, NA)
   c(names(start)[is_of], NA)[1]
 }
 

@@ -18,9 +18,9 @@
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
 #' @param settings [slide_settings()].
-#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them, by its names or else
-#'   by their own ids, or a function
-#'   that gives the specimen of an id (so that only one at a time is in memory).
+#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
+#'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
+#'   only one at a time is in memory).
 #' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about
 #'   0.01 mm on a face).
 #' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
@@ -130,8 +130,10 @@ specimens_in_files <- function(x) {
 #' @param specimens As in [homologise()].
 #' @noRd
 specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
-  own <- is.list(specimens) && is.null(names(specimens)) && all(vapply(specimens, inherits, NA, "specimen"))
-  if (own) names(specimens) <- vapply(specimens, `[[`, "", "id")
+  nameless <- is.list(specimens) && is.null(names(specimens))
+  if (nameless && all(vapply(specimens, inherits, NA, "specimen"))) {
+    names(specimens) <- vapply(specimens, `[[`, "", "id")
+  }
   specimen <- if (is.null(specimens)) shape$specimen else
     if (is.function(specimens)) specimens(shape$id) else specimens[[shape$id]]
   kept_specimen(shape, specimen, call)

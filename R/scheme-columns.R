@@ -14,8 +14,8 @@ column <- function(type, required = FALSE, default = NA, lower = -Inf, upper = I
        choices = choices)
 }
 
-# Most points of a curve, of a side or of a patch, and most rows: far above any scheme (the face: 28 a curve, 108 a patch), far below
-# what fills the memory.
+# Most points of a curve, of a side or of a patch, and most rows: far above any scheme (the face: 28
+# a curve, 108 a patch), far below what fills the memory.
 most_points <- 1e5
 
 scheme_columns <- list(
@@ -37,8 +37,9 @@ scheme_columns <- list(
     angle_limit = column("number", lower = 0, upper = pi / 2), note = column("text")
   ),
   patches = list(
-    patch = column("text", TRUE), block = column("count", lower = 1, upper = most_points), n = column("count", TRUE, lower = 1, upper = most_points),
-    columns = column("text", TRUE), rows = column("count", TRUE, lower = 1, upper = most_points), rows_kept = column("text", TRUE),
+    patch = column("text", TRUE), block = column("count", lower = 1, upper = most_points),
+    n = column("count", TRUE, lower = 1, upper = most_points), columns = column("text", TRUE),
+    rows = column("count", TRUE, lower = 1, upper = most_points), rows_kept = column("text", TRUE),
     curve_a = column("text", TRUE), resample_a = column("count", lower = 2, upper = most_points),
     curve_b = column("text"), resample_b = column("count", lower = 2, upper = most_points),
     first_column = column("text"), outward = column("choice", choices = c("columns", "rows")), note = column("text")
@@ -48,7 +49,8 @@ scheme_columns <- list(
     left = column("text", TRUE), right = column("text", TRUE)
   ),
   strips = list(
-    part = column("text", TRUE), strip = column("text", TRUE), rung = column("count", TRUE, lower = 1, upper = most_points),
+    part = column("text", TRUE), strip = column("text", TRUE),
+    rung = column("count", TRUE, lower = 1, upper = most_points),
     a = column("text", TRUE), b = column("text", TRUE),
     outward = column("choice", TRUE, choices = c("columns", "rows"))
   ),

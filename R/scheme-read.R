@@ -3,9 +3,9 @@
 #' Read a scheme from a folder
 #'
 #' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`, `pairs.csv`,
-#'   `strips.csv` and `definitions.csv`: a header line, commas, semicolons (then with decimal points or commas) or tabs
-#'   between, the columns of [curve_scheme()], empty cells for what is not given. A row with more or fewer cells than the
-#'   header is refused.
+#'   `strips.csv` and `definitions.csv`: a header line, commas, semicolons (then with decimal points
+#'   or commas) or tabs between, the columns of [curve_scheme()], empty cells for what is not given.
+#'   A row with more or fewer cells than the header is refused.
 #' @param name Name of the scheme; the folder's unless given.
 #' @return As [curve_scheme()].
 #' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or file that is
@@ -33,7 +33,8 @@ read_scheme_table <- function(file) {
   check_stored(file, "scheme")
   refuse <- function(problem, line = NULL) {
     where <- paste0(basename(file), if (!is.null(line)) sprintf(", line %d", as.integer(line)))
-    crestline_abort(sprintf("%s cannot be read: %s.", where, problem), "Give a header line and commas between the cells.",
+    crestline_abort(sprintf("%s cannot be read: %s.", where, problem),
+                    "Give a header line and commas between the cells.",
                     stage = "scheme", class = "crestline_scheme_error", call = NULL)
   }
   table <- text_table(file_lines(file), refuse)

@@ -216,6 +216,7 @@ print.shape <- function(x, most = 8, ...) {
   }
   if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
   unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
-  if (!is.null(unused)) cat(strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4), sep = "\n")
+  if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
+  if (length(unused)) cat(unused, sep = "\n")
   invisible(x)
 }

@@ -8,8 +8,9 @@
 #' double precision.
 #'
 #' @param file Path of a `.ply`, `.obj` or `.stl` file.
-#' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for [specimen()]. Of a file or folder of
-#'   several specimens, a list of matrices or a k x 3 x n array those of the name `id` are taken.
+#' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for
+#'   [specimen()]. Of a file or folder of several specimens, a list of matrices or a k x 3 x n array
+#'   those of the name `id` are taken.
 #' @param id Name of the specimen; the file's name without extension unless given.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to do.

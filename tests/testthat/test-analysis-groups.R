@@ -234,8 +234,10 @@ test_that("groups go to specimens by name, from a vector or a table, in any orde
   group_of <- function(group) compare_quietly(x, group, n_perm = 9, tests = "size")$group
   expect_equal(group_of(turned), expected)
   expect_equal(group_of(setNames(turned, toupper(names(turned)))), expected)
-  expect_equal(group_of(data.frame(Specimen = paste0(names(turned), ".ply"), group = turned)), expected)
-  expect_crestline_error(group_of(setNames(turned, sub("s1", "t1", names(turned)))), c("no value for s1", "s1, s2", "t1"))
+  expect_equal(group_of(data.frame(Specimen = paste0(names(turned), ".ply"), group = turned)),
+               expected)
+  expect_crestline_error(group_of(setNames(turned, sub("s1", "t1", names(turned)))),
+                         c("no value for s1", "s1, s2", "t1"))
   expect_crestline_error(group_of(c(turned, s1 = "other")), "2 different values for s1")
   expect_crestline_error(group_of(replace(by_name, 1, " A")), "differ by blanks or case only")
   expect_crestline_error(group_of(replace(by_name, 2, " ")), "`group` is missing for s2")

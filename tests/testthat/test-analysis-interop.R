@@ -85,21 +85,27 @@ test_that("and back", {
   expect_crestline_error(as_aligned(aligned$coords, size = 1), "`size`")
 })
 
-test_that("a key column of another name is found, and rows without a name of the sample's are refused", {
+test_that("a key column of another name is found, and rows without the sample's names refused", {
   one <- covered()
   for (name in c("ID", "Specimen", "file name")) {
-    expect_equal(as_geomorph(one$x, data = stats::setNames(one$data, c(name, "sex", "age")))$age, 1:16)
+    expect_equal(as_geomorph(one$x, data = stats::setNames(one$data, c(name, "sex", "age")))$age,
+                 1:16)
   }
   other <- replace(one$data$id, 3, "nobody")
-  expect_crestline_error(as_geomorph(one$x, data = transform(one$data, id = other)), c("no row for n", "nobody"))
-  expect_crestline_error(as_geomorph(one$x, data = one$data[-1]), c("no column of the specimens' names", "`id`"))
-  expect_crestline_error(as_rrpp(one$x, data = rbind(one$data, transform(one$data[1, ], age = 99))), "2 different rows for p")
-  expect_warning(as_geomorph(one$x, data = transform(one$data, sex = replace(sex, 1, "f "))), "differ by blanks or case",
+  expect_crestline_error(as_geomorph(one$x, data = transform(one$data, id = other)),
+                         c("no row for n", "nobody"))
+  expect_crestline_error(as_geomorph(one$x, data = one$data[-1]),
+                         c("no column of the specimens' names", "`id`"))
+  expect_crestline_error(as_rrpp(one$x, data = rbind(one$data, transform(one$data[1, ], age = 99))),
+                         "2 different rows for p")
+  expect_warning(as_geomorph(one$x, data = transform(one$data, sex = replace(sex, 1, "f "))),
+                 "differ by blanks or case",
                  class = "crestline_alike_groups")
 })
 
 test_that("sizes with names go to specimens by name", {
   aligned <- align(covered()$x)
   expect_equal(as_aligned(aligned$coords, size = rev(aligned$size))$size, aligned$size)
-  expect_crestline_error(as_aligned(aligned$coords, size = stats::setNames(aligned$size, LETTERS[11:26])), "`size` has no value for a")
+  other <- stats::setNames(aligned$size, LETTERS[11:26])
+  expect_crestline_error(as_aligned(aligned$coords, size = other), "`size` has no value for a")
 })

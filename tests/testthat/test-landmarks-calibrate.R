@@ -29,6 +29,7 @@ test_that("specimens without landmarks are refused by name", {
 test_that("a landmark that the template knows by another name is said, not added in silence", {
   template <- list(landmarks = data.frame(landmark = c("pn", "sn"), name = NA))
   named <- function(...) list(id = "q", landmarks = xyz(1:6, name = c(...)))
-  expect_warning(warn_unused_names(named("PN", "sn"), template, "the template"), "not used: PN; near: pn", class = "crestline_unused_landmarks")
+  expect_warning(warn_unused_names(named("PN", "sn"), template, "the template"),
+                 "not used: PN; near: pn", class = "crestline_unused_landmarks")
   expect_no_warning(warn_unused_names(named("pn", "gn"), template, "the template"))
 })

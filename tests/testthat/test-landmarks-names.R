@@ -7,14 +7,18 @@ renamed <- function(...) {
 
 test_that("names that the scheme does not know are listed with those that may be meant", {
   expect_null(unused_names(known, scheme))
-  expect_equal(unused_names(renamed(pn = "prn", chL = "CHL"), scheme), "not used: prn, CHL; near: pn, chL", ignore_attr = TRUE)
-  expect_equal(attr(unused_names(renamed(pn = "prn", chL = "CHL"), scheme), "near"), c(prn = "pn", CHL = "chL"))
-  for (other in c("PN", "p n", "pronasale", "Pro-Nasale")) expect_equal(unname(attr(unused_names(renamed(pn = other), scheme), "near")), "pn")
-  for (other in c("ch left", "ch_L", "left ch", "Left_ch")) expect_equal(unname(attr(unused_names(renamed(chL = other), scheme), "near")), "chL")
+  expect_equal(unused_names(renamed(pn = "prn", chL = "CHL"), scheme),
+               "not used: prn, CHL; near: pn, chL", ignore_attr = TRUE)
+  expect_equal(attr(unused_names(renamed(pn = "prn", chL = "CHL"), scheme), "near"),
+               c(prn = "pn", CHL = "chL"))
+  near <- function(...) unname(attr(unused_names(renamed(...), scheme), "near"))
+  for (other in c("PN", "p n", "pronasale", "Pro-Nasale")) expect_equal(near(pn = other), "pn")
+  for (other in c("ch left", "ch_L", "left ch", "Left_ch")) expect_equal(near(chL = other), "chL")
 })
 
 test_that("what is no more than another landmark is near nothing", {
-  for (names in list(c(known, "prn"), renamed(chR = "chX"), renamed(chR = "xx"), renamed(gn = "me"), setdiff(known, "tL"))) {
+  for (names in list(c(known, "prn"), renamed(chR = "chX"), renamed(chR = "xx"), renamed(gn = "me"),
+                     setdiff(known, "tL"))) {
     expect_length(attr(unused_names(names, scheme), "near"), 0)
   }
   expect_equal(unused_names(c(known, "zyL"), scheme), "not used: zyL", ignore_attr = TRUE)
@@ -22,19 +26,20 @@ test_that("what is no more than another landmark is near nothing", {
   expect_length(attr(unused_names(c(setdiff(known, "acL"), "acR2"), scheme), "near"), 0)
 })
 
-test_that("fit_shape() warns where a landmark is missing and another may be meant, and print() lists the unused", {
-  corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), cc = c(0, 1.5, 2), extra = c(0, 0, 2)) / sqrt(6)
-  three <- curve_scheme(data.frame(landmark = c("a", "b", "C C")), data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 5),
+test_that("fit_shape() warns where another landmark may be meant, and print() lists the unused", {
+  corners <- rbind(c(-1, -1, 2), c(1, -1, 2), c(0, 1.5, 2), c(0, 0, 2)) / sqrt(6)
+  three <- curve_scheme(data.frame(landmark = c("a", "b", "C C")),
+                        data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 5),
                         name = "three")
-  ball <- specimen(Rvcg::vcgSphere(3), corners, id = "ball", tolerance = 1)
-  expect_warning(shape <- fit_shape(ball, three, progress = FALSE), "not used: cc, extra; near: C C", class = "crestline_unused_landmarks")
-  expect_output(print(shape), "landmarks not used: cc, extra; near: C C", fixed = TRUE)
+  ball <- function(...) {
+    specimen(Rvcg::vcgSphere(3), `rownames<-`(corners, c(...)), id = "ball", tolerance = 1)
+  }
+  expect_warning(shape <- fit_shape(ball("a", "b", "cc", "x"), three, progress = FALSE),
+                 "not used: cc, x; near: C C", class = "crestline_unused_landmarks")
+  expect_output(print(shape), "landmarks not used: cc, x; near: C C", fixed = TRUE)
   expect_match(shape$status$reason[shape$status$part == "C C"], "near: cc")
-  rownames(ball$landmarks)[3] <- "C C"
-  ball <- specimen(ball$mesh, ball$landmarks, id = "ball", tolerance = 1)
-  expect_no_warning(shape <- fit_shape(ball, three, progress = FALSE))
-  expect_output(print(shape), "landmarks not used: extra", fixed = TRUE)
-  rownames(ball$landmarks) <- c("A", "B", "c c", "x")
-  ball <- specimen(ball$mesh, ball$landmarks, id = "ball", tolerance = 1)
-  expect_crestline_error(fit_shape(ball, three, progress = FALSE), c("none of the landmarks", "near: a, b, C C"))
+  expect_no_warning(shape <- fit_shape(ball("a", "b", "C C", "x"), three, progress = FALSE))
+  expect_output(print(shape), "landmarks not used: x", fixed = TRUE)
+  expect_crestline_error(fit_shape(ball("A", "B", "c c", "x"), three, progress = FALSE),
+                         c("none of the landmarks", "near: a, b, C C"))
 })

@@ -1,4 +1,7 @@
-table_of <- function(...) text_table(c(...), function(problem, line) stop(sprintf("line %s: %s", c(line, "none")[1], problem)))
+table_of <- function(...) text_table(c(...), function(problem,
+                                                      line) stop(sprintf("line %s: %s",
+                                                                         c(line,
+                                                                           "none")[1], problem)))
 plain <- function(table) `attributes<-`(as.matrix(table), list(dim = dim(table)))
 two_rows <- rbind(c("n", "1", "2"), c("pn", "4", "5"))
 
@@ -13,9 +16,12 @@ test_that("a row longer or shorter than the header is refused with its line, nev
 
 test_that("what spreadsheets leave is taken off", {
   for (lines in list(
-    c("name,x,y,", "n,1,2,", "pn,4,5,"), c("name,x,y", "n,1,2,,", "pn,4,5,,"), c("name,x,y,,", "n,1,2", "pn,4,5"),
+    c("name,x,y,", "n,1,2,", "pn,4,5,"), c("name,x,y", "n,1,2,,", "pn,4,5,,"), c("name,x,y,,",
+                                                                                 "n,1,2", "pn,4,5"),
     c("name,x,y", "n,1,2", ",,", "", "pn,4,5", ",,,,", "  "), c("name,x,,y", "n,1,,2", "pn,4,,5"),
-    c("sep=,", "name,x,y", "n,1,2", "pn,4,5"), c('"sep=;"', "name;x;y", "n;1;2", "pn;4;5"), c("sep=|", "name|x|y", "n|1|2", "pn|4|5"),
+    c("sep=,", "name,x,y", "n,1,2", "pn,4,5"), c('"sep=;"', "name;x;y", "n;1;2",
+                                                 "pn;4;5"), c("sep=|", "name|x|y", "n|1|2",
+                                                              "pn|4|5"),
     c("# mm", "", "#", "name,x,y", "n,1,2", "pn,4,5"), c("name\tx\ty", "n\t1\t2", "pn\t4\t5"),
     c(' name ,"x", y', ' n , "1" ,2', "pn,4,5")
   )) {
@@ -47,10 +53,13 @@ test_that("a first column without a name is that of row names", {
 })
 
 test_that("decimal commas become points where the separator is another; a mixture is refused", {
-  points <- function(...) decimal_points(table_of(...), "x", function(problem, line) stop(sprintf("line %d: %s", line, problem)))
+  points <- function(...) decimal_points(table_of(...), "x",
+                                         function(problem,
+                                                  line) stop(sprintf("line %d: %s", line, problem)))
   expect_equal(points("a;x", "n;1,5", "pn;2")$x, c("1.5", "2"))
   expect_equal(points("a\tx", "n\t1,5")$x, "1.5")
-  expect_error(points("a;x", "n;2.25", "pn;1,500"), "line 3: \"1,500\" has a decimal comma, \"2.25\" a point")
+  expect_error(points("a;x", "n;2.25", "pn;1,500"),
+               "line 3: \"1,500\" has a decimal comma, \"2.25\" a point")
   expect_equal(points("a,x", 'n,"1,5"')$x, "1,5")
 })
 

@@ -67,11 +67,13 @@ test_that("random numbers are written with digits that give them back", {
 })
 
 test_that("an array, a sample's list or an alignment is written specimen by specimen, by name", {
-  x <- array(with_seed(2, rnorm(60)), c(5, 3, 4), list(letters[1:5], c("x", "y", "z"), paste0("s", 1:4)))
+  x <- array(with_seed(2, rnorm(60)), c(5, 3, 4),
+             list(letters[1:5], c("x", "y", "z"), paste0("s", 1:4)))
   for (extension in c("tps", "nts", "landmarkAscii")) {
     file <- tempfile(fileext = paste0(".", extension))
     write_landmarks(x, file)
-    expect_identical(read_landmarks(file), lapply(stats::setNames(nm = paste0("s", 1:4)), function(id) x[, , id]))
+    expect_identical(read_landmarks(file), lapply(stats::setNames(nm = paste0("s", 1:4)),
+                                                  function(id) x[, , id]))
     write_landmarks(unname(x), file)
     expect_identical(names(read_landmarks(file)), as.character(1:4))
   }
@@ -94,7 +96,8 @@ test_that("pipes, devices, empty and compressed files are refused at once", {
     for (name in c("pipe.csv", "pipe.json", "zero.tps", "empty.csv")) {
       expect_crestline_error(read_landmarks(path(name)), c(name, "pipe or device"))
     }
-    expect_crestline_error(read_specimen(path("pipe.ply")), c("pipe.ply", "pipe or device"), id = "pipe")
+    expect_crestline_error(read_specimen(path("pipe.ply")), c("pipe.ply", "pipe or device"),
+                           id = "pipe")
     expect_crestline_error(read_landmarks(landmarks_beside(path("pipe.ply"))), "pipe")
   })
   expect_lt(time[["elapsed"]], 5)
@@ -106,7 +109,8 @@ test_that("pipes, devices, empty and compressed files are refused at once", {
   }
   skip_if(!file.exists("/dev/full"))
   file.symlink("/dev/full", path("full.csv"))
-  expect_crestline_error(write_landmarks(xyz(1, 2, 3, name = "a"), path("full.csv")), "was not written whole")
+  expect_crestline_error(write_landmarks(xyz(1, 2, 3, name = "a"), path("full.csv")),
+                         "was not written whole")
 })
 
 test_that("a session with decimal commas and few digits writes the same files", {
