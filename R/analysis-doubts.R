@@ -12,8 +12,8 @@
 #' @param size Greatest ratio between the size of a specimen and the median size, either way: a power of ten is another
 #'   unit.
 #' @param estimated Greatest share of the specimens that lack a point, and of the points that a specimen lacks.
-#' @param beyond Greatest distance of an estimated point from the nearest point that the specimen has, on the mean, as a
-#'   share of its RMS radius: farther out the spline extrapolates.
+#' @param beyond How far an estimated point may lie beyond all points that the specimen has, seen from their middle, on the
+#'   mean and as a share of its RMS radius: there the spline extrapolates. Half a face lacks points 1 radius beyond.
 #' @param fewest Specimens without which distances are not compared.
 #' @return List of class `sample_limits`.
 #' @section Errors: of class `crestline_error`, for values that are no numbers above 0.
@@ -60,7 +60,7 @@ said_of_sizes <- function(aligned, limits) {
   ratio <- aligned$size / stats::median(aligned$size)
   off <- which(ratio > limits$size | ratio < 1 / limits$size)
   if (!length(off)) return(NULL)
-  named <- sprintf("%s (%.3g times)", names(aligned$size)[off], ratio[off])
+  named <- sprintf("%s (%.2g times)", names(aligned$size)[off], ratio[off])
   list(size = sprintf("sizes differ as units do; from the median is off %s.", shorten(named)))
 }
 
@@ -115,15 +115,22 @@ said_of_shares <- function(gap, ids, names, limit) {
 said_of_reach <- function(mean, gap, ids, limit) {
   radius <- sqrt(mean(rowSums(sweep(mean, 2, colMeans(mean))^2)))
   reach <- vapply(which(colSums(gap) > 0), function(i) {
-    known <- mean[!gap[, i], , drop = FALSE]
-    gone <- mean[gap[, i], , drop = FALSE]
-    squared <- outer(rowSums(gone^2), rowSums(known^2), `+`) - 2 * tcrossprod(gone, known)
-    sqrt(max(0, apply(squared, 1, min)))
+    reach_beyond(mean[!gap[, i], , drop = FALSE], mean[gap[, i], , drop = FALSE])
   }, 0) / radius
   far <- reach > limit
   if (!any(far)) return(NULL)
   named <- sprintf("%s (%.2g radii)", ids[colSums(gap) > 0][far], reach[far])
   list(beyond = sprintf("points are estimated far from those that are there: of %s.", shorten(named)))
+}
+
+#' How far the farthest of some points lies beyond all others, in its direction from their middle; 0 within
+#' @noRd
+reach_beyond <- function(known, gone) {
+  middle <- colMeans(known)
+  out <- sweep(gone, 2, middle)
+  length <- sqrt(rowSums(out^2))
+  extent <- apply(tcrossprod(sweep(known, 2, middle), out / pmax(length, .Machine$double.xmin)), 2, max)
+  max(0, length - extent)
 }
 
 #' How many points of whom were estimated or dropped, as lines of text

@@ -64,7 +64,7 @@ name_cycles <- function(true) {
   while (length(open)) {
     group <- open[1]
     while (!true[[utils::tail(group, 1)]] %in% group) group <- c(group, true[[utils::tail(group, 1)]])
-    groups <- c(groups, list(group))
+    groups <- c(groups, list(sort(group)))
     open <- setdiff(open, group)
   }
   groups
@@ -150,7 +150,7 @@ by_symmetry <- function(true, at, pairs, gain = 1, left = 0.5) {
     if (!length(fine)) break
     two <- both[, fine[which.max(off$gain[fine])]]
     other <- partner[two]
-    if (all(other != two)) either <- c(either, list(list(rownames(at)[two], rownames(at)[other])))
+    if (all(other != two)) either <- c(either, list(list(sort(rownames(at)[two]), sort(rownames(at)[other]))))
     if (!all(other != two)) true <- swapped(true, rownames(at)[two[1]], rownames(at)[two[2]])
     if (all(other != two)) both <- both[, !(both[1, ] %in% c(two, other) | both[2, ] %in% c(two, other)), drop = FALSE]
   }

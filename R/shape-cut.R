@@ -28,35 +28,33 @@ cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
   fits
 }
 
-#' The multiple of the scheme's shares at which the curves of a shape were cut off; NA where none was
+#' The `cut_scale` that a shape was measured with; NA where no curve was cut off
 #' @noRd
-cut_multiple <- function(shape) {
+asked_cut_scale <- function(shape) {
   curves <- shape$scheme$curves
   at <- list(landmarks = coords(shape, "landmarks"))
-  cut <- shape$checks$part[shape$checks$level == "curves" & !is.na(shape$checks$cut)]
-  each <- vapply(intersect(cut, names(shape$tracks)), function(name) {
+  checks <- shape$checks[shape$checks$level == "curves" & !is.na(shape$checks$cut), ]
+  each <- vapply(intersect(checks$part, names(shape$tracks)), function(name) {
     row <- curves[match(name, curves$curve), ]
     ends <- landmark_places(at, c(row$cut_from, row$cut_to))
-    shape$tracks[[name]]$kept / (row$cut_share * sqrt(sum((ends[1, ] - ends[2, ])^2)))
+    kept <- shape$tracks[[name]]$kept / checks$cut[match(name, checks$part)]
+    kept / (row$cut_share * sqrt(sum((ends[1, ] - ends[2, ])^2)))
   }, 0)
   if (all(is.na(each))) NA_real_ else stats::median(each, na.rm = TRUE)
 }
 
-#' Tell of shapes whose curves were cut off at different multiples of the scheme's shares
+#' Tell of shapes that were measured with different `cut_scale`s
 #' @param apart Least relative difference that is told.
 #' @noRd
 warn_cut_scales <- function(shapes, stage, apart = 0.02) {
-  multiple <- vapply(shapes, cut_multiple, 0)
-  multiple <- multiple[!is.na(multiple)]
-  if (length(multiple) < 2 || min(multiple) >= (1 - apart) * max(multiple)) return(invisible())
-  usual <- stats::median(multiple)
-  far <- multiple[order(-abs(log(multiple / usual)))]
-  ids <- vapply(shapes[names(far)], `[[`, "", "id")
+  scale <- vapply(unname(shapes), asked_cut_scale, 0)
+  ids <- vapply(unname(shapes), `[[`, "", "id")[!is.na(scale)]
+  scale <- scale[!is.na(scale)]
+  if (length(scale) < 2 || min(scale) >= (1 - apart) * max(scale)) return(invisible())
+  far <- order(-abs(log(scale / stats::median(scale))))
   crestline_warn(
-    sprintf("curves were cut off at different shares of the whole (`cut_scale`): %s.",
-            shorten(sprintf("%s at %.3g", ids, far))),
-    sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.2g), then homologise().",
-            floor(100 * min(multiple)) / 100),
+    sprintf("the curves were cut off by different factors (`cut_scale`): %s.", shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
+    sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.3g), then homologise().", min(scale)),
     stage = stage, class = "crestline_cut_scale"
   )
 }

@@ -75,11 +75,17 @@ scheme_slips <- function(specimen, scheme) {
   located <- specimen$geometry$located[match(own, rownames(specimen$geometry$landmarks), nomatch = 0), ]
   slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE], mean_front(specimen$mesh, located), pairs, midline,
                                typical_landmarks(scheme))
-  before <- specimen$geometry$slips
-  told <- setequal(unlist(slips), unlist(before))
-  if (!told) warn_exchanged(slips, specimen$id)
+  if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
   slips$said <- exchange_reasons(slips, own, unlist(pairs))
   slips
+}
+
+#' Whether the door has told of all that looks exchanged
+#' @param before What it found, NULL where that is not known.
+#' @noRd
+is_told <- function(slips, before) {
+  named <- function(found) unlist(found[c("groups", "either")])
+  isTRUE(before$mirrored) || !slips$mirrored && all(named(slips) %in% named(before))
 }
 
 #' The status with what looks exchanged

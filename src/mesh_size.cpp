@@ -42,11 +42,14 @@ void measure_from(std::vector<Patch>& patches, const double* middle) {
   }
 }
 
-void centroid(const std::vector<Patch>& patches, std::size_t count, double* middle) {
+// The mean of the patches by their weight (near < 0), or by weight over distance, a step of Weiszfeld;
+// distances below `near` count as that.
+void step_to_middle(const std::vector<Patch>& patches, double near, double* middle) {
   double total = 0, sum[3] = {0, 0, 0};
-  for (std::size_t k = 0; k < count; ++k) {
-    total += patches[k].weight;
-    for (int i = 0; i < 3; ++i) sum[i] += patches[k].weight * patches[k].at[i];
+  for (const Patch& p : patches) {
+    double weight = near < 0 ? p.weight : p.weight / std::max(std::sqrt(p.far2), near);
+    total += weight;
+    for (int i = 0; i < 3; ++i) sum[i] += weight * p.at[i];
   }
   for (int i = 0; i < 3; ++i) middle[i] = sum[i] / total;
 }
@@ -82,14 +85,13 @@ double half_area_radius(const double* vb, int rows, const int* it, int m, const 
   std::nth_element(area.begin(), area.begin() + area.size() / 2, area.end());
   double most = cap * area[area.size() / 2], total = 0, middle[3];
   for (Patch& p : patches) total += p.weight = std::min(p.weight, most);
-  centroid(patches, patches.size(), middle);
-  std::size_t half = 0;
-  for (int step = 0; step <= steps; ++step) {
+  step_to_middle(patches, -1, middle);
+  for (int step = 0; step < steps; ++step) {
     measure_from(patches, middle);
-    half = nearer_half(patches, total);
-    if (step < steps) centroid(patches, half, middle);
+    step_to_middle(patches, std::sqrt(most), middle);
   }
-  return std::sqrt(patches[half - 1].far2);
+  measure_from(patches, middle);
+  return std::sqrt(patches[nearer_half(patches, total) - 1].far2);
 }
 
 }  // namespace crestline

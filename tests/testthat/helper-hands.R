@@ -23,3 +23,12 @@ some_rotation <- function(seed) with_seed(seed, {
 
 # Fewer points and steps than the default: half the time, a little less exact.
 quick_settings <- function() find_settings(points = 1000, warp_steps = 10)
+
+# Humface with found landmarks, found once.
+found_lines <- local({
+  found <- NULL
+  function() {
+    if (is.null(found)) found <<- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
+    found
+  }
+})

@@ -67,3 +67,32 @@ test_that("similarities are found exactly", {
   expect_equal(by$scale, 1.7)
   expect_equal(apply_similarity(from, by), to)
 })
+
+test_that("where most landmarks have little confidence there is a warning, and the match is doubtful", {
+  face <- found_humface()
+  expect_false(face$match$doubtful)
+  expect_equal(placing_doubt(face$placing)$of, 19)
+  # The back of a head.
+  data(dummyhead, package = "Rvcg", envir = environment())
+  at <- read_landmarks(system.file("extdata", "dummyhead_landmarks.csv", package = "crestline"))
+  head <- dummyhead.mesh
+  middle <- rowMeans(head$vb[1:3, ])
+  front <- unit_vector(colMeans(at[c("pn", "sn", "n", "exL", "exR"), ]) - middle)
+  head <- keep_vertices(list(vb = head$vb, it = head$it), drop(front %*% (head$vb[1:3, ] - middle)) < -10)
+  head <- structure(head, class = "mesh3d")
+  expect_warning(behind <- find_landmarks(head, id = "behind", settings = quick_settings()), "specimen behind.*little confidence",
+                 class = "crestline_doubtful_placing")
+  expect_true(behind$match$doubtful)
+  expect_gt(placing_doubt(behind$placing)$share, 0.6)
+  expect_output(print(behind), "the template lies badly on it", fixed = TRUE)
+  expect_warning(find_landmarks(humface_scan(), settings = find_settings(points = 1000, warp_steps = 10, low = 0.99)),
+                 class = "crestline_doubtful_placing")
+})
+
+test_that("a platform, or a stray vertex, does not change the unit that is guessed", {
+  face <- humface_scan()
+  face$vb <- cbind(face$vb, c(0, 0, 1e6, 1))
+  face$it <- cbind(face$it, c(1L, 2L, ncol(face$vb)))
+  found <- find_landmarks(specimen(face, debris = 0, outward = "keep"), settings = quick_settings())
+  expect_equal(found$match$unit, 1)
+})

@@ -98,3 +98,16 @@ test_that("the picture shows both places", {
   expect_gt(sum(orange), 50)
   expect_gt(sum(pixels[, , 1] < 0.1 & pixels[, , 2] < 0.1), 50)
 })
+
+test_that("the places of found landmarks follow the moves, their confidence stays", {
+  face <- found_lines()
+  moved <- refine_landmarks(face, face_scheme(), move = c("chL", "chR"))
+  before <- face$placing[face$placing$landmark == "chL", ]
+  after <- moved$placing[moved$placing$landmark == "chL", ]
+  expect_equal(unlist(after[c("x", "y", "z")]), moved$landmarks["chL", ], ignore_attr = TRUE)
+  expect_gt(max(abs(unlist(after[c("x", "y", "z")]) - unlist(before[c("x", "y", "z")]))), 0)
+  expect_identical(after[c("state", "confidence")], before[c("state", "confidence")])
+  expect_identical(moved$placing[moved$placing$landmark == "pn", ], face$placing[face$placing$landmark == "pn", ])
+  expect_identical(current_placing(moved), moved$placing)
+  expect_null(refine_landmarks(humface_specimen(), face_scheme(), move = "chL")$placing)
+})

@@ -124,3 +124,12 @@ test_that("loosen() divides lambda only", {
   expect_equal(loosen(settings)$lambda, settings$lambda / 10)
   expect_identical(loosen(settings)[names(settings) != "lambda"], settings[names(settings) != "lambda"])
 })
+
+test_that("near an end, which is fixed, the error is no larger than the way from there", {
+  wild <- suppressWarnings(fitted_window(ridge_settings(inflation = 1e4)))$curve$line
+  way <- pmin(wild$s - wild$s[1], wild$s[length(wild$s)] - wild$s)
+  expect_equal(wild$se, way)
+  plain <- fitted_window()$curve$line
+  expect_true(all(plain$se <= way))
+  expect_lt(max(plain$se), max(way))
+})

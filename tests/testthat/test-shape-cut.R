@@ -106,3 +106,18 @@ test_that("a curve of which the mesh has hardly anything is missing", {
   expect_match(status_of(shape, "left")$reason, "it ends after .*: 4 of 5 points missing")
   expect_true(is.na(status_of(shape, "left")$length))
 })
+
+test_that("shapes measured with different `cut_scale`s are told, those that were merely short are not", {
+  whole <- mirror_shape()
+  other <- mirror_shape(cut_scale = 0.5)
+  other$id <- "other"
+  expect_equal(asked_cut_scale(whole), 1)
+  expect_equal(asked_cut_scale(other), 0.5)
+  long <- mirror_shape(share = 0.9)
+  expect_lt(long$checks$cut[long$checks$part == "left"], 0.9)
+  expect_equal(asked_cut_scale(long), 1)
+  expect_true(is.na(asked_cut_scale(quad_shape())))
+  expect_warning(curve_distance(whole, other), "other by 0.5", class = "crestline_cut_scale")
+  expect_warning(try(homologise(list(whole, other), rounds = 1, progress = FALSE), silent = TRUE), "cut_scale = 0.5", class = "crestline_cut_scale")
+  expect_no_warning(curve_distance(whole, whole))
+})

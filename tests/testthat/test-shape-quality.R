@@ -229,3 +229,33 @@ test_that("some of the columns print as the data frame that they are", {
   expect_output(print(graded[1:2, c("part", "grade")]), "part grade", fixed = TRUE)
   expect_output(print(graded[0, c("part", "grade")]), "0 rows", fixed = TRUE)
 })
+
+test_that("the largest standard error along a curve is in its status and grade, but not in its patch's", {
+  face <- humface_specimen()
+  lips <- face_scheme()
+  lips <- curve_scheme(lips$landmarks, lips$curves[grepl("^upper lip", lips$curves$curve), ], name = "lips")
+  shape <- suppressWarnings(fit_shape(face, lips, progress = FALSE))
+  own <- split(shape$points$se, shape$points$part)
+  for (name in c("upper lip left", "upper lip right")) {
+    expect_equal(status_of(shape, name)$se_max, max(own[[name]], na.rm = TRUE))
+  }
+  # Beside the corner of the mouth curvature says nothing: the way from there bounds it.
+  right <- coords(shape, "curves")[grepl("upper lip right", shape$points$part[shape$points$level == "curves"]), ]
+  expect_lte(own[["upper lip right"]][2], 1.1 * sqrt(sum((right[2, ] - right[1, ])^2)))
+  expect_equal(grade_in(quality(shape), "upper lip right"), "amber")
+  expect_match(why_in(quality(shape), "upper lip right"), "radii at one place", fixed = TRUE)
+  expect_equal(grade_in(quality(shape, quality_limits(se_max = c(1, Inf))), "upper lip right"), "green")
+  quad <- quad_shape()
+  quad$status$se_max[quad$status$part == "left"] <- 10
+  quad$scheme$curves$radius <- 5
+  graded <- quality(quad)
+  expect_equal(grade_in(graded, "left"), "amber")
+  expect_equal(grade_in(graded, "quad", "surface"), "green")
+})
+
+test_that("shapes of former versions, without what is known of landmarks, are graded", {
+  shape <- quad_shape()
+  shape$checks[c("state", "confidence", "exchanged")] <- NULL
+  shape$status$se_max <- NULL
+  expect_true(all(quality(shape)$grade == "green"))
+})
