@@ -140,7 +140,9 @@ peek_kept <- function(file, most = 200) {
   none$own <- identical(start[seq_len(known)], layout[seq_len(known)]) || is_former(start)
   end <- match(as.raw(10L), start)
   if (known < length(layout) || !none$own || is_former(start) || is.na(end)) return(none)
-  words <- strsplit(rawToChar(start[seq_len(end - 1)]), " ", fixed = TRUE)[[1]]
+  line <- start[seq_len(end - 1)]
+  if (!all(line >= as.raw(0x20) & line < as.raw(0x7f))) return(none)
+  words <- strsplit(rawToChar(line), " ", fixed = TRUE)[[1]]
   list(key = words[3], mesh = words[4], own = TRUE)
 }
 
