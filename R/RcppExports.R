@@ -153,3 +153,15 @@ cpp_fit_poses <- function(xyz, normal, to_xyz, to_normal, starts, settings) {
     .Call(`_crestline_cpp_fit_poses`, xyz, normal, to_xyz, to_normal, starts, settings)
 }
 
+cpp_warp_gram <- function(basis, used, normal, weight, along, across) {
+    .Call(`_crestline_cpp_warp_gram`, basis, used, normal, weight, along, across)
+}
+
+cpp_face_normals <- function(vb, it) {
+    .Call(`_crestline_cpp_face_normals`, vb, it)
+}
+
+cpp_vertex_normals <- function(vb, it) {
+    .Call(`_crestline_cpp_vertex_normals`, vb, it)
+}
+

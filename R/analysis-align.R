@@ -63,7 +63,7 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
                    tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
   aligned <- align_configurations(configurations(sample, level, triangles), settings)
   attr(aligned, "provenance") <- aligned_provenance(sample, settings)
-  told_of(aligned, limits)
+  warn_of_doubts(aligned, limits)
 }
 
 #' @param given As of [configurations()].

@@ -34,6 +34,13 @@ check_choice <- function(x, choices, name, call = rlang::caller_env()) {
   x[[1]]
 }
 
+check_flag <- function(x, name, call = rlang::caller_env()) {
+  if (!isTRUE(x) && !isFALSE(x)) {
+    crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)), "Give TRUE or FALSE.", stage = "arguments", call = call)
+  }
+  x
+}
+
 check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   if (!inherits(x, class)) {
     crestline_abort(

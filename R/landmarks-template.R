@@ -143,16 +143,17 @@ with_landmarks <- function(prepared, landmarks) {
   prepared$landmarks <- landmarks
   n <- ncol(prepared$xyz)
   prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), n, prepared$mirror, prepared$settings)
-  rows <- lapply(prepared$basis, function(b) b[seq_len(n), ])
-  plane <- do.call(cbind, lapply(1:3, function(k) prepared$normal[k, ] * rows[[k]]))
-  root <- warp_root(rows, plane, rep(1 / prepared$settings$error^2, n), prepared$settings)
+  weight <- rep(1 / prepared$settings$error^2, n)
+  root <- warp_root(prepared$basis, seq_len(n), prepared$normal, weight, prepared$settings)
   prepared$sd <- warp_sd(lapply(prepared$basis, function(b) b[-seq_len(n), , drop = FALSE]), root)
   prepared
 }
 
 #' @rdname landmark_template
 #' @export
-face_template <- function() {
+face_template <- function() once("face template", read_face_template)
+
+read_face_template <- function() {
   folder <- system.file("extdata", "face_template", package = "crestline", mustWork = TRUE)
   at <- read_landmarks(file.path(folder, "landmarks.csv"))
   ears <- c("tL", "tR", "oiL", "oiR")

@@ -262,15 +262,18 @@ check_file <- function(file, stage) {
 #' @param unpacks Kinds of packed files that the caller reads.
 #' @noRd
 check_stored <- function(file, stage, id = NULL, unpacks = character()) {
-  refuse <- function(problem, remedy) crestline_abort(problem, remedy, stage = stage, id = id, call = NULL)
-  if (!isTRUE(file.size(file) > 0)) {
-    refuse(sprintf("%s cannot be read: it is empty, or no file on disk but a pipe or device.", file),
-           "If it is empty, export or copy it again; what comes through a pipe, save to a file first.")
+  refuse <- function(problem, remedy) {
+    crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
+                    call = NULL)
   }
-  if (file.access(file, 4) != 0) refuse(sprintf("%s cannot be read.", file), "Check the right to read it.")
+  if (!isTRUE(file.size(file) > 0)) {
+    refuse(": it is empty, or no file on disk but a pipe or device",
+           "If it is empty, export or copy it again; save what comes through a pipe first.")
+  }
+  if (file.access(file, 4) != 0) refuse("", "Check the right to read it.")
   packed <- packed_by(readBin(file, "raw", 10))
   if (!is.na(packed) && !packed %in% unpacks) {
-    refuse(sprintf("%s cannot be read: it is compressed by %s, whatever its name.", file, packed),
+    refuse(sprintf(": it is compressed by %s, whatever its name", packed),
            "Unpack it first; of a spreadsheet save the sheet as CSV.")
   }
 }

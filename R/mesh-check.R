@@ -32,7 +32,7 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   mesh[c("topology", "given", "lost", "face_normals")] <- NULL
   area <- row_lengths(normal)
   if (!any(area > 0)) refuse_flat(id)
-  mesh$normals <- vertex_normals(mesh, normal)
+  mesh$normals <- vertex_normals(mesh)
   report <- c(report, describe_topology(mesh, topology, area), tell_contacts(mesh, topology, area, id))
   list(mesh = mesh, topology = topology, report = do.call(rbind, report), vertices = vertices)
 }

@@ -11,7 +11,7 @@ join_effort <- 2000L
 join_near_vertices <- function(mesh, id, near = 1e-6) {
   check <- "vertices apart by rounding"
   mesh <- with_topology(mesh)
-  border <- border_vertices(mesh)
+  border <- sort(border_vertices(mesh$it, mesh$topology$twin))
   several <- mesh$topology$pieces > 1
   at <- if (several) seq_len(ncol(mesh$vb)) else border
   pair <- matrix(at[cpp_near_pairs(mesh$vb[, at, drop = FALSE], near * surface_diagonal(mesh), join_effort)], 2)
@@ -39,11 +39,6 @@ joined_by_edge <- function(mesh, pair) {
   key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
   it <- mesh$it[, colSums(matrix(mesh$it %in% pair, 3)) > 1, drop = FALSE]
   key(pair[1, ], pair[2, ]) %in% c(key(it[1, ], it[2, ]), key(it[2, ], it[3, ]), key(it[3, ], it[1, ]))
-}
-
-border_vertices <- function(mesh) {
-  side <- border_sides(mesh$topology)
-  sort(unique(c(mesh$it[side], mesh$it[next_side(side)])))
 }
 
 # Pairs in triangles of which two or more become one.

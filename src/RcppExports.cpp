@@ -565,6 +565,46 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_warp_gram
+NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight, double along, double across);
+RcppExport SEXP _crestline_cpp_warp_gram(SEXP basisSEXP, SEXP usedSEXP, SEXP normalSEXP, SEXP weightSEXP, SEXP alongSEXP, SEXP acrossSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< List >::type basis(basisSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type weight(weightSEXP);
+    Rcpp::traits::input_parameter< double >::type along(alongSEXP);
+    Rcpp::traits::input_parameter< double >::type across(acrossSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_warp_gram(basis, used, normal, weight, along, across));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_face_normals
+NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_face_normals(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_face_normals(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_vertex_normals
+NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_vertex_normals(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertex_normals(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
@@ -605,6 +645,9 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},
     {"_crestline_cpp_fit_poses", (DL_FUNC) &_crestline_cpp_fit_poses, 6},
+    {"_crestline_cpp_warp_gram", (DL_FUNC) &_crestline_cpp_warp_gram, 6},
+    {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
+    {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {NULL, NULL, 0}
 };
 

@@ -7,6 +7,8 @@
 #include <omp.h>
 #endif
 
+#include "mesh_normals.h"
+
 namespace crestline {
 
 namespace {
@@ -52,31 +54,6 @@ void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
 
 }  // namespace
 
-std::vector<double> vertex_normals(const MeshView& mesh) {
-  std::vector<double> normals(3 * static_cast<std::size_t>(mesh.n), 0);
-  for (int f = 0; f < mesh.m; ++f) {
-    const int* v = mesh.it + 3 * static_cast<std::size_t>(f);
-    const double *a = mesh.xyz + 3 * static_cast<std::size_t>(v[0]),
-                 *b = mesh.xyz + 3 * static_cast<std::size_t>(v[1]),
-                 *c = mesh.xyz + 3 * static_cast<std::size_t>(v[2]);
-    double u[3], w[3];
-    for (int i = 0; i < 3; ++i) {
-      u[i] = b[i] - a[i];
-      w[i] = c[i] - a[i];
-    }
-    double cross[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
-                       u[0] * w[1] - u[1] * w[0]};
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) normals[3 * static_cast<std::size_t>(v[k]) + i] += cross[i];
-  }
-  for (int v = 0; v < mesh.n; ++v) {
-    double* p = &normals[3 * static_cast<std::size_t>(v)];
-    double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    for (int i = 0; i < 3; ++i) p[i] = length > 0 ? p[i] / length : 0;
-  }
-  return normals;
-}
-
 Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between) {
@@ -88,7 +65,7 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
   out.neighbours.assign(count, 0);
   if (targets.empty()) return out;
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh);
+  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0);
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
   int cells = balls.cells(), block = std::max(kLeastBlock, cells / kBlocks);
   std::vector<ConnectedBalls::Workspace> spaces(threads, balls.workspace());
@@ -118,7 +95,7 @@ std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<i
                                        const FitSettings& settings,
                                        const std::function<void()>& between) {
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh), derivative, total;
+  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0), derivative, total;
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
   ConnectedBalls::Workspace space = balls.workspace();
   FitBuffer buffer;

@@ -8,10 +8,12 @@
 #include "curvature.h"
 #include "landmarks_match.h"
 #include "landmarks_rigid.h"
+#include "landmarks_warp.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
 #include "mesh_door.h"
 #include "mesh_geodesic.h"
+#include "mesh_normals.h"
 #include "mesh_join.h"
 #include "mesh_key.h"
 #include "mesh_locate.h"
@@ -614,4 +616,37 @@ List cpp_fit_poses(NumericMatrix xyz, NumericMatrix normal, NumericMatrix to_xyz
     checkUserInterrupt();
   }
   return List::create(_["poses"] = poses, _["score"] = score);
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight,
+                            double along, double across) {
+  crestline::Basis functions[3];
+  int p = 0;
+  for (int k = 0; k < 3; ++k) {
+    NumericMatrix values = basis[k];
+    functions[k] = {values.begin(), values.nrow(), values.ncol()};
+    p += values.ncol();
+  }
+  std::vector<double> gram = crestline::warp_gram(functions, from_zero(used), normal.begin(), weight.begin(), along,
+                                                  across, [] { checkUserInterrupt(); });
+  return NumericMatrix(p, p, gram.begin());
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it) {
+  NumericMatrix out(it.ncol(), 3);
+  crestline::face_normals(vb.begin(), vb.nrow(), it.begin(), it.ncol(), 1, out.begin());
+  return out;
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it) {
+  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  NumericMatrix out(4, vb.ncol());
+  for (int v = 0; v < vb.ncol(); ++v) {
+    for (int i = 0; i < 3; ++i) out(i, v) = normals[3 * static_cast<std::size_t>(v) + i];
+    out(3, v) = 1;
+  }
+  return out;
 }

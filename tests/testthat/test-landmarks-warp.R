@@ -44,3 +44,17 @@ test_that("a template bent by a known displacement is bent back to it", {
   expect_lt(mean(error), 0.6)
   expect_lt(mean(error), 0.25 * mean(row_lengths(bend(own$landmarks) - own$landmarks)))
 })
+
+test_that("the normal matrix of a displacement is that of its weighted equations", {
+  with_seed(3, {
+    basis <- lapply(c(5, 6, 7), function(size) matrix(rnorm(900 * size), 900))
+    used <- sort(sample(900, 700))
+    normal <- matrix(rnorm(3 * 700), 3)
+    weight <- runif(700)
+  })
+  own <- lapply(basis, function(b) b[used, ])
+  along_normal <- do.call(cbind, lapply(1:3, function(k) normal[k, ] * own[[k]]))
+  expected <- crossprod(along_normal, 0.7 * weight * along_normal) +
+    as.matrix(Matrix::bdiag(lapply(own, function(b) crossprod(b, 0.3 * weight * b))))
+  expect_equal(cpp_warp_gram(basis, used, normal, weight, 0.3, 0.7), expected, tolerance = 1e-13)
+})
