@@ -94,5 +94,5 @@ write_report <- function(page, title, file) {
     "<meta name=\"viewport\" content=\"width=device-width\">", as.character(htmltools::tags$title(title)),
     "<style>", report_text("quality.css"), "</style>", "</head>", as.character(page), "</html>"
   )
-  writeLines(enc2utf8(lines), file, useBytes = TRUE)
+  write_html(lines, file)
 }
