@@ -53,6 +53,10 @@ cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
 }
 
+cpp_random_bytes <- function(n) {
+    .Call(`_crestline_cpp_random_bytes`, n)
+}
+
 cpp_vertices_in_box <- function(vb, low, high) {
     .Call(`_crestline_cpp_vertices_in_box`, vb, low, high)
 }

@@ -24,8 +24,10 @@
 #' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks
 #'   are put on the mesh as it is.
 #' @param bridge,unit As in [fit_shape()].
-#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `launch.browser`.
+#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `quiet`, `launch.browser` (a function gets the address of the page).
 #' @inheritParams curvature
+#' @details The address of the page has a random token. R answers nobody who does not know it, and no page of another site.
+#'   With `launch.browser = FALSE` the address is printed.
 #' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were
 #'   ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said
 #'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them.
@@ -58,8 +60,7 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
   shown <- shown_surface(specimen, surface, check_number(radius, "radius", 0, open = TRUE), check_count(faces, "faces"))
-  app <- shiny::shinyApp(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view))
-  reviewed <- shiny::runApp(app, ...)
+  reviewed <- run_review(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view), ...)
   if (looks_mirrored(reviewed)) warn_mirrored(reviewed$id)
   reviewed
 }

@@ -1,6 +1,8 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <random>
+
 #include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
@@ -337,6 +339,15 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
 // [[Rcpp::export]]
 NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatrix it) {
   return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
+}
+
+// Bytes from the system's random numbers, for a secret; R's own are not touched.
+// [[Rcpp::export]]
+RawVector cpp_random_bytes(int n) {
+  std::random_device device;
+  RawVector out(n);
+  for (auto& byte : out) byte = static_cast<Rbyte>(device() & 0xffu);
+  return out;
 }
 
 // [[Rcpp::export]]
