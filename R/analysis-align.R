@@ -52,6 +52,8 @@
 align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
                   rounds = 200) {
+  check_given()
+  check_flags(tangent)
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
   scaling <- check_scaling(scale)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
@@ -104,6 +106,7 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
+    check_class(sample, "shape_sample", "sample", "homologise()", call)
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"
@@ -154,15 +157,15 @@ check_triangles <- function(triangles, k, call) {
   matrix(as.integer(triangles), 3)
 }
 
-check_array <- function(x, call) {
+check_array <- function(x, call, name = "sample") {
   if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
     size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else describe_value(x)
-    crestline_abort(sprintf("`sample` is %s.", size),
+    crestline_abort(sprintf("`%s` is %s.", name, size),
                     "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
                     call = call)
   }
   if (any(is.infinite(x))) {
-    crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", stage = "align", call = call)
+    crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.", stage = "align", call = call)
   }
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {

@@ -30,6 +30,9 @@
 #' @export
 curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("points", "curves"), level = "curves",
                            scale = FALSE) {
+  check_given()
+  check_flags(scale)
+  level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   match <- check_choice(match, c("none", "procrustes"), "match")
   between <- check_choice(between, c("points", "curves"), "between")
   a <- curve_list(a, level, "a")
@@ -60,6 +63,7 @@ distance_row <- function(part, distance) {
 #' @noRd
 curve_list <- function(x, level, name, call = rlang::caller_env()) {
   if (inherits(x, "shape")) {
+    check_class(x, "shape", name, "fit_shape()", call)
     level <- check_choice(level, c("landmarks", "curves", "surface"), "level", call)
     own <- x$points[x$points$level == level, ]
     return(split_rows(as.matrix(own[c("x", "y", "z")]), own$part))

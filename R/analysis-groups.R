@@ -69,12 +69,16 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
                            seed = NULL, tests = c("size", "shape", "T2", "components", "points"), exact = n_perm,
                            permutations = NULL, scale = TRUE, weights = NULL,
                            missing = c("estimate", "drop", "stop"), progress = interactive()) {
-  n_perm <- check_count(n_perm, "n_perm")
+  check_given()
+  check_flags(progress)
+  seed <- check_seed(seed)
+  n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
   exact <- check_number(exact, "exact", lower = 0)
   components <- check_components(components)
   tests <- check_tests(tests)
   aligned <- aligned_levels(sample, level, scale, weights, missing)
   group <- check_group(group, dimnames(aligned[[1]]$coords)[[3]])
+  check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
   dealt <- regroupings(group, n_perm, exact, permutations, seed)
   # A block of point-wise tests needs 250 x k numbers.
   blocks <- permutation_blocks(ncol(dealt$labels), 250)
@@ -131,7 +135,7 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (inherits(sample, "shape_sample")) {
-    for (one in level) check_choice(one, sample_levels, "level", call)
+    level <- check_choices(level, sample_levels, "level", call)
     return(lapply(stats::setNames(nm = level), function(one) as_aligned(sample, one)))
   }
   if (is.list(sample) && length(sample) && !is.null(names(sample))) {
@@ -157,9 +161,7 @@ check_components <- function(components, call = rlang::caller_env()) {
 
 check_tests <- function(tests, call = rlang::caller_env()) {
   known <- c("size", "shape", "T2", "components", "points")
-  for (test in tests) check_choice(test, known, "tests", call)
-  if (!length(tests)) check_choice("", known, "tests", call)
-  unique(tests)
+  check_choices(tests, known, "tests", call)
 }
 
 #' A factor with the levels that occur, in the order of the specimens

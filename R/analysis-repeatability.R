@@ -50,6 +50,7 @@
 #' repeatability(arcs, specimen)
 #' @export
 repeatability <- function(shapes, specimen, observer = NULL, level = "curves", match = c("specimen", "each", "none")) {
+  check_given()
   match <- check_choice(match, c("specimen", "each", "none"), "match")
   if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
   failed <- failed_measurements(shapes)

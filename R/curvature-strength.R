@@ -47,6 +47,8 @@ normal_curvature <- function(curved, at, direction) {
 #' keep_away("exL", "enL") # for the left brow ridge of a face
 #' @export
 keep_away <- function(from, to, radius = 0.7, extension = 0.2) {
+  check_given()
+  check_ends(from = from, to = to)
   structure(list(from = from, to = to, radius = check_number(radius, "radius", lower = 0),
                  extension = check_number(extension, "extension", lower = 0)), class = "keep_away")
 }
@@ -73,6 +75,8 @@ print.keep_away <- function(x, ...) {
 #' keep_side("exL", "enL", towards = "acL") # for the ridge of the left lower eyelid
 #' @export
 keep_side <- function(from, to, towards) {
+  check_given()
+  check_ends(from = from, to = to, towards = towards)
   structure(list(from = from, to = to, towards = towards), class = "keep_side")
 }
 

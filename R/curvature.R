@@ -53,9 +53,11 @@
 curvature <- function(mesh, radius, order = "adaptive",
                       threads = getOption("crestline.threads", 1L), vertices = NULL,
                       shrinkage = 6, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
+  check_given()
+  check_surface(mesh, "mesh")
   mesh <- as_mesh(mesh)
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
-  threads <- check_count(threads, "threads")
+  threads <- check_threads(threads)
   check_number(widen, "widen", lower = 1)
   check_radius(radius, mesh)
   n <- ncol(mesh$vb)
@@ -144,7 +146,7 @@ fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_t
   list(radius = check_number(radius, "radius", lower = 0, open = TRUE),
        lowest = orders[[order]][1], highest = orders[[order]][2], forced = order == "forced",
        shrinkage = check_number(shrinkage, "shrinkage", lower = 0),
-       points_per_term = check_number(points_per_term, "points_per_term", lower = 1),
+       points_per_term = check_number(points_per_term, "points_per_term", lower = 1, upper = 1000),
        one_sided = check_number(one_sided, "one_sided", lower = 0))
 }
 
@@ -162,7 +164,7 @@ as_mesh <- function(mesh) {
 vertex_indices <- function(vertices, n) {
   if (is.null(vertices)) return(seq_len(n))
   if (is.logical(vertices) && length(vertices) == n && !anyNA(vertices)) vertices <- which(vertices)
-  if (!is.numeric(vertices) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
+  if (!is.numeric(vertices) || !is.null(dim(vertices)) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
     crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
                     sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
   }

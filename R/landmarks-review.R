@@ -47,6 +47,7 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
                              least = 0.5, settings = ridge_settings(error = FALSE), view = NULL,
                              radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL, bridge = 0.2,
                              threads = getOption("crestline.threads", 1L), ...) {
+  check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rlang::check_installed("shiny", "to review landmarks.")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
@@ -70,6 +71,8 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
 #' @param id Name of the specimen, where a mesh is given.
 #' @export
 place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
+  check_given()
+  check_surface(mesh, "mesh")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   review_landmarks(without_landmarks(mesh, scheme, id), scheme, ...)
 }

@@ -70,6 +70,8 @@
 #' read_landmarks(slicer)
 #' @export
 read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
+  check_given()
+  check_flags(scale)
   check_file(file, "landmarks")
   options <- list(frame = check_choice(frame, c("LPS", "RAS", "file"), "frame"),
                   missing = check_number(missing, "missing"), scale = isTRUE(scale))
@@ -80,6 +82,7 @@ read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999
 #' @rdname read_landmarks
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
+  check_given()
   format <- landmark_format(file)
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
@@ -192,9 +195,9 @@ landmark_format <- function(file) {
 file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
 
 check_file <- function(file, stage) {
-  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, stage)
+  if (!is_path(file)) refuse_no_path(file, stage)
   if (!file.exists(file) || dir.exists(file)) {
-    crestline_abort(sprintf("there is no file %s.", file),
+    crestline_abort(sprintf("`file`: there is no file %s.", file),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)
   }

@@ -28,11 +28,13 @@
 #' attr(quarter, "length") # about pi / 2
 #' @export
 plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
+  check_given()
+  check_surface(mesh, "mesh")
   surface <- walkable(mesh)
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
   check_number(side, "side", lower = 0, upper = 1)
-  cut_path(surface, ends, cut_axis(surface, ends), angle, side, reach)
+  cut_path(surface, ends, cut_axis(surface, ends), angle, side, check_reach(reach))
 }
 
 #' One plane cut as a path

@@ -51,6 +51,13 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
                            spacing = 0.25, angles = 60, refined = 21, tie = 0.002,
                            rival = 0.05, distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
+  check_given()
+  check_surface(specimen, "specimen")
+  threads <- check_threads(threads)
+  reach <- check_reach(reach)
+  angles <- check_count(angles, "angles")
+  refined <- check_count(refined, "refined")
+  check_shares(longest, spacing, tie, rival, distinct)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, from, to)

@@ -34,6 +34,17 @@
 write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
                        title = paste("Specimen", specimen$id), caption = NULL, surface = "shape index",
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
+  check_given()
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  title <- check_text(title, "title")
+  caption <- check_text(caption, "caption", null = TRUE)
+  surface <- check_choice(surface, surface_choices, "surface")
+  if (!is.null(colour)) check_colour(colour, "colour")
+  width <- check_number(width, "width", lower = 0)
+  check_flags(selfcontained)
+  size <- check_size(size)
+  curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves", "fit_shape()") else check_curves(curves)
+  table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
   rgl::open3d(useNULL = TRUE)
@@ -129,10 +140,7 @@ inline_files <- function(html, folder, pattern, element, closing) {
 }
 
 check_page_file <- function(file, call = rlang::caller_env()) {
-  if (!is.character(file) || length(file) != 1 || !grepl("[.]html?$", file) || !dir.exists(dirname(file))) {
-    crestline_abort(sprintf("`file` is %s, not an HTML file in a folder that exists.", describe_value(file)),
-                    "Give a path that ends in .html, and create its folder.", stage = "page", call = call)
-  }
+  file <- check_path_to_write(file, "file", c("html", "htm"), "page", call)
   file.path(normalizePath(dirname(file)), basename(file))
 }
 

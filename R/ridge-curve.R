@@ -52,7 +52,12 @@
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
                         reach = 0.5, threads = getOption("crestline.threads", 1L), trust = c(0, 1)) {
+  check_given(c("radius", "width"))
+  check_surface(specimen, "specimen")
+  threads <- check_threads(threads)
+  reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
+  if (type != "plane") check_given()
   n <- check_count(n, "n", lower = 2)
   passes <- check_count(passes, "passes")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
@@ -66,7 +71,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
     } else {
       about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
       about$width <- check_number(width, "width", lower = 0, open = TRUE)
-      curvature <- known_curvature(curvature, specimen, radius, check_count(threads, "threads"), settings$order)
+      curvature <- known_curvature(curvature, specimen, radius, threads, settings$order)
       path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
                              longest = settings$longest)
       if (trust[1] > 0 || trust[2] < 1) path <- trusted_path(trust, specimen, path)

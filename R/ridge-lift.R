@@ -24,6 +24,13 @@
 #' lift(ball, window, path, s, alpha = 0.1 * sin(2 * s))
 #' @export
 lift <- function(specimen, coordinates, path, s, alpha) {
+  check_given()
+  check_surface(specimen, "specimen")
+  check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  check_class(path, "mesh_path", "path", "reference_path() or plane_path()")
+  s <- check_numbers(s, "s")
+  alpha <- check_numbers(alpha, "alpha", length(s))
+  if (length(s) < 2 || is.unsorted(s, strictly = TRUE)) refuse_argument("s", s, "Give two places or more, in order.", rlang::current_env())
   surface <- walkable(specimen)
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)

@@ -26,6 +26,9 @@
 #' ridge_line(smooth, scale = 1, radius = 0.2)
 #' @export
 ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
+  check_given()
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  radius <- check_number(radius, "radius", lower = 0, open = TRUE)
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
   problem <- ridge_problem(surface, scale, radius, settings)

@@ -25,7 +25,10 @@
 #' predict(smooth, s = 0.7, d = c(0, 0.1))
 #' @export
 curvature_surface <- function(coordinates, strength, settings = ridge_settings()) {
+  check_given()
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  strength <- check_numbers(strength, "strength", nrow(coordinates), missing = TRUE)
   length <- attr(coordinates, "length")
   width <- attr(coordinates, "width")
   rows <- which(coordinates$inside & !is.na(strength))

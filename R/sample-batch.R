@@ -48,6 +48,8 @@
 #' @export
 fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL, doubtful = 0, ...,
                        chunk = NULL, progress = interactive()) {
+  check_given()
+  check_flags(progress)
   rlang::check_installed(c("future", "future.apply", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
@@ -224,6 +226,7 @@ failure_of <- function(e) {
 #' failures(fit_shapes(bad, scheme))
 #' @export
 failures <- function(x) {
+  check_given()
   check_class(x, "shape_batch", "x", "fit_shapes()")
   rows <- lapply(names(x), function(name) {
     result <- batch_result(x, name)

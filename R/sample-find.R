@@ -22,8 +22,7 @@ with_finder <- function(jobs, files, template, doubtful, scheme) {
 }
 
 batch_template <- function(template, scheme) {
-  if (inherits(template, "landmark_template")) return(template)
-  if (!is.null(template)) return(landmark_template(template))
+  if (!is.null(template)) return(check_template(template))
   face <- face_template()
   if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) face
 }

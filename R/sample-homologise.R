@@ -60,6 +60,8 @@
 #' @export
 homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL, tolerance = 2e-4, rounds = 20,
                        progress = interactive()) {
+  check_given()
+  check_flags(progress)
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
   check_class(settings, "slide_settings", "settings", "slide_settings()")

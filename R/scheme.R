@@ -84,6 +84,7 @@
 #' @export
 curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL, name = "scheme",
                          definitions = NULL) {
+  check_given()
   tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs, strips = strips,
                  definitions = definitions)
   build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
@@ -93,7 +94,7 @@ curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
-  scheme <- list(name = check_id(name))
+  scheme <- list(name = check_text(name, "name"))
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]), scheme_columns[[table]])
     rows <- scheme_rows(table, typed$table)

@@ -93,6 +93,9 @@
 fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   scheme <- scheme_in_unit(scheme, unit, specimen)
@@ -145,7 +148,7 @@ check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
 
 check_column <- function(column_angle, column_angles, column_reach) {
   list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-       angles = check_count(column_angles, "column_angles"),
+       angles = check_count(column_angles, "column_angles", upper = 10000),
        reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 

@@ -32,6 +32,8 @@
 #' @export
 patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = NULL, column_angle = pi / 4,
                        column_angles = 51, column_reach = 1) {
+  check_given()
+  patch <- check_text(patch, "patch")
   check_class(x, "shape", "x", "fit_shape()")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   block <- block_of(x, patch, block)

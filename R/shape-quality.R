@@ -45,6 +45,7 @@
 #' }
 #' @export
 quality <- function(x, limits = quality_limits(), others = NULL) {
+  check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   shapes <- named_shapes(x)
   measured <- Filter(Negate(is.null), shapes)

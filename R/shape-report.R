@@ -29,6 +29,9 @@
 #' @export
 quality_report <- function(x, file, specimens = NULL, limits = quality_limits(), others = NULL,
                            title = "Quality of measured specimens", pictures = 12, size = c(1500, 640)) {
+  check_given()
+  title <- check_text(title, "title")
+  size <- check_size(size)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
   pictures <- check_count(pictures, "pictures", lower = 0)

@@ -18,7 +18,11 @@
 #' coords(shape, "landmarks")
 #' head(coords(shape, "curves"), 3)
 #' @export
-coords <- function(x, level, ...) UseMethod("coords")
+coords <- function(x, level, ...) {
+  check_given()
+  check_class(x, "shape", "x", "fit_shape()")
+  UseMethod("coords")
+}
 
 #' @rdname coords
 #' @export
@@ -65,8 +69,10 @@ coords.shape <- function(x, level, ...) {
 #' @export
 shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_angle = pi / 4, column_angles = 51,
                        column_reach = 1) {
+  check_given()
+  parts <- check_names(parts, "parts")
   check_class(x, "shape", "x", "fit_shape()")
-  dense <- check_count(dense, "dense")
+  dense <- check_count(dense, "dense", upper = 1000)
   triangles <- whole_triangles(x, parts)
   corners <- as.matrix(triangles[c("v1", "v2", "v3")])
   if (dense == 1) {

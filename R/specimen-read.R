@@ -18,6 +18,7 @@
 #' read_specimen(file, id = "ball")
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
+  check_given()
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", basename(file))
   id <- check_id(id)

@@ -38,6 +38,7 @@
 #' @export
 specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01, debris = 0.001,
                      midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn")) {
+  check_given()
   id <- check_id(id)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   landmarks <- as_landmarks(landmarks, id)
@@ -52,10 +53,10 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   )
 }
 
-check_id <- function(id) {
+check_id <- function(id, name = "id", call = NULL) {
   if (is.null(id)) return("unnamed")
-  if (!is.atomic(id) || length(id) != 1 || is.na(id)) {
-    crestline_abort(sprintf("`id` is %s.", describe_value(id)), "Give one string.", stage = "arguments", call = NULL)
+  if (!is.atomic(id) || length(id) != 1 || is.na(id) || !nzchar(id)) {
+    refuse_argument(name, id, "Give one string.", call)
   }
   as.character(id)
 }

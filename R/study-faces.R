@@ -56,6 +56,9 @@
 simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, template = NULL,
                            groups = c("female", "male"), variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
                            size_sd = 0.03, waves = 200, scan = scan_settings(), seed = NULL, progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  seed <- check_seed(seed)
   n <- check_count(n, "n")
   if (is.null(places)) places <- if (is.null(template)) face_effect() else no_places()
   if (is.null(template)) template <- humface_specimen()

@@ -38,6 +38,8 @@
 #' @export
 simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter = 0, correlation = 0,
                            landmark_error = 0, end = 0.95) {
+  check_given()
+  seed <- check_seed(seed)
   check_number(a, "a")
   check_number(b, "b", lower = 0, open = TRUE)
   check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE)

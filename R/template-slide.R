@@ -38,6 +38,7 @@
 #' }
 #' @export
 slide <- function(shape, template, settings = slide_settings(), specimen = shape$specimen) {
+  check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
   check_class(template, "shape", "template", "symmetrise()")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
