@@ -222,7 +222,7 @@ mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
 check_extent <- function(size, call = rlang::caller_env()) {
   at <- which(!(size > 0))
   if (length(at)) {
-    crestline_abort("all its points coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
+    crestline_abort("all its points in `sample` coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
   }
 }
 

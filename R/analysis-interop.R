@@ -98,7 +98,7 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
   if (is.null(size)) size <- own
   if (!is.numeric(size) || length(size) != n || !all(is.finite(size) & size > 0)) {
-    crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes above 0.", n), stage = "align")
+    crestline_abort(sprintf("`size`, or that of `x`, is %s.", describe_value(size)), sprintf("Give %d centroid sizes above 0.", n), stage = "align")
   }
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2

@@ -64,11 +64,11 @@ check_flags <- function(..., call = rlang::caller_env()) {
   invisible(Map(check_flag, list(...), names, MoreArgs = list(call = call)))
 }
 
-#' Arguments of one function that are shares of at least 0 each, Inf too, given as they are called there
+#' Arguments of one function that are numbers of at least 0 each, given as they are called there
 #' @noRd
 check_shares <- function(..., call = rlang::caller_env()) {
   names <- vapply(substitute(list(...))[-1], as.character, "")
-  invisible(Map(function(x, name) if (!identical(x, Inf)) check_number(x, name, lower = 0, call = call), list(...), names))
+  invisible(Map(check_number, list(...), names, MoreArgs = list(lower = 0, call = call)))
 }
 
 check_choice <- function(x, choices, name, call = rlang::caller_env()) {
@@ -104,12 +104,13 @@ check_names <- function(x, name, null = FALSE, call = rlang::caller_env()) {
 }
 
 #' Colours as R knows them: names, "#RRGGBB", numbers of the palette
-#' @param none Whether NA (no colour) will do.
+#' @param none Whether one colour is asked for, or NA: none.
 #' @noRd
 check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
-  if (none && length(x) == 1 && is.atomic(x) && is.na(x)) return(NA)
+  if (none && length(x) == 1 && is.atomic(x) && is.na(x) && !is.nan(x)) return(NA)
   known <- function(x) !is.null(tryCatch(suppressWarnings(grDevices::col2rgb(x)), error = function(e) NULL))
-  if (!(is.character(x) || is.numeric(x)) || !length(x) || anyNA(x) || !known(unique(x))) {
+  kind <- is.null(dim(x)) && (is.character(x) || (is.numeric(x) && all(is.finite(x) & x < 1e9)))
+  if (!kind || !length(x) || (none && length(x) > 1) || anyNA(x) || !known(unique(x))) {
     refuse_argument(name, x, sprintf("Give colours, such as \"black\" or \"#16218C\"%s.", if (none) ", or NA" else ""), call)
   }
   x
@@ -141,7 +142,8 @@ check_ends <- function(..., call = rlang::caller_env()) {
   ends <- list(...)
   for (name in names(ends)) {
     x <- ends[[name]]
-    placed <- is.data.frame(x) && nrow(x) == 1 && all(c("x", "y", "z") %in% names(x))
+    has <- function(...) all(c(...) %in% names(x))
+    placed <- is.data.frame(x) && nrow(x) == 1 && (has("x", "y", "z") || has("face", "w1", "w2", "w3"))
     position <- placed || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
     if (!position && !is_path(x)) refuse_argument(name, x, "Give the name of a landmark, or three finite co-ordinates.", call)
   }
@@ -150,6 +152,17 @@ check_ends <- function(..., call = rlang::caller_env()) {
 is_of_kind <- function(x, kind) {
   switch(kind, list = is.list(x), table = is.data.frame(x), numbers = is.numeric(x), id = is.character(x) && length(x) == 1,
          inherits(x, kind))
+}
+
+#' Regions in which strength does not count: one, a list of them, or NULL
+#' @noRd
+check_regions <- function(x, name = "keep_away", call = rlang::caller_env()) {
+  if (is.null(x)) return(NULL)
+  if (inherits(x, c("keep_away", "keep_side"))) x <- list(x)
+  plain <- is.list(x) && !is.object(x)
+  if (!plain) check_class(x, "keep_away", name, "keep_away() or keep_side()", call)
+  for (one in x) if (!inherits(one, "keep_side")) check_class(one, "keep_away", name, "keep_away() or keep_side()", call)
+  x
 }
 
 # The parts without which no function can use an object of the class, and what they are.
@@ -243,7 +256,7 @@ is_path <- function(x) is.character(x) && length(x) == 1 && !is.na(x) && nzchar(
 #' @noRd
 check_given <- function(but = character(), frame = rlang::caller_env(), fn = rlang::caller_fn()) {
   needed <- names(Filter(function(x) identical(x, quote(expr = )), as.list(formals(fn))))
-  absent <- Filter(function(name) eval(call("missing", as.name(name)), frame), setdiff(needed, c("...", but)))
+  absent <- Filter(function(name) eval(as.call(list(quote(base::missing), as.name(name))), frame), setdiff(needed, c("...", but)))
   if (!length(absent)) return(invisible())
   crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "), if (length(absent) == 1) "is" else "are"),
                   "See the help page of the function.", stage = "arguments", call = frame)
@@ -271,10 +284,12 @@ describe_value <- function(x) {
   if (is.null(x)) return("NULL")
   if (!is.atomic(x)) return(paste0("of class ", class(x)[1]))
   if (is.array(x)) return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array", paste(dim(x), collapse = " x ")))
-  shown <- paste(utils::head(format(x), 3), collapse = ", ")
+  shown <- paste(shorten_text(utils::head(format(x), 3)), collapse = ", ")
   if (length(x) > 3) return(paste0(shown, ", ... (", length(x), " values)"))
   if (!length(x)) "empty" else if (identical(shown, "")) "an empty string" else shown
 }
+
+shorten_text <- function(x, most = 60) ifelse(nchar(x) > most, paste0(substr(x, 1, most - 3), "..."), x)
 
 describe_range <- function(lower, upper, open) {
   words <- if (open) c("above", "below") else c("of at least", "of at most")

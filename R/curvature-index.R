@@ -94,8 +94,8 @@ shape_colours <- function(index, missing = "#BEBEBE") {
 }
 
 check_index <- function(index, call = rlang::caller_env()) {
-  number <- is.numeric(index) || (is.atomic(index) && length(index) && all(is.na(index)))
-  if (!number || any(abs(as.numeric(index)) > 1, na.rm = TRUE)) {
+  number <- is.null(dim(index)) && (is.numeric(index) || (is.logical(index) && all(is.na(index))))
+  if (!number || any(abs(index) > 1, na.rm = TRUE)) {
     crestline_abort("`index` is not a vector of numbers in [-1, 1].",
                     "Compute it with shape_index().", stage = "curvature", call = call)
   }

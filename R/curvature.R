@@ -103,7 +103,7 @@ curvature_source <- function(specimen, radius, order, threads) {
   check_radius(radius, mesh)
   row <- integer(ncol(mesh$vb))
   known <- curvature_rows(empty_curvature(0), integer())
-  function(vertices) {
+  structure(class = "curvature_source", function(vertices) {
     new <- unique(vertices[row[vertices] == 0])
     if (length(new)) {
       found <- curvature_at(mesh, new, settings, threads)
@@ -112,7 +112,7 @@ curvature_source <- function(specimen, radius, order, threads) {
       known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known, found[names(known)])
     }
     curvature_rows(known, row[vertices])
-  }
+  })
 }
 
 #' The rows of a curvature that a curve needs
@@ -136,13 +136,18 @@ fill_curvature <- function(out, found, at) {
   out
 }
 
+# The lowest and the highest order of the nested fits.
+fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
+                   quartic = c(4L, 4L), forced = c(2L, 2L))
+
+check_order <- function(order, call = rlang::caller_env()) check_choice(order, names(fit_orders), "order", call)
+
 #' Settings of the local fit in the form of the kernel
 #' @noRd
 fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_term = 1.5,
                          one_sided = 0.2) {
-  orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
-                 quartic = c(4L, 4L), forced = c(2L, 2L))
-  order <- check_choice(order, names(orders), "order")
+  order <- check_order(order)
+  orders <- fit_orders
   list(radius = check_number(radius, "radius", lower = 0, open = TRUE),
        lowest = orders[[order]][1], highest = orders[[order]][2], forced = order == "forced",
        shrinkage = check_number(shrinkage, "shrinkage", lower = 0),

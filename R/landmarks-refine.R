@@ -55,13 +55,18 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
                              unit = NULL, threads = getOption("crestline.threads", 1L)) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  definitions <- definitions_of(scheme, specimen, unit)
-  move <- check_move(move, definitions$landmark)
   settings <- list(window = check_number(window, "window", 0, open = TRUE), apart = check_number(apart, "apart", 0),
                    faint = check_number(faint, "faint", 0), share = check_number(share, "share", 0, 1, open = TRUE),
                    ridge = ridge_settings(error = FALSE))
+  tolerance <- check_number(tolerance, "tolerance", 0)
+  rounds <- check_count(rounds, "rounds")
+  if (!is.null(curvature)) check_function(curvature, "curvature")
+  threads <- check_threads(threads)
+  order <- check_order(order)
+  definitions <- definitions_of(scheme, specimen, unit)
+  move <- check_move(move, definitions$landmark)
   specimen$refinement <- NULL
-  curvature <- curvature_by_radius(specimen, curvature, order, check_threads(threads))
+  curvature <- curvature_by_radius(specimen, curvature, order, threads)
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
   places <- refined_places(specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
                            check_count(rounds, "rounds"))

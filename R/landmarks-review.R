@@ -57,10 +57,16 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   }
   surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
   least <- check_number(least, "least", 0, 1)
-  review <- begin_review(specimen, scheme, least, settings, check_number(bridge, "bridge", 0, 1), threads)
+  bridge <- check_number(bridge, "bridge", 0, 1)
+  threads <- check_threads(threads)
+  radius <- check_number(radius, "radius", 0, open = TRUE)
+  faces <- check_count(faces, "faces")
+  if (!is.null(view)) view_rotation(view)
+  check_dots(..., known = names(formals(shiny::runApp))[-1])
+  review <- begin_review(specimen, scheme, least, settings, bridge, threads)
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
-  shown <- shown_surface(specimen, surface, check_number(radius, "radius", 0, open = TRUE), check_count(faces, "faces"))
+  shown <- shown_surface(specimen, surface, radius, faces)
   reviewed <- run_review(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view), ...)
   if (looks_mirrored(reviewed)) warn_mirrored(reviewed$id)
   reviewed

@@ -71,6 +71,7 @@
 #' @export
 read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
   check_given()
+  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   check_flags(scale)
   check_file(file, "landmarks")
   options <- list(frame = check_choice(frame, c("LPS", "RAS", "file"), "frame"),
@@ -115,7 +116,7 @@ written_sets <- function(x, curves, file) {
     return(stats::setNames(list(written_set(x, curves)), id))
   }
   if (!length(x) || !is.null(curves) && length(x) > 1) {
-    refuse_landmark_file(file, "curves go with one specimen, and there must be one",
+    refuse_landmark_file(file, "`x` holds no specimen, or several for one set of `curves`",
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
@@ -129,8 +130,9 @@ specimen_names <- function(x) {
 }
 
 written_set <- function(x, curves) {
+  if (inherits(x, "shape")) check_class(x, "shape", "x", "fit_shape()")
   if (is.null(curves)) curves <- if (inherits(x, "shape")) shape_curves(x) else attr(x, "curves")
-  if (inherits(x, "specimen")) x <- x$landmarks
+  if (inherits(x, "specimen")) x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")$landmarks
   if (inherits(x, "shape")) x <- coords(x, "landmarks")
   x <- as_landmarks(x)
   curves <- as_curves(curves)
@@ -141,7 +143,7 @@ written_set <- function(x, curves) {
 as_curves <- function(x) {
   name <- names(x)
   if (length(x) && (!is.list(x) || is.null(name) || anyNA(name) || any(!nzchar(name)) || anyDuplicated(name))) {
-    refuse_landmarks("the curves are not a list with a name of its own for each.",
+    refuse_landmarks("`curves` is not a list with a name of its own for each.",
                      "Give list(name = n x 3 matrix, ...).", id = NULL)
   }
   Map(as_curve, as.list(x), as.character(name))
@@ -152,7 +154,7 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf("curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
+    refuse_landmarks(sprintf("`curves`: %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
@@ -184,7 +186,7 @@ landmark_format <- function(file) {
   format <- match(extension, tolower(names(formats)))
   if (is.na(format)) {
     crestline_abort(
-      sprintf("no landmark format has the extension of %s.", basename(file)),
+      sprintf("`file`: no landmark format has the extension of %s.", basename(file)),
       paste0("Known: ", paste0(".", names(formats), collapse = ", "), "."),
       stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
@@ -194,10 +196,10 @@ landmark_format <- function(file) {
 
 file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
 
-check_file <- function(file, stage) {
+check_file <- function(file, stage, name = "file") {
   if (!is_path(file)) refuse_no_path(file, stage)
   if (!file.exists(file) || dir.exists(file)) {
-    crestline_abort(sprintf("`file`: there is no file %s.", file),
+    crestline_abort(sprintf("`%s`: there is no file %s.", name, file),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)
   }

@@ -78,7 +78,7 @@ mesh_writer <- function(file) {
 }
 
 refuse_writing <- function(file, reason, remedy) {
-  crestline_abort(sprintf("%s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
+  crestline_abort(sprintf("`file`: %s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
                   class = "crestline_mesh_error", call = NULL)
 }
 

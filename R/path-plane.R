@@ -30,6 +30,7 @@
 plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   check_given()
   check_surface(mesh, "mesh")
+  check_ends(from = from, to = to)
   surface <- walkable(mesh)
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
@@ -91,7 +92,13 @@ end_vector <- function(mesh, at, name) {
 }
 
 end_point <- function(mesh, at, name) {
-  if (is.character(at) && inherits(mesh, "specimen")) return(landmark_point(mesh, at))
+  if (is.character(at) && inherits(mesh, "specimen")) {
+    known <- rownames(mesh$landmarks)
+    if (!all(at %in% known)) {
+      refuse_landmarks(sprintf("`%s`: there is no landmark %s.", name, describe_value(at)), near_names(at, known), mesh$id)
+    }
+    return(landmark_point(mesh, at))
+  }
   if (is.data.frame(at) && all(mesh_columns[-(1:3)] %in% names(at)) && nrow(at) == 1) return(at[mesh_columns])
   if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),

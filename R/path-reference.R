@@ -57,7 +57,11 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   reach <- check_reach(reach)
   angles <- check_count(angles, "angles")
   refined <- check_count(refined, "refined")
-  check_shares(longest, spacing, tie, rival, distinct)
+  if (!identical(longest, Inf)) longest <- check_number(longest, "longest", lower = 1)
+  check_shares(spacing, tie, rival, distinct)
+  check_ends(from = from, to = to)
+  keep_away <- check_regions(keep_away)
+  order <- check_order(order)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, from, to)
@@ -191,7 +195,7 @@ path_strength <- function(curvature, type, keep_away, specimen) {
 #' Curvature as a function of vertices: the one that was given, after a check, or estimated where it is asked for
 #' @noRd
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
-  if (is.function(curvature)) return(curvature)
+  if (inherits(curvature, "curvature_source")) return(curvature)
   if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
   check_class(curvature, "curvature", "curvature", "curvature()")
   n <- ncol(as_mesh(specimen)$vb)
@@ -200,7 +204,7 @@ known_curvature <- function(curvature, specimen, radius, threads, order = "adapt
                     "Give the curvature of this specimen's own mesh: curvature(specimen, radius).",
                     stage = "curvature", id = specimen$id)
   }
-  function(vertices) curvature_rows(curvature, vertices)
+  structure(function(vertices) curvature_rows(curvature, vertices), class = "curvature_source")
 }
 
 abort_no_cut <- function(end, ends, id) {

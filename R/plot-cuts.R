@@ -27,6 +27,7 @@ plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surfac
                       colour = grDevices::hcl.colors(length(angles), "Dark 3"), width = 2.5,
                       engine = if (interactive()) "rgl" else "picture", ...) {
   check_given()
+  check_ends(from = from, to = to)
   angles <- check_numbers(angles, "angles")
   colour <- check_colour(colour, "colour")
   width <- check_number(width, "width", lower = 0)

@@ -29,8 +29,11 @@ lift <- function(specimen, coordinates, path, s, alpha) {
   check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
   check_class(path, "mesh_path", "path", "reference_path() or plane_path()")
   s <- check_numbers(s, "s")
-  alpha <- check_numbers(alpha, "alpha", length(s))
-  if (length(s) < 2 || is.unsorted(s, strictly = TRUE)) refuse_argument("s", s, "Give two places or more, in order.", rlang::current_env())
+  alpha <- check_numbers(alpha, "alpha")
+  if (length(s) < 2 || is.unsorted(s, strictly = TRUE) || length(alpha) != length(s)) {
+    crestline_abort(sprintf("`s` (%s) and `alpha` (%s) are no line.", describe_value(s), describe_value(alpha)),
+                    "Give two places or more, in order, and an offset for each.", stage = "arguments")
+  }
   surface <- walkable(specimen)
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)

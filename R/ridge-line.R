@@ -32,6 +32,10 @@ ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
   problem <- ridge_problem(surface, scale, radius, settings)
+  if (!all(is.finite(problem$roughness), is.finite(problem$lambda), is.finite(problem$weight))) {
+    crestline_abort(sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius, scale),
+                    "Give both in the unit of the surface.", stage = "ridge")
+  }
   found <- climb(problem, settings)
   structure(
     list(s = problem$u * surface$length, alpha = c(0, found$alpha, 0), lambda = problem$lambda,

@@ -50,6 +50,7 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
                        chunk = NULL, progress = interactive()) {
   check_given()
   check_flags(progress)
+  if (!is.null(template)) template <- check_template(template)
   rlang::check_installed(c("future", "future.apply", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")

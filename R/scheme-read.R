@@ -29,7 +29,7 @@ read_scheme <- function(dir, name = basename(dir)) {
 #' @noRd
 read_scheme_table <- function(file) {
   if (!file.exists(file) && !basename(file) %in% c("landmarks.csv", "curves.csv")) return(NULL)
-  check_file(file, "scheme")
+  check_file(file, "scheme", "dir")
   tryCatch(
     utils::read.csv(text = file_lines(file), colClasses = "character", na.strings = "", strip.white = TRUE,
                     check.names = FALSE),

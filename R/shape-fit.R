@@ -95,6 +95,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_given()
   check_flags(progress)
+  passes <- check_count(passes, "passes", upper = 1000)
   threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
@@ -109,7 +110,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scheme, curves, column)
-  fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
+  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- structure(

@@ -60,8 +60,7 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
 #' @noRd
 specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
   if (is.null(specimens)) return(list())
-  if (inherits(specimens, "specimen")) specimens <- list(specimens)
-  for (specimen in specimens) check_class(specimen, "specimen", "specimens", "specimen() or read_specimen()", call)
+  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
   id <- vapply(specimens, `[[`, "", "id")
   own <- vapply(shapes, function(shape) if (is.null(shape)) NA_character_ else shape$id, "")
   strange <- setdiff(id, own)

@@ -73,7 +73,10 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
   parts <- check_names(parts, "parts")
   check_class(x, "shape", "x", "fit_shape()")
   dense <- check_count(dense, "dense", upper = 1000)
+  column <- check_column(column_angle, column_angles, column_reach)
+  if (!is.null(specimen)) check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   triangles <- whole_triangles(x, parts)
+  check_memory(3 * nrow(triangles) * as.numeric(dense)^2 * 10, dense, "dense")
   corners <- as.matrix(triangles[c("v1", "v2", "v3")])
   if (dense == 1) {
     row <- sort(unique(as.vector(corners)))
@@ -82,7 +85,7 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
   }
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen(): a denser surface needs it")
   quads <- whole_quads(x, parts)
-  divided <- divide_quads(x, specimen, quads, dense, check_column(column_angle, column_angles, column_reach))
+  divided <- divide_quads(x, specimen, quads, dense, column)
   there <- !is.na(divided$points$x)
   whole <- colSums(matrix(there[divided$it], 3)) == 3
   if (!all(whole)) warn_left_out(sum(!whole), length(whole), x$id)
@@ -95,7 +98,7 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
 #' @noRd
 whole_triangles <- function(x, parts) {
   triangles <- x$scheme$triangles
-  for (part in parts) check_choice(part, unique(c("model", triangles$part)), "parts")
+  check_choices(parts, unique(c("model", triangles$part)), "parts")
   there <- !is.na(coords(x, "surface")[, 1])
   triangles <- triangles[triangles$part %in% parts, ]
   triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]

@@ -39,6 +39,7 @@
 specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01, debris = 0.001,
                      midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn")) {
   check_given()
+  midline <- check_names(midline, "midline", null = TRUE)
   id <- check_id(id)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   landmarks <- as_landmarks(landmarks, id)
@@ -55,7 +56,7 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
 
 check_id <- function(id, name = "id", call = NULL) {
   if (is.null(id)) return("unnamed")
-  if (!is.atomic(id) || length(id) != 1 || is.na(id) || !nzchar(id)) {
+  if (!is.atomic(id) || length(id) != 1 || is.na(id) || !nzchar(as.character(id))) {
     refuse_argument(name, id, "Give one string.", call)
   }
   as.character(id)

@@ -57,7 +57,9 @@ check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
-  if (inherits(specimen, "specimen")) return(specimen)
+  if (inherits(specimen, "specimen")) {
+    return(check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()", call))
+  }
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
   crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)

@@ -358,7 +358,7 @@ IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVe
 // [[Rcpp::export]]
 List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals) {
   crestline::PathCoordinates c = crestline::path_coordinates(
-      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol());
+      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol(), [] { checkUserInterrupt(); });
   return List::create(_["s"] = c.s, _["d"] = c.d, _["tangent"] = as_rows(c.tangent));
 }
 
@@ -383,7 +383,7 @@ List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int
                      int samples) {
   std::vector<int> corners = from_zero(it);
   crestline::Picture p = crestline::render_mesh(xyz.begin(), rgb.begin(), corners.data(), it.ncol(),
-                                                width, height, samples);
+                                                width, height, samples, [] { checkUserInterrupt(); });
   NumericVector rgba(p.rgba.begin(), p.rgba.end());
   rgba.attr("dim") = IntegerVector::create(height, width, 4);
   return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
@@ -421,7 +421,8 @@ NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, Numeric
   int n = vb.ncol();
   NumericMatrix out(n, places.nrow());
   for (int i = 0; i < places.nrow(); ++i) {
-    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i));
+    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i),
+                                                             [] { checkUserInterrupt(); });
     std::copy(d.begin(), d.end(), out.begin() + static_cast<R_xlen_t>(n) * i);
     checkUserInterrupt();
   }
@@ -435,7 +436,8 @@ List cpp_align(NumericVector x, IntegerVector size, NumericVector weight, Numeri
   std::vector<double> coords(x.begin(), x.end());
   crestline::Aligned aligned =
       crestline::align_configurations(coords, size[0], size[1], size[2], weight.begin(), reference.begin(),
-                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds});
+                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds},
+                                      [] { checkUserInterrupt(); });
   return List::create(_["coords"] = coords, _["mean"] = aligned.mean, _["size"] = aligned.size,
                       _["moved"] = aligned.moved, _["converged"] = aligned.converged);
 }
@@ -448,6 +450,7 @@ List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix fea
   IntegerVector index(xyz.ncol(), NA_INTEGER);
   NumericVector distance(xyz.ncol(), NA_REAL);
   for (int i = 0; i < xyz.ncol(); ++i) {
+    if (i % 1024 == 0) checkUserInterrupt();
     double d2 = 0;
     int found = fixed.nearest(&xyz(0, i), &normal(0, i), feature.begin() + static_cast<R_xlen_t>(feature.nrow()) * i, reach,
                               cosine, &d2);

@@ -43,10 +43,11 @@ tried <- do.call(rbind, lapply(functions, function(fn) {
   rows
 }))
 crashed <- startsWith(tried$outcome, "CRASHED")
-unnamed <- startsWith(tried$outcome, "refused without")
-leaked <- !tried$outcome %in% c("returned", "refused") & !crashed & !unnamed
+without <- startsWith(tried$outcome, "refused without")
+unnamed <- without & tried$must
+leaked <- !tried$outcome %in% c("returned", "refused") & !crashed & !without
 silent <- tried$outcome == "returned" & tried$must
 cat(sprintf("%d calls: %d returned, %d refused, %d refused without the argument's name, %d returned what they must refuse, ",
-            nrow(tried), sum(tried$outcome == "returned"), sum(tried$outcome == "refused"), sum(unnamed), sum(silent)))
+            nrow(tried), sum(tried$outcome == "returned"), sum(tried$outcome == "refused" | without & !tried$must), sum(unnamed), sum(silent)))
 cat(sprintf("%d errors of R, %d crashes\n", sum(leaked), sum(crashed)))
 quit(status = if (any(leaked | crashed | unnamed | silent)) 1 else 0)

@@ -119,7 +119,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                                pairs = NULL, strips = NULL, name = "n", definitions = NULL),
                          landmarks = "object", curves = "object", patches = "object?", pairs = "object?", strips = "object?",
                          name = "text", definitions = "object?"),
-    curvedness = entry(given(x = curved, k2 = NULL), x = "numbers", k2 = "any"),
+    curvedness = entry(given(x = curved, k2 = NULL), x = "any", k2 = "any"),
     draw_band = entry(given(scene = scene, left = line[1:5, ], right = line[2:6, ], colour = "black", opacity = 0.4),
                       scene = "object", left = "object", right = "object", colour = "colour", opacity = "number"),
     draw_lines = entry(given(scene = scene, x = line, colour = "black", width = 2, halo = NA),
@@ -141,7 +141,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                       progress = "flag"),
     fit_shapes = entry(given(x = made$specimens[1:2], scheme = made$scheme, dir = NULL, landmarks = NULL, template = NULL,
                              doubtful = 0, chunk = NULL, progress = FALSE),
-                       x = "object", scheme = "object", dir = "any", landmarks = "any", template = "object?",
+                       x = "names", scheme = "object", dir = "any", landmarks = "any", template = "object?",
                        doubtful = "number", chunk = "count?", progress = "flag"),
     frechet_mean = entry(given(mesh = one, points = made$corners, weights = NULL, rings = 1),
                          mesh = "object", points = "object", weights = "any", rings = "count"),
@@ -207,7 +207,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                                  curvature = curved, reach = 0.5, longest = 1.25, spacing = 0.25, angles = 5, refined = 3,
                                  tie = 0.002, rival = 0.05, distinct = 0.05, order = "adaptive", threads = 1L),
                            specimen = "object", from = "object", to = "object", type = "choice", radius = "number",
-                           keep_away = "list?", curvature = "object?", reach = "number", longest = "number",
+                           keep_away = "list?", curvature = "object?", reach = "reach", longest = "reach",
                            spacing = "number", angles = "count", refined = "count", tie = "number", rival = "number",
                            distinct = "number", order = "choice", threads = "count"),
     refine_landmarks = entry(given(specimen = one, scheme = made$scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05,
@@ -226,12 +226,12 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                              specimen = "object", scheme = "object?", surface = "choice", least = "number", settings = "object",
                              view = "numbers?", radius = "number", faces = "count", unit = "number?", bridge = "number",
                              threads = "count"),
-    ridge_curve = entry(given(specimen = one, from = "aL", to = "aR", type = "plane", radius = 20, width = 20, n = 7,
+    ridge_curve = entry(given(specimen = one, from = "aL", to = "aR", type = "ridge", radius = 20, width = 20, n = 7,
                               keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = curved, reach = 0.5,
                               threads = 1L, trust = c(0, 1)),
                         specimen = "object", from = "object", to = "object", type = "choice", radius = "number",
                         width = "number", n = "count", keep_away = "list?", settings = "object", passes = "count",
-                        curvature = "object?", reach = "number", threads = "count", trust = "size"),
+                        curvature = "object?", reach = "reach", threads = "count", trust = "size"),
     ridge_line = entry(given(surface = surface, scale = 1, radius = 20, settings = ridge_settings()),
                        surface = "object", scale = "number", radius = "number", settings = "object"),
     ridge_settings = entry(given(preset = "crestline"), preset = "choice"),
@@ -247,10 +247,10 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                           rounds = "count", crease = "number", holes = "count", hole_radius = "numbers",
                           landmark_error = "number", turn = "number", shift = "number"),
     shape_at = entry(given(pca = shape_pca(aligned), component = 1, sd = 2, as = "matrix", size = 1),
-                     pca = "object", component = "count", sd = "number", as = "choice", size = "number"),
+                     pca = "object", component = "some", sd = "number", as = "choice", size = "number"),
     shape_category = entry(given(index = c(0, 0.5)), index = "index"),
     shape_colours = entry(given(index = c(0, 0.5), missing = "#BEBEBE"), index = "index", missing = "colour"),
-    shape_index = entry(given(x = 1, k2 = 0.5), x = "numbers", k2 = "numbers"),
+    shape_index = entry(given(x = 1, k2 = 0.5), x = "any", k2 = "any"),
     shape_mesh = entry(c(given(x = shape, parts = "model", specimen = one, dense = 1), fitted),
                        x = "object", parts = "choice", specimen = "object?", dense = "count", fitted_kinds),
     shape_pca = entry(given(aligned = aligned, weights = aligned$weights, tolerance = 1e-14),
@@ -278,7 +278,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     true_points = entry(given(x = NULL, at = NULL), x = "object", at = "any"),
     visible_points = entry(given(scene = scene, x = line), scene = "object", x = "object"),
     write_landmarks = entry(given(x = made$corners, file = path("o.csv"), curves = NULL, frame = "LPS", missing = 9999),
-                            x = "object", file = "object", curves = "any", frame = "choice", missing = "any"),
+                            x = "list", file = "object", curves = "any", frame = "choice", missing = "any"),
     write_mesh = entry(given(x = one$mesh, file = path("o.ply"), colour = NULL, parts = "model", palette = c("red", "blue"),
                              limits = NULL, missing = "#BEBEBE", ascii = FALSE),
                        x = "object", file = "object", colour = "any", parts = "any", palette = "colour", limits = "size?",
@@ -291,7 +291,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                        size = "size"),
     write_pca_page = entry(given(file = path("z.html"), pca = flat_pca(made), component = 1, sd = 3, colour = "#E3CDB8",
                                  title = "t", size = c(42, 46), view = "front", selfcontained = FALSE),
-                           file = "object", pca = "object", component = "count", sd = "number", colour = "colour",
+                           file = "object", pca = "object", component = "some", sd = "number", colour = "colour",
                            title = "text", size = "size", view = "numbers", selfcontained = "flag")
   )
 }
@@ -310,7 +310,12 @@ flat_pca <- function(made) {
 # What a call gives: "returned", "refused", "refused without its name" (of the argument), or the message of an error of R's.
 outcome_of <- function(fn, args, argument = NULL, seconds = 20) {
   setTimeLimit(elapsed = seconds, transient = TRUE)
-  on.exit(setTimeLimit())
+  # Some values are paths: what is made of them goes where it is deleted.
+  old <- setwd(tempdir())
+  on.exit({
+    setTimeLimit()
+    setwd(old)
+  })
   named <- function(text) is.null(argument) || grepl(paste0("\\b", argument, "\\b"), text)
   tryCatch({
     utils::capture.output(suppressMessages(suppressWarnings(do.call(getExportedValue("crestline", fn), args, quote = TRUE))))
@@ -327,8 +332,9 @@ unlawful_values <- function(kind) {
   lawful$list <- "empty_list"
   lawful$name <- c(lawful$names, lawful$numbers)
   lawful$size <- "two_numbers"
+  lawful$some <- c("two_numbers", "matrix", "array")
   lawful$two_names <- "two_strings"
-  lawful$index <- c("zero", "half", "minus_one", "tiny", "na", "na_real", "number_and_na", "no_numbers", "na_character", "true")
+  lawful$index <- c("zero", "half", "minus_one", "tiny", "na", "na_real", "number_and_na", "no_numbers", "nan", "true")
   lawful$table <- c("table", "empty_table")
   setdiff(names(wrong_values()), c(lawful[[plain]], if (plain != kind) "null"))
 }
@@ -356,8 +362,10 @@ try_arguments <- function(calls, functions = names(calls), values = function(fn,
   do.call(rbind, unlist(rows, recursive = FALSE))
 }
 
-# The rows that are wrong: an error of R's own, no refusal where there must be one, a refusal that does not name the argument.
+# The rows that are wrong: an error of R's own; for a value that no call may take no refusal, or one that does not name the
+# argument.
 leaks_of <- function(tried) {
   silent <- tried$outcome == "returned" & tried$must
-  tried[silent | !tried$outcome %in% c("returned", "refused"), ]
+  unnamed <- startsWith(tried$outcome, "refused without")
+  tried[silent | (unnamed & tried$must) | !(unnamed | tried$outcome %in% c("returned", "refused")), ]
 }
