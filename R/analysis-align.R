@@ -236,6 +236,7 @@ warn_alignment <- function(rounds, moved) {
 #' @param row.names,optional,... Ignored.
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   off <- sweep(x$coords, 1:2, x$mean)
   distance <- sqrt(colSums(matrix(off^2 * x$weights, length(x$mean))))
   ids <- dimnames(x$coords)[[3]]
@@ -245,6 +246,7 @@ as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
 
 #' @export
 print.aligned <- function(x, ...) {
+  check_method_dots(...)
   n <- dim(x$coords)[3]
   cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
       if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",

@@ -126,6 +126,8 @@ polyline_distances <- function(points, line) {
 
 #' @export
 print.curve_distance <- function(x, most = 12, digits = 3, ...) {
+  check_method_dots(..., known = c("most", "digits"))
+  check_most(most)
   all <- attr(x, "all")
   whole <- !is.null(all) && all(c("part", "rms", "mean", "max") %in% names(x))
   if (!whole) return(invisible(print(as.data.frame(x), digits = digits, ...)))
@@ -143,6 +145,7 @@ print.curve_distance <- function(x, most = 12, digits = 3, ...) {
 
 #' @export
 as.data.frame.curve_distance <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   attributes(x)[c("all", "match", "between")] <- NULL
   class(x) <- "data.frame"
   x

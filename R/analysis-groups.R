@@ -192,11 +192,15 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 #' @param x,object A `group_comparison`.
 #' @param row.names,optional,... Ignored.
 #' @export
-as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) x$tests
+as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$tests
+}
 
 #' @rdname compare_groups
 #' @export
 summary.group_comparison <- function(object, ...) {
+  check_method_dots(...)
   levels <- names(object$aligned)
   tests <- unique(object$tests$test)
   p <- lapply(levels, function(level) {
@@ -208,6 +212,8 @@ summary.group_comparison <- function(object, ...) {
 
 #' @export
 print.group_comparison <- function(x, most = 5, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   counts <- table(x$group)
   drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
     amount(x$n_perm, "random permutation")

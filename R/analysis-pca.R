@@ -88,6 +88,7 @@ thin_svd <- function(x, tolerance) {
 #' @param row.names,optional,... Ignored.
 #' @export
 as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   data.frame(component = names_of_components(x), sd = x$sdev, share = x$share, cumulative = cumsum(x$share))
 }
 
@@ -95,6 +96,8 @@ names_of_components <- function(pca) colnames(pca$x)
 
 #' @export
 print.shape_pca <- function(x, most = 6, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
       amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
   shown <- utils::head(as.data.frame(x), most)

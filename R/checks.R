@@ -268,7 +268,7 @@ check_given <- function(but = character(), frame = rlang::caller_env(), fn = rla
 #' @param known Names that will do.
 #' @noRd
 check_dots <- function(..., known = character(), call = rlang::caller_env()) {
-  given <- names(match.call(expand.dots = FALSE)$...)
+  given <- ...names()
   if (is.null(given)) given <- character(...length())
   strange <- which(!given %in% known)
   if (!length(strange)) return(invisible())
@@ -278,6 +278,24 @@ check_dots <- function(..., known = character(), call = rlang::caller_env()) {
   near <- known[order(utils::adist(name, known, ignore.case = TRUE))]
   crestline_abort(said, if (length(near)) sprintf("Near names: %s.", shorten(near)) else "Leave it out.", stage = "arguments",
                   call = call)
+}
+
+#' No argument that a method of print(), as.data.frame() and the like does not know; R itself passes some
+#' @noRd
+check_method_dots <- function(..., known = character(), call = rlang::caller_env()) {
+  own <- c("digits", "quote", "right", "max", "row.names", "optional", "stringsAsFactors", "make.names", "check.names",
+           "col.names", "nm", "cut.names", "fix.empty.names")
+  strange <- setdiff(...names(), c("", own, known))
+  if (length(strange)) {
+    crestline_abort(sprintf("there is no argument `%s`.", strange[1]),
+                    if (length(known)) sprintf("There is: %s.", shorten(known)) else "Leave it out.", stage = "arguments", call = call)
+  }
+}
+
+#' How many rows are printed; Inf: all
+#' @noRd
+check_most <- function(most, call = rlang::caller_env()) {
+  if (!identical(most, Inf)) check_count(most, "most", lower = 0, call = call)
 }
 
 describe_value <- function(x) {

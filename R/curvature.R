@@ -197,6 +197,7 @@ abort_radius <- function(neighbours, radius) {
 
 #' @export
 print.curvature <- function(x, ...) {
+  check_method_dots(...)
   fitted <- !is.na(x$k1)
   cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
               length(fitted), attr(x, "radius")))
@@ -218,6 +219,7 @@ spread <- function(x) {
 
 #' @export
 as.data.frame.curvature <- function(x, ...) {
+  check_method_dots(...)
   vectors <- c("direction1", "direction2", "normal")
   wide <- lapply(vectors, function(name) {
     stats::setNames(as.data.frame(x[[name]]), paste0(name, c("_x", "_y", "_z")))

@@ -58,6 +58,7 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
 
 #' @export
 print.landmark_template <- function(x, ...) {
+  check_method_dots(...)
   cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"),
       if (x$mirror) ", with a mirror",
       ", unit ", signif(x$unit, 3), "\n", sep = "")

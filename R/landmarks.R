@@ -71,7 +71,6 @@
 #' @export
 read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
   check_given()
-  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   check_flags(scale)
   check_file(file, "landmarks")
   options <- list(frame = check_choice(frame, c("LPS", "RAS", "file"), "frame"),
@@ -84,6 +83,7 @@ read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   check_given()
+  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   format <- landmark_format(file)
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)

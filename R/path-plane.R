@@ -169,6 +169,7 @@ abort_cut <- function(end, ends, id) {
 
 #' @export
 print.mesh_path <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
   if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
   cat("\n")

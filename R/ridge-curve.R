@@ -52,14 +52,13 @@
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
                         reach = 0.5, threads = getOption("crestline.threads", 1L), trust = c(0, 1)) {
-  check_given(c("radius", "width"))
+  check_given(if (identical(type, "plane")) c("radius", "width"))
   check_surface(specimen, "specimen")
   check_ends(from = from, to = to)
   keep_away <- check_regions(keep_away)
   threads <- check_threads(threads)
   reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
-  if (type != "plane") check_given()
   n <- check_count(n, "n", lower = 2)
   passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
@@ -267,10 +266,14 @@ mean_strength <- function(specimen, path, fit) {
 }
 
 #' @export
-as.data.frame.curve <- function(x, ...) x$points
+as.data.frame.curve <- function(x, ...) {
+  check_method_dots(...)
+  x$points
+}
 
 #' @export
 print.curve <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
               x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
   cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))

@@ -276,6 +276,8 @@ as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x
 
 #' @export
 print.shape_batch <- function(x, most = 8, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   failed <- failures(x)
   files <- unlist(attr(x, "files"))
   cat("<shape_batch> ", amount(length(names(x)), "specimen"), ": ", length(names(x)) - nrow(failed), " measured, ", nrow(failed), " failed",

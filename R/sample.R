@@ -47,6 +47,7 @@ missing_parts <- function(shapes) {
 #' }
 #' @exportS3Method
 as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface"), ...) {
+  check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   each <- lapply(x$shapes, coords, level)
   array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(names(each))))
@@ -57,6 +58,7 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 #' @return `as.data.frame()`: a row a specimen and point: `id`, and the columns of a shape's `points`.
 #' @export
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   each <- lapply(x$shapes, function(shape) cbind(id = shape$id, shape$points))
   each <- do.call(rbind, unname(each))
   rownames(each) <- NULL
@@ -65,6 +67,7 @@ as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ..
 
 #' @export
 print.shape_sample <- function(x, ...) {
+  check_method_dots(...)
   points <- x$template$points
   count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level), 0L)
   cat("<shape_sample> ", amount(length(x$shapes), "specimen"), ", by the scheme ", x$template$scheme$name, "\n", sep = "")

@@ -156,12 +156,14 @@ with_defaults <- function(curves) {
 #' @param ... Ignored.
 #' @export
 as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, table = "curves", ...) {
+  check_method_dots(..., known = "table")
   if (is.character(row.names)) table <- row.names
   x[[check_choice(table, c(names(scheme_columns), "points", "triangles"), "table")]]
 }
 
 #' @export
 print.curve_scheme <- function(x, ...) {
+  check_method_dots(...)
   line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
   curves <- x$curves
   kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))

@@ -129,10 +129,14 @@ quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", 
                      "why")
 
 #' @export
-as.data.frame.shape_quality <- function(x, ...) structure(x, class = "data.frame")
+as.data.frame.shape_quality <- function(x, ...) {
+  check_method_dots(...)
+  structure(x, class = "data.frame")
+}
 
 #' @export
 summary.shape_quality <- function(object, ...) {
+  check_method_dots(...)
   specimen <- factor(object$specimen, unique(object$specimen))
   counts <- table(specimen, object$grade)
   data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]), amber = as.vector(counts[, "amber"]),
@@ -141,6 +145,8 @@ summary.shape_quality <- function(object, ...) {
 
 #' @export
 print.shape_quality <- function(x, most = 10, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
   counts <- summary(x)
   counts <- counts[order(-counts$red, -counts$amber), ]

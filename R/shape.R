@@ -27,6 +27,7 @@ coords <- function(x, level, ...) {
 #' @rdname coords
 #' @export
 coords.shape <- function(x, level, ...) {
+  check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   points <- x$points[x$points$level == level, ]
   names <- if (level == "landmarks") points$part else paste(points$part, points$point)
@@ -134,10 +135,15 @@ warn_left_out <- function(n, of, id) {
 }
 
 #' @export
-as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) x$points
+as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$points
+}
 
 #' @export
 print.shape <- function(x, most = 8, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
   for (level in c("landmarks", "curves", "surface")) {
     points <- x$points[x$points$level == level, ]

@@ -64,6 +64,7 @@ check_id <- function(id, name = "id", call = NULL) {
 
 #' @export
 print.specimen <- function(x, ...) {
+  check_method_dots(...)
   count <- function(n, what) paste0(format(n, big.mark = ","), " ", what)
   cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "), count(ncol(x$mesh$it), "triangles"),
       if (!is.null(x$mesh$material$color)) ", natural colour", "\n", sep = "")

@@ -162,6 +162,7 @@ check_groups <- function(groups, call = rlang::caller_env()) {
 
 #' @export
 print.simulated_faces <- function(x, ...) {
+  check_method_dots(...)
   count <- table(x$covariates$group)
   cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "), ", from the template ",
       x$template$id, "\n", sep = "")
@@ -179,4 +180,7 @@ print.simulated_faces <- function(x, ...) {
 }
 
 #' @export
-as.data.frame.simulated_faces <- function(x, row.names = NULL, optional = FALSE, ...) x$covariates
+as.data.frame.simulated_faces <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$covariates
+}

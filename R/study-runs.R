@@ -46,7 +46,6 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
                         noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25, width = 0.4,
                         spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
                         progress = interactive(), ...) {
-  check_flags(progress)
   methods <- study_methods(settings)
   check_count(n, "n")
   check_count(points, "points", lower = 3)

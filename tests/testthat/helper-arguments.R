@@ -237,8 +237,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     ridge_settings = entry(given(preset = "crestline"), preset = "choice"),
     ridge_study = entry(given(settings = ridge_settings(error = FALSE), n = 1, a = 0, b = 1, noise = 0, landmark_error = 0,
                               passes = 1, radius = 0.25, width = 0.4, spacing = 0.1, correlation = 0, points = 5, dir = NULL,
-                              block = 50, progress = FALSE),
-                        settings = "any", n = "count", a = "numbers", b = "numbers", noise = "numbers",
+                              block = 50, progress = FALSE, largest = 2e6),
+                        largest = "number", settings = "any", n = "count", a = "numbers", b = "numbers", noise = "numbers",
                         landmark_error = "number", passes = "count", radius = "number", width = "number", spacing = "number",
                         correlation = "number", points = "count", dir = "any", block = "count", progress = "flag"),
     scan_settings = entry(given(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05, rounds = 1, crease = 30,
@@ -346,7 +346,7 @@ try_arguments <- function(calls, functions = names(calls), values = function(fn,
   functions <- Filter(function(fn) length(calls[[fn]]$kinds) > 0, functions)
   rows <- lapply(functions, function(fn) {
     args <- calls[[fn]]$args
-    plain <- outcome_of(fn, args, "no argument")
+    plain <- outcome_of(fn, args, "the name of nothing")
     lapply(names(calls[[fn]]$kinds), function(argument) {
       kind <- calls[[fn]]$kinds[[argument]]
       tried <- values(fn, argument, kind)
