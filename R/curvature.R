@@ -103,7 +103,7 @@ curvature_source <- function(specimen, radius, order, threads) {
   check_radius(radius, mesh)
   row <- integer(ncol(mesh$vb))
   known <- curvature_rows(empty_curvature(0), integer())
-  structure(class = "curvature_source", function(vertices) {
+  function(vertices) {
     new <- unique(vertices[row[vertices] == 0])
     if (length(new)) {
       found <- curvature_at(mesh, new, settings, threads)
@@ -112,7 +112,7 @@ curvature_source <- function(specimen, radius, order, threads) {
       known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known, found[names(known)])
     }
     curvature_rows(known, row[vertices])
-  })
+  }
 }
 
 #' The rows of a curvature that a curve needs

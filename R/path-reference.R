@@ -195,7 +195,8 @@ path_strength <- function(curvature, type, keep_away, specimen) {
 #' Curvature as a function of vertices: the one that was given, after a check, or estimated where it is asked for
 #' @noRd
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
-  if (inherits(curvature, "curvature_source")) return(curvature)
+  # A source of curvature, as of curvature_source(), not any function.
+  if (is.function(curvature) && identical(names(formals(curvature)), "vertices")) return(curvature)
   if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
   check_class(curvature, "curvature", "curvature", "curvature()")
   n <- ncol(as_mesh(specimen)$vb)
@@ -204,7 +205,7 @@ known_curvature <- function(curvature, specimen, radius, threads, order = "adapt
                     "Give the curvature of this specimen's own mesh: curvature(specimen, radius).",
                     stage = "curvature", id = specimen$id)
   }
-  structure(function(vertices) curvature_rows(curvature, vertices), class = "curvature_source")
+  function(vertices) curvature_rows(curvature, vertices)
 }
 
 abort_no_cut <- function(end, ends, id) {
