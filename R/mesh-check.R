@@ -228,13 +228,14 @@ drop_debris <- function(mesh, id, debris) {
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
   small <- tabulate(piece) < debris * length(piece)
-  if (all(small)) {
-    refuse_mesh(sprintf("it falls apart into %d pieces, each with less than %g of the triangles: their corners do not meet.",
-                        length(small), debris),
-                "Join them: in MeshLab by Merge Close Vertices. Real pieces so small are kept with debris = 0.", id)
-  }
+  if (all(small)) refuse_debris(length(small), debris, id)
   mended(losing(mesh, keep_faces(mesh, !small[piece])), "debris", sum(small),
          sprintf("pieces below %g of the faces left out", debris))
+}
+
+refuse_debris <- function(pieces, debris, id) {
+  refuse_mesh(sprintf("the mesh is in %d pieces, each below %g (`debris`) of its triangles.", pieces, debris),
+              "Merge its vertices where they should coincide, or give a smaller `debris`.", id)
 }
 
 drop_unreferenced <- function(mesh, id) {

@@ -25,8 +25,11 @@
 #' head(path_coordinates(ball, path, width = 0.2))
 #' @export
 path_coordinates <- function(specimen, path, width, margin = width) {
+  check_given()
+  check_surface(specimen, "specimen")
   check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
   check_number(width, "width", lower = 0, open = TRUE)
+  margin <- check_number(margin, "margin", lower = 0)
   mesh <- as_mesh(specimen)
   check_path_on(path, specimen, "`path`")
   clear <- without_stubs(path)

@@ -25,8 +25,16 @@
 #' lift(ball, window, path, s, alpha = 0.1 * sin(2 * s))
 #' @export
 lift <- function(specimen, coordinates, path, s, alpha) {
-  check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
+  check_given()
+  check_surface(specimen, "specimen")
   check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  check_class(path, "mesh_path", "path", "reference_path() or plane_path()")
+  s <- check_numbers(s, "s")
+  alpha <- check_numbers(alpha, "alpha")
+  if (length(s) < 2 || is.unsorted(s, strictly = TRUE) || length(alpha) != length(s)) {
+    crestline_abort(sprintf("`s` (%s) and `alpha` (%s) are no line.", describe_value(s), describe_value(alpha)),
+                    "Give two places or more, in order, and an offset for each.", stage = "arguments")
+  }
   surface <- walkable(specimen)
   check_path_on(path, specimen, "`path`")
   check_coordinates_on(coordinates, specimen, "`coordinates`")

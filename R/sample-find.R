@@ -54,8 +54,7 @@ refused_bare <- function(job, others, never) {
 }
 
 batch_template <- function(template, scheme) {
-  if (inherits(template, "landmark_template")) return(template)
-  if (!is.null(template)) return(landmark_template(template))
+  if (!is.null(template)) return(check_template(template))
   face <- face_template()
   if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) face
 }

@@ -17,8 +17,10 @@
 #' head(as.data.frame(face, "curves"))
 #' @export
 read_scheme <- function(dir, name = basename(dir)) {
-  if (!is.character(dir) || length(dir) != 1 || is.na(dir) || !dir.exists(dir)) {
-    crestline_abort(sprintf("there is no folder %s.", describe_value(dir)),
+  check_given()
+  if (!missing(name)) name <- check_text(name, "name")
+  if (!is_path(dir) || !dir.exists(dir)) {
+    crestline_abort(sprintf("`dir`: there is no folder %s.", describe_value(dir)),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = "scheme", class = "crestline_scheme_error", call = NULL)
   }
@@ -63,7 +65,7 @@ read_scheme_table <- function(file) {
   if (!file.exists(file) && !tolower(basename(file)) %in% c("landmarks.csv", "curves.csv")) {
     return(NULL)
   }
-  check_file(file, "scheme")
+  check_file(file, "scheme", "dir")
   check_stored(file, "scheme")
   refuse <- function(problem, line = NULL) {
     where <- paste0(basename(file), if (!is.null(line)) sprintf(", line %d", as.integer(line)))

@@ -85,6 +85,7 @@
 #' @export
 curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL, name = "scheme",
                          definitions = NULL) {
+  check_given()
   tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs, strips = strips,
                  definitions = definitions)
   build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
@@ -94,7 +95,7 @@ curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
-  scheme <- list(name = check_id(name))
+  scheme <- list(name = check_text(name, "name"))
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]), scheme_columns[[table]])
     rows <- scheme_rows(table, typed$table)
@@ -195,12 +196,14 @@ with_defaults <- function(curves) {
 #' @param ... Ignored.
 #' @export
 as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, table = "curves", ...) {
+  check_method_dots(..., known = "table")
   if (is.character(row.names)) table <- row.names
   x[[check_choice(table, c(names(scheme_columns), "points", "triangles"), "table")]]
 }
 
 #' @export
 print.curve_scheme <- function(x, ...) {
+  check_method_dots(...)
   line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
   curves <- x$curves
   kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))

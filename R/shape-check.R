@@ -21,7 +21,9 @@
 #' }
 #' @export
 surface_faults <- function(x, specimen, parts = "model") {
+  check_given()
   check_class(x, "shape", "x", "fit_shape()")
+  parts <- check_names(parts, "parts")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_shape_on(x, specimen)
   row <- attr(shape_mesh(x, parts), "row")

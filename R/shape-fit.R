@@ -102,6 +102,10 @@
 fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  passes <- check_count(passes, "passes", upper = 1000)
+  threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   named <- scheme
@@ -120,7 +124,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scan, scheme, curves, column)
   slips <- scheme_slips(scan, scheme)
-  fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
+  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
@@ -144,7 +148,7 @@ measured_with <- function(settings, passes, cut_scale, column, curves) {
 
 check_column <- function(column_angle, column_angles, column_reach) {
   list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-       angles = check_count(column_angles, "column_angles"),
+       angles = check_count(column_angles, "column_angles", upper = 10000),
        reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 

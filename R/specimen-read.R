@@ -27,6 +27,7 @@
 #' read_specimen(file, id = "ball")
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
+  check_given()
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)

@@ -56,6 +56,8 @@
 #' @export
 specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01, debris = 0.001,
                      midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn")) {
+  check_given()
+  midline <- check_names(midline, "midline", null = TRUE)
   id <- check_id(id)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   landmarks <- as_landmarks(landmarks, id)
@@ -96,16 +98,17 @@ no_warnings <- function() {
   data.frame(stage = character(), class = character(), problem = character(), remedy = character())
 }
 
-check_id <- function(id) {
+check_id <- function(id, name = "id", call = NULL) {
   if (is.null(id)) return("unnamed")
-  if (!is.atomic(id) || length(id) != 1 || is.na(id)) {
-    crestline_abort(sprintf("`id` is %s.", describe_value(id)), "Give one string.", stage = "arguments", call = NULL)
+  if (!is.atomic(id) || length(id) != 1 || is.na(id) || !nzchar(as.character(id))) {
+    refuse_argument(name, id, "Give one string.", call)
   }
   as.character(id)
 }
 
 #' @export
 print.specimen <- function(x, ...) {
+  check_method_dots(...)
   count <- function(n, what) paste0(format(n, big.mark = ","), " ", what)
   cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "), count(ncol(x$mesh$it), "triangles"),
       if (!is.null(x$mesh$material$color)) ", natural colour", "\n", sep = "")

@@ -39,6 +39,7 @@
 #' }
 #' @export
 slide <- function(shape, template, settings = slide_settings(), specimen = shape$specimen) {
+  check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
   check_class(template, "shape", "template", "symmetrise()")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
@@ -57,7 +58,10 @@ check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
-  if (inherits(specimen, "specimen")) return(specimen_of_shape(shape, specimen))
+  if (inherits(specimen, "specimen")) {
+    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()", call)
+    return(specimen_of_shape(shape, specimen))
+  }
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
   crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)

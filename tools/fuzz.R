@@ -1,4 +1,4 @@
-# Damaged meshes and files through the whole package: each must give a value or a crestline_error.
+# Damaged meshes, files, objects and arguments through the whole package: each must give a value or a crestline_error.
 #
 #   Rscript tools/fuzz.R [cases = 2000] [first seed = 1]
 #
@@ -201,6 +201,48 @@ make_specimen <- function(tell) {
   crestline::read_specimen(file, case$landmarks, tolerance = 0.05)
 }
 
+# An object of the package without a part that it needs, or with something else in its place.
+damage_object <- function(x, class) {
+  part <- pick(names(get("class_parts", asNamespace("crestline"))[[class]]))
+  x <- unclass(x)
+  x[part] <- pick(list(NULL, NA, list(), quote(a), TRUE))
+  structure(x, class = class)
+}
+
+# What is done with a whole specimen, shape, scheme or curve is done with a damaged one.
+use_damaged <- function(tell) {
+  case <- sound_case()
+  specimen <- crestline::specimen(case$mesh, case$landmarks, id = "fuzz", tolerance = 0.05)
+  scheme <- crestline::curve_scheme(data.frame(landmark = rownames(case$landmarks)),
+                                    data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 5))
+  shape <- crestline::fit_shape(specimen, scheme, progress = FALSE)
+  kind <- pick(c("specimen", "shape", "curve_scheme", "curve"))
+  tell(paste("damaged", kind))
+  switch(kind,
+    specimen = crestline::fit_shape(damage_object(specimen, kind), scheme, progress = FALSE),
+    curve_scheme = crestline::fit_shape(specimen, damage_object(scheme, kind), progress = FALSE),
+    shape = pick(list(crestline::coords, crestline::write_landmarks))[[1]](damage_object(shape, kind), "curves"),
+    curve = {
+      curve <- crestline::ridge_curve(specimen, "a", "b", "plane", n = 5)
+      crestline::plot_curves(damage_object(curve, kind), specimen, "plain", engine = "picture")
+    }
+  )
+}
+
+# Any argument of any function with a wrong value, from the table of the tests.
+use_wrong_argument <- function(tell) {
+  if (is.null(argument_table$calls)) argument_table$calls <- suppressWarnings(argument_table$argument_calls())
+  calls <- Filter(function(one) length(one$kinds) > 0, argument_table$calls)
+  fn <- pick(names(calls))
+  argument <- pick(names(calls[[fn]]$kinds))
+  wrong <- argument_table$wrong_values()
+  value <- pick(names(wrong))
+  tell(sprintf("argument %s(%s)", fn, argument))
+  args <- calls[[fn]]$args
+  args[argument] <- wrong[value]
+  utils::capture.output(do.call(getExportedValue("crestline", fn), args, quote = TRUE))
+}
+
 # All that can be done with a specimen, as far as this version of the package can.
 use_specimen <- function(specimen) {
   has <- function(name) name %in% getNamespaceExports("crestline")
@@ -220,7 +262,7 @@ run_case <- function(seed, tell = function(words) NULL) {
   on.exit(setTimeLimit())
   tryCatch(
     suppressWarnings({
-      use_specimen(make_specimen(tell))
+      if (runif(1) < 0.1) pick(list(use_damaged, use_wrong_argument))[[1]](tell) else use_specimen(make_specimen(tell))
       "returned"
     }),
     crestline_error = function(e) paste("refused:", e$stage, e$problem),
@@ -281,6 +323,9 @@ summarise <- function(log) {
 
 arguments <- commandArgs(TRUE)
 script <- sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))
+argument_table <- new.env()
+suppressPackageStartupMessages(attachNamespace("crestline"))
+sys.source(file.path(dirname(script), "..", "tests", "testthat", "helper-arguments.R"), argument_table)
 if (identical(arguments[1], "--child")) {
   run_cases(as.integer(arguments[2]):as.integer(arguments[3]), arguments[4])
 } else if (identical(arguments[1], "--case")) {
