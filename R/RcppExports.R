@@ -101,6 +101,10 @@ cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
 }
 
+cpp_random_bytes <- function(n) {
+    .Call(`_crestline_cpp_random_bytes`, n)
+}
+
 cpp_half_area_radius <- function(vb, it, used, cap, steps) {
     .Call(`_crestline_cpp_half_area_radius`, vb, it, used, cap, steps)
 }

@@ -370,6 +370,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_random_bytes
+RawVector cpp_random_bytes(int n);
+RcppExport SEXP _crestline_cpp_random_bytes(SEXP nSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_random_bytes(n));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_half_area_radius
 double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps);
 RcppExport SEXP _crestline_cpp_half_area_radius(SEXP vbSEXP, SEXP itSEXP, SEXP usedSEXP, SEXP capSEXP, SEXP stepsSEXP) {
@@ -633,6 +644,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_random_bytes", (DL_FUNC) &_crestline_cpp_random_bytes, 1},
     {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
