@@ -108,7 +108,7 @@ split_sides <- function(mesh, found) {
   mesh
 }
 
-# Borders beside one another: a row of the report, and a warning where so many vertices make a seam. `gap`: as a share
+# Borders beside one another: a row of the report and a warning, where so many vertices make a seam. `gap`: as a share
 # of the usual length of an edge; `least`: vertices.
 tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent = FALSE) {
   mesh$topology <- topology
@@ -116,7 +116,8 @@ tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent =
   pair <- matrix(border[cpp_near_pairs(mesh$vb[, border, drop = FALSE], gap * edge, join_effort)], 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   beside <- length(unique(c(pair, border_contacts(mesh, gap * edge)$vertex)))
-  if (beside >= least && !silent) {
+  if (beside < least) beside <- 0
+  if (beside > 0 && !silent) {
     crestline_warn(
       sprintf("%d vertices of the border lie beside another border, less than %.2g apart: no curve crosses such a seam.",
               beside, gap * edge),
