@@ -122,7 +122,7 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   make <- sprintf("Make one with %s.", maker)
   if (!inherits(x, class)) refuse_argument(name, x, make, call, sprintf("%s, not of class \"%s\"", describe_value(x), class))
   parts <- class_parts[[class]]
-  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(x[[part]], parts[[part]]), NA)]
+  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(unclass(x)[[part]], parts[[part]]), NA)]
   if (length(lacks)) {
     refuse_argument(name, x, make, call, sprintf("a damaged \"%s\": it has no proper %s", class, paste0("`", lacks, "`", collapse = ", ")))
   }

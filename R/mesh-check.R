@@ -234,8 +234,9 @@ drop_debris <- function(mesh, id, debris) {
 }
 
 refuse_debris <- function(pieces, debris, id) {
-  refuse_mesh(sprintf("the mesh is in %d pieces, each below %g (`debris`) of its triangles.", pieces, debris),
-              "Merge its vertices where they should coincide, or give a smaller `debris`.", id)
+  refuse_mesh(sprintf("it falls apart into %d pieces, each with less than %g (`debris`) of the triangles: %s.",
+                      pieces, debris, "their corners do not meet"),
+              "Join them: in MeshLab by Merge Close Vertices. Real pieces so small are kept with debris = 0.", id)
 }
 
 drop_unreferenced <- function(mesh, id) {

@@ -57,7 +57,7 @@ new_path_coordinates <- function(columns, length, width, mesh) {
 #' Refuse co-ordinates without their columns, length or width
 #' @noRd
 validate_path_coordinates <- function(x) {
-  columns <- c("vertex", "s", "d", "tx", "ty", "tz")
+  columns <- c("vertex", "s", "d", intersect(c("tx", "ty", "tz"), names(x)))
   one <- function(value) is.numeric(value) && length(value) == 1 && is.finite(value)
   right <- is.data.frame(x) && all(c(columns, "inside") %in% names(x)) && is.logical(x$inside) &&
     all(vapply(unclass(x)[columns], function(column) is.numeric(column) && all(is.finite(column)), NA)) &&

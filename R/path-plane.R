@@ -99,7 +99,7 @@ end_point <- function(mesh, at, name) {
   if (is.character(at) && inherits(mesh, "specimen")) {
     known <- rownames(mesh$landmarks)
     if (!all(at %in% known)) {
-      refuse_landmarks(sprintf("`%s`: there is no landmark %s.", name, describe_value(at)), near_names(at, known), mesh$id)
+      refuse_landmarks(sprintf("there is no landmark %s (`%s`).", describe_value(at), name), near_names(at, known), mesh$id)
     }
     return(landmark_point(mesh, at))
   }

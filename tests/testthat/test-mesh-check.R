@@ -111,9 +111,10 @@ test_that("a mesh whose pieces are all debris is refused with what to do", {
     vb <- rbind(rep(seq_len(n), each = 3) + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1)
     structure(list(vb = vb, it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
   }
-  expect_equal(ncol(specimen(loose(1000))$mesh$it), 1000)
+  kept <- function(...) ncol(suppressWarnings(specimen(...), classes = "crestline_loose_triangles")$mesh$it)
+  expect_equal(kept(loose(1000)), 1000)
   expect_crestline_error(specimen(loose(1001), id = "loose"), c("1001 pieces", "`debris`"), "loose")
-  expect_equal(ncol(specimen(loose(1001), debris = 0)$mesh$it), 1001)
+  expect_equal(kept(loose(1001), debris = 0), 1001)
 })
 
 test_that("holes are border loops beyond the outer one", {
