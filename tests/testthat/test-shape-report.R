@@ -90,8 +90,10 @@ test_that("specimens are told by id, file and pictures are checked", {
   expect_crestline_error(quality_report(shape, "page.txt"), ".html")
   expect_crestline_error(quality_report(quad_specimen(), html), "fit_shape()")
   expect_crestline_error(quality_report(shape, html, pictures = -1), "pictures")
-  expect_length(specimens_of(list(other, quad_specimen()), list(a = list(id = "quad"), b = NULL, c = list(id = "other"))), 3)
-  expect_equal(specimens_of(list(other), list(a = NULL, c = list(id = "other")))$c$id, "other")
+  renamed <- shape
+  renamed$id <- "other"
+  expect_length(specimens_of(list(other, quad_specimen()), list(a = shape, b = NULL, c = renamed)), 3)
+  expect_equal(specimens_of(list(other), list(a = NULL, c = renamed))$c$id, "other")
 })
 
 test_that("ids that look like scripts leave the page's table whole", {
