@@ -21,6 +21,8 @@
 #' read_curves(file, "lower lip")
 #' @export
 read_curves <- function(file, curves = NULL, ...) {
+  check_given()
+  curves <- check_names(curves, "curves", null = TRUE)
   sets <- read_landmarks(file, ...)
   of_set <- function(set) chosen_curves(curves_of_set(set), curves, file)
   if (is.list(sets)) lapply(sets, of_set) else of_set(sets)

@@ -1,63 +1,72 @@
-# Many specimens by one scheme: in parallel as the user plans it, each result kept as it comes, a killed run gone on with.
+# Many specimens by one scheme: in parallel as the user plans it, each result kept as it comes, a
+# killed run gone on with.
 
 #' Measure many specimens
 #'
 #' [fit_shape()] for every specimen, over the package future: the plan is yours,
-#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, a queue through future.batchtools;
-#' without one they are measured one after the other. What goes wrong with one specimen costs only that one, see
-#' [failures()]; what its reading, finding and fitting warn of is kept with its shape, see [warnings_of()], and printed.
+#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, a queue
+#' through future.batchtools; without one they are measured one after the other. What goes wrong
+#' with one specimen costs only that one, see [failures()]; what its reading, finding and fitting
+#' warn of is kept with its shape, see [warnings_of()], and printed.
 #'
-#' With `dir` every result is written there as it comes, whole or not at all, and read only when asked for, so that
-#' memory does not grow with the number of specimens. A run that was cut short goes on where it was: a specimen is
-#' not measured again as long as `dir` has a result of the same mesh, landmarks, scheme, settings, template and `reading`, and the
-#' package gives the same answers as then. The names of files do not count: a scan that was renamed is not
-#' measured again, and two scans of one name in different folders never answer for each other. Failures are tried again.
+#' With `dir` every result is written there as it comes, whole or not at all, and read only when
+#' asked for, so that memory does not grow with the number of specimens. A run that was cut short
+#' goes on where it was: a specimen is not measured again as long as `dir` has a result of the same
+#' mesh, landmarks, scheme, settings, template and `reading`, and the package gives the same answers
+#' as then. The names of files do not count: a scan that was renamed is not measured again, and two
+#' scans of one name in different folders never answer for each other. Failures are tried again.
 #'
-#' A result's file has a checksum, which is compared before it is read: what is damaged or cut short is measured again. Several
-#' runs may share a folder. A run deletes no file but its own unfinished ones; those of a run that was killed
-#' (`part-*.tmp`) stay, never count, and may be deleted.
+#' A result's file has a checksum, which is compared before it is read: what is damaged or cut short
+#' is measured again. Several runs may share a folder. A run deletes no file but its own unfinished
+#' ones; those of a run that was killed (`part-*.tmp`) stay, never count, and may be deleted.
 #'
-#' A result that cannot be written, as on a full disk, or a worker that dies costs what it held: these specimens are tried once
-#' more, each alone, and are failures if it happens again.
+#' A result that cannot be written, as on a full disk, or a worker that dies costs what it held:
+#' these specimens are tried once more, each alone, and are failures if it happens again.
 #'
-#' Where no mesh comes with landmarks they are found by `template`, see [find_landmarks()]. A landmark with little
-#' confidence is left out: it costs the curves that end there, not the specimen. Where most of them have little confidence
-#' the specimen is refused, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder. `print()` and
+#' Where no mesh comes with landmarks they are found by `template`, see [find_landmarks()]. A
+#' landmark with little confidence is left out: it costs the curves that end there, not the
+#' specimen. Where most of them have little confidence the specimen is refused, see
+#' [check_placing()], with a picture of them: in `dir`, or in R's temporary folder. `print()` and
 #' `summary()` tell of which specimens landmarks were found.
 #'
-#' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file is its name without the
-#'   extension; where files share it, with as many folders as tell them apart: "visit 1/anna", "visit 2/anna".
+#' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file
+#'   is its name without the extension; where files share it, with as many folders as tell them
+#'   apart: "visit 1/anna", "visit 2/anna".
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
-#' @param landmarks With mesh files: `NULL`: the file beside each mesh with its name and an extension of
-#'   [read_landmarks()], in any case, where there is one; two that differ are a failure. Or, told by the ids of the specimens: a
-#'   landmark file for each, one file for all (.tps, .nts, .csv with a column of specimens), a folder of landmark files, a list of
-#'   k x 3 matrices by name, a k x 3 x n array with names.
-#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's
-#'   landmarks are those of the face, else none.
-#' @param doubtful Greatest share of found landmarks with little confidence that are used nevertheless (and graded amber).
+#' @param landmarks With mesh files: `NULL`: the file beside each mesh with its name and an
+#'   extension of [read_landmarks()], in any case, where there is one; two that differ are a
+#'   failure. Or, told by the ids of the specimens: a landmark file for each, one file for all
+#'   (.tps, .nts, .csv with a column of specimens), a folder of landmark files, a list of k x 3
+#'   matrices by name, a k x 3 x n array with names.
+#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()]
+#'   where the scheme's landmarks are those of the face, else none.
+#' @param doubtful Greatest share of found landmarks with little confidence that are used
+#'   nevertheless (and graded amber).
 #' @param ... Further arguments of [fit_shape()], the same for all.
-#' @param found Whether landmarks are found where a mesh has none. `NULL`: only where none of the meshes has any, so that
-#'   found landmarks are never mixed with placed ones unasked: a mesh without them among others that have some is a failure.
-#' @param reading With mesh files: named list of further arguments of [read_specimen()], [specimen()] and
-#'   [read_landmarks()], such as `list(frame = "RAS", tolerance = 0.02)`.
-#' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
-#'   given two lots. Small lots cost more starts, large ones more waiting at the end.
+#' @param found Whether landmarks are found where a mesh has none. `NULL`: only where none of the
+#'   meshes has any, so that found landmarks are never mixed with placed ones unasked: a mesh
+#'   without them among others that have some is a failure.
+#' @param reading With mesh files: named list of further arguments of [read_specimen()],
+#'   [specimen()] and [read_landmarks()], such as `list(frame = "RAS", tolerance = 0.02)`.
+#' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that
+#'   each worker is given two lots. Small lots cost more starts, large ones more waiting at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @return Object of class `shape_batch`: a list of shapes by id, `NULL` where a specimen failed. With `dir`, a shape is read
-#'   when it is asked for.
+#' @return Object of class `shape_batch`: a list of shapes by id, `NULL` where a specimen failed.
+#'   With `dir`, a shape is read when it is asked for.
 #'   * `x[["id"]]`, `x$id`, `x[[i]]`: one shape; an id that is not there is an error;
-#'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some; `c(x, y)`: one of both, where they have one scheme and no id twice, in
-#'     files or not;
+#'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some; `c(x, y)`: one of both, where they have one
+#'     scheme and no id twice, in files or not;
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
-#'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all in memory at once;
-#'   * `print(x)` counts and tells failures and warnings, `summary(x)` is a data frame, a row a specimen: `specimen`,
-#'     `measured`, `landmarks` ("placed", "found"), `lacking` (number of the scheme's landmarks that are missing), `warnings`
-#'     (their number), `message` (why it failed).
-#' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of single specimens are kept, see
-#'   [failures()].
-#' @section Warnings: of class `crestline_keeping_warning`, when a result's file that is asked for is damaged, is gone, or has another
-#'   result now: it is `NULL` then.
+#'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all
+#'     in memory at once;
+#'   * `print(x)` counts and tells failures and warnings, `summary(x)` is a data frame, a row a
+#'     specimen: `specimen`, `measured`, `landmarks` ("placed", "found"), `lacking` (number of the
+#'     scheme's landmarks that are missing), `warnings` (their number), `message` (why it failed).
+#' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of
+#'   single specimens are kept, see [failures()].
+#' @section Warnings: of class `crestline_keeping_warning`, when a result's file that is asked for
+#'   is damaged, is gone, or has another result now: it is `NULL` then.
 #' @seealso [failures()], [warnings_of()], [homologise()]
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(4)
@@ -72,6 +81,9 @@
 #' @export
 fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL, doubtful = 0, ...,
                        found = NULL, reading = list(), chunk = NULL, progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  if (!is.null(template)) template <- check_template(template)
   rlang::check_installed(c("future", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
@@ -122,8 +134,9 @@ batch_tasks <- function(jobs, dir, scheme, settings) {
   Map(function(task, content, file) c(task, content, list(file = file)), tasks, contents, files)
 }
 
-#' The files of results: where a result of that key is; else one of the id's name, if what is there is of the same mesh and of no use to
-#' another specimen of the batch; else one of the id's and the mesh's
+#' The files of results: where a result of that key is; else one of the id's name, if what is there
+#' is of the same mesh and of no use to another specimen of the batch; else one of the id's and the
+#' mesh's
 #' @noRd
 result_files <- function(dir, ids, keys, meshes) {
   files <- file.path(dir, paste0(file_stems(ids), ".shape"))
@@ -150,7 +163,8 @@ kept_result <- function(task) {
   if (opened$state == "whole") kept_shape(task, opened$about)
 }
 
-#' All tasks, by the user's plan; what a fault of the machine has cost is tried once more, each alone
+#' All tasks, by the user's plan; what a fault of the machine has cost is tried once more, each
+#' alone
 #' @return List of what [measure_task()] returns, a `shape_failure` for a task that was lost.
 #' @noRd
 measure_tasks <- function(tasks, scheme, settings, chunk) {
@@ -219,9 +233,10 @@ shorten_text <- function(text, most = 200) {
 #' What went wrong with the specimens of a batch
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
-#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what), `remedy` (what to do about it). Its
-#'   attribute `warnings` is the data frame of [warnings_of()]. Of a batch in files a row, too, for each whose
-#'   file is damaged, is gone, or has another result now.
+#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),
+#'   `remedy` (what to do about it). Its attribute `warnings` is the data frame of [warnings_of()].
+#'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
+#'   now.
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
 #' @seealso [warnings_of()] for what those that were measured were warned of.
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
@@ -232,6 +247,7 @@ shorten_text <- function(text, most = 200) {
 #' failures(fit_shapes(bad, scheme))
 #' @export
 failures <- function(x) {
+  check_given()
   check_class(x, "shape_batch", "x", "fit_shapes()")
   x <- renewed_batch(x)
   elements <- unclass(x)

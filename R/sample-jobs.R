@@ -2,9 +2,10 @@
 
 #' What is to be measured: files or specimens, by id
 #'
-#' @return Named list of jobs, each a list: `id`; `specimen`, or `mesh` (path), `landmarks` (path, matrix, or NULL where there are
-#'   none) and `reading` (list: arguments for `landmarks`, for `specimen`); `wanting`, why there are no landmarks, as far as
-#'   that is known; `refusal`, a condition, where the landmarks cannot be had.
+#' @return Named list of jobs, each a list: `id`; `specimen`, or `mesh` (path), `landmarks` (path,
+#'   matrix, or NULL where there are none) and `reading` (list: arguments for `landmarks`, for
+#'   `specimen`); `wanting`, why there are no landmarks, as far as that is known; `refusal`, a
+#'   condition, where the landmarks cannot be had.
 #' @noRd
 batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
   if (inherits(x, "specimen")) x <- list(x)
@@ -27,7 +28,8 @@ batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
   }, unname(x), ids), ids)
 }
 
-#' Ids of specimens; of those that share one, the names of the list where these are each another, else numbered
+#' Ids of specimens; of those that share one, the names of the list where these are each another,
+#' else numbered
 #' @noRd
 specimen_ids <- function(x) {
   ids <- vapply(x, `[[`, "", "id", USE.NAMES = FALSE)
@@ -52,8 +54,8 @@ file_jobs <- function(files, landmarks, reading, call) {
   }, files, ids, own, c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)], USE.NAMES = FALSE), ids)
 }
 
-#' Ids of files: their names without extension; where these are the same, with as many folders as tell them apart, else with the
-#' extension
+#' Ids of files: their names without extension; where these are the same, with as many folders as
+#' tell them apart, else with the extension
 #' @noRd
 file_ids <- function(files) {
   parts <- strsplit(normalizePath(files, winslash = "/", mustWork = FALSE), "/", fixed = TRUE)
@@ -71,7 +73,8 @@ file_ids <- function(files) {
   make.unique(ids, sep = " ")
 }
 
-#' The landmark file beside a mesh, NULL where there is none, or the condition by which it is refused
+#' The landmark file beside a mesh, NULL where there is none, or the condition by which it is
+#' refused
 #' @noRd
 landmarks_or_refusal <- function(file) {
   tryCatch({
@@ -137,7 +140,7 @@ job_specimen <- function(job) {
 #' @return List: `mesh`, `key`, hashes; NA and "" where a file cannot be read.
 #' @noRd
 job_content <- function(job, scheme, settings) {
-  named <- sort(setdiff(names(settings), c("threads", "progress")))
+  named <- sort(setdiff(as.character(names(settings)), c("threads", "progress")))
   settings <- list(named, lapply(unname(settings[named]), unclass))
   tryCatch({
     mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key

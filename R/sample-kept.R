@@ -1,15 +1,16 @@
-# Results in files: a name that any disk takes, a first line that tells what is in it, and a checksum that is compared before
-# anything is unserialised.
+# Results in files: a name that any disk takes, a first line that tells what is in it, and a
+# checksum that is compared before anything is unserialised.
 
-# Raised when the same input gives other answers than before: what was kept by the former version is then measured again.
+# Raised when the same input gives other answers than before: what was kept by the former version is
+# then measured again.
 answers_version <- 1L
 
 kept_layout <- "crestline-result 2"
 
 #' Hash of a value's content
 #'
-#' Of its serialisation in version 2, which has no compact forms: `1:3` and `c(1L, 2L, 3L)` are the same. The first 14 bytes name
-#' the version of R.
+#' Of its serialisation in version 2, which has no compact forms: `1:3` and `c(1L, 2L, 3L)` are the
+#' same. The first 14 bytes name the version of R.
 #' @noRd
 content_hash <- function(x) rlang::hash(serialize(x, NULL, version = 2)[-(1:14)])
 
@@ -46,9 +47,10 @@ part_prefix <- function() {
 
 #' Names of files for ids, which any disk takes
 #'
-#' Bytes other than letters, digits, "_", "-", inner dots and blanks are "%" and two hexadecimal digits, as in addresses:
-#' `utils::URLdecode()` gives the id. So is the first letter of a name that Windows keeps for devices, and so are capitals where two
-#' ids differ in nothing else. A name that is too long ends in "~" and a hash; its file has the id too.
+#' Bytes other than letters, digits, "_", "-", inner dots and blanks are "%" and two hexadecimal
+#' digits, as in addresses: `utils::URLdecode()` gives the id. So is the first letter of a name that
+#' Windows keeps for devices, and so are capitals where two ids differ in nothing else. A name that
+#' is too long ends in "~" and a hash; its file has the id too.
 #'
 #' @param longest Number of characters, of the 255 bytes that a disk allows.
 #' @noRd
@@ -75,8 +77,10 @@ file_stem <- function(id, capitals, longest) {
 
 #' Write a value with what it is of; under another name until all of it is there
 #'
-#' @param about List: `key` and `mesh`, strings without a blank, and what else is to be known without reading the value.
-#' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five times as long.
+#' @param about List: `key` and `mesh`, strings without a blank, and what else is to be known
+#'   without reading the value.
+#' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five
+#'   times as long.
 #' @return Nothing; an error of class `crestline_keeping_error` where it cannot be written.
 #' @noRd
 keep <- function(value, about, file, compression = 1) {
@@ -114,7 +118,8 @@ kept_bytes <- function(value, about, compression) {
 
 checksum <- function(first, about, packed) rlang::hash(list(first, about, packed))
 
-#' By way of a file, since R compresses at a chosen level only there; its last bytes are the length of what went in
+#' By way of a file, since R compresses at a chosen level only there; its last bytes are the length
+#' of what went in
 #' @noRd
 packed_bytes <- function(value, compression) {
   bytes <- serialize(value, NULL)
@@ -129,7 +134,8 @@ packed_bytes <- function(value, compression) {
 }
 
 #' What a result's file says of itself in its first line, unproven
-#' @return List: `key`, `mesh`, NA where it has none; `own`: whether the file is one of ours, perhaps cut short.
+#' @return List: `key`, `mesh`, NA where it has none; `own`: whether the file is one of ours,
+#'   perhaps cut short.
 #' @noRd
 peek_kept <- function(file, most = 200) {
   none <- list(key = NA_character_, mesh = NA_character_, own = FALSE)
@@ -140,7 +146,9 @@ peek_kept <- function(file, most = 200) {
   none$own <- identical(start[seq_len(known)], layout[seq_len(known)]) || is_former(start)
   end <- match(as.raw(10L), start)
   if (known < length(layout) || !none$own || is_former(start) || is.na(end)) return(none)
-  words <- strsplit(rawToChar(start[seq_len(end - 1)]), " ", fixed = TRUE)[[1]]
+  line <- start[seq_len(end - 1)]
+  if (!all(line >= as.raw(0x20) & line < as.raw(0x7f))) return(none)
+  words <- strsplit(rawToChar(line), " ", fixed = TRUE)[[1]]
   list(key = words[3], mesh = words[4], own = TRUE)
 }
 
@@ -150,10 +158,11 @@ is_former <- function(bytes) identical(bytes[1:2], as.raw(c(0x1f, 0x8b)))
 
 #' A result's file, its checksum compared
 #'
-#' A file of the former layout is not read: nothing in it tells whether it is whole, and R may end over one that is not.
+#' A file of the former layout is not read: nothing in it tells whether it is whole, and R may end
+#' over one that is not.
 #'
-#' @return List: `state`, "whole", "absent", "damaged" or "former" (of the former layout); of a whole one `about`, and `packed`
-#'   (raw).
+#' @return List: `state`, "whole", "absent", "damaged" or "former" (of the former layout); of a
+#'   whole one `about`, and `packed` (raw).
 #' @noRd
 open_kept <- function(file) {
   if (!file.exists(file)) return(list(state = "absent"))

@@ -2,15 +2,18 @@
 
 #' Work at each of some tasks by the user's plan, with progress
 #'
-#' Each lot of `chunk` tasks is a future. Where a plan refuses futures, because one of its workers has died, it is started again
-#' once those that run have ended; where it refuses them still, the rest is done in this process.
+#' Each lot of `chunk` tasks is a future. Where a plan refuses futures, because one of its workers
+#' has died, it is started again once those that run have ended; where it refuses them still, the
+#' rest is done in this process.
 #'
 #' @param tasks List of lists, each with its `name`.
-#' @param work Function of a task and of `arguments`, in the package's namespace: what it needs is sent to workers by `arguments`.
+#' @param work Function of a task and of `arguments`, in the package's namespace: what it needs is
+#'   sent to workers by `arguments`.
 #' @param chunk Number of tasks a future.
 #' @param alone Whether each future waits for the one before.
-#' @param poll Seconds between two looks at workers that are busy, where the user has set no other: future's own 0.01
-#'   takes a tenth of a core, of which nothing is left when there are as many workers as cores.
+#' @param poll Seconds between two looks at workers that are busy, where the user has set no other:
+#'   future's own 0.01 takes a tenth of a core, of which nothing is left when there are as many
+#'   workers as cores.
 #' @return List of what `work` returns; of tasks whose worker died a `lost_task`.
 #' @noRd
 run_tasks <- function(tasks, work, arguments, chunk, alone = FALSE, poll = 0.05) {

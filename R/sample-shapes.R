@@ -4,7 +4,8 @@
 #'
 #' @param shapes Named list: a `shape` or `kept_shape` each, NULL where it failed.
 #' @param failed Named list of `shape_failure`s, for those that are NULL.
-#' @param scheme List: `name`, `key` (hash) of the scheme that all were measured by; NULL where it is not known.
+#' @param scheme List: `name`, `key` (hash) of the scheme that all were measured by; NULL where it
+#'   is not known.
 #' @noRd
 new_shape_batch <- function(shapes, failed = list(), scheme = NULL) {
   structure(shapes, failed = failed, scheme = scheme, class = "shape_batch")
@@ -43,7 +44,8 @@ batch_of <- function(results, scheme) {
   validate_shape_batch(new_shape_batch(shapes, results[failed], about))
 }
 
-#' A batch as former versions made it: results in files are an attribute there, failures stand among the shapes
+#' A batch as former versions made it: results in files are an attribute there, failures stand among
+#' the shapes
 #' @noRd
 renewed_batch <- function(x) {
   files <- attr(x, "files")
@@ -72,8 +74,8 @@ kept_shape <- function(task, about) {
             lacking = lacking, class = c("kept_shape", "shape"))
 }
 
-#' What a batch tells of a shape without reading it: `found`, whether its landmarks were; `lacking`, how many of the scheme's
-#' landmarks are missing, and of how many
+#' What a batch tells of a shape without reading it: `found`, whether its landmarks were; `lacking`,
+#' how many of the scheme's landmarks are missing, and of how many
 #' @noRd
 told_of <- function(shape) {
   if (is.null(shape)) return(list(found = FALSE, lacking = c(0L, NA)))

@@ -274,6 +274,7 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #' }
 #' @exportS3Method
 as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface"), ...) {
+  check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   like <- coords(x$template, level)
   each <- lapply(x$shapes, coords, level)
@@ -286,6 +287,7 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 #'   `points`.
 #' @export
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   none <- cbind(id = character(), x$template$points[0, ])
   each <- lapply(x$shapes, function(shape) cbind(id = shape$id, shape$points))
   each <- do.call(rbind, c(list(none), unname(each)))
@@ -295,6 +297,7 @@ as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ..
 
 #' @export
 print.shape_sample <- function(x, ...) {
+  check_method_dots(...)
   points <- x$template$points
   count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
                   0L)

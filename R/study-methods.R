@@ -14,8 +14,9 @@ study_methods <- function(settings) {
 
 #' A value as one that can be hashed: functions with what they use
 #'
-#' Of a function its arguments, its body, and what its names stand for: everything in the environments between it and the workspace
-#' or a package; of the workspace those names, and texts, that it has. Functions of packages go by name and version.
+#' Of a function its arguments, its body, and what its names stand for: everything in the
+#' environments between it and the workspace or a package; of the workspace those names, and texts,
+#' that it has. Functions of packages go by name and version.
 #'
 #' @param seen Environment: `list`, the environments that are being looked at or have been.
 #' @noRd

@@ -53,8 +53,8 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
                         progress = interactive(), largest = 2e6, ...) {
   methods <- study_methods(settings)
   check_count(n, "n")
-  check_count(points, "points", lower = 3)
   check_number(points, "points", 3, 1e5)
+  check_count(points, "points", lower = 3)
   check_count(block, "block")
   grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
                                 landmark_error = landmark_error, noise = noise, b = b, a = a), largest)

@@ -41,8 +41,11 @@ places_of <- function(shape) {
 }
 
 #' The first time `make()`, later what it gave
+#'
+#' @param what What the value depends on: its hash is the key, since R's names end at 10,000 bytes.
 #' @noRd
-kept <- function(plan, key, make) {
+kept <- function(plan, what, make) {
+  key <- rlang::hash(what)
   if (is.null(plan$kept[[key]])) assign(key, make(), plan$kept)
   plan$kept[[key]]
 }
@@ -61,7 +64,7 @@ curve_sets <- function(state, plan) {
   Map(function(name, group) {
     wanted <- unique(c(unlist(lapply(state$curves[group], `[[`, "place"), use.names = FALSE), fixed))
     absent <- is.na(state$store[wanted, "x"]) | is.na(plan$xyz[wanted, 1])
-    kept(plan, paste(c(name, group, wanted[absent]), collapse = "|"), function() {
+    kept(plan, list(name, group, wanted[absent]), function() {
       there <- wanted[!absent]
       list(name = name, curves = group, places = there, b = set_energy(there, plan, plan$settings$nugget),
            points = lapply(state$curves[group], function(curve) match(curve$place, there)))

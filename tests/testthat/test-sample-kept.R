@@ -46,6 +46,15 @@ test_that("any flipped bit and any cut is noticed before anything is unserialise
     state(bytes)
   }, "")
   expect_false("whole" %in% flipped)
+  # The first line is looked at before the checksum is.
+  for (i in 1:60) {
+    for (bit in 0:7) {
+      one <- bytes
+      one[i] <- xor(one[i], as.raw(bitwShiftL(1L, bit)))
+      writeBin(one, file)
+      expect_silent(peek_kept(file))
+    }
+  }
   cut <- vapply(round(seq(0, length(bytes) - 1, length.out = 30)), function(n) state(bytes[seq_len(n)]), "")
   expect_identical(unique(cut), "damaged")
   expect_identical(state(c(bytes, as.raw(0))), "damaged")
