@@ -32,8 +32,11 @@
 #'   * `weights`: k, of mean 1; `scale`, `tangent`, `level`;
 #'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated", "dropped");
 #'   * `moved`: the greatest move of the mean by round;
-#'   * `triangles`: 3 x m, rows of `mean`, or `NULL`.
+#'   * `triangles`: 3 x m, rows of `mean`, or `NULL`;
+#'   * `settings`, `reference`, `provenance`: how it was aligned, what `mean` was laid onto, and where
+#'     all came from, see [summary.aligned()].
 #'
+#'   It is a container of its configurations: `aligned[ids]` aligns these again, see [aligned].
 #'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from the mean, in the unit of
 #'   `coords`), `missing` (number of points).
 #' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a

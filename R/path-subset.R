@@ -102,7 +102,9 @@ rebased_path <- function(rows, key, id) {
 #' A data frame without class and attributes of its own
 #' @noRd
 plain_frame <- function(x) {
-  attributes(x) <- list(names = names(x), row.names = attr(x, "row.names"), class = "data.frame")
+  automatic <- .row_names_info(x) <= 0
+  rows <- if (automatic) .set_row_names(nrow(x)) else attr(x, "row.names")
+  attributes(x) <- list(names = names(x), row.names = rows, class = "data.frame")
   x
 }
 

@@ -50,6 +50,8 @@ test_that("the whole path stays what it is, and a path without one of its column
     expect_identical(class(plain), "data.frame")
     expect_setequal(names(attributes(plain)), c("names", "row.names", "class"))
   }
+  expect_null(rownames(as.matrix(path[c("x", "y", "z")])))
+  expect_identical(rownames(path[2:4, c("x", "y")]), c("2", "3", "4"))
   expect_identical(path[, "x"], path$x)
   expect_identical(path[["x"]], path$x)
   path$depth <- path$z
