@@ -41,8 +41,8 @@ cpp_vertices_on_edges <- function(vb, it, twin, sides, reach, most) {
     .Call(`_crestline_cpp_vertices_on_edges`, vb, it, twin, sides, reach, most)
 }
 
-cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel) {
-    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel)
+cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel, hollow) {
+    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel, hollow)
 }
 
 cpp_numbers_at <- function(raw, places, real, sign, size, big) {
@@ -99,6 +99,10 @@ cpp_fit_columns <- function(vb, it, twin, from, to, outside, rows, settings, cho
 
 cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
+}
+
+cpp_random_bytes <- function(n) {
+    .Call(`_crestline_cpp_random_bytes`, n)
 }
 
 cpp_half_area_radius <- function(vb, it, used, cap, steps) {

@@ -57,6 +57,8 @@
 align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
                   rounds = 200, limits = sample_limits()) {
+  check_given()
+  check_flags(tangent)
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
   check_scaling(scale)
   settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
@@ -118,7 +120,7 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
-    validate(sample)
+    check_class(sample, "shape_sample", "sample", "homologise()", call)
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"
@@ -171,15 +173,15 @@ check_triangles <- function(triangles, k, call) {
   matrix(as.integer(triangles), 3)
 }
 
-check_array <- function(x, call) {
+check_array <- function(x, call, name = "sample") {
   if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
     size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else describe_value(x)
-    crestline_abort(sprintf("`sample` is %s.", size),
+    crestline_abort(sprintf("`%s` is %s.", name, size),
                     "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
                     call = call)
   }
   if (any(is.infinite(x))) {
-    crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", stage = "align", call = call)
+    crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.", stage = "align", call = call)
   }
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
@@ -236,7 +238,7 @@ mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
 check_extent <- function(size, call = rlang::caller_env()) {
   at <- which(!(size > 0))
   if (length(at)) {
-    crestline_abort("all its points coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
+    crestline_abort("all its points in `sample` coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
   }
 }
 
@@ -250,6 +252,7 @@ warn_alignment <- function(rounds, moved) {
 #' @param row.names,optional,... Ignored.
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   off <- sweep(x$coords, 1:2, x$mean)
   distance <- sqrt(colSums(matrix(off^2 * x$weights, length(x$mean))))
   ids <- dimnames(x$coords)[[3]]
@@ -259,6 +262,7 @@ as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
 
 #' @export
 print.aligned <- function(x, ...) {
+  check_method_dots(...)
   n <- dim(x$coords)[3]
   cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
       if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",

@@ -1,19 +1,24 @@
-# The sample as a sample: what an alignment shows of single specimens that no specimen shows of itself.
+# The sample as a sample: what an alignment shows of single specimens that no specimen shows of
+# itself.
 
 #' Limits from which on an alignment is doubted
 #'
-#' Everything that [align()] warns of, each with its limit; `Inf` switches one off. No limit depends on the unit.
+#' Everything that [align()] warns of, each with its limit; `Inf` switches one off. No limit depends
+#' on the unit.
 #'
-#' @param far Robust z-score of a specimen's distance from the median shape: how many spreads (1.4826 MAD, at least 0.15 times
-#'   the median distance) it is above the median distance. On 23 and 11 faces of two collections the greatest is 2.3; a face
-#'   with two landmarks of a pair exchanged has 5 to 40.
-#' @param point How many times as far from its median place as others one point of a specimen may lie. On those faces the
-#'   greatest is 3.7; of exchanged neighbours 6 to 29.
-#' @param size Greatest ratio between the size of a specimen and the median size, either way: a power of ten is another
-#'   unit.
-#' @param estimated Greatest share of the specimens that lack a point, and of the points that a specimen lacks.
-#' @param beyond How far an estimated point may lie beyond all points that the specimen has, seen from their middle, on the
-#'   mean and as a share of its RMS radius: there the spline extrapolates. Half a face lacks points 1 radius beyond.
+#' @param far Robust z-score of a specimen's distance from the median shape: how many spreads
+#'   (1.4826 MAD, at least 0.15 times the median distance) it is above the median distance. On 23
+#'   and 11 faces of two collections the greatest is 2.3; a face with two landmarks of a pair
+#'   exchanged has 5 to 40.
+#' @param point How many times as far from its median place as others one point of a specimen may
+#'   lie. On those faces the greatest is 3.7; of exchanged neighbours 6 to 29.
+#' @param size Greatest ratio between the size of a specimen and the median size, either way: a
+#'   power of ten is another unit.
+#' @param estimated Greatest share of the specimens that lack a point, and of the points that a
+#'   specimen lacks.
+#' @param beyond How far an estimated point may lie beyond all points that the specimen has, seen
+#'   from their middle, on the mean and as a share of its RMS radius: there the spline extrapolates.
+#'   Half a face lacks points 1 radius beyond.
 #' @param fewest Specimens without which distances are not compared.
 #' @return List of class `sample_limits`.
 #' @section Errors: of class `crestline_error`, for values that are no numbers above 0.
@@ -24,7 +29,8 @@
 sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyond = 0.5, fewest = 6) {
   limits <- list(far = far, point = point, size = size, estimated = estimated, beyond = beyond)
   for (name in names(limits)) {
-    if (!identical(limits[[name]], Inf)) limits[[name]] <- check_number(limits[[name]], name, 0, open = TRUE)
+    if (identical(limits[[name]], Inf)) next
+    limits[[name]] <- check_number(limits[[name]], name, 0, open = TRUE)
   }
   structure(c(limits, list(fewest = check_count(fewest, "fewest", lower = 3))), class = "sample_limits")
 }
@@ -40,20 +46,21 @@ print.sample_limits <- function(x, ...) {
 #' @noRd
 warn_of_doubts <- function(aligned, limits) {
   check_class(limits, "sample_limits", "limits", "sample_limits()")
-  said <- c(said_of_sizes(aligned, limits), said_of_distances(aligned, limits), said_of_gaps(aligned, limits))
+  said <- c(said_of_sizes(aligned, limits), said_of_distances(aligned, limits),
+            said_of_gaps(aligned, limits))
   for (kind in names(said)) {
-    crestline_warn(sprintf("%s: %s", aligned$level, said[[kind]]), sample_remedies[[kind]], stage = "align",
-                   class = c(paste0("crestline_", kind), "crestline_sample_doubt"))
+    crestline_warn(sprintf("%s: %s", aligned$level, said[[kind]]), sample_remedies[[kind]],
+                   stage = "align", class = c(paste0("crestline_", kind), "crestline_sample_doubt"))
   }
   aligned
 }
 
 sample_remedies <- c(
   size = "Are they in another unit? Measure them in one unit: see `unit` of fit_shape() and read_specimen().",
-  far = "Look at these specimens: are landmarks exchanged or misplaced, or is it another object? Leave out what is wrong.",
+  far = "Look at them: are landmarks exchanged, or is it another object? Leave out what is wrong.",
   point = "Look at these points on these specimens: are two landmarks exchanged, or one misplaced?",
-  estimated = "Use missing = \"drop\" for such points, or leave such specimens out: estimates follow the mean of the others.",
-  beyond = "Use missing = \"drop\", or leave these specimens out: so far from what a specimen has, estimates are the mean's shape."
+  estimated = "Use missing = \"drop\", or leave such specimens out: estimates follow the others' mean.",
+  beyond = "Use missing = \"drop\", or leave them out: so far out, an estimate is the others' mean."
 )
 
 said_of_sizes <- function(aligned, limits) {
@@ -65,7 +72,8 @@ said_of_sizes <- function(aligned, limits) {
 }
 
 #' @param floor Least spread, as a share of the median distance.
-#' @param alike Distances below this share of the shapes' size are those of copies, of which nothing is said.
+#' @param alike Distances below this share of the shapes' size are those of copies, of which
+#'   nothing is said.
 #' @noRd
 said_of_distances <- function(aligned, limits, floor = 0.15, alike = 1e-6) {
   n <- dim(aligned$coords)[3]
@@ -80,7 +88,8 @@ said_of_distances <- function(aligned, limits, floor = 0.15, alike = 1e-6) {
   ids <- dimnames(aligned$coords)[[3]]
   said <- list()
   if (length(far)) {
-    said$far <- sprintf("far from the others: %s.", shorten(sprintf("%s (%.3g times as far)", ids[far], whole[far] / middle)))
+    named <- sprintf("%s (%.3g times as far)", ids[far], whole[far] / middle)
+    said$far <- sprintf("far from the others: %s.", shorten(named))
   }
   usual <- pmax(apply(apart, 1, stats::median), least)
   ratio <- apart / usual
@@ -100,15 +109,18 @@ said_of_gaps <- function(aligned, limits) {
   names <- rownames(aligned$mean)
   gap <- matrix(FALSE, length(names), length(ids))
   gap[cbind(match(gone$point, names), match(gone$id, ids))] <- TRUE
-  c(said_of_shares(gap, ids, names, limits$estimated), said_of_reach(aligned$mean, gap, ids, limits$beyond))
+  c(said_of_shares(gap, ids, names, limits$estimated),
+    said_of_reach(aligned$mean, gap, ids, limits$beyond))
 }
 
 said_of_shares <- function(gap, ids, names, limit) {
   few <- names[rowMeans(gap) > limit]
   poor <- ids[colMeans(gap) > limit]
   share <- sprintf("more than %.0f %%", 100 * limit)
-  said <- c(if (length(few)) sprintf("estimated for %s of the specimens: %s (%s)", share, shorten(few), amount(length(few), "point")),
-            if (length(poor)) sprintf("%s of the points are estimated of %s", share, shorten(poor)))
+  of_points <- sprintf("estimated for %s of the specimens: %s (%s)", share, shorten(few),
+                       amount(length(few), "point"))
+  of_specimens <- sprintf("%s of the points are estimated of %s", share, shorten(poor))
+  said <- c(if (length(few)) of_points, if (length(poor)) of_specimens)
   if (length(said)) list(estimated = paste0(paste(said, collapse = "; "), "."))
 }
 
@@ -123,7 +135,8 @@ said_of_reach <- function(mean, gap, ids, limit) {
   list(beyond = sprintf("points are estimated far from those that are there: of %s.", shorten(named)))
 }
 
-#' How far the farthest of some points lies beyond all others, in its direction from their middle; 0 within
+#' How far the farthest of some points lies beyond all others, in its direction from their middle; 0
+#' within
 #' @noRd
 reach_beyond <- function(known, gone) {
   middle <- colMeans(known)

@@ -96,13 +96,16 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
                            exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
                            missing = c("estimate", "drop", "stop"), progress = interactive(), block = NULL,
                            equal_spread = TRUE) {
-  n_perm <- check_count(n_perm, "n_perm")
+  check_given()
+  check_flags(progress, equal_spread)
+  seed <- check_seed(seed)
+  n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
   exact <- check_number(exact, "exact", lower = 0)
   components <- check_components(components)
   tests <- check_tests(tests)
   aligned <- aligned_levels(sample, level, scale, weights, missing)
   group <- check_group(group, dimnames(aligned[[1]]$coords)[[3]])
-  equal_spread <- check_flag(equal_spread, "equal_spread")
+  check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
   design <- comparison_design(group, block)
   dealt <- design_regroupings(design, n_perm, exact, permutations, seed)
   # A block of point-wise tests needs 250 x k numbers.
@@ -174,7 +177,7 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (inherits(sample, "shape_sample")) {
-    for (one in level) check_choice(one, sample_levels, "level", call)
+    level <- check_choices(level, sample_levels, "level", call)
     return(lapply(stats::setNames(nm = level), function(one) as_aligned(sample, one)))
   }
   if (is.list(sample) && length(sample) && !is.null(names(sample))) {
@@ -200,9 +203,7 @@ check_components <- function(components, call = rlang::caller_env()) {
 
 check_tests <- function(tests, call = rlang::caller_env()) {
   known <- c("size", "shape", "T2", "components", "points", "dispersion")
-  for (test in tests) check_choice(test, known, "tests", call)
-  if (!length(tests)) check_choice("", known, "tests", call)
-  unique(tests)
+  check_choices(tests, known, "tests", call)
 }
 
 #' A factor with the levels that occur, in the order of the specimens
@@ -232,11 +233,15 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 #' @param x,object A `group_comparison`.
 #' @param row.names,optional,... Ignored.
 #' @export
-as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) x$tests
+as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$tests
+}
 
 #' @rdname compare_groups
 #' @export
 summary.group_comparison <- function(object, ...) {
+  check_method_dots(...)
   levels <- names(object$aligned)
   tests <- unique(object$tests$test)
   p <- lapply(levels, function(level) {
@@ -256,6 +261,8 @@ print.comparison_summary <- function(x, ...) {
 
 #' @export
 print.group_comparison <- function(x, most = 5, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   counts <- table(x$group)
   drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
     amount(x$n_perm, "random permutation")

@@ -41,6 +41,7 @@
 #' as_aligned(frame)
 #' @export
 as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+  check_given()
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   columns <- covariates(data, dimnames(aligned$coords)[[3]])
   structure(c(list(coords = aligned$coords, size = aligned$size), columns), class = "geomorph.data.frame")
@@ -49,6 +50,7 @@ as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "mod
 #' @rdname as_geomorph
 #' @export
 as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+  check_given()
   frame <- as_geomorph(sample, level, data, ...)
   coords <- frame$coords
   flat <- matrix(aperm(coords, c(3, 2, 1)), dim(coords)[3])
@@ -60,6 +62,7 @@ as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model")
 #' @rdname as_geomorph
 #' @export
 as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model"), ...) {
+  check_given()
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
   variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share, "Cumulative %" = 100 * cumsum(pca$share))
@@ -93,14 +96,18 @@ before_projection <- function(aligned) {
 #' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
 #' @export
 as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
+  check_given()
+  level <- check_text(level, "level")
   coords <- if (inherits(x, "nosymproc")) x$orpdata else if (is.list(x)) x$coords else x
-  coords <- named_array(check_array(coords, rlang::current_env()))
+  coords <- named_array(check_array(coords, rlang::current_env(), "x"))
   n <- dim(coords)[3]
   if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
   if (is.null(size)) size <- own
-  if (!is.numeric(size) || is.null(names(size)) && length(size) != n) {
-    crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
+  fits <- length(size) == n || !is.null(names(size))
+  if (!is.numeric(size) || !fits || !all(is.finite(size) & size > 0)) {
+    crestline_abort(sprintf("`size`, or that of `x`, is %s.", describe_value(size)),
+                    sprintf("Give %d centroid sizes above 0.", n), stage = "align")
   }
   ids <- dimnames(coords)[[3]]
   if (!is.null(names(size)) && has_ids(ids)) size <- sizes_by_specimen(size, ids)

@@ -52,6 +52,7 @@
 #' repeatability(arcs, specimen)
 #' @export
 repeatability <- function(shapes, specimen, observer = NULL, level = "curves", match = c("specimen", "each", "none")) {
+  check_given()
   match <- check_choice(match, c("specimen", "each", "none"), "match")
   if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
   failed <- failed_measurements(shapes)
@@ -258,10 +259,15 @@ component_table <- function(variance) {
 }
 
 #' @export
-as.data.frame.repeatability <- function(x, row.names = NULL, optional = FALSE, ...) x$parts
+as.data.frame.repeatability <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$parts
+}
 
 #' @export
 print.repeatability <- function(x, most = 10, digits = 3, ...) {
+  check_method_dots(..., known = c("most", "digits"))
+  check_most(most)
   count <- x$counts
   cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ", amount(count[["specimens"]], "specimen"),
       if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n", sep = "")

@@ -5,10 +5,11 @@
 #' case, with or without id
 #' @noRd
 is_key_column <- function(name) {
-  word <- paste0("(specimen|subject|individual|participant|patient|sample|scan|case|mesh|",
-                 "file|path|name|label|key)s?")
+  word <- paste0("(specimen|subject|individual|participant|patient|person|face|object|animal|",
+                 "sample|scan|case|record|image|mesh|file|path|name|label|key)s?")
   bare <- tolower(gsub("^\ufeff|^\u00ef..|^X\\.U\\.FEFF\\.|[[:space:]._-]", "", name))
-  grepl(paste0("^(ids?|", word, "|", word, "(ids?|names?|no|number|code)|filepaths?)$"), bare)
+  grepl(paste0("^(ids?|", word, "|", word, "(ids?|names?|no|number|code)|",
+               "ids?(no|number|code)|filepaths?)$"), bare)
 }
 
 #' Ids as they are compared: blanks, case, kind of slash and a file's extension aside

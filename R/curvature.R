@@ -54,11 +54,13 @@
 curvature <- function(mesh, radius, order = "adaptive",
                       threads = getOption("crestline.threads", 1L), vertices = NULL,
                       shrinkage = 6, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
+  check_given()
+  check_surface(mesh, "mesh")
   of <- mesh_of(mesh)
   whole <- mesh
   mesh <- as_mesh(mesh)
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
-  threads <- check_count(threads, "threads")
+  threads <- check_threads(threads)
   check_number(widen, "widen", lower = 1)
   check_radius(radius, whole)
   n <- ncol(mesh$vb)
@@ -174,24 +176,29 @@ fill_curvature <- function(out, found, at) {
   out
 }
 
+# The lowest and the highest order of the nested fits.
+fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
+                   quartic = c(4L, 4L), forced = c(2L, 2L))
+
+check_order <- function(order, call = rlang::caller_env()) check_choice(order, names(fit_orders), "order", call)
+
 #' Settings of the local fit in the form of the kernel
 #' @noRd
 fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_term = 1.5,
                          one_sided = 0.2) {
-  orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
-                 quartic = c(4L, 4L), forced = c(2L, 2L))
-  order <- check_choice(order, names(orders), "order")
+  order <- check_order(order)
+  orders <- fit_orders
   list(radius = check_number(radius, "radius", lower = 0, open = TRUE),
        lowest = orders[[order]][1], highest = orders[[order]][2], forced = order == "forced",
        shrinkage = check_number(shrinkage, "shrinkage", lower = 0),
-       points_per_term = check_number(points_per_term, "points_per_term", lower = 1),
+       points_per_term = check_number(points_per_term, "points_per_term", lower = 1, upper = 1000),
        one_sided = check_number(one_sided, "one_sided", lower = 0))
 }
 
 vertex_indices <- function(vertices, n) {
   if (is.null(vertices)) return(seq_len(n))
   if (is.logical(vertices) && length(vertices) == n && !anyNA(vertices)) vertices <- which(vertices)
-  if (!is.numeric(vertices) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
+  if (!is.numeric(vertices) || !is.null(dim(vertices)) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
     crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
                     sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
   }
@@ -201,7 +208,7 @@ vertex_indices <- function(vertices, n) {
 #' A ball as large as the object holds no local shape: most likely another unit
 #' @noRd
 check_radius <- function(radius, mesh) {
-  size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_size(mesh)
+  size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_diagonal(mesh)
   if (radius > size / 2) {
     crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.", radius, size),
                     "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
@@ -219,6 +226,7 @@ abort_radius <- function(neighbours, radius) {
 
 #' @export
 print.curvature <- function(x, ...) {
+  check_method_dots(...)
   fitted <- !is.na(x$k1)
   cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
               length(fitted), attr(x, "radius")))
@@ -240,6 +248,7 @@ spread <- function(x) {
 
 #' @export
 as.data.frame.curvature <- function(x, ...) {
+  check_method_dots(...)
   vectors <- c("direction1", "direction2", "normal")
   wide <- lapply(vectors, function(name) {
     stats::setNames(as.data.frame(x[[name]]), paste0(name, c("_x", "_y", "_z")))

@@ -28,7 +28,9 @@
 #' @export
 calibrate_template <- function(template, specimens, rounds = 4, settings = find_settings(),
                                threads = getOption("crestline.threads", 1L)) {
-  if (!inherits(template, "landmark_template")) template <- landmark_template(template)
+  check_given()
+  threads <- check_threads(threads)
+  template <- check_template(template)
   check_class(settings, "find_settings", "settings", "find_settings()")
   rounds <- check_count(rounds, "rounds")
   if (inherits(specimens, "specimen")) specimens <- list(specimens)

@@ -2,20 +2,22 @@
 
 #' What looks exchanged among some landmarks
 #'
-#' With a `reference` (typical positions of the landmarks, from the scheme) the names are held against it. Without one,
-#' left and right of every pair are told by the way up and the way to the front, or else by the other pairs; the mid-line
-#' must not run to and fro; and a landmark must lie near the mirror image of its partner.
+#' With a `reference` (typical positions of the landmarks, from the scheme) the names are held
+#' against it. Without one, left and right of every pair are told by the way up and the way to the
+#' front, or else by the other pairs; the mid-line must not run to and fro; and a landmark must lie
+#' near the mirror image of its partner.
 #'
 #' @param at k x 3, row names, NA where missing.
 #' @param front Unit vector to the front (mean of the surface's normals), or NULL.
 #' @param pairs Data frame `left`, `right`: names.
 #' @param midline Names along the mid-line from top to bottom, perhaps none.
 #' @param reference k x 3 matrix with row names, NA where it is not known; NULL: none.
-#' @param least Cosine of the angle between a direction and the expected one from which on it counts as told. On 45 faces
-#'   the cosine between two landmarks and the same two of [face_scheme()] is never below 0.6, exchanged it is the same
-#'   below 0.
-#' @return List: `mirrored` (whether left and right of all pairs are exchanged), `groups` (list of the names that are
-#'   exchanged among themselves), `either` (list of two such groups of which one is exchanged: symmetry cannot tell which).
+#' @param least Cosine of the angle between a direction and the expected one from which on it
+#'   counts as told. On 45 faces the cosine between two landmarks and the same two of
+#'   [face_scheme()] is never below 0.6, exchanged it is the same below 0.
+#' @return List: `mirrored` (whether left and right of all pairs are exchanged), `groups` (list of
+#'   the names that are exchanged among themselves), `either` (list of two such groups of which one
+#'   is exchanged: symmetry cannot tell which).
 #' @noRd
 exchanged_landmarks <- function(at, front, pairs, midline, reference = NULL, least = 0.3) {
   at <- at[!is.na(at[, 1]), , drop = FALSE]
@@ -34,7 +36,8 @@ exchanged_landmarks <- function(at, front, pairs, midline, reference = NULL, lea
     true <- found$true
     either <- found$either
   }
-  mirrored <- nrow(pairs) > 0 && all(true[pairs$left] == pairs$right & true[pairs$right] == pairs$left)
+  crossed <- true[pairs$left] == pairs$right & true[pairs$right] == pairs$left
+  mirrored <- nrow(pairs) > 0 && all(crossed)
   if (mirrored) true[c(pairs$left, pairs$right)] <- c(pairs$left, pairs$right)
   list(mirrored = mirrored, groups = name_cycles(true), either = either)
 }
@@ -63,7 +66,7 @@ name_cycles <- function(true) {
   open <- names(true)[true != names(true)]
   while (length(open)) {
     group <- open[1]
-    while (!true[[utils::tail(group, 1)]] %in% group) group <- c(group, true[[utils::tail(group, 1)]])
+    while (!true[[group[length(group)]]] %in% group) group <- c(group, true[[group[length(group)]]])
     groups <- c(groups, list(sort(group)))
     open <- setdiff(open, group)
   }
@@ -72,7 +75,8 @@ name_cycles <- function(true) {
 
 #' Which pairs have left and right exchanged
 #'
-#' Left is up x front, where both are known and the pairs lie along it; else it is what most pairs say.
+#' Left is up x front, where both are known and the pairs lie along it; else it is what most pairs
+#' say.
 #' @return Logical, a value a pair.
 #' @noRd
 exchanged_sides <- function(at, front, pairs, midline, least) {
@@ -83,19 +87,21 @@ exchanged_sides <- function(at, front, pairs, midline, least) {
   along <- if (!is.null(left)) drop(across %*% left)
   if (is.null(left) || stats::median(abs(along)) < 0.5) {
     along <- drop(across %*% eigen(crossprod(across), symmetric = TRUE)$vectors[, 1])
-    if (nrow(across) < 3 || sum(along < -least) == sum(along > least)) return(rep(FALSE, nrow(pairs)))
-    along <- along * sign(sum(along > least) - sum(along < -least))
+    most <- sign(sum(along > least) - sum(along < -least))
+    if (nrow(across) < 3 || most == 0) return(rep(FALSE, nrow(pairs)))
+    along <- along * most
   }
   along < -least
 }
 
 left_of <- function(up, front, least) {
   if (is.null(up) || is.null(front)) return(NULL)
-  left <- c(up[2] * front[3] - up[3] * front[2], up[3] * front[1] - up[1] * front[3], up[1] * front[2] - up[2] * front[1])
+  left <- drop(cross_rows(t(up), t(front)))
   if (sqrt(sum(left^2)) > least) unit_vector(left)
 }
 
-#' The way from the bottom to the top of the mid-line, which two exchanged landmarks of several do not turn round
+#' The way from the bottom to the top of the mid-line, which two exchanged landmarks of several do
+#' not turn round
 #' @return Unit vector; NULL where it cannot be told.
 #' @noRd
 way_up <- function(at, midline) {
@@ -109,8 +115,8 @@ way_up <- function(at, midline) {
 
 #' Names along the mid-line exchanged such that it does not run to and fro
 #'
-#' @param gain Least shortening of the way along it, in units of the distance of the two: exchanging two right ones makes
-#'   it longer.
+#' @param gain Least shortening of the way along it, in units of the distance of the two:
+#'   exchanging two right ones makes it longer.
 #' @noRd
 along_midline <- function(true, at, midline, gain = 0.5) {
   if (length(midline) < 3) return(true)
@@ -131,34 +137,40 @@ along_midline <- function(true, at, midline, gain = 0.5) {
 
 #' Names exchanged such that landmarks lie where the mirror images of their partners do
 #'
-#' @param gain Least lowering of the distances from the mirror images, in units of the distance of the two that are exchanged
-#'   (at most 2).
+#' @param gain Least lowering of the distances from the mirror images, in units of the distance of
+#'   the two that are exchanged (at most 2).
 #' @param left Greatest distance that is left, in the same unit.
 #' @return List: `true`, `either`.
 #' @noRd
 by_symmetry <- function(true, at, pairs, gain = 1, left = 0.5) {
   either <- list()
   if (nrow(pairs) < 2) return(list(true = true, either = either))
-  partner <- partner_of(rownames(at), data.frame(level = "landmarks", pairs[c("left", "right")]), "landmarks")
-  partner <- match(partner, rownames(at))
+  names <- rownames(at)
+  pairs <- data.frame(level = "landmarks", pairs[c("left", "right")])
+  partner <- match(partner_of(names, pairs, "landmarks"), names)
   both <- utils::combn(nrow(at), 2)
   both <- both[, partner[both[1, ]] != both[2, ], drop = FALSE]
   for (round in seq_len(nrow(pairs))) {
-    named <- renamed(at, true)[rownames(at), ]
+    named <- renamed(at, true)[names, ]
     off <- mirror_gains(named, partner, pairs, both)
     fine <- which(off$gain > gain & off$left < left)
     if (!length(fine)) break
     two <- both[, fine[which.max(off$gain[fine])]]
     other <- partner[two]
-    if (all(other != two)) either <- c(either, list(list(sort(rownames(at)[two]), sort(rownames(at)[other]))))
-    if (!all(other != two)) true <- swapped(true, rownames(at)[two[1]], rownames(at)[two[2]])
-    if (all(other != two)) both <- both[, !(both[1, ] %in% c(two, other) | both[2, ] %in% c(two, other)), drop = FALSE]
+    if (all(other != two)) {
+      either <- c(either, list(list(sort(names[two]), sort(names[other]))))
+      open <- !both[1, ] %in% c(two, other) & !both[2, ] %in% c(two, other)
+      both <- both[, open, drop = FALSE]
+    } else {
+      true <- swapped(true, names[two[1]], names[two[2]])
+    }
   }
   list(true = true, either = either)
 }
 
 #' What exchanging two landmarks takes off the distances from the mirror images of partners
-#' @return Data frame, a row a column of `both`: `gain`, `left` (what remains), in units of the distance of the two.
+#' @return Data frame, a row a column of `both`: `gain`, `left` (what remains), in units of the
+#'   distance of the two.
 #' @noRd
 mirror_gains <- function(at, partner, pairs, both) {
   across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
@@ -178,17 +190,19 @@ mirror_gains <- function(at, partner, pairs, both) {
   data.frame(gain = (before - after) / (2 * distance), left = after / (4 * distance))
 }
 
-#' Names exchanged such that the landmarks lie as those of the reference: sides first, where that comes nearer to it
+#' Names exchanged such that the landmarks lie as those of the reference: sides first, where that
+#' comes nearer to it
 #' @noRd
 by_reference <- function(true, at, reference, pairs, least) {
   names <- rownames(reference)
   both <- utils::combn(length(names), 2)
-  off <- function(true) sum(row_lengths(robustly_laid(renamed(at, true)[names, ], reference) - reference))
+  laid <- function(true) robustly_laid(renamed(at, true)[names, ], reference)
+  off <- function(true) sum(row_lengths(laid(true) - reference))
   turned <- swapped(true, pairs$left, pairs$right)
   if (off(turned) < off(true)) true <- turned
   for (round in seq_along(names)) {
-    laid <- robustly_laid(renamed(at, true)[names, ], reference)
-    u <- laid[both[1, ], , drop = FALSE] - laid[both[2, ], , drop = FALSE]
+    now <- laid(true)
+    u <- now[both[1, ], , drop = FALSE] - now[both[2, ], , drop = FALSE]
     v <- reference[both[1, ], , drop = FALSE] - reference[both[2, ], , drop = FALSE]
     product <- row_products(u, v)
     wrong <- which(product < -least * row_lengths(u) * row_lengths(v))
@@ -199,12 +213,13 @@ by_reference <- function(true, at, reference, pairs, least) {
   true
 }
 
-#' Points laid onto others by the similarity that makes the sum of distances, not of their squares, small
+#' Points laid onto others by the similarity that makes the sum of distances, not of their squares,
+#' small
 #'
 #' @param rounds Times that weights are taken anew.
 #' @param least Least distance, as a share of the size, that a weight is taken of.
 #' @noRd
-robustly_laid <- function(x, y, rounds = 20, least = 0.01) {
+robustly_laid <- function(x, y, rounds = 10, least = 0.01) {
   weight <- rep(1, nrow(x))
   size <- sqrt(mean(rowSums(sweep(y, 2, colMeans(y))^2)))
   for (round in seq_len(rounds)) {
@@ -227,7 +242,9 @@ exchange_reasons <- function(found, names, sided) {
   said <- stats::setNames(rep(NA_character_, length(names)), names)
   if (found$mirrored) said[names %in% sided] <- "left and right look mirrored"
   for (group in found$groups) said[group] <- paste(word_list(group), "look exchanged")
-  for (two in found$either) said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "), "look exchanged")
+  for (two in found$either) {
+    said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "), "look exchanged")
+  }
   said[names]
 }
 
@@ -239,15 +256,17 @@ word_list <- function(x) {
 #' Groups of exchanged landmarks in words
 #' @noRd
 exchange_words <- function(found) {
-  c(vapply(found$groups, word_list, ""),
-    vapply(found$either, function(two) paste(vapply(two, word_list, ""), collapse = " or else "), ""))
+  either <- function(two) paste(vapply(two, word_list, ""), collapse = " or else ")
+  c(vapply(found$groups, word_list, ""), vapply(found$either, either, ""))
 }
 
 #' What print() says of exchanged landmarks
 #' @param found NULL where nothing was looked for.
 #' @noRd
 print_exchanged <- function(found) {
-  if (length(exchange_words(found))) cat(strwrap(paste("- landmarks look exchanged:", toString(exchange_words(found))), exdent = 2), sep = "\n")
+  words <- exchange_words(found)
+  if (!length(words)) return(invisible())
+  cat(strwrap(paste("- landmarks look exchanged:", toString(words)), exdent = 2), sep = "\n")
 }
 
 #' @noRd
@@ -257,7 +276,7 @@ warn_exchanged <- function(found, id) {
   if (!length(groups)) return(invisible())
   crestline_warn(
     sprintf("landmarks look exchanged: %s.", paste(groups, collapse = "; ")),
-    "Look at them (plot() with labels = TRUE) and exchange their names: whatever hangs on them is measured elsewhere.",
+    "Look at them (plot() with labels = TRUE) and exchange their names: what ends on them is elsewhere.",
     stage = "landmarks", id = id, class = "crestline_exchanged"
   )
 }

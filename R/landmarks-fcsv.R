@@ -15,7 +15,7 @@ read_landmarks_fcsv <- function(file, options) {
     refuse_landmark_file(file, "no columns x, y, z", "Give them in the line # columns = id,x,y,z,...")
   }
   field <- fcsv_fields(line[row], row, column, file)
-  if (any(grepl("\\bcolumns\\s*=", line[comment]))) check_fcsv_fields(field, column, row, file)
+  check_fcsv_fields(field, column, row, file)
   field <- padded_rows(field, length(column))
   xyz <- field[, match(c("x", "y", "z"), column)]
   x <- matrix(landmark_numbers(xyz, file, rep(row, 3)), ncol = 3)

@@ -45,8 +45,11 @@
 #' @export
 find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(), unit = NULL,
                            threads = getOption("crestline.threads", 1L)) {
+  check_given()
+  check_surface(mesh, "mesh")
+  threads <- check_threads(threads)
   check_class(settings, "find_settings", "settings", "find_settings()")
-  if (!inherits(template, "landmark_template")) template <- landmark_template(template)
+  template <- check_template(template)
   scan <- validate(mesh)
   if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)

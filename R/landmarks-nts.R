@@ -82,9 +82,15 @@ write_landmarks_nts <- function(sets, file, options) {
   if (nrow(x) == 1) comment <- sprintf("landmarks: %s", quote_names(rownames(x)))
   write_file_lines(c(
     "'Landmarks, written by crestline", if (!is.null(comment)) paste0("'", comment),
+    unlist(Map(nts_comment, sets, names(sets), MoreArgs = list(alone = length(sets) == 1))),
     sprintf("1 %dL %d 1 %d DIM=3", length(sets), 3L * nrow(x), code), "", names(sets), "",
     unlist(lapply(sets, function(x) if (nrow(x)) c(row_text(x, missing = code), "")))
   ), file)
+}
+
+nts_comment <- function(x, id, alone) {
+  lines <- attr(x, "comments")
+  if (length(lines)) paste0("'", if (!alone) paste0(comment_text(id), ", "), lines)
 }
 
 check_nts_sets <- function(sets, file) {

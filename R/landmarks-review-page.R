@@ -138,9 +138,13 @@ chosen_html <- function(review) {
            if (nrow(curves)) tags$details(tags$summary(amount(nrow(curves), "curve")), tags$ul(lapply(said, tags$li))))
 }
 
-looks_mirrored <- function(specimen) {
+looks_mirrored <- function(specimen) specimen_slips(specimen)$mirrored
+
+#' What looks exchanged among the landmarks of a specimen as they are now
+#' @noRd
+specimen_slips <- function(specimen) {
   known <- specimen$geometry
-  slips_by_name(known$landmarks, known$located, specimen$mesh, eval(formals(crestline::specimen)$midline))$mirrored
+  slips_by_name(known$landmarks, known$located, specimen$mesh, eval(formals(crestline::specimen)$midline))
 }
 
 #' The list of landmarks: a row a landmark, with its state

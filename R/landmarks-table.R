@@ -29,12 +29,12 @@ text_table <- function(line, refuse) {
 #' The lines of a table from its header on, and the separator that a line `sep=` above it names
 #' @noRd
 table_start <- function(line) {
-  at <- which(grepl("\\S", line))
+  at <- grep("\\S", line, perl = TRUE)
   sep <- regexec("^\\s*\"?sep=(.)\"?[,;\t]*$", line[at[1]], ignore.case = TRUE)
   said <- if (length(at)) regmatches(line[at[1]], sep)[[1]]
   if (length(said)) at <- at[-1]
-  comment <- cumprod(grepl("^\\s*\"?#", line[at])) == 1
-  list(at = at[!comment], sep = if (length(said)) said[2])
+  first <- which(!grepl("^\\s*\"?#", line[at], perl = TRUE))[1]
+  list(at = if (!is.na(first)) at[first:length(at)], sep = if (length(said)) said[2])
 }
 
 # Spreadsheets write semicolons, and decimal commas, where the comma is the decimal mark; some write
@@ -51,8 +51,9 @@ table_separator <- function(header) {
 table_records <- function(line, at, sep, refuse) {
   text <- line[at]
   field <- split_fields(text, sep)
-  quotes <- nchar(gsub("[^\"]", "", text))
-  for (i in which(lengths(field) == 0)) {
+  broken <- which(lengths(field) == 0)
+  quotes <- if (length(broken)) nchar(gsub("[^\"]", "", text))
+  for (i in broken) {
     if (is.na(text[i])) next
     later <- seq(i, length(text))
     for (end in later[cumsum(quotes[later]) %% 2 == 0]) {
@@ -74,7 +75,7 @@ split_fields <- function(text, sep) {
   last <- cumsum(lengths(field))
   line <- rep(seq_along(field), lengths(field))[-last]
   cell <- unlist(field)[-last]
-  loose <- grepl("^\\s|\\s$", cell)
+  loose <- grepl("^\\s|\\s$", cell, perl = TRUE)
   cell[loose] <- trimws(cell[loose])
   marked <- which(grepl("\"", cell, fixed = TRUE))
   inner <- substr(cell[marked], 2, nchar(cell[marked]) - 1)
@@ -123,8 +124,8 @@ counted_cells <- function(field, header, line, refuse) {
   }
   if (!even) {
     wrong <- which(lengths(field) != length(header))[1]
-    refuse(sprintf("%d fields where the header has %d", length(field[[wrong]]), length(header)),
-           line[wrong])
+    refuse(sprintf("%s where the header has %d", amount(length(field[[wrong]]), "field"),
+                   length(header)), line[wrong])
   }
   cells <- matrix(as.character(unlist(field)), ncol = width, byrow = TRUE)
   cells[, seq_len(min(width, length(header))), drop = FALSE]

@@ -28,7 +28,10 @@
 #' landmark_template(face, predicted = c("tL", "tR", "oiL", "oiR"))
 #' @export
 landmark_template <- function(specimen, predicted = character(), unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA) {
+  check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  predicted <- check_names(predicted, "predicted")
+  if (!identical(mirror, NA)) check_flags(mirror)
   unit <- check_number(unit, "unit", lower = 0, open = TRUE)
   at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
   missing <- setdiff(predicted, rownames(at))
@@ -55,6 +58,7 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
 
 #' @export
 print.landmark_template <- function(x, ...) {
+  check_method_dots(...)
   cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"),
       if (x$mirror) ", with a mirror",
       ", unit ", signif(x$unit, 3), "\n", sep = "")
@@ -160,4 +164,14 @@ read_face_template <- function() {
   face <- read_specimen(file.path(folder, "mesh.ply"), at[!rownames(at) %in% ears, ], id = "face")
   face$landmarks <- at
   landmark_template(face, ears, unit = 1)
+}
+
+#' A template, or a specimen made into one
+#' @noRd
+check_template <- function(template, call = rlang::caller_env()) {
+  if (inherits(template, "specimen")) {
+    check_class(template, "specimen", "template", "specimen() or read_specimen()", call)
+    return(landmark_template(template))
+  }
+  check_class(template, "landmark_template", "template", "landmark_template() or face_template()", call)
 }

@@ -26,6 +26,9 @@ wide_encoding <- function(bytes) {
 }
 
 write_file_lines <- function(line, file) {
+  if (is_pipe(file)) {
+    refuse_landmark_file(file, "is a pipe, no file on disk", "Write to a file.")
+  }
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })
@@ -38,11 +41,16 @@ write_file_lines <- function(line, file) {
   }
 }
 
+# NA and NaN as R, C and the compilers of Windows write them (-nan(ind), -1.#IND, 1.#QNAN0).
+missing_word <- "^(|na|[-+]?(s|q)?nan(\\([a-z]*\\))?|[-+]?1\\.#(ind|[sq]?nan)0*)$"
+
 # Words to numbers, the words for a missing one to NA; `line`: the line of each word.
 landmark_numbers <- function(word, file, line) {
-  missing <- tolower(word) %in% c("", "na", "nan", "-nan", "nan(ind)", "-nan(ind)")
-  number <- suppressWarnings(as.numeric(ifelse(missing, NA, word)))
-  wrong <- which(!is.finite(number) & !missing)
+  number <- suppressWarnings(as.numeric(word))
+  odd <- which(!is.finite(number))
+  missing <- grepl(missing_word, word[odd], ignore.case = TRUE)
+  number[odd[missing]] <- NA
+  wrong <- odd[!missing]
   if (length(wrong)) {
     refuse_landmark_file(
       file, sprintf('"%s" is not a %snumber', word[wrong[1]], if (is.na(number[wrong[1]])) "" else "finite "),

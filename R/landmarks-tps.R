@@ -120,7 +120,7 @@ tps_lines <- function(x, id) {
   c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves),
     paste0("ID=", id),
     tps_comment(name_comment(rownames(x), "landmarks")),
-    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))))
+    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))), tps_comment(attr(x, "comments")))
 }
 
 tps_comment <- function(text) if (!is.null(text)) paste0("COMMENT=", text)

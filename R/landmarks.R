@@ -44,6 +44,11 @@
 #' * `.ckpt`: single points, in the file's unit; points of curves and patches are left out with a
 #'   warning.
 #'
+#' Of a specimen or shape the provenance (see [summary.specimen()]) is written too, where readers of
+#' other programs pass over it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a
+#' field `provenance` of `.mrk.json`. In `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and `.pp` it would
+#' disturb some, and is left out.
+#'
 #' A folder is read as the landmark files in it, by their names. Two files of one specimen must
 #' agree. Empty and compressed files, pipes and devices are refused before they are opened.
 #'
@@ -84,6 +89,8 @@
 #' read_landmarks(slicer)
 #' @export
 read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
+  check_given()
+  check_flags(scale)
   if (is.character(file) && length(file) == 1 && isTRUE(dir.exists(file))) {
     return(read_landmark_folder(file, frame = frame, missing = missing, scale = scale))
   }
@@ -108,6 +115,8 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
 #' @rdname read_landmarks
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
+  check_given()
+  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   format <- landmark_format(file)
   if (is.null(format$write)) {
     refuse_landmark_file(file, "this format is read, not written",
@@ -149,7 +158,7 @@ written_sets <- function(x, curves, file) {
     return(stats::setNames(list(written_set(x, curves)), id))
   }
   if (!length(x) || !is.null(curves) && length(x) > 1) {
-    refuse_landmark_file(file, "curves go with one specimen, and there must be one",
+    refuse_landmark_file(file, "`x` holds no specimen, or several for one set of `curves`",
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
@@ -179,19 +188,21 @@ specimen_names <- function(x) {
 }
 
 written_set <- function(x, curves) {
+  if (inherits(x, "shape")) check_class(x, "shape", "x", "fit_shape()")
   if (is.null(curves)) curves <- if (inherits(x, "shape")) shape_curves(x) else attr(x, "curves")
-  if (inherits(x, "specimen")) x <- x$landmarks
+  comments <- comment_lines(provenance_of(x))
+  if (inherits(x, "specimen")) x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")$landmarks
   if (inherits(x, "shape")) x <- coords(x, "landmarks")
   x <- as_landmarks(x)
   curves <- as_curves(curves)
-  if (length(curves)) structure(x, curves = curves) else x
+  structure(x, curves = if (length(curves)) curves, comments = if (length(comments)) paste("provenance,", comments))
 }
 
 # A named list of n x 3 matrices, each with attribute `closed`.
 as_curves <- function(x) {
   name <- names(x)
   if (length(x) && (!is.list(x) || is.null(name) || anyNA(name) || any(!nzchar(name)) || anyDuplicated(name))) {
-    refuse_landmarks("the curves are not a list with a name of its own for each.",
+    refuse_landmarks("`curves` is not a list with a name of its own for each.",
                      "Give list(name = n x 3 matrix, ...).", id = NULL)
   }
   Map(as_curve, as.list(x), as.character(name))
@@ -202,7 +213,7 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf("curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
+    refuse_landmarks(sprintf("`curves`: %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
@@ -236,7 +247,7 @@ landmark_format <- function(file) {
     first <- if (extension %in% c("gz", "bz2", "xz", "zip")) "Unpack it first. " else
       if (extension %in% c("xlsx", "xls", "ods")) "Save the sheet as CSV. "
     crestline_abort(
-      sprintf("no landmark format has the extension of %s.", basename(file)),
+      sprintf("`file`: no landmark format has the extension of %s.", basename(file)),
       paste0(first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),
       stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
@@ -246,10 +257,10 @@ landmark_format <- function(file) {
 
 file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
 
-check_file <- function(file, stage) {
-  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, stage)
+check_file <- function(file, stage, name = "file") {
+  if (!is_path(file)) refuse_no_path(file, stage)
   if (!file.exists(file) || dir.exists(file)) {
-    crestline_abort(sprintf("there is no file %s.", file),
+    crestline_abort(sprintf("`%s`: there is no file %s.", name, file),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)
   }
@@ -276,6 +287,13 @@ check_stored <- function(file, stage, id = NULL, unpacks = character()) {
     refuse(sprintf(": it is compressed by %s, whatever its name", packed),
            "Unpack it first; of a spreadsheet save the sheet as CSV.")
   }
+}
+
+#' Whether a path is a pipe, which would keep R waiting for a reader. R cannot tell, the shell can
+#' @noRd
+is_pipe <- function(file) {
+  if (.Platform$OS.type != "unix" || !isTRUE(file.size(file) == 0)) return(FALSE)
+  system2("test", c("-p", shQuote(path.expand(file)))) == 0
 }
 
 #' The program that a file's first bytes are of, NA for none

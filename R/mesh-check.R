@@ -93,27 +93,32 @@ drop_non_finite <- function(mesh, id) {
   if (!any(finite)) {
     refuse_mesh("none of its vertices has finite co-ordinates, or all are absurdly large.", "Export it again.", id)
   }
+  absurd <- sum(is.finite(colSums(mesh$vb[1:3, !finite, drop = FALSE] / 4)))
+  if (absurd > 0) warn_far(absurd, "have absurdly large co-ordinates", id)
   mended(losing(mesh, keep_vertices(mesh, finite)), "non-finite co-ordinates", sum(!finite),
          "vertices and their faces left out")
 }
 
 # Vertices of the surface that are no part of it: more than `far` times as far from its middle as half of the vertices
-# (a scan with its platform: up to 10 times). They would blind every tolerance that goes by the size.
-drop_far <- function(mesh, id, far = 100) {
+# (a scan with its platform, or a whole body with most vertices on the head: up to 20 times). They would blind every
+# tolerance that goes by the size.
+drop_far <- function(mesh, id, far = 50) {
   check <- "vertices far from all others"
   gone <- far_vertices(mesh, seq_len(ncol(mesh$vb)), far)
   if (!length(gone)) return(mended(mesh, check, 0))
   # Those that no triangle uses are none of the surface, and may be most.
   if (ncol(mesh$it)) gone <- far_vertices(mesh, which(tabulate(mesh$it, ncol(mesh$vb)) > 0), far)
   if (length(gone)) {
-    crestline_warn(
-      sprintf("%d vertices are more than %g times as far from the middle of the surface as half of the others: left out.",
-              length(gone), far),
-      "Look at the mesh; if they belong to it, scale or crop it first.", stage = "mesh", id = id,
-      class = "crestline_far_vertices"
-    )
+    warn_far(length(gone), sprintf("are more than %g times as far from the middle as half of the others", far), id)
   }
-  mended(losing(mesh, keep_vertices(mesh, !seq_len(ncol(mesh$vb)) %in% gone)), check, length(gone), "left out, with their faces")
+  kept <- !seq_len(ncol(mesh$vb)) %in% gone
+  mended(losing(mesh, keep_vertices(mesh, kept)), check, length(gone), "left out, with their faces")
+}
+
+warn_far <- function(count, what, id) {
+  crestline_warn(sprintf("%d vertices %s: left out, with their faces.", count, what),
+                 "Look at the mesh; if they belong to it, scale or crop it first.", stage = "mesh", id = id,
+                 class = "crestline_far_vertices")
 }
 
 far_vertices <- function(mesh, among, far) {
@@ -223,13 +228,14 @@ drop_debris <- function(mesh, id, debris) {
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
   small <- tabulate(piece) < debris * length(piece)
-  if (all(small)) {
-    refuse_mesh(sprintf("it falls apart into %d pieces, each with less than %g of the triangles: their corners do not meet.",
-                        length(small), debris),
-                "Join them: in MeshLab by Merge Close Vertices. Real pieces so small are kept with debris = 0.", id)
-  }
+  if (all(small)) refuse_debris(length(small), debris, id)
   mended(losing(mesh, keep_faces(mesh, !small[piece])), "debris", sum(small),
          sprintf("pieces below %g of the faces left out", debris))
+}
+
+refuse_debris <- function(pieces, debris, id) {
+  refuse_mesh(sprintf("the mesh is in %d pieces, each below %g (`debris`) of its triangles.", pieces, debris),
+              "Merge its vertices where they should coincide, or give a smaller `debris`.", id)
 }
 
 drop_unreferenced <- function(mesh, id) {
@@ -247,21 +253,23 @@ describe_topology <- function(mesh, topology, area) {
   )
 }
 
-# What may cost curves and cannot be mended.
+# What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
 tell_contacts <- function(mesh, topology, area, id) {
-  edge <- sqrt(2 / sqrt(3) * mean(area))  # of equilateral triangles of the mean area; `area` is twice it
-  warn_loose(topology, id)
-  list(tell_seams(mesh, topology, edge, id), tell_second_skin(mesh, topology, edge, id))
+  edge <- sqrt(2 / sqrt(3) * stats::median(area))  # of equilateral triangles of the median area; `area` is twice it
+  loose <- warn_loose(topology, id)
+  list(tell_seams(mesh, topology, edge, id, silent = loose), tell_second_skin(mesh, topology, edge, id))
 }
 
-# `share` of triangles without any neighbour.
-warn_loose <- function(topology, id, share = 0.05) {
-  loose <- mean(colSums(topology$twin > 0) == 0)
-  if (loose < share) return(invisible())
+# Whether that `share` of the triangles, and so many at `least`, have no neighbour.
+warn_loose <- function(topology, id, share = 0.1, least = 10) {
+  loose <- sum(colSums(topology$twin > 0) == 0)
+  if (loose < max(least, share * length(topology$piece))) return(FALSE)
   crestline_warn(
-    sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.", 100 * loose),
+    sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.",
+            100 * loose / length(topology$piece)),
     "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id, class = "crestline_loose_triangles"
   )
+  TRUE
 }
 
 # Border loops beyond the one outer loop of each piece that has a border.

@@ -54,51 +54,69 @@ of_second_skin <- function(mesh, pair) {
 
 border_sides <- function(topology) which(topology$twin == 0)
 
-# Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which moves nothing. Each
-# round divides one edge of a triangle.
+# Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which moves nothing, if one
+# of its parts is an edge of the other side. Each round divides one edge of a triangle.
 split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
   reach <- near * surface_diagonal(mesh)
   count <- 0
   for (round in seq_len(rounds)) {
     mesh <- with_topology(mesh)
     found <- border_contacts(mesh, reach)
+    found <- found[found$side %in% meeting_sides(mesh, found), ]
     if (!nrow(found)) break
     first <- found$side[!duplicated((found$side - 1) %/% 3)]
-    mesh <- split_sides(mesh, found[found$side %in% first, ])
-    count <- count + sum(found$side %in% first)
+    found <- found[found$side %in% first, ]
+    mesh <- split_sides(mesh, found)
+    count <- count + nrow(found)
   }
   mended(mesh, "vertices on edges of other triangles", count, "joined: these edges divided there")
 }
 
-# Ends of borders on the inner part of another border side: data frame `side`, `vertex`, `along`.
+# Ends of borders on the inner part of another border side: data frame `side`, `vertex`, `along`, in the order along sides.
 border_contacts <- function(mesh, reach) {
   side <- border_sides(mesh$topology)
-  as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, mesh$topology$twin, side, reach, join_effort))
+  found <- as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, mesh$topology$twin, side, reach, join_effort))
+  found <- found[order(found$side, found$along), ]
+  found[!duplicated(found[c("side", "along")]), ]
+}
+
+# Sides of which a part between two of their vertices is a border side too.
+meeting_sides <- function(mesh, found) {
+  part <- side_parts(mesh, found)
+  side <- border_sides(mesh$topology)
+  key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
+  part$side[key(part$from, part$to) %in% key(mesh$it[side], mesh$it[next_side(side)])]
+}
+
+# The parts of divided sides: data frame `side`, `from`, `to`.
+side_parts <- function(mesh, found) {
+  first <- !duplicated(found$side)
+  last <- !duplicated(found$side, fromLast = TRUE)
+  following <- ifelse(last, mesh$it[next_side(found$side)], c(found$vertex[-1], NA)[seq_along(last)])
+  data.frame(side = c(found$side[first], found$side), from = c(mesh$it[found$side[first]], found$vertex),
+             to = c(found$vertex[first], following))
 }
 
 # Divides sides at vertices, one side a triangle: the first part keeps the triangle's number.
 split_sides <- function(mesh, found) {
-  found <- found[order(found$side, found$along), ]
-  found <- found[!duplicated(found[c("side", "along")]), ]
-  face <- (found$side - 1) %/% 3 + 1
-  end <- mesh$it[next_side(found$side)]
-  apex <- mesh$it[next_side(next_side(found$side))]
-  last <- !duplicated(found$side, fromLast = TRUE)
-  following <- ifelse(last, end, c(found$vertex[-1], NA))
-  first <- which(!duplicated(found$side))
-  start <- mesh$it[found$side[first]]
-  mesh$it[, face[first]] <- rbind(start, found$vertex[first], apex[first])
-  mesh$it <- cbind(mesh$it, rbind(found$vertex, following, apex, deparse.level = 0))
+  part <- side_parts(mesh, found)
+  it <- rbind(part$from, part$to, mesh$it[next_side(next_side(part$side))], deparse.level = 0)
+  first <- seq_len(length(unique(found$side)))
+  mesh$it[, (part$side[first] - 1) %/% 3 + 1] <- it[, first]
+  mesh$it <- cbind(mesh$it, it[, -first, drop = FALSE])
   mesh$topology <- NULL
   mesh
 }
 
 # Borders beside one another: a row of the report, and a warning where so many vertices make a seam. `gap`: as a share
-# of the mean length of an edge; `least`: vertices.
-tell_seams <- function(mesh, topology, edge, id, gap = 0.05, least = 10) {
+# of the usual length of an edge; `least`: vertices.
+tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent = FALSE) {
   mesh$topology <- topology
-  beside <- length(unique(border_contacts(mesh, gap * edge)$vertex))
-  if (beside >= least) {
+  border <- sort(border_vertices(mesh$it, topology$twin))
+  pair <- matrix(border[cpp_near_pairs(mesh$vb[, border, drop = FALSE], gap * edge, join_effort)], 2)
+  if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
+  beside <- length(unique(c(pair, border_contacts(mesh, gap * edge)$vertex)))
+  if (beside >= least && !silent) {
     crestline_warn(
       sprintf("%d vertices of the border lie beside another border, less than %.2g apart: no curve crosses such a seam.",
               beside, gap * edge),
@@ -110,12 +128,15 @@ tell_seams <- function(mesh, topology, edge, id, gap = 0.05, least = 10) {
 }
 
 # A second sheet of the surface a hair from the first, as of scans that were laid together and not fused. `gap`: as a
-# share of the mean length of an edge; `sample`: triangles that are looked at; `share` of them that makes a skin;
-# `parallel`: least cosine between the normals.
-tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, share = 0.1, parallel = 0.7) {
+# share of the usual length of an edge; `sample`: triangles that are looked at; `share` of them that makes a skin;
+# `parallel`: least cosine between the normals; `hollow`: share of `gap` within which a sheet of the same piece that
+# faces the other way counts too, as no wall of a hollow thing is so thin.
+tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, share = 0.1, parallel = 0.7,
+                             hollow = 0.25) {
   m <- ncol(mesh$it)
   face <- unique(round(seq(1, m, length.out = min(sample, m))))
-  away <- cpp_other_sheets(mesh$vb, mesh$it, topology$twin, topology$piece, face, gap * edge, parallel)
+  away <- cpp_other_sheets(mesh$vb, mesh$it, topology$twin, topology$piece, face, gap * edge, parallel,
+                           hollow)
   double <- mean(is.finite(away))
   if (double >= share) {
     crestline_warn(

@@ -3,28 +3,30 @@
 # The columns of a point on a mesh.
 mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
 
-# Columns of a data frame as a matrix, and columns as a data frame: without the checks of as.matrix() and data.frame(),
-# which cost more than what is done with them.
+# Columns of a data frame as a matrix, and columns as a data frame: without the checks of
+# as.matrix() and data.frame(), which cost more than what is done with them.
 columns_of <- function(x, names = mesh_columns) do.call(cbind, unclass(x)[names])
 frame_of <- function(columns, ..., class = NULL) {
-  structure(columns, row.names = .set_row_names(length(columns[[1]])), ..., class = c(class, "data.frame"))
+  structure(columns, row.names = .set_row_names(length(columns[[1]])), ...,
+            class = c(class, "data.frame"))
 }
 
 #' The closest places of a surface
 #'
-#' For every point the place of the surface that is nearest to it, exactly and in double precision. A place on a mesh is
-#' a triangle (`face`) and three weights of its corners; from these any value that is known at the vertices can be
-#' interpolated.
+#' For every point the place of the surface that is nearest to it, exactly and in double precision.
+#' A place on a mesh is a triangle (`face`) and three weights of its corners; from these any value
+#' that is known at the vertices can be interpolated.
 #'
 #' @param mesh A [specimen()], or a `mesh3d` of triangles.
-#' @param xyz Points in the unit of the mesh: n x 3 matrix, three co-ordinates, or a data frame with columns `x`, `y`, `z`.
-#'   A row with `NA` gives a row of `NA`.
-#' @return Data frame, a row a point, with the row names of `xyz`: `face` (column of `mesh$it`), `w1`, `w2`, `w3` (weights
-#'   of its corners: 0 to 1, of sum 1), `x`, `y`, `z` (the place), `distance` (of the point from it, in the unit of the mesh).
-#'   Of triangles that are equally near, the one with the lowest number. A triangle without area is never the nearest,
-#'   unless there are no others.
-#' @section Errors: of class `crestline_error`: a mesh without triangles, `xyz` that is no matrix of three columns, or holds
-#'   infinite numbers.
+#' @param xyz Points in the unit of the mesh: n x 3 matrix, three co-ordinates, or a data frame with
+#'   columns `x`, `y`, `z`. A row with `NA` gives a row of `NA`.
+#' @return Data frame, a row a point, with the row names of `xyz`: `face` (column of `mesh$it`),
+#'   `w1`, `w2`, `w3` (weights of its corners: 0 to 1, of sum 1), `x`, `y`, `z` (the place),
+#'   `distance` (of the point from it, in the unit of the mesh). Of triangles that are equally near,
+#'   the one with the lowest number. A triangle without area is never the nearest, unless there are
+#'   no others.
+#' @section Errors: of class `crestline_error`: a mesh without triangles, `xyz` that is no matrix of
+#'   three columns, or holds infinite numbers.
 #' @seealso [frechet_mean()] for the mean of such places; [path_coordinates()]
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
@@ -48,7 +50,9 @@ locate <- function(mesh, xyz) {
 #' @noRd
 check_positions <- function(xyz, call = rlang::caller_env()) {
   remedy <- "Give an n x 3 matrix, three numbers, or a data frame with columns x, y, z."
-  refuse <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments", call = call)
+  refuse <- function(problem, remedy) {
+    crestline_abort(problem, remedy, stage = "arguments", call = call)
+  }
   given <- xyz
   if (is.data.frame(xyz)) {
     if (!all(c("x", "y", "z") %in% names(xyz))) refuse("`xyz` has no columns x, y and z.", remedy)
@@ -69,18 +73,23 @@ check_positions <- function(xyz, call = rlang::caller_env()) {
 #' @param mesh A `mesh3d` with triangles.
 #' @param xyz n x 3 matrix in the mesh's unit; rows with NA give rows of NA.
 #' @param ... As of [located_points()].
-#' @return Data frame of n rows: `x, y, z`, `face` (column of `mesh$it`), `w1, w2, w3`, as in [locate()].
+#' @return Data frame of n rows: `x, y, z`, `face` (column of `mesh$it`), `w1, w2, w3`, as in
+#'   [locate()].
 #' @noRd
-surface_points <- function(mesh, xyz, ...) frame_of(located_points(mesh, xyz, ...)$columns[mesh_columns])
+surface_points <- function(mesh, xyz, ...) {
+  frame_of(located_points(mesh, xyz, ...)$columns[mesh_columns])
+}
 
-#' @param few So many points are searched for among all faces: to build a tree takes as long (of 5,000 to 120,000 faces).
+#' @param few So many points are searched for among all faces: to build a tree takes as long (of
+#'   5,000 to 120,000 faces).
 #' @param leaf Faces in a box of the tree that is not divided further (speed only).
 #' @return List: `columns` (list by column of a point on a mesh), `distance`.
 #' @noRd
 located_points <- function(mesh, xyz, few = 24L, leaf = 8L) {
   xyz <- matrix(as.numeric(xyz), ncol = 3)
   found <- cpp_locate(mesh$vb, mesh$it, xyz, if (nrow(xyz) <= few) ncol(mesh$it) else leaf)
-  columns <- stats::setNames(lapply(1:6, function(i) found$at[, i]), c("x", "y", "z", "w1", "w2", "w3"))
+  columns <- stats::setNames(lapply(1:6, function(i) found$at[, i]),
+                             c("x", "y", "z", "w1", "w2", "w3"))
   list(columns = c(columns, list(face = found$face)), distance = found$distance)
 }
 

@@ -55,7 +55,8 @@ wide_text <- function(raw, signs = 16) {
 narrow_text <- function(raw, encoding) {
   pair <- matrix(raw[seq_len(2 * (length(raw) %/% 2))], 2)
   if (encoding == "UTF-16BE") pair <- pair[2:1, , drop = FALSE]
-  sign <- ifelse(pair[2, ] == 0, pair[1, ], as.raw(63))
+  sign <- pair[1, ]
+  sign[pair[2, ] != 0] <- charToRaw("?")
   if (identical(pair[, 1], as.raw(c(0xff, 0xfe)))) sign[-1] else sign
 }
 

@@ -25,8 +25,11 @@
 #' head(path_coordinates(ball, path, width = 0.2))
 #' @export
 path_coordinates <- function(specimen, path, width, margin = width) {
+  check_given()
+  check_surface(specimen, "specimen")
   check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
   check_number(width, "width", lower = 0, open = TRUE)
+  margin <- check_number(margin, "margin", lower = 0)
   mesh <- as_mesh(specimen)
   check_path_on(path, specimen, "`path`")
   clear <- without_stubs(path)
@@ -82,12 +85,13 @@ check_coordinates_on <- function(coordinates, mesh, name) {
 #' An end at a corner or on an edge of the mesh is moved inside its triangle for the walk, so that the first
 #' crossing may be next to it, in any direction; the path's direction at its ends is that beyond.
 #'
+#' @return Data frame of its rows, not a path: their arc lengths are those of the whole.
 #' @param stub Arc length below which a crossing is next to an end, as a share of the path's length.
 #' @noRd
 without_stubs <- function(path, stub = 1e-5) {
   least <- stub * attr(path, "length")
   beyond <- path$s > least & path$s < attr(path, "length") - least
-  path[c(1, which(beyond), nrow(path)), ]
+  frame_of(lapply(unclass(path)[c("s", mesh_columns)], `[`, c(1, which(beyond), nrow(path))))
 }
 
 #' Surface normals along a path: the vertices' normals weighted as the points are, 3 x k

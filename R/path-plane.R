@@ -28,11 +28,14 @@
 #' attr(quarter, "length") # about pi / 2
 #' @export
 plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
+  check_given()
+  check_surface(mesh, "mesh")
+  check_ends(from = from, to = to)
   surface <- walkable(mesh)
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
   check_number(side, "side", lower = 0, upper = 1)
-  cut_path(surface, ends, cut_axis(surface, ends), angle, side, reach)
+  cut_path(surface, ends, cut_axis(surface, ends), angle, side, check_reach(reach))
 }
 
 #' One plane cut as a path
@@ -93,7 +96,13 @@ end_vector <- function(mesh, surface, at, name) {
 }
 
 end_point <- function(mesh, at, name) {
-  if (is.character(at) && inherits(mesh, "specimen")) return(landmark_point(mesh, at))
+  if (is.character(at) && inherits(mesh, "specimen")) {
+    known <- rownames(mesh$landmarks)
+    if (!all(at %in% known)) {
+      refuse_landmarks(sprintf("`%s`: there is no landmark %s.", name, describe_value(at)), near_names(at, known), mesh$id)
+    }
+    return(landmark_point(mesh, at))
+  }
   if (is.data.frame(at) && all(mesh_columns %in% names(at)) && nrow(at) == 1) return(checked_point(mesh, at, name))
   if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
@@ -222,6 +231,7 @@ abort_cut <- function(end, ends, id) {
 
 #' @export
 print.mesh_path <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
   if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
   cat("\n")

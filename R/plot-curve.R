@@ -34,6 +34,12 @@ plot.curve <- function(x, specimen, ...) plot_curves(list(x), specimen, ...)
 plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL, band = TRUE,
                         points = TRUE, width = 2.5, landmarks = FALSE,
                         engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
+  check_given()
+  check_flags(band, points, landmarks, legend)
+  if (!is.null(colour)) check_colour(colour, "colour")
+  width <- check_number(width, "width", lower = 0)
+  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  surface <- check_choice(surface, surface_choices, "surface")
   curves <- check_curves(curves)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   for (i in seq_along(curves)) check_curve_on(curves[[i]], specimen, curve_label(curves, i))
@@ -103,7 +109,6 @@ curve_label <- function(curves, i) {
 }
 
 check_curves <- function(curves, call = rlang::caller_env()) {
-  if (inherits(curves, "curve")) curves <- list(curves)
-  for (curve in curves) check_class(curve, "curve", "curves", "ridge_curve()", call)
-  curves
+  if (is.list(curves) && !is.object(curves) && !length(curves)) return(curves)
+  check_list(curves, "curve", "curves", "ridge_curve()", call)
 }

@@ -31,7 +31,9 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
                           landmarks = TRUE, labels = FALSE, legend = TRUE, main = NULL, ...) {
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
   if (!is.null(curvature)) check_curvature_on(curvature, x)
-  colour <- check_choice(colour, c("natural", "shape index", "curvature", "plain"), "colour")
+  check_flags(landmarks, labels, legend)
+  main <- check_text(main, "main", null = TRUE)
+  colour <- check_choice(colour, surface_choices, "colour")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   if (colour %in% c("shape index", "curvature") && is.null(curvature)) {
     curvature <- curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE))
@@ -55,6 +57,9 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
 }
 
 # The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of the way.
+# What the colours of a specimen's surface may show.
+surface_choices <- c("natural", "shape index", "curvature", "plain")
+
 specimen_scale <- function(x, colour, curvature) {
   natural <- x$mesh$material$color
   switch(colour,

@@ -53,9 +53,15 @@
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
                         reach = 0.5, threads = getOption("crestline.threads", 1L), trust = c(0, 1)) {
+  check_given(if (identical(type, "plane")) c("radius", "width"))
+  check_surface(specimen, "specimen")
+  check_ends(from = from, to = to)
+  keep_away <- check_regions(keep_away)
+  threads <- check_threads(threads)
+  reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   n <- check_count(n, "n", lower = 2)
-  passes <- check_count(passes, "passes")
+  passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
   about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from), to = end_name(to),
@@ -67,7 +73,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
     } else {
       about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
       about$width <- check_number(width, "width", lower = 0, open = TRUE)
-      curvature <- known_curvature(curvature, specimen, radius, check_count(threads, "threads"), settings$order)
+      curvature <- known_curvature(curvature, specimen, radius, threads, settings$order)
       path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
                              longest = settings$longest)
       if (trust[1] > 0 || trust[2] < 1) path <- trusted_path(trust, specimen, path)
@@ -309,10 +315,14 @@ mean_strength <- function(specimen, path, fit) {
 }
 
 #' @export
-as.data.frame.curve <- function(x, ...) x$points
+as.data.frame.curve <- function(x, ...) {
+  check_method_dots(...)
+  x$points
+}
 
 #' @export
 print.curve <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
               x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
   cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))

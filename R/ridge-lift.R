@@ -13,7 +13,8 @@
 #' @return A `mesh_path` from the first to the last point of `path`. Attribute `lifted` is `FALSE`
 #'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
 #'   the places of the curve.
-#' @section Errors: of class `crestline_path_error`, when neither way gives a path.
+#' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class `crestline_wrong_mesh`, when
+#'   the path or its co-ordinates belong to another mesh.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.3;
 #'   the walk takes the place of its Delaunay triangulation of (s, d).
 #' @examples
@@ -24,8 +25,16 @@
 #' lift(ball, window, path, s, alpha = 0.1 * sin(2 * s))
 #' @export
 lift <- function(specimen, coordinates, path, s, alpha) {
-  check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
+  check_given()
+  check_surface(specimen, "specimen")
   check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  check_class(path, "mesh_path", "path", "reference_path() or plane_path()")
+  s <- check_numbers(s, "s")
+  alpha <- check_numbers(alpha, "alpha")
+  if (length(s) < 2 || is.unsorted(s, strictly = TRUE) || length(alpha) != length(s)) {
+    crestline_abort(sprintf("`s` (%s) and `alpha` (%s) are no line.", describe_value(s), describe_value(alpha)),
+                    "Give two places or more, in order, and an offset for each.", stage = "arguments")
+  }
   surface <- walkable(specimen)
   check_path_on(path, specimen, "`path`")
   check_coordinates_on(coordinates, specimen, "`coordinates`")

@@ -68,8 +68,7 @@
 #' @section Warnings: of class `crestline_keeping_warning`, when a result's file that is asked for
 #'   is damaged, is gone, or has another result now: it is `NULL` then.
 #' @seealso [failures()], [warnings_of()], [homologise()]
-#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly =
-#'   TRUE)
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
 #' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane",
@@ -83,6 +82,9 @@
 fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL,
                        doubtful = 0, ...,
                        found = NULL, reading = list(), chunk = NULL, progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  if (!is.null(template)) template <- check_template(template)
   rlang::check_installed(c("future", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
@@ -249,8 +251,7 @@ shorten_text <- function(text, most = 200) {
 #'   now.
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
 #' @seealso [warnings_of()] for what those that were measured were warned of.
-#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly =
-#'   TRUE)
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
 #' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
@@ -258,6 +259,7 @@ shorten_text <- function(text, most = 200) {
 #' failures(fit_shapes(bad, scheme))
 #' @export
 failures <- function(x) {
+  check_given()
   check_class(x, "shape_batch", "x", "fit_shapes()")
   x <- renewed_batch(x)
   elements <- unclass(x)

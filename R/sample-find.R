@@ -1,12 +1,10 @@
-# Specimens of a batch that come without landmarks: found where that was asked for, never mixed with
-# placed ones in silence.
+# Specimens of a batch that come without landmarks: found where that was asked for, never mixed with placed ones in silence.
 
 #' Jobs without landmarks, with what finds them, or refused
 #'
 #' @param dir Folder of the results, NULL for memory: pictures of refused specimens go there.
-#' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with
-#'   `template`, which all jobs of a worker have in common), `doubtful`, `picture` (path) and `key`;
-#'   or with `refusal`.
+#' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with `template`, which all jobs of a
+#'   worker have in common), `doubtful`, `picture` (path) and `key`; or with `refusal`.
 #' @noRd
 with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rlang::caller_env()) {
   doubtful <- check_number(doubtful, "doubtful", 0, 1, call = call)
@@ -62,20 +60,23 @@ refused_bare <- function(job, others, never) {
 }
 
 batch_template <- function(template, scheme) {
-  if (inherits(template, "landmark_template")) return(template)
-  if (!is.null(template)) return(landmark_template(template))
+  if (!is.null(template)) return(check_template(template))
   face <- face_template()
   if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks),
                                            rownames(face$predicted)))) face
 }
 
-#' A specimen with found landmarks, without those that are doubted; where most are, an error that
-#' names the picture of them
+#' A specimen with found landmarks
 #' @noRd
 found_specimen <- function(one, finder) {
   # A worker on another machine has not the folder of this session.
   if (!dir.exists(dirname(finder$picture))) finder$picture <- tempfile("placing-", fileext = ".png")
-  found <- find_landmarks(one, finder$shared$template)
+  without_doubted(find_landmarks(one, finder$shared$template), finder)
+}
+
+#' The same without the landmarks that are doubted; where most are, an error that names the picture of them
+#' @noRd
+without_doubted <- function(found, finder) {
   most <- max(find_settings()$wrong, finder$doubtful)
   found <- tryCatch(check_placing(found, doubtful = most, picture = finder$picture),
                     error = function(e) {

@@ -2,8 +2,8 @@
 
 #' A sample from its parts
 #'
-#' The sample is the list of its shapes, so that loops run over specimens; what they have in common are attributes, which `$`
-#' gives as fields.
+#' The sample is the list of its shapes, so that loops run over specimens; what they have in common
+#' are attributes, which `$` gives as fields.
 #'
 #' @param shapes Named list of slid shapes, without their specimens.
 #' @param template The `shape` that they were slid against.
@@ -11,8 +11,8 @@
 #' @param provenance List: what came from where.
 #' @noRd
 new_shape_sample <- function(shapes, template, convergence = NULL, provenance = list()) {
-  structure(shapes, template = template, convergence = convergence, missing = missing_parts(shapes), provenance = provenance,
-            class = "shape_sample")
+  structure(shapes, template = template, convergence = convergence,
+            missing = missing_parts(shapes), provenance = provenance, class = "shape_sample")
 }
 
 sample_fields <- c("shapes", "template", "convergence", "missing", "provenance")
@@ -21,8 +21,10 @@ sample_fields <- c("shapes", "template", "convergence", "missing", "provenance")
 #' @noRd
 sample_provenance <- function(template, plan, settings) {
   scheme <- template$provenance$scheme
-  c(made_with(), list(scheme = if (is.null(scheme)) scheme_provenance(template$scheme) else scheme, template = plan$template,
-                      settings = list(slide = lapply(unclass(plan$settings), identity), homologise = settings)))
+  if (is.null(scheme)) scheme <- scheme_provenance(template$scheme)
+  slide <- lapply(unclass(plan$settings), identity)
+  c(made_with(), list(scheme = scheme, template = plan$template,
+                      settings = list(slide = slide, homologise = settings)))
 }
 
 #' What is known of a sample and of its specimens
@@ -31,32 +33,37 @@ whole_provenance <- function(x) {
   known <- x$provenance
   measured <- shapes_provenance(x$shapes)
   known$settings <- utils::modifyList(as.list(measured$settings), as.list(known$settings))
-  known$specimens <- measured$specimens
+  known$specimens <- specimens_provenance(x$shapes)
   known
 }
 
 #' @rdname provenance
 #' @export
-summary.shape_sample <- function(object, ...) new_summary(printed_lines(object), whole_provenance(object))
+summary.shape_sample <- function(object, ...) {
+  new_summary(printed_lines(object), whole_provenance(object))
+}
 
 #' The rules of a sample
 #' @noRd
 validate_shape_sample <- function(x, call = rlang::caller_env()) {
-  fail <- function(problem, remedy = "Make a sample with homologise().") {
-    crestline_abort(problem, remedy, stage = "sample", call = call)
+  refuse <- function(wrong, problem, remedy = "Make a sample with homologise().") {
+    if (wrong) crestline_abort(problem, remedy, stage = "sample", call = call)
   }
-  if (is.null(attr(x, "template")) && "shapes" %in% names(x)) fail("the sample was made by an older version.", "Make it again with homologise().")
+  refuse(is.null(attr(x, "template")) && "shapes" %in% names(x),
+         "the sample was made by an older version.", "Make it again with homologise().")
   shapes <- x$shapes
   check_class(x$template, "shape", "template", "symmetrise() or homologise()", call)
-  if (!all(vapply(shapes, inherits, NA, "shape"))) fail("some of its members are no shapes.")
+  refuse(!all(vapply(shapes, inherits, NA, "shape")), "some of its members are no shapes.")
   ids <- vapply(shapes, `[[`, "", "id")
-  if (!identical(unname(ids), if (length(shapes)) names(shapes) else character())) {
-    fail("its names are not the ids of its shapes.", "Rename specimens by `names(sample) <- ...`.")
-  }
-  if (anyDuplicated(ids)) fail(sprintf("two specimens have the id \"%s\".", ids[anyDuplicated(ids)]), "Give every specimen an `id` of its own.")
-  if (!all(vapply(shapes, function(shape) is.null(shape$specimen), NA))) fail("its shapes keep their specimens.")
+  refuse(!identical(unname(ids), as.character(names(shapes))),
+         "its names are not the ids of its shapes.", "Rename specimens by `names(sample) <- ...`.")
+  refuse(anyDuplicated(ids) > 0,
+         sprintf("two specimens have the id \"%s\".", ids[anyDuplicated(ids)]),
+         "Give every specimen an `id` of its own.")
+  bare <- vapply(shapes, function(shape) is.null(shape$specimen), NA)
+  refuse(!all(bare), "its shapes keep their specimens.")
   for (shape in shapes) check_same_scheme(shape, x$template, call)
-  if (!is.null(x$convergence) && !is.data.frame(x$convergence)) fail("its convergence is no table.")
+  refuse(!is.null(x$convergence) && !is.data.frame(x$convergence), "its convergence is no table.")
   x
 }
 
@@ -69,7 +76,8 @@ missing_parts <- function(shapes) {
   each <- lapply(unname(shapes), function(shape) {
     absent <- shape$points[is.na(shape$points$x), ]
     parts <- unique(absent[c("level", "part")])
-    count <- mapply(function(level, part) sum(absent$level == level & absent$part == part), parts$level, parts$part)
+    count <- mapply(function(level, part) sum(absent$level == level & absent$part == part),
+                    parts$level, parts$part)
     data.frame(id = rep(shape$id, nrow(parts)), parts, points = as.integer(count))
   })
   none <- data.frame(id = character(), level = character(), part = character(), points = integer())
@@ -80,22 +88,24 @@ missing_parts <- function(shapes) {
 
 #' The specimens of a sample
 #'
-#' A `shape_sample` is a container of its slid shapes: `length()` and `names()` (the ids), `sample[ids]`, `sample[-3]` and
-#' `sample[logical]` give a sample of these specimens, `sample[["id"]]` one shape; `for`, `lapply()`, `split()` and `as.list()` go
-#' through the shapes. `c()` joins samples that were slid against the same template.
+#' A `shape_sample` is a container of its slid shapes: `length()` and `names()` (the ids),
+#' `sample[ids]`, `sample[-3]` and `sample[logical]` give a sample of these specimens,
+#' `sample[["id"]]` one shape; `for`, `lapply()`, `split()` and `as.list()` go through the shapes.
+#' `c()` joins samples that were slid against the same template.
 #'
-#' Nothing is slid again: points, template and convergence stay, and `missing` is that of the specimens that are left. So a
-#' sample without some specimens still has the template of all. Where one that was wrong moved the template, run
-#' [homologise()] without it.
+#' Nothing is slid again: points, template and convergence stay, and `missing` is that of the
+#' specimens that are left. So a sample without some specimens still has the template of all. Where
+#' one that was wrong moved the template, run [homologise()] without it.
 #'
 #' @param x,... A `shape_sample`, as [homologise()] returns it; of `c()` several.
-#' @param i Ids, numbers (negative: all but these), or a logical value for each specimen; logical values with names are
-#'   matched by these. In `[[` one id or number.
+#' @param i Ids, numbers (negative: all but these), or a logical value for each specimen; logical
+#'   values with names are matched by these. In `[[` one id or number.
 #' @param name "shapes", "template", "convergence", "missing" or "provenance": see [homologise()].
 #' @param value Of `names<-`: new ids. Of `$<-`: the field.
 #' @return A `shape_sample`; of `[[` a `shape`; of `as.list()` a list of shapes by id.
-#' @section Errors: of class `crestline_error`: a specimen that is not there, or is asked for twice (the error says which there
-#'   are); in `c()` different schemes, templates or settings of sliding, and ids that both have.
+#' @section Errors: of class `crestline_error`: a specimen that is not there, or is asked for twice
+#'   (the error says which there are); in `c()` different schemes, templates or settings of sliding,
+#'   and ids that both have.
 #' @seealso [homologise()], [as.array.shape_sample()]
 #' @examples
 #' \donttest{
@@ -122,9 +132,10 @@ NULL
 #' @rdname shape_sample
 #' @export
 `[.shape_sample` <- function(x, i, ...) {
-  if (...length()) refuse_dimensions("the sample", "Give one index; as.array(sample, level) has points and co-ordinates.")
+  if (...length()) refuse_dimensions("the sample", "as.array(sample, level) has points and axes.")
   if (missing(i)) return(x)
-  new_shape_sample(x$shapes[chosen_members(i, names(x), "the sample")], x$template, x$convergence, x$provenance)
+  new_shape_sample(x$shapes[chosen_members(i, names(x), "the sample")], x$template, x$convergence,
+                   x$provenance)
 }
 
 #' @rdname shape_sample
@@ -138,7 +149,9 @@ NULL
 `$.shape_sample` <- function(x, name) {
   if (!name %in% sample_fields) {
     refuse_member(sprintf("a sample has no field `%s`.", name),
-                  sprintf("Fields are %s; specimens are x[[\"id\"]].", paste(sample_fields, collapse = ", ")), rlang::caller_env())
+                  sprintf("Fields are %s; specimens are x[[\"id\"]].",
+                          paste(sample_fields, collapse = ", ")),
+                  rlang::caller_env())
   }
   sample_field(x, name)
 }
@@ -149,9 +162,11 @@ sample_field <- function(x, name) if (name == "shapes") as.list(x) else attr(x, 
 #' @export
 `$<-.shape_sample` <- function(x, name, value) {
   if (!name %in% setdiff(sample_fields, "missing")) {
-    refuse_member(sprintf("`%s` of a sample cannot be set.", name), "Make a sample with homologise().", rlang::caller_env())
+    refuse_member(sprintf("`%s` of a sample cannot be set.", name),
+                  "Make a sample with homologise().", rlang::caller_env())
   }
-  fields <- lapply(stats::setNames(nm = setdiff(sample_fields, "missing")), function(field) sample_field(x, field))
+  fields <- lapply(stats::setNames(nm = setdiff(sample_fields, "missing")),
+                   function(field) sample_field(x, field))
   fields[name] <- list(value)
   validate_shape_sample(do.call(new_shape_sample, fields))
 }
@@ -160,7 +175,7 @@ sample_field <- function(x, name) if (name == "shapes") as.list(x) else attr(x, 
 #' @export
 `[<-.shape_sample` <- function(x, i, ..., value) {
   refuse_member("specimens of a sample cannot be replaced: it would not be homologous.",
-                "Slide it against the sample's template, homologise(rounds = 0, template = ), and join with c().",
+                "Slide it against the template, homologise(rounds = 0, template = ), and c() both.",
                 rlang::caller_env())
 }
 
@@ -176,7 +191,8 @@ sample_field <- function(x, name) if (name == "shapes") as.list(x) else attr(x, 
     shape$id <- id
     shape
   }, x$shapes, value)
-  validate_shape_sample(new_shape_sample(stats::setNames(shapes, value), x$template, x$convergence, x$provenance))
+  validate_shape_sample(new_shape_sample(stats::setNames(shapes, value), x$template, x$convergence,
+                                         x$provenance))
 }
 
 #' @rdname shape_sample
@@ -190,30 +206,38 @@ as.list.shape_sample <- function(x, ...) {
 #' @export
 c.shape_sample <- function(...) {
   samples <- Filter(Negate(is.null), list(...))
-  for (one in samples) check_class(one, "shape_sample", "...", "homologise(rounds = 0, template = sample$template)")
+  maker <- "homologise(rounds = 0, template = sample$template)"
+  for (one in samples) check_class(one, "shape_sample", "...", maker)
   first <- samples[[1]]
   for (one in samples[-1]) check_joinable(first, one)
   shapes <- do.call(c, unname(lapply(samples, as.list)))
   twice <- unique(names(shapes)[duplicated(names(shapes))])
   if (length(twice)) {
-    refuse_member(sprintf("%s in more than one of the samples: %s.", if (length(twice) == 1) "a specimen is" else "specimens are",
+    refuse_member(sprintf("%s in more than one of the samples: %s.",
+                          if (length(twice) == 1) "a specimen is" else "specimens are",
                           shorten(twice)),
-                  "Drop them from one, sample[-i], or rename: names(sample) <- ...", rlang::caller_env())
+                  "Drop them from one, sample[-i], or rename: names(sample) <- ...",
+                  rlang::caller_env())
   }
+  warn_cut_scales(shapes, "sample")
   rounds <- Filter(Negate(is.null), lapply(samples, sample_field, "convergence"))
-  joined <- new_shape_sample(shapes, first$template, if (length(rounds)) rounds[[1]], first$provenance)
+  joined <- new_shape_sample(shapes, first$template, if (length(rounds)) rounds[[1]],
+                             first$provenance)
   validate_shape_sample(joined)
 }
 
 #' Whether the points of two samples are homologous: of one scheme, one template, one way of sliding
 #' @noRd
 check_joinable <- function(a, b, call = rlang::caller_env()) {
-  remedy <- "Slide the one's shapes against the other's template: homologise(shapes, rounds = 0, template = sample$template)."
+  remedy <- paste("Slide the one's shapes against the other's template:",
+                  "homologise(shapes, rounds = 0, template = sample$template).")
   fail <- function(problem) crestline_abort(problem, remedy, stage = "sample", call = call)
   schemes <- c(a$template$scheme$name, b$template$scheme$name)
   if (!identical(scheme_hash(a$template$scheme), scheme_hash(b$template$scheme))) {
-    fail(sprintf("the samples have different schemes%s.", if (schemes[1] == schemes[2]) sprintf(", both named %s", schemes[1]) else
-      sprintf(": %s and %s", schemes[1], schemes[2])))
+    alike <- schemes[1] == schemes[2]
+    named <- if (alike) ", both named " else ": "
+    named <- paste0(named, paste(unique(schemes), collapse = ", "))
+    fail(sprintf("the samples have different schemes%s.", named))
   }
   if (!identical(a$template$points[c("x", "y", "z")], b$template$points[c("x", "y", "z")])) {
     fail("the samples were slid against different templates: their points are not homologous.")
@@ -229,8 +253,8 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #' @param x A `shape_sample`, as [homologise()] returns it.
 #' @param level "landmarks", "curves" or "surface".
 #' @param ... Ignored.
-#' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y, z and specimens; NA
-#'   where missing; in the unit of the meshes, where each specimen lies.
+#' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y,
+#'   z and specimens; NA where missing; in the unit of the meshes, where each specimen lies.
 #' @section Errors: of class `crestline_error`, for another level.
 #' @seealso [homologise()]
 #' @examples
@@ -250,6 +274,7 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #' }
 #' @exportS3Method
 as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface"), ...) {
+  check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   like <- coords(x$template, level)
   each <- lapply(x$shapes, coords, level)
@@ -258,9 +283,11 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 
 #' @rdname as.array.shape_sample
 #' @param row.names,optional Ignored.
-#' @return `as.data.frame()`: a row a specimen and point: `id`, and the columns of a shape's `points`.
+#' @return `as.data.frame()`: a row a specimen and point: `id`, and the columns of a shape's
+#'   `points`.
 #' @export
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   none <- cbind(id = character(), x$template$points[0, ])
   each <- lapply(x$shapes, function(shape) cbind(id = shape$id, shape$points))
   each <- do.call(rbind, c(list(none), unname(each)))
@@ -270,18 +297,24 @@ as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ..
 
 #' @export
 print.shape_sample <- function(x, ...) {
+  check_method_dots(...)
   points <- x$template$points
-  count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level), 0L)
-  cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name, "\n", sep = "")
-  cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ", count[["surface"]],
+  count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
+                  0L)
+  cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name,
+      "\n", sep = "")
+  cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ",
+      count[["surface"]],
       " surface points\n", sep = "")
   if (!is.null(x$convergence)) {
     last <- x$convergence[nrow(x$convergence), ]
-    cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n", amount(last$round, "round"),
+    cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n",
+                amount(last$round, "round"),
                 last$movement, last$largest))
   }
   if (nrow(x$missing)) {
-    cat(strwrap(paste0("missing: ", amount(sum(x$missing$points), "point"), " of ", shorten(unique(x$missing$id), 8)),
+    cat(strwrap(paste0("missing: ", amount(sum(x$missing$points), "point"), " of ",
+                       shorten(unique(x$missing$id), 8)),
                 indent = 2, exdent = 4), sep = "\n")
   }
   invisible(x)

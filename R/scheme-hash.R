@@ -2,7 +2,8 @@
 
 #' Hash of a scheme's tables
 #'
-#' Names of rows, the order of columns, the scheme's own name, and whether numbers are integers do not count.
+#' Names of rows, the order of columns, the scheme's own name, and whether numbers are integers do
+#' not count.
 #'
 #' @return One string of 32 characters.
 #' @noRd

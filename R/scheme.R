@@ -85,6 +85,7 @@
 #' @export
 curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL, name = "scheme",
                          definitions = NULL) {
+  check_given()
   tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs, strips = strips,
                  definitions = definitions)
   build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
@@ -94,7 +95,7 @@ curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
-  scheme <- list(name = check_id(name))
+  scheme <- list(name = check_text(name, "name"))
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]), scheme_columns[[table]])
     rows <- scheme_rows(table, typed$table)
@@ -121,6 +122,7 @@ new_curve_scheme <- function(name, tables, points, triangles) {
 #' Refuse a scheme whose tables lack columns, or do not fit each other
 #' @noRd
 validate_curve_scheme <- function(x) {
+  if (passed_lately(x, "curve_scheme")) return(invisible(x))
   refuse <- function(problem) {
     crestline_abort(problem, "Make it anew: curve_scheme() of its tables, as.data.frame(scheme, table).", stage = "scheme",
                     class = "crestline_scheme_error", call = NULL)
@@ -137,8 +139,10 @@ validate_curve_scheme <- function(x) {
     refuse("the scheme's `points` are not those of its landmarks, curves and patches.")
   }
   corner <- unlist(x$triangles[c("v1", "v2", "v3")])
-  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) refuse("the scheme's `triangles` name points that it does not have.")
-  invisible(x)
+  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) {
+    refuse("the scheme's `triangles` name points that it does not have.")
+  }
+  remember_passed(x, "curve_scheme")
 }
 
 #' @exportS3Method
@@ -192,12 +196,14 @@ with_defaults <- function(curves) {
 #' @param ... Ignored.
 #' @export
 as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, table = "curves", ...) {
+  check_method_dots(..., known = "table")
   if (is.character(row.names)) table <- row.names
   x[[check_choice(table, c(names(scheme_columns), "points", "triangles"), "table")]]
 }
 
 #' @export
 print.curve_scheme <- function(x, ...) {
+  check_method_dots(...)
   line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
   curves <- x$curves
   kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))

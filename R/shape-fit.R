@@ -63,6 +63,9 @@
 #'     given) and `exchanged` (what other landmark it looks exchanged with, text);
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
+#'   * `provenance`: what it came from, see [summary.shape()];
+#'   * `key`: of the specimen's mesh, see [specimen()]; what takes a shape and a specimen refuses another mesh, and one whose
+#'     vertices or triangles stand in another order, by name (an error of class `crestline_wrong_mesh`);
 #'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
 #'     shape small).
 #'
@@ -99,12 +102,16 @@
 fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  passes <- check_count(passes, "passes", upper = 1000)
+  threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   named <- scheme
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
-  check_fits_scheme(specimen, scheme)
+  check_fits_scheme(specimen, scheme, unit)
   warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
@@ -117,7 +124,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scan, scheme, curves, column)
   slips <- scheme_slips(scan, scheme)
-  fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
+  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
@@ -141,7 +148,7 @@ measured_with <- function(settings, passes, cut_scale, column, curves) {
 
 check_column <- function(column_angle, column_angles, column_reach) {
   list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-       angles = check_count(column_angles, "column_angles"),
+       angles = check_count(column_angles, "column_angles", upper = 10000),
        reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 

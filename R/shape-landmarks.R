@@ -2,7 +2,7 @@
 
 #' Names that are all foreign, and lengths in another unit, would give a shape of nothing
 #' @noRd
-check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
+check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::caller_env()) {
   wanted <- scheme$landmarks$landmark
   if (!any(wanted %in% rownames(specimen$landmarks))) {
     near <- attr(unused_names(specimen$landmarks, scheme), "near")
@@ -14,7 +14,7 @@ check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
       id = specimen$id, class = "crestline_landmark_error", call = call
     )
   }
-  check_scale(specimen, scheme, call = call)
+  check_scale(specimen, scheme, unit, call)
   size <- specimen_size(specimen)
   radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
   if (radius > size / 2) {
@@ -27,21 +27,25 @@ check_fits_scheme <- function(specimen, scheme, call = rlang::caller_env()) {
 #' The landmarks must be about as far apart as those of the scheme
 #'
 #' @param scheme With its lengths in what should be the specimen's unit.
-#' @param apart Greatest factor between them, either way. On 45 faces of adults it is 1.15; a child of a year has 0.7 of an
-#'   adult's face. Centimetres are 10, inches 25.4.
+#' @param unit As given to [fit_shape()].
+#' @param apart Greatest factor between them, either way. On 45 faces of adults it is 1.15; a
+#'   child of a year has 0.7 of an adult's face. Centimetres are 10, inches 25.4.
 #' @param units Factors between units.
 #' @noRd
-check_scale <- function(specimen, scheme, apart = 2.5, units = c(10, 25.4, 100, 1000), call = rlang::caller_env()) {
+check_scale <- function(specimen, scheme, unit = NULL, call = rlang::caller_env(), apart = 2.5,
+                        units = c(10, 25.4, 100, 1000)) {
   scale <- landmark_scale(specimen$landmarks, typical_landmarks(scheme))
   if (is.na(scale) || (scale >= 1 / apart && scale <= apart)) return(invisible())
   known <- c(units, 1 / units)
   nearest <- known[which.min(abs(log(known * scale)))]
   asked <- if (abs(log(nearest * scale)) < log(2)) nearest else signif(1 / scale, 2)
   crestline_abort(
-    sprintf("its landmarks are %.3g times as far apart as those of the scheme %s: it is in another unit than the scheme's lengths.",
-            scale, scheme$name),
-    sprintf("Give `unit = %.4g` times what you gave (1 if nothing): the factor from the mesh's unit to the scheme's.", asked),
-    stage = "landmarks", id = specimen$id, class = c("crestline_unit_error", "crestline_landmark_error"), call = call
+    sprintf("its landmarks are %.3g times as far apart as those of the scheme %s: another unit.", scale,
+            scheme$name),
+    sprintf("Give `unit = %.4g`, the factor from the mesh's unit to the scheme's.",
+            asked * c(unit, specimen$match$unit, 1)[1]),
+    stage = "landmarks", id = specimen$id, call = call,
+    class = c("crestline_unit_error", "crestline_landmark_error")
   )
 }
 
@@ -54,7 +58,8 @@ typical_landmarks <- function(scheme) {
   at[stats::complete.cases(at), , drop = FALSE]
 }
 
-#' How many times as far apart landmarks are as those of a reference: the median over their distances
+#' How many times as far apart landmarks are as those of a reference: the median over their
+#' distances
 #' @param fewest Landmarks without which nothing is said.
 #' @noRd
 landmark_scale <- function(at, reference, fewest = 4) {
@@ -73,8 +78,8 @@ scheme_slips <- function(specimen, scheme) {
   own <- intersect(rownames(specimen$landmarks), scheme$landmarks$landmark)
   midline <- setdiff(eval(formals(crestline::specimen)$midline), unlist(pairs))
   located <- specimen$geometry$located[match(own, rownames(specimen$geometry$landmarks), nomatch = 0), ]
-  slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE], mean_front(specimen$mesh, located), pairs, midline,
-                               typical_landmarks(scheme))
+  slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE], mean_front(specimen$mesh, located),
+                               pairs, midline, typical_landmarks(scheme))
   if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
   slips$said <- exchange_reasons(slips, own, unlist(pairs))
   slips
@@ -93,7 +98,8 @@ is_told <- function(slips, before) {
 note_slips <- function(shape, slips) {
   said <- slips$said[!is.na(slips$said)]
   row <- match(names(said), ifelse(shape$status$level == "landmarks", shape$status$part, NA))
-  shape$status$reason[row] <- ifelse(is.na(shape$status$reason[row]), said, paste(shape$status$reason[row], said, sep = "; "))
+  before <- shape$status$reason[row]
+  shape$status$reason[row] <- ifelse(is.na(before), said, paste(before, said, sep = "; "))
   shape
 }
 
@@ -117,5 +123,6 @@ left_out_reason <- function(specimen, name) {
   if (is.na(row) || !anyNA(specimen$landmarks[name, ])) return(NULL)
   found <- specimen$placing[row, ]
   low <- found$state == "found" && found$confidence < find_settings()$low
-  if (isTRUE(low)) sprintf("landmark %s was found with a confidence of %.2f only: left out", name, found$confidence)
+  said <- "landmark %s was found with a confidence of %.2f only: left out"
+  if (isTRUE(low)) sprintf(said, name, found$confidence)
 }

@@ -50,6 +50,7 @@
 #' }
 #' @export
 quality <- function(x, limits = quality_limits(), others = NULL) {
+  check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   shapes <- named_shapes(x)
   measured <- Filter(Negate(is.null), shapes)
@@ -154,10 +155,14 @@ quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", 
                      "why")
 
 #' @export
-as.data.frame.shape_quality <- function(x, ...) structure(x, class = "data.frame")
+as.data.frame.shape_quality <- function(x, ...) {
+  check_method_dots(...)
+  structure(x, class = "data.frame")
+}
 
 #' @export
 summary.shape_quality <- function(object, ...) {
+  check_method_dots(...)
   specimen <- factor(object$specimen, unique(object$specimen))
   counts <- table(specimen, object$grade)
   counted <- data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]),
@@ -176,6 +181,8 @@ landmarks_came <- function(specimens, table) {
 
 #' @export
 print.shape_quality <- function(x, most = 10, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
   counts <- summary(x)
   counts <- counts[order(-counts$red, -counts$amber), ]

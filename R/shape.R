@@ -88,11 +88,16 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' coords(shape, "landmarks")
 #' head(coords(shape, "curves"), 3)
 #' @export
-coords <- function(x, level, ...) UseMethod("coords")
+coords <- function(x, level, ...) {
+  check_given()
+  check_class(x, "shape", "x", "fit_shape()")
+  UseMethod("coords")
+}
 
 #' @rdname coords
 #' @export
 coords.shape <- function(x, level, ...) {
+  check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   points <- x$points[x$points$level == level, ]
   names <- if (level == "landmarks") points$part else paste(points$part, points$point)
@@ -135,9 +140,14 @@ coords.shape <- function(x, level, ...) {
 #' @export
 shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_angle = pi / 4, column_angles = 51,
                        column_reach = 1) {
+  check_given()
+  parts <- check_names(parts, "parts")
   check_class(x, "shape", "x", "fit_shape()")
-  dense <- check_count(dense, "dense")
+  dense <- check_count(dense, "dense", upper = 1000)
+  column <- check_column(column_angle, column_angles, column_reach)
+  if (!is.null(specimen)) check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   triangles <- whole_triangles(x, parts)
+  check_memory(3 * nrow(triangles) * as.numeric(dense)^2 * 10, dense, "dense")
   corners <- as.matrix(triangles[c("v1", "v2", "v3")])
   if (dense == 1) {
     row <- sort(unique(as.vector(corners)))
@@ -147,7 +157,7 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen(): a denser surface needs it")
   check_shape_on(x, specimen)
   quads <- whole_quads(x, parts)
-  divided <- divide_quads(x, specimen, quads, dense, check_column(column_angle, column_angles, column_reach))
+  divided <- divide_quads(x, specimen, quads, dense, column)
   there <- !is.na(divided$points$x)
   whole <- colSums(matrix(there[divided$it], 3)) == 3
   if (!all(whole)) warn_left_out(sum(!whole), length(whole), x$id)
@@ -160,7 +170,7 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
 #' @noRd
 whole_triangles <- function(x, parts) {
   triangles <- x$scheme$triangles
-  for (part in parts) check_choice(part, unique(c("model", triangles$part)), "parts")
+  check_choices(parts, unique(c("model", triangles$part)), "parts")
   there <- !is.na(coords(x, "surface")[, 1])
   triangles <- triangles[triangles$part %in% parts, ]
   triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
@@ -196,10 +206,15 @@ warn_left_out <- function(n, of, id) {
 }
 
 #' @export
-as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) x$points
+as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$points
+}
 
 #' @export
 print.shape <- function(x, most = 8, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
   for (level in c("landmarks", "curves", "surface")) {
     points <- x$points[x$points$level == level, ]

@@ -5,6 +5,7 @@
 #' What was validated lately is known again by its place in memory, see [passed_mesh()].
 #' @noRd
 validate_specimen <- function(x) {
+  if (passed_lately(x, "specimen")) return(invisible(x))
   whole <- is.list(x) && all(c("id", "mesh", "landmarks", "geometry") %in% names(x))
   if (!whole) refuse_specimen("a specimen lacks its mesh, landmarks or id.", if (is.list(x)) x$id)
   known <- passed_mesh(x$mesh, x$id)
@@ -14,7 +15,7 @@ validate_specimen <- function(x) {
   if (!fits_vertices(x$mesh$normals, ncol(known$vb))) refuse_specimen("its normals do not fit its vertices.", x$id)
   if (!is_landmark_matrix(x$landmarks)) refuse_specimen("its landmarks are no k x 3 numeric matrix with row names.", x$id)
   validate_geometry(x$geometry, known, x$id)
-  invisible(x)
+  remember_passed(x, "specimen")
 }
 
 #' @exportS3Method

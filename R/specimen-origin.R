@@ -3,13 +3,15 @@
 #' The record of where landmarks came from
 #'
 #' @param landmarks k x 3 matrix with row names; of a missing one nothing is recorded (NA).
-#' @param how "file", "given", "found", "predicted", "placed", "moved" (both by hand), "defined" (moved by its definition).
+#' @param how "file", "given", "found", "predicted", "placed", "moved" (both by hand), "defined"
+#'   (moved by its definition).
 #' @param file,time NA where there is none; time of what was done by hand, see [time_stamp()].
 #' @return Data frame `landmark`, `how`, `file`, `time`.
 #' @noRd
 new_origin <- function(landmarks, how, file = NA_character_, time = NA_character_) {
   n <- nrow(landmarks)
-  origin <- data.frame(landmark = as.character(rownames(landmarks)), how = rep_len(how, n), file = rep_len(file, n),
+  origin <- data.frame(landmark = as.character(rownames(landmarks)), how = rep_len(how, n),
+                       file = rep_len(file, n),
                        time = rep_len(time, n))
   origin[is.na(landmarks[, 1]), c("how", "file", "time")] <- NA_character_
   origin
@@ -41,7 +43,8 @@ with_origin <- function(specimen, landmarks, how, file = NA_character_, time = N
   with_fields(specimen, origin = origin)
 }
 
-#' The record after landmarks were set by the user: those at another place were moved or placed by hand
+#' The record after landmarks were set by the user: those at another place were moved or placed by
+#' hand
 #'
 #' @param specimen As it was before.
 #' @param landmarks What they are set to.
@@ -49,7 +52,8 @@ with_origin <- function(specimen, landmarks, how, file = NA_character_, time = N
 origin_after <- function(specimen, landmarks) {
   given <- nrow(specimen$landmarks) == 0
   known <- origin_of(specimen)
-  origin <- new_origin(landmarks, if (given) "given" else "placed", time = if (given) NA_character_ else time_stamp())
+  origin <- new_origin(landmarks, if (given) "given" else "placed",
+                       time = if (given) NA_character_ else time_stamp())
   row <- match(origin$landmark, known$landmark)
   before <- specimen$landmarks[row, , drop = FALSE]
   there <- !is.na(before[, 1]) & !is.na(landmarks[, 1])
@@ -66,15 +70,18 @@ origin_after <- function(specimen, landmarks) {
 #' @noRd
 from_files <- function(specimen, file, landmarks = NA_character_) {
   specimen <- with_fields(specimen, file = file)
-  if (is.na(landmarks)) specimen else with_origin(specimen, rownames(specimen$landmarks), "file", landmarks)
+  if (is.na(landmarks)) return(specimen)
+  with_origin(specimen, rownames(specimen$landmarks), "file", landmarks)
 }
 
 #' The record of landmarks in words: how many came in which way, which of them by hand and when
 #' @noRd
 origin_words <- function(origin) {
+  if (is.null(origin)) return("not recorded")
   origin <- origin[!is.na(origin$how), ]
   if (!nrow(origin)) return("none")
-  words <- c(file = "from a file", given = "given", found = "found", predicted = "predicted", placed = "placed by hand",
+  words <- c(file = "from a file", given = "given", found = "found", predicted = "predicted",
+             placed = "placed by hand",
              moved = "moved by hand", defined = "moved by definition")
   each <- lapply(intersect(names(words), origin$how), function(how) {
     own <- origin[origin$how == how, ]
@@ -83,7 +90,8 @@ origin_words <- function(origin) {
     times <- sort(unique(own$time[!is.na(own$time)]))
     details <- c(if (length(files)) shorten(files, 3), if (named) shorten(own$landmark, 6),
                  if (length(times) > 1) paste(times[1], "to", times[length(times)]) else times)
-    paste0(nrow(own), " ", words[[how]], if (length(details)) sprintf(" (%s)", paste(details, collapse = "; ")))
+    paste0(nrow(own), " ", words[[how]],
+           if (length(details)) sprintf(" (%s)", paste(details, collapse = "; ")))
   })
   paste(unlist(each), collapse = ", ")
 }

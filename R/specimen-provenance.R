@@ -3,7 +3,8 @@
 #' Package and R that something was made with
 #' @noRd
 made_with <- function() {
-  list(package = as.character(utils::packageVersion("crestline")), r = paste(R.version$major, R.version$minor, sep = "."))
+  list(package = as.character(utils::packageVersion("crestline")),
+       r = paste(R.version$major, R.version$minor, sep = "."))
 }
 
 #' @noRd
@@ -17,9 +18,10 @@ mesh_provenance <- function(specimen) {
 
 #' Provenance in lines of text
 #'
-#' @param x A provenance: list of `package`, `r`, and what there is of `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`,
-#'   `file`), `landmarks` (as of [new_origin()]), `specimens` (data frame `id`, `file`, `key`, `landmarks`), `template` (`id`,
-#'   `hash`), `settings` (list of lists of arguments).
+#' @param x A provenance: list of `package`, `r`, and what there is of `scheme` (`name`, `hash`,
+#'   `unit`), `mesh` (`id`, `key`, `file`), `landmarks` (as of [new_origin()]), `specimens` (data
+#'   frame `id`, `file`, `key`, `landmarks`), `template` (`id`, `hash`), `settings` (list of lists
+#'   of arguments).
 #' @return Text without line breaks, a line a matter, begun by what it is about.
 #' @noRd
 provenance_lines <- function(x) {
@@ -37,8 +39,9 @@ provenance_lines <- function(x) {
 
 scheme_line <- function(scheme) {
   if (is.null(scheme)) return(NULL)
-  unit <- if (!is.null(scheme$unit) && scheme$unit != 1) sprintf(", its lengths divided by %g", scheme$unit)
-  sprintf("scheme: %s, hash %s%s", scheme$name, scheme$hash, paste0(unit, ""))
+  text <- sprintf("scheme: %s, hash %s", scheme$name, scheme$hash)
+  if (is.null(scheme$unit) || scheme$unit == 1) return(text)
+  sprintf("%s, its lengths divided by %g", text, scheme$unit)
 }
 
 mesh_line <- function(mesh) {
@@ -46,25 +49,29 @@ mesh_line <- function(mesh) {
   sprintf("mesh: key %s, %s", mesh$key, from)
 }
 
-specimens_lines <- function(specimens) {
+specimens_lines <- function(specimens, most = 3) {
   if (!NROW(specimens)) return(NULL)
   files <- basename(specimens$file[!is.na(specimens$file)])
+  from <- if (length(files)) sprintf("%d from files (%s)", length(files), shorten(files, most))
   ways <- sort(table(specimens$landmarks), decreasing = TRUE)
-  most <- utils::head(ways, 3)
-  each <- vapply(names(most), function(way) {
+  told <- names(utils::head(ways, most))
+  each <- vapply(told, function(way) {
     own <- specimens$id[specimens$landmarks == way]
-    sprintf("%s of %s", way, if (length(own) > 4) amount(length(own), "specimen") else paste(own, collapse = ", "))
+    who <- if (length(own) > 4) amount(length(own), "specimen") else paste(own, collapse = ", ")
+    sprintf("%s of %s", way, who)
   }, "")
-  more <- if (length(ways) > length(most)) amount(sum(ways) - sum(most), "more specimen")
+  more <- if (length(ways) > most) amount(sum(ways) - sum(ways[told]), "more specimen")
   c(sprintf("meshes: %s, %s", amount(length(unique(specimens$key)), "mesh", "meshes"),
-            if (length(files)) sprintf("%d from files (%s)", length(files), shorten(files, 3)) else "not from files"),
+            if (is.null(from)) "not from files" else from),
     paste("landmarks:", paste(c(each, more), collapse = "; ")))
 }
 
 settings_lines <- function(settings) {
   settings <- Filter(length, settings)
   if (!length(settings)) return(NULL)
-  each <- vapply(names(settings), function(name) sprintf("%s %s", name, changed_words(settings[[name]], default_settings(name))), "")
+  each <- vapply(names(settings), function(stage) {
+    paste(stage, changed_words(settings[[stage]], default_settings(stage)))
+  }, "")
   paste("settings:", paste(each, collapse = "; "))
 }
 
@@ -74,10 +81,12 @@ default_settings <- function(name) {
   of <- function(f, ...) lapply(as.list(formals(f))[c(...)], eval, envir = environment(f))
   switch(name,
          ridge = unclass(ridge_settings()), slide = unclass(slide_settings()),
-         fit = c(of(fit_shape, "passes", "cut_scale", "bridge", "column_angle", "column_angles", "column_reach"),
+         fit = c(of(fit_shape, "passes", "cut_scale", "bridge", "column_angle", "column_angles",
+                    "column_reach"),
                  list(given = character())),
          homologise = of(homologise, "tolerance", "rounds"),
-         align = utils::modifyList(of(align, "scale", "tangent", "tolerance", "rounds"), list(missing = "estimate")),
+         align = utils::modifyList(of(align, "scale", "tangent", "tolerance", "rounds"),
+                                   list(missing = "estimate")),
          pca = of(shape_pca, "tolerance"),
          compare = of(compare_groups, "n_perm", "components", "tests"),
          list())
@@ -86,9 +95,12 @@ default_settings <- function(name) {
 #' Settings that are not as by default
 #' @noRd
 changed_words <- function(values, defaults) {
-  differs <- vapply(names(values), function(name) !isTRUE(all.equal(values[[name]], defaults[[name]], check.attributes = FALSE)), NA)
-  if (!any(differs)) return("as by default")
-  paste(vapply(names(values)[differs], function(name) paste(name, "=", setting_word(values[[name]])), ""), collapse = ", ")
+  same <- vapply(names(values), function(name) {
+    isTRUE(all.equal(values[[name]], defaults[[name]], check.attributes = FALSE))
+  }, NA)
+  if (all(same)) return("as by default")
+  changed <- values[!same]
+  paste(names(changed), "=", vapply(changed, setting_word, ""), collapse = ", ")
 }
 
 setting_word <- function(value, most = 4) {
@@ -96,6 +108,33 @@ setting_word <- function(value, most = 4) {
   if (!is.atomic(value)) return(class(value)[1])
   if (length(value) > most) return(amount(length(value), "value"))
   paste(if (is.numeric(value)) signif(value, 6) else value, collapse = ", ")
+}
+
+#' The same as comments of a file: what every program reads, and no name of a file that would end a
+#' line or go on in the next
+#' @noRd
+comment_lines <- function(provenance) {
+  if (length(provenance)) comment_text(provenance_lines(provenance))
+}
+
+comment_text <- function(text) {
+  gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
+}
+
+#' The same as a part of a page that opens on a click
+#' @noRd
+provenance_block <- function(provenance) {
+  tags <- htmltools::tags
+  tags$details(class = "provenance", tags$summary("Where this came from"),
+               tags$pre(style = "white-space:pre-wrap",
+                        paste(provenance_lines(provenance), collapse = "\n")))
+}
+
+#' What is known of anything that is written to a file; NULL of bare meshes and matrices
+#' @noRd
+provenance_of <- function(x) {
+  if (inherits(x, "specimen")) return(specimen_provenance(x))
+  if (inherits(x, "shape")) x$provenance
 }
 
 #' A summary: what print() says, and where it came from
@@ -115,25 +154,30 @@ print.crestline_summary <- function(x, ...) {
 
 print_provenance <- function(provenance, width = 80) {
   cat("provenance\n")
-  for (line in provenance_lines(provenance)) cat(strwrap(line, width, indent = 2, exdent = 4), sep = "\n")
+  for (line in provenance_lines(provenance)) {
+    cat(strwrap(line, width, indent = 2, exdent = 4), sep = "\n")
+  }
 }
 
 printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 
 #' Summaries, with provenance
 #'
-#' What `print()` says of an object, and where it came from: the version of the package and of R, the scheme with the hash of
-#' its tables, key and file of the mesh, how each landmark came (from which file, given, found, predicted, placed or moved by
-#' hand and when, moved by its definition), the template that points were slid against, and the settings that are not as by
-#' default. Shapes, samples and results carry it as `provenance`, and files that we write have it where their format has a
-#' place for comments, see [write_mesh()] and [write_landmarks()].
+#' What `print()` says of an object, and where it came from: the version of the package and of R,
+#' the scheme with the hash of its tables, key and file of the mesh, how each landmark came (from
+#' which file, given, found, predicted, placed or moved by hand and when, moved by its definition),
+#' the template that points were slid against, and the settings that are not as by default. Shapes,
+#' samples and results carry it as `provenance`, and files that we write have it where their format
+#' has a place for comments, see [write_mesh()] and [write_landmarks()].
 #'
-#' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a `repeatability`.
+#' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
+#'   `repeatability`.
 #' @param ... Ignored.
-#' @return Object of class `crestline_summary`, a list: `lines` (text), `provenance` (list: `package`, `r`; of what there is:
-#'   `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`, `file`), `landmarks` (data frame `landmark`, `how`, `file`, `time`),
-#'   `template` (`id`, `hash`), `specimens` (data frame `id`, `file`, `key`, `landmarks`), `settings`). Of a `shape_pca` that of
-#'   `prcomp` with `provenance`.
+#' @return Object of class `crestline_summary`, a list: `lines` (text), `provenance` (list:
+#'   `package`, `r`; of what there is: `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`,
+#'   `file`), `landmarks` (data frame `landmark`, `how`, `file`, `time`), `template` (`id`, `hash`),
+#'   `specimens` (data frame `id`, `file`, `key`, `landmarks`), `settings`). Of a `shape_pca` that
+#'   of `prcomp` with `provenance`.
 #' @seealso [summary.group_comparison()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
@@ -143,4 +187,6 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #' @name provenance
 #' @aliases summary.specimen
 #' @export
-summary.specimen <- function(object, ...) new_summary(printed_lines(object), specimen_provenance(object))
+summary.specimen <- function(object, ...) {
+  new_summary(printed_lines(object), specimen_provenance(object))
+}

@@ -7,11 +7,18 @@
 #' png, sampled at the vertices) and STL (ascii and binary; equal vertices merged). Co-ordinates are read in
 #' double precision.
 #'
-#' @param file Path of a `.ply`, `.obj` or `.stl` file.
+#' Files may have lines that end in LF, CR or both, a byte-order mark or two bytes a sign, and any
+#' system's spelling of NaN. OBJ lines may go on behind a backslash and end in a comment. PLY headers
+#' may be long, and triangle strips are read. Decimal commas are refused.
+#'
+#' A warning of class `crestline_file_warning` names a file whose header disagrees with its content or
+#' that seems cut short.
+#'
+#' @param file Path of a `.ply`, `.obj` or `.stl` file, also packed by gzip (`.ply.gz`).
 #' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for
 #'   [specimen()]. Of a file or folder of several specimens, a list of matrices or a k x 3 x n array
 #'   those of the name `id` are taken.
-#' @param id Name of the specimen; the file's name without extension unless given.
+#' @param id Name of the specimen; the file's name without extension (and `.gz`) unless given.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to do.
 #' @examples
@@ -20,6 +27,7 @@
 #' read_specimen(file, id = "ball")
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
+  check_given()
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)
@@ -40,10 +48,15 @@ read_mesh <- function(file, id) {
                 id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
   }
   check_stored(file, "reading", id, unpacks = "gzip")
-  tryCatch(reader(file, id), error = function(e) {
+  mesh <- tryCatch(reader(file, id), error = function(e) {
     if (inherits(e, "crestline_error")) stop(e)
     refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
   })
+  if (!is.null(mesh$short)) {
+    warn_file(file, sprintf("has %d polygons with fewer than three corners", mesh$short),
+              "Look whether the surface is whole: the header's numbers may be wrong, or export it again.", id)
+  }
+  mesh
 }
 
 refuse_file <- function(file, reason, id, remedy = "The file is damaged or cut short: export or copy it again.") {

@@ -24,7 +24,8 @@
 #'     mesh), `longest` (largest distance that a point has slid, along its curve, or straight);
 #'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`, `longest` (slide of
 #'     that sweep).
-#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen.
+#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen; of
+#'   class `crestline_wrong_mesh`: a specimen with another mesh than the shape's.
 #' @references The paper, section 4. Where the default departs from it: `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
 #' @examples
@@ -38,6 +39,7 @@
 #' }
 #' @export
 slide <- function(shape, template, settings = slide_settings(), specimen = shape$specimen) {
+  check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
   check_class(template, "shape", "template", "symmetrise()")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
@@ -56,7 +58,10 @@ check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
-  if (inherits(specimen, "specimen")) return(specimen_of_shape(shape, specimen))
+  if (inherits(specimen, "specimen")) {
+    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()", call)
+    return(specimen_of_shape(shape, specimen))
+  }
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
   crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)

@@ -143,8 +143,8 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_other_sheets
-NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel);
-RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP) {
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel, double hollow);
+RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP, SEXP hollowSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -155,7 +155,8 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerVector >::type sample(sampleSEXP);
     Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
     Rcpp::traits::input_parameter< double >::type parallel(parallelSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel));
+    Rcpp::traits::input_parameter< double >::type hollow(hollowSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel, hollow));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -366,6 +367,17 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_face_bend(vb, normals, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_random_bytes
+RawVector cpp_random_bytes(int n);
+RcppExport SEXP _crestline_cpp_random_bytes(SEXP nSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_random_bytes(n));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -617,7 +629,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_near_pairs", (DL_FUNC) &_crestline_cpp_near_pairs, 3},
     {"_crestline_cpp_pair_groups", (DL_FUNC) &_crestline_cpp_pair_groups, 2},
     {"_crestline_cpp_vertices_on_edges", (DL_FUNC) &_crestline_cpp_vertices_on_edges, 6},
-    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 7},
+    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 8},
     {"_crestline_cpp_numbers_at", (DL_FUNC) &_crestline_cpp_numbers_at, 6},
     {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
     {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
@@ -632,6 +644,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_random_bytes", (DL_FUNC) &_crestline_cpp_random_bytes, 1},
     {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},

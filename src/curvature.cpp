@@ -1,5 +1,7 @@
 #include "curvature.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +14,6 @@
 namespace crestline {
 
 namespace {
-
-constexpr int kBlocks = 40;  // interruptions a call
-constexpr int kLeastBlock = 256;
 
 void store(const LocalFit& fit, int t, Curvature& out) {
   out.neighbours[t] = fit.neighbours;
@@ -40,8 +39,9 @@ template <class Use>
 void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
               const std::vector<int>& targets, const std::vector<double>& normals,
               const FitSettings& settings, ConnectedBalls::Workspace& space, FitBuffer& buffer,
-              Use&& use) {
+              Patience& patience, int thread, Use&& use) {
   balls.visit_cell(cell, space, [&](int t, const ConnectedBalls::Workspace& w) {
+    if (patience.over(thread)) return false;
     std::size_t v = targets[t];
     LocalFit fit;
     fit.neighbours = static_cast<int>(w.selected.size());
@@ -49,6 +49,7 @@ void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
       fit = fit_surface(mesh.xyz + 3 * v, &normals[3 * v], w.x.data(), w.y.data(), w.z.data(),
                         w.selected.data(), fit.neighbours, settings, buffer);
     use(t, fit, w);
+    return true;
   });
 }
 
@@ -67,25 +68,28 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
   std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0);
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
-  int cells = balls.cells(), block = std::max(kLeastBlock, cells / kBlocks);
+  int cells = balls.cells();
+  Patience patience(between);
   std::vector<ConnectedBalls::Workspace> spaces(threads, balls.workspace());
   std::vector<FitBuffer> buffers(threads);
-  for (int begin = 0; begin < cells; begin += block) {
-    int end = std::min(cells, begin + block);
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-    for (int cell = begin; cell < end; ++cell) {
+#pragma omp parallel num_threads(threads) if (threads > 1)
+  {
 #ifdef _OPENMP
-      int thread = omp_get_thread_num();
+    int thread = omp_get_thread_num(), team = omp_get_num_threads();
 #else
-      int thread = 0;
+    int thread = 0, team = 1;
 #endif
-      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread],
+#pragma omp for schedule(dynamic) nowait
+    for (int cell = 0; cell < cells; ++cell) {
+      if (patience.over(thread)) continue;
+      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread], patience, thread,
                [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace&) {
                  store(fit, t, out);
                });
     }
-    between();
+    patience.wait_for_others(thread, team);
   }
+  patience.finish();
   return out;
 }
 
@@ -99,9 +103,10 @@ std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<i
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
   ConnectedBalls::Workspace space = balls.workspace();
   FitBuffer buffer;
+  Patience patience(between);
   std::vector<int> column(mesh.n, -1), touched;  // column of `total` of each vertex
   for (int cell = 0; cell < balls.cells(); ++cell) {
-    fit_cell(balls, cell, mesh, targets, normals, settings, space, buffer,
+    fit_cell(balls, cell, mesh, targets, normals, settings, space, buffer, patience, 0,
              [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace& w) {
                if (!fit.ok) return;
                derivative.resize(fit.neighbours);
@@ -121,7 +126,7 @@ std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<i
                  for (int g = 0; g < functions; ++g) row[g] += slope * j[g];
                }
              });
-    if (cell % kLeastBlock == 0) between();
+    patience.finish();
   }
   std::vector<double> variance(functions, 0.0);
   for (std::size_t c = 0; c < touched.size(); ++c)

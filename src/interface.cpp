@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "analysis_align.h"
 #include "curvature.h"
@@ -289,9 +290,9 @@ List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twi
 
 // [[Rcpp::export]]
 NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece,
-                               IntegerVector sample, double reach, double parallel) {
+                               IntegerVector sample, double reach, double parallel, double hollow) {
   return wrap(crestline::other_sheets(triangulation(vb, it, twin), piece.begin(), from_zero(sample), reach,
-                                      parallel));
+                                      parallel, hollow));
 }
 
 // [[Rcpp::export]]
@@ -453,6 +454,15 @@ NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatr
   return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
 }
 
+// Bytes from the system's random numbers, for a secret; R's own are not touched.
+// [[Rcpp::export]]
+RawVector cpp_random_bytes(int n) {
+  std::random_device device;
+  RawVector out(n);
+  for (auto& byte : out) byte = static_cast<Rbyte>(device() & 0xffu);
+  return out;
+}
+
 // [[Rcpp::export]]
 double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
   return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
@@ -466,7 +476,7 @@ IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVe
 // [[Rcpp::export]]
 List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals) {
   crestline::PathCoordinates c = crestline::path_coordinates(
-      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol());
+      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol(), [] { checkUserInterrupt(); });
   return List::create(_["s"] = c.s, _["d"] = c.d, _["tangent"] = as_rows(c.tangent));
 }
 
@@ -491,7 +501,7 @@ List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int
                      int samples) {
   std::vector<int> corners = from_zero(it);
   crestline::Picture p = crestline::render_mesh(xyz.begin(), rgb.begin(), corners.data(), it.ncol(),
-                                                width, height, samples);
+                                                width, height, samples, [] { checkUserInterrupt(); });
   NumericVector rgba(p.rgba.begin(), p.rgba.end());
   rgba.attr("dim") = IntegerVector::create(height, width, 4);
   return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
@@ -555,7 +565,8 @@ NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, Numeric
   int n = vb.ncol();
   NumericMatrix out(n, places.nrow());
   for (int i = 0; i < places.nrow(); ++i) {
-    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i));
+    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i),
+                                                             [] { checkUserInterrupt(); });
     std::copy(d.begin(), d.end(), out.begin() + static_cast<R_xlen_t>(n) * i);
     checkUserInterrupt();
   }
@@ -569,7 +580,8 @@ List cpp_align(NumericVector x, IntegerVector size, NumericVector weight, Numeri
   std::vector<double> coords(x.begin(), x.end());
   crestline::Aligned aligned =
       crestline::align_configurations(coords, size[0], size[1], size[2], weight.begin(), reference.begin(),
-                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds});
+                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds},
+                                      [] { checkUserInterrupt(); });
   return List::create(_["coords"] = coords, _["mean"] = aligned.mean, _["size"] = aligned.size,
                       _["moved"] = aligned.moved, _["converged"] = aligned.converged);
 }
@@ -582,6 +594,7 @@ List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix fea
   IntegerVector index(xyz.ncol(), NA_INTEGER);
   NumericVector distance(xyz.ncol(), NA_REAL);
   for (int i = 0; i < xyz.ncol(); ++i) {
+    if (i % 1024 == 0) checkUserInterrupt();
     double d2 = 0;
     int found = fixed.nearest(&xyz(0, i), &normal(0, i), feature.begin() + static_cast<R_xlen_t>(feature.nrow()) * i, reach,
                               cosine, &d2);

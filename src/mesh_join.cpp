@@ -160,7 +160,8 @@ std::vector<VertexOnEdge> vertices_on_edges(const Triangulation& mesh, const std
 }
 
 std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
-                                 const std::vector<int>& sample, double reach, double parallel) {
+                                 const std::vector<int>& sample, double reach, double parallel,
+                                 double hollow) {
   std::vector<double> out;
   std::vector<int> seen(mesh.m, -1), queue;
   std::vector<float> low, high;
@@ -177,11 +178,16 @@ std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
     float from = rounded(place(middle) - reach, -1), to = rounded(place(middle) + reach, 1);
     for (int g = 0; g < mesh.m; ++g) {
       if (low[g] > to || high[g] < from || seen[g] == mark || beside_box(mesh, g, middle, reach)) continue;
-      double away = closest_on_face(mesh, g, middle).distance;
+      ClosestPoint there = closest_on_face(mesh, g, middle);
+      double away = there.distance, height = 0;
       if (away > reach || away >= nearest) continue;
+      // Above or below, not beside.
+      for (int k = 0; k < 3; ++k) height += normal[k] * (there.xyz[k] - middle[k]);
+      if (std::abs(height) < parallel * away) continue;
       face_normal(mesh, g, other);
       double cosine = normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2];
-      if (cosine >= parallel || (cosine <= -parallel && piece[g] != piece[face])) nearest = away;
+      bool apart = piece[g] != piece[face] || away <= hollow * reach;
+      if (cosine >= parallel || (cosine <= -parallel && apart)) nearest = away;
     }
     out.push_back(nearest);
   }

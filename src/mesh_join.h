@@ -29,9 +29,11 @@ std::vector<VertexOnEdge> vertices_on_edges(const Triangulation& mesh, const std
                                             double reach, int most);
 
 // For each face of `sample` (from 0) the distance from its middle to another sheet of the surface: a face within `reach`
-// that cannot be walked to over edges within the ball, with a normal whose cosine with its own is `parallel` or more (on
-// another piece: or minus that or less). Infinite where there is none. piece: of each face.
+// that cannot be walked to over edges within the ball, above or below, with a normal whose cosine with its own is
+// `parallel` or more, or minus that or less if it is of another piece or within `hollow` times the reach. Infinite where
+// there is none. piece: of each face.
 std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
-                                 const std::vector<int>& sample, double reach, double parallel);
+                                 const std::vector<int>& sample, double reach, double parallel,
+                                 double hollow);
 
 }  // namespace crestline

@@ -11,7 +11,8 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// A place has three products and sums a co-ordinate, a gap some more: so many units in the last place are safe.
+// A place has three products and sums a co-ordinate, a gap some more: so many units in the last
+// place are safe.
 constexpr double kUnits = 16;
 
 void include(const double* xyz, double* low, double* high) {
@@ -67,7 +68,8 @@ FaceTree::FaceTree(const Triangulation& mesh, int leaf) : mesh_(mesh), leaf_(lea
     for (int f : face_) {
       double low[3], high[3];
       face_box(mesh, f, low, high);
-      for (int k = 0; k < 3; ++k) centre[3 * static_cast<std::size_t>(f) + k] = low[k] / 2 + high[k] / 2;
+      double* middle = centre.data() + 3 * static_cast<std::size_t>(f);
+      for (int k = 0; k < 3; ++k) middle[k] = low[k] / 2 + high[k] / 2;
     }
   }
   build(0, count, centre);
@@ -80,16 +82,16 @@ int FaceTree::build(int first, int last, const std::vector<double>& centre) {
   Box box{{0, 0, 0}, {0, 0, 0}, first, last, 0, 0};
   empty_box(box.low, box.high);
   for (int i = first; i < last; ++i)
-    for (int c = 0; c < 3; ++c) include(corner(mesh_, vertex_at(mesh_, 3 * face_[i] + c)), box.low, box.high);
+    for (int c = 0; c < 3; ++c)
+      include(corner(mesh_, vertex_at(mesh_, 3 * face_[i] + c)), box.low, box.high);
   box_.push_back(box);
   if (last - first <= leaf_) return here;
   int axis = 0;
   for (int k = 1; k < 3; ++k)
     if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
   int middle = first + (last - first) / 2;
-  auto before = [&](int a, int b) {
-    return centre[3 * static_cast<std::size_t>(a) + axis] < centre[3 * static_cast<std::size_t>(b) + axis];
-  };
+  auto along = [&](int face) { return centre[3 * static_cast<std::size_t>(face) + axis]; };
+  auto before = [&](int a, int b) { return along(a) < along(b); };
   std::nth_element(face_.begin() + first, face_.begin() + middle, face_.begin() + last, before);
   int left = build(first, middle, centre), right = build(middle, last, centre);
   box_[here].left = left;
@@ -97,7 +99,9 @@ int FaceTree::build(int first, int last, const std::vector<double>& centre) {
   return here;
 }
 
-double FaceTree::squared_gap(const Box& box, const double* to) const { return gap_of(box.low, box.high, to); }
+double FaceTree::squared_gap(const Box& box, const double* to) const {
+  return gap_of(box.low, box.high, to);
+}
 
 // Whether something at least so far away may still be as near as the best, but for rounding.
 bool FaceTree::may_hold(double gap2, const ClosestPoint& best, double rounding) const {
@@ -105,7 +109,8 @@ bool FaceTree::may_hold(double gap2, const ClosestPoint& best, double rounding) 
   return !(gap2 > reach * reach);
 }
 
-void FaceTree::search(int number, double gap2, const double* to, double rounding, ClosestPoint& best) const {
+void FaceTree::search(int number, double gap2, const double* to, double rounding,
+                      ClosestPoint& best) const {
   const Box& box = box_[number];
   if (!may_hold(gap2, best, rounding)) return;
   if (box.right) {

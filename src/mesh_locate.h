@@ -8,11 +8,13 @@ namespace crestline {
 
 class FaceTree {
  public:
-  // leaf: faces that are tried one by one; with all of a mesh in one leaf there is no tree to build, which pays for a few points.
-  // Faces without area are left out, unless there are no others.
+  // leaf: faces that are tried one by one; with all of a mesh in one leaf there is no tree to
+  // build, which pays for a few points. Faces without area are left out, unless there are no
+  // others.
   FaceTree(const Triangulation& mesh, int leaf);
 
-  // The closest point of all faces, as closest_on_face() finds it on each. Of faces equally near the one of the lowest number.
+  // The closest point of all faces, as closest_on_face() finds it on each. Of faces equally near
+  // the one of the lowest number.
   ClosestPoint closest(const double* to) const;
 
  private:

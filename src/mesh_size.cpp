@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace crestline {
@@ -35,19 +36,18 @@ std::size_t nearer_half(std::vector<Patch>& patches, double total) {
   return low - patches.begin() + 1;
 }
 
-void measure_from(std::vector<Patch>& patches, const double* middle) {
-  for (Patch& p : patches) {
-    p.far2 = 0;
-    for (int i = 0; i < 3; ++i) p.far2 += (p.at[i] - middle[i]) * (p.at[i] - middle[i]);
-  }
+double distance2(const Patch& p, const double* middle) {
+  double x = p.at[0] - middle[0], y = p.at[1] - middle[1], z = p.at[2] - middle[2];
+  return x * x + y * y + z * z;
 }
 
-// The mean of the patches by their weight (near < 0), or by weight over distance, a step of Weiszfeld;
-// distances below `near` count as that.
+// From the middle to the mean of the patches by weight over distance, a step of Weiszfeld; `near`: distances below it count
+// as that. Where it is infinite: to their mean by weight.
 void step_to_middle(const std::vector<Patch>& patches, double near, double* middle) {
   double total = 0, sum[3] = {0, 0, 0};
+  bool plain = std::isinf(near);
   for (const Patch& p : patches) {
-    double weight = near < 0 ? p.weight : p.weight / std::max(std::sqrt(p.far2), near);
+    double weight = plain ? p.weight : p.weight / std::max(std::sqrt(distance2(p, middle)), near);
     total += weight;
     for (int i = 0; i < 3; ++i) sum[i] += weight * p.at[i];
   }
@@ -83,14 +83,11 @@ double half_area_radius(const double* vb, int rows, const int* it, int m, const 
   std::vector<double> area(patches.size());
   std::transform(patches.begin(), patches.end(), area.begin(), [](const Patch& p) { return p.weight; });
   std::nth_element(area.begin(), area.begin() + area.size() / 2, area.end());
-  double most = cap * area[area.size() / 2], total = 0, middle[3];
+  double most = cap * area[area.size() / 2], total = 0, middle[3] = {0, 0, 0};
   for (Patch& p : patches) total += p.weight = std::min(p.weight, most);
-  step_to_middle(patches, -1, middle);
-  for (int step = 0; step < steps; ++step) {
-    measure_from(patches, middle);
-    step_to_middle(patches, std::sqrt(most), middle);
-  }
-  measure_from(patches, middle);
+  step_to_middle(patches, std::numeric_limits<double>::infinity(), middle);
+  for (int step = 0; step < steps; ++step) step_to_middle(patches, std::sqrt(most), middle);
+  for (Patch& p : patches) p.far2 = distance2(p, middle);
   return std::sqrt(patches[nearer_half(patches, total) - 1].far2);
 }
 

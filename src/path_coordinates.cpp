@@ -1,5 +1,7 @@
 #include "path_coordinates.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,7 +95,8 @@ Nearest nearest_place(const Polyline& line, Vec p, int guess) {
 }  // namespace
 
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k) {
+                                 const double* normals, int k, const std::function<void()>& between) {
+  Patience patience(between);
   Polyline line = make_polyline(path, k);
   PathCoordinates out;
   out.s.resize(n);
@@ -101,6 +104,7 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
   out.tangent.resize(3 * static_cast<std::size_t>(n));
   int guess = 0;
   for (int i = 0; i < n; ++i) {
+    if (patience.over()) patience.finish();
     Vec p = at(points, i);
     Nearest best = nearest_place(line, p, guess);
     guess = best.segment / kRun;

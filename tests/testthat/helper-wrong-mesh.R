@@ -149,6 +149,7 @@ any_mesh_calls <- function() {
     `reference_path, ridge` = function(case, one) reference_path(one, case$places[1, ], case$places[2, ], "ridge", 15),
     ridge_curve = function(case, one) ridge_curve(one, case$places[1, ], case$places[2, ], "plane", n = 5),
     frechet_mean = function(case, one) frechet_mean(one, case$places),
+    locate = function(case, one) locate(one, case$places),
     draw_surface = function(case, one) draw_surface(one, engine = "picture"),
     write_mesh = function(case, one) write_mesh(one, temporary(".ply")),
     find_landmarks = function(case, one) find_landmarks(one),

@@ -81,7 +81,7 @@ test_that("and back", {
   expect_equal(kept$size, aligned$size, tolerance = 1e-10)
   expect_false(as_aligned(list(coords = align(one$x, scale = FALSE)$coords, size = aligned$size * (1 + 1e-12)))$scale)
   expect_true(back$scale)
-  expect_crestline_error(as_aligned(list(1)), "`sample`")
+  expect_crestline_error(as_aligned(list(1)), "`x`")
   expect_crestline_error(as_aligned(aligned$coords, size = 1), "`size`")
 })
 

@@ -79,6 +79,13 @@ test_that("a row with more or fewer fields is refused with its line", {
   expect_refused(csv_file("name;x;y;z", "n;1,500;2.25;3"), "decimal comma", line = 2)
 })
 
+test_that("NaN of Windows programs is a missing landmark, their infinity is refused", {
+  for (word in c("-1.#IND", "1.#QNAN0", "-nan(ind)", "nan(snan)", "NaN", "NA")) {
+    expect_true(all(is.na(read_landmarks(csv_file("name,x,y,z", paste0("n,1,", word, ",3"))))))
+  }
+  expect_refused(csv_file("name,x,y,z", "n,1,1.#INF,3"), "is not a number", line = 2)
+})
+
 test_that("points have names, and one place", {
   expect_refused(csv_file("name,x,y,z", ",1,2,3"), "a point has no name", line = 2)
   expect_refused(csv_file("name,x,y,z", "n,1,2,3", "n,1,2,4"), "the landmark n is there twice",

@@ -37,23 +37,18 @@ test_that("meshes without landmarks go through a batch; those that fail say so",
 })
 
 test_that("in a batch a landmark with little confidence costs what hangs on it, and most of them the specimen", {
-  shared <- rlang::env(template = face_template())
-  finder <- function(doubtful = 0) list(shared = shared, doubtful = doubtful, picture = tempfile(fileext = ".png"))
+  finder <- function(doubtful = 0) list(doubtful = doubtful, picture = tempfile(fileext = ".png"))
   given <- found_lines()
   doubted <- function(names) {
     placing <- given$placing
     placing$confidence[placing$landmark %in% names] <- 0.3
     with_placing(given, placing, given$match)
   }
-  found <- NULL
-  testthat::local_mocked_bindings(find_landmarks = function(...) found, .package = "crestline")
-  found <- doubted(c("pn", "chL"))
-  one <- found_specimen(given, finder())
+  one <- without_doubted(doubted(c("pn", "chL")), finder())
   expect_true(all(is.na(one$landmarks[c("pn", "chL"), ])))
   expect_false(anyNA(one$landmarks[c("chR", "n"), ]))
-  expect_false(anyNA(found_specimen(given, finder(0.2))$landmarks["pn", ]))
-  found <- doubted(given$placing$landmark[1:13])
+  expect_false(anyNA(without_doubted(doubted("pn"), finder(0.2))$landmarks["pn", ]))
   used <- finder()
-  expect_crestline_error(found_specimen(given, used), c("13 of 19", used$picture))
+  expect_crestline_error(without_doubted(doubted(given$placing$landmark[1:13]), used), c("13 of 19", used$picture))
   unlink(used$picture)
 })

@@ -101,6 +101,10 @@ test_that("pipes, devices, empty and compressed files are refused at once", {
     expect_crestline_error(read_landmarks(landmarks_beside(path("pipe.ply"))), "pipe")
   })
   expect_lt(time[["elapsed"]], 5)
+  expect_crestline_error(write_landmarks(xyz(1, 2, 3, name = "a"), path("pipe.csv")), "is a pipe")
+  expect_crestline_error(write_mesh(ball_mesh(), path("pipe.ply")), "it is a pipe")
+  write_landmarks(xyz(1, 2, 3, name = "a"), path("empty.csv"))
+  expect_equal(read_landmarks(path("empty.csv")), xyz(1, 2, 3, name = "a"))
   for (packer in list(gzfile, bzfile, xzfile)) {
     to <- packer(path("packed.csv"), "wb")
     writeLines(c("name,x,y,z", "n,1,2,3"), to)

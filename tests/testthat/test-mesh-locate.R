@@ -1,5 +1,5 @@
-# Another way to the closest point: all faces one by one, after Ericson's regions of a triangle (Real-Time Collision
-# Detection, 2005, section 5.1.5).
+# Another way to the closest point: all faces one by one, after Ericson's regions of a triangle
+# (Real-Time Collision Detection, 2005, section 5.1.5).
 region_point <- function(p, a, b, c) {
   dot <- function(u, v) sum(u * v)
   d1 <- dot(b - a, p - a); d2 <- dot(c - a, p - a)
@@ -29,7 +29,8 @@ triangle_mesh <- function(...) {
 }
 
 test_that("closest points on one triangle are right in all seven regions", {
-  p <- rbind(c(1, 1, 3), c(-1, -1, 0), c(6, -1, 0), c(-1, 6, 0), c(2, -2, 1), c(-2, 2, 1), c(4, 4, 0))
+  p <- rbind(c(1, 1, 3), c(-1, -1, 0), c(6, -1, 0), c(-1, 6, 0), c(2, -2, 1), c(-2, 2, 1),
+             c(4, 4, 0))
   truth <- rbind(c(1, 1, 0), c(0, 0, 0), c(4, 0, 0), c(0, 4, 0), c(2, 0, 0), c(0, 2, 0), c(2, 2, 0))
   found <- locate(triangle_mesh(c(0, 0, 0), c(4, 0, 0), c(0, 4, 0)), p)
   expect_equal(as.matrix(found[c("x", "y", "z")]), truth, ignore_attr = TRUE)
@@ -43,7 +44,8 @@ test_that("points are the exactly closest ones, near, far and beside the mesh, w
   p <- cbind(runif(60, -3, 15), runif(60, -3, 15), rnorm(60, 0, rep(c(0.01, 1, 30, 300), 15)))
   found <- locate(mesh, p)
   expect_on_mesh(found, mesh)
-  expect_equal(sqrt(rowSums((as.matrix(found[c("x", "y", "z")]) - p)^2)), found$distance, tolerance = tolerances$rounding)
+  expect_equal(sqrt(rowSums((as.matrix(found[c("x", "y", "z")]) - p)^2)), found$distance,
+               tolerance = tolerances$rounding)
   expect_equal(found$distance, brute_distance(mesh, p), tolerance = tolerances$rounding)
   one_by_one <- do.call(rbind, lapply(seq_len(nrow(p)), function(i) locate(mesh, p[i, ])))
   expect_identical(one_by_one, found)
@@ -59,7 +61,8 @@ test_that("on a sphere, a plane and a cone the places are those of the closed fo
   # The triangles lie below the sphere, by less than 1 - cos of half an edge.
   expect_equal(found$distance, abs(sqrt(rowSums(p^2)) - 1), tolerance = 2e-3)
   flat <- locate(grid_mesh(6), cbind(2.25, 3.5, c(-4, 0, 7)))
-  expect_equal(as.matrix(flat[c("x", "y", "z")]), rbind(c(2.25, 3.5, 0), c(2.25, 3.5, 0), c(2.25, 3.5, 0)), ignore_attr = TRUE)
+  expect_equal(as.matrix(flat[c("x", "y", "z")]),
+               rbind(c(2.25, 3.5, 0), c(2.25, 3.5, 0), c(2.25, 3.5, 0)), ignore_attr = TRUE)
   expect_equal(flat$distance, c(4, 0, 7))
   expect_length(unique(flat$face), 1)
 })
@@ -68,7 +71,8 @@ test_that("uneven faces do not mislead the search", {
   # A huge face above, a clump of tiny ones below: the huge one's centre is far, its surface near.
   clump <- grid_mesh(9)
   clump$vb[1:3, ] <- clump$vb[1:3, ] / 100
-  mesh <- structure(list(vb = cbind(clump$vb, c(-1000, -1000, 1, 1), c(3000, -1000, 1, 1), c(-1000, 3000, 1, 1)),
+  mesh <- structure(list(vb = cbind(clump$vb, c(-1000, -1000, 1, 1), c(3000, -1000, 1, 1),
+                                    c(-1000, 3000, 1, 1)),
                          it = cbind(clump$it, 82:84)), class = "mesh3d")
   found <- surface_points(mesh, rbind(c(0.04, 0.04, 0.9), c(0.04, 0.04, 0.1)))
   expect_equal(found$z, c(1, 0))
@@ -80,9 +84,11 @@ test_that("corners of small faces are found beside a huge one", {
   middle <- cbind(rep(1:10, 10), rep(1:10, each = 10), 0)
   corners <- middle[rep(1:100, each = 3), ] + runif(900, -0.3, 0.3)
   huge <- rbind(c(-1000, -1000, 1), c(3000, -1000, 1), c(-1000, 3000, 1))
-  mesh <- structure(list(vb = rbind(t(rbind(corners, huge)), 1), it = matrix(1:303, 3)), class = "mesh3d")
+  mesh <- structure(list(vb = rbind(t(rbind(corners, huge)), 1), it = matrix(1:303, 3)),
+                    class = "mesh3d")
   found <- locate(mesh, corners)
-  expect_equal(as.matrix(found[c("x", "y", "z")]), corners, ignore_attr = TRUE, tolerance = tolerances$rounding)
+  expect_equal(as.matrix(found[c("x", "y", "z")]), corners, ignore_attr = TRUE,
+               tolerance = tolerances$rounding)
   expect_true(all(found$distance == 0))
 })
 
@@ -90,7 +96,8 @@ test_that("points of the mesh come back to themselves; NA stays NA", {
   mesh <- ball_mesh()
   p <- rbind(t(mesh$vb[1:3, 1:30]), NA)
   found <- surface_points(mesh, p)
-  expect_equal(as.matrix(found[1:30, 1:3]), p[1:30, ], ignore_attr = TRUE, tolerance = tolerances$rounding)
+  expect_equal(as.matrix(found[1:30, 1:3]), p[1:30, ], ignore_attr = TRUE,
+               tolerance = tolerances$rounding)
   expect_true(all(is.na(found[31, ])))
   expect_equal(nrow(surface_points(mesh, p[0, ])), 0)
   expect_true(all(is.na(locate(mesh, c(1, NA, 0)))))
@@ -113,7 +120,8 @@ test_that("degenerate faces and needles do not disturb", {
   expect_gt(surface_points(mesh, cbind(0.5, 0, 0))$face, 2)
   # Of a line of triangles only, its edges.
   line <- triangle_mesh(c(0, 0, 0), c(1, 0, 0), c(2, 0, 0))
-  expect_equal(unlist(locate(line, c(0.5, 3, 4))[c("x", "y", "z", "distance")]), c(x = 0.5, y = 0, z = 0, distance = 5))
+  expect_equal(unlist(locate(line, c(0.5, 3, 4))[c("x", "y", "z", "distance")]),
+               c(x = 0.5, y = 0, z = 0, distance = 5))
   # The foot on a needle is all rounding: the place is never farther than its edges are.
   needle <- triangle_mesh(c(0, 0, 0), c(1, 1e-9, 1), c(2, 0, 2) / 3)
   p <- cbind(0.3, c(-1, 0, 2), 0.4)
@@ -155,5 +163,6 @@ test_that("locate() takes specimens, tables and names, and refuses what is no po
   expect_crestline_error(locate(ball, data.frame(a = 1, b = 2, c = 3)), "no columns x, y and z")
   expect_crestline_error(locate(ball, c(Inf, 0, 0)), "infinite")
   expect_crestline_error(locate(ball, NULL), "`xyz`")
-  expect_crestline_error(locate(structure(list(vb = ball$mesh$vb), class = "mesh3d"), c(0, 0, 0)), "no triangles")
+  expect_crestline_error(locate(structure(list(vb = ball$mesh$vb), class = "mesh3d"), c(0, 0, 0)),
+                         "no triangles")
 })

@@ -30,7 +30,7 @@ test_that("half of a ball's surface lies within its radius of the middle, of a d
 
 test_that("the size follows unit, place and turn, and does not hang on the order of triangles", {
   ball <- big_ball()
-  ball$vb[1, ] <- 1.7 * ball$vb[1, ]
+  ball$vb[1, ] <- 4 * ball$vb[1, ]
   size <- mesh_size(ball)
   changed <- moved_mesh(ball, some_rotation(2), c(4, -9, 2), 0.001)
   changed$it <- changed$it[, rev(seq_len(ncol(changed$it)))]
@@ -42,8 +42,9 @@ test_that("a stray vertex, a platform and a stand leave the size of what carries
   needle <- big_ball()
   needle$vb <- cbind(needle$vb, c(0, 0, 1e5, 1))
   needle$it <- cbind(needle$it, c(1L, 2L, ncol(needle$vb)))
-  expect_equal(mesh_size(needle), size, tolerance = 0.02)
-  expect_equal(mesh_size(joined(big_ball(), platform(2000, -60))), size, tolerance = 0.02)
+  # Four radii of a ball, where its box no longer bounds it: 200 for 173.
+  expect_equal(mesh_size(needle), size, tolerance = 0.16)
+  expect_equal(mesh_size(joined(big_ball(), platform(2000, -60))), size, tolerance = 0.16)
   # As dense as the ball, and forty times its area: a piece of its own, on which there is no landmark.
   busy <- joined(big_ball(3), platform(500, -60, 60))
   at <- 50 * rbind(a = c(0, 0, 1), b = c(1, 0, 0), c = c(0, 1, 0))
@@ -64,7 +65,8 @@ test_that("a landmark beside the surface is refused, platform or not, and so is 
   at["a", 3] <- 60
   expect_crestline_error(specimen(big_ball(), at), "off the surface")
   expect_crestline_error(specimen(joined(big_ball(), platform(2000, -60)), at, outward = "keep"), c("off the surface", "a (by 1"))
-  expect_crestline_error(curvature(joined(big_ball(), platform(2000, -60)), 200), "as large as the mesh")
+  whole <- specimen(joined(big_ball(), platform(2000, -60)), outward = "keep")
+  expect_crestline_error(curvature(whole, 200), "as large as the mesh")
 })
 
 test_that("on faces the size is the diagonal of the bounding box, within some per cent", {

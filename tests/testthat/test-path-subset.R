@@ -9,7 +9,8 @@ test_that("a part of a path has its own length, arc lengths from 0, and nothing 
   expect_equal(attr(part, "length"), sum(steps(part)))
   expect_equal(part$s, path$s[5:20] - path$s[5])
   expect_equal(attr(part, "length"), path$s[20] - path$s[5])
-  expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns], ignore_attr = TRUE)
+  expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns],
+               ignore_attr = TRUE)
   expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
   expect_output(print(part), "Path of 16 points")
   expect_no_match(paste(capture.output(print(part)), collapse = " "), "angle")
@@ -17,8 +18,10 @@ test_that("a part of a path has its own length, arc lengths from 0, and nothing 
 
 test_that("what a reference path knows of its criterion does not go with its parts", {
   path <- reference_path(Rvcg::vcgSphere(4), c(1, 0, 0), c(0, 1, 0), "plane")
-  expect_true(all(c("optima", "criterion", "competing", "angle", "type") %in% names(attributes(path))))
-  for (part in list(path[-1, ], head(path, 4), subset(path, z > -1 & s > 0.2), path[path$s > 0.2, ], rbind(path, path[0, ])[-1, ])) {
+  expect_true(all(c("optima", "criterion", "competing", "angle",
+                    "type") %in% names(attributes(path))))
+  for (part in list(path[-1, ], head(path, 4), subset(path, z > -1 & s > 0.2), path[path$s > 0.2, ],
+                    rbind(path, path[0, ])[-1, ])) {
     expect_s3_class(part, "mesh_path")
     expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
     expect_equal(part$s[1], 0)
@@ -51,6 +54,23 @@ test_that("the whole path stays what it is, and a path without one of its column
   expect_identical(path[["x"]], path$x)
   path$depth <- path$z
   expect_identical(path[3:5, ]$depth, path$z[3:5])
+})
+
+test_that("a path whose columns are set stays one as long as it has them all", {
+  path <- quarter()
+  doubled <- path
+  for (axis in c("x", "y", "z")) doubled[[axis]] <- 2 * path[[axis]]
+  expect_equal(attr(doubled, "length"), 2 * attr(path, "length"))
+  expect_equal(doubled$s, 2 * path$s)
+  expect_null(attr(doubled, "angle"))
+  noted <- path
+  noted$note <- "here"
+  expect_identical(attributes(noted)[c("length", "angle", "key")],
+                   attributes(path)[c("length", "angle", "key")])
+  without <- path
+  without$face <- NULL
+  expect_identical(class(without), "data.frame")
+  expect_null(attr(without, "length"))
 })
 
 test_that("the key and the id of the mesh stay with a part", {

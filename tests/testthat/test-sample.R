@@ -1,7 +1,8 @@
 shapes <- paired_sample()
 sample <- homologise(shapes, progress = FALSE)
 
-arrays_of <- function(x) lapply(c("landmarks", "curves", "surface"), function(level) as.array(x, level))
+arrays_of <- function(x) lapply(c("landmarks", "curves", "surface"),
+                                function(level) as.array(x, level))
 
 test_that("a sample is a container of its shapes", {
   ids <- paste0("ball", 1:4)
@@ -14,7 +15,8 @@ test_that("a sample is a container of its shapes", {
   expect_identical(seen, ids)
   expect_identical(unname(vapply(sample, function(shape) shape$id, "")), ids)
   expect_identical(lapply(sample, `[[`, "id"), as.list(stats::setNames(ids, ids)))
-  expect_identical(unlist(Map(function(a, b) a$id == b, sample, ids), use.names = FALSE), rep(TRUE, 4))
+  expect_identical(unlist(Map(function(a, b) a$id == b, sample, ids), use.names = FALSE),
+                   rep(TRUE, 4))
   expect_identical(as.list(sample), sample$shapes)
   expect_identical(class(as.list(sample)), "list")
   expect_identical(seq_along(sample), 1:4)
@@ -41,7 +43,8 @@ test_that("specimens are dropped without sliding again, in every way of asking",
   expect_identical(sample[c("ball1", "ball2", "ball4")], without)
   expect_identical(sample[c(TRUE, TRUE, FALSE, TRUE)], without)
   expect_identical(sample[c(1, 2, 4)], without)
-  expect_identical(sample[factor(c("ball1", "ball2", "ball4"), c("ball4", "ball2", "ball1"))], without)
+  expect_identical(sample[factor(c("ball1", "ball2", "ball4"), c("ball4", "ball2", "ball1"))],
+                   without)
   expect_identical(sample[c(ball4 = TRUE, ball3 = FALSE, ball2 = TRUE, ball1 = TRUE)], without)
   expect_identical(sample[c(4, 1)][["ball1"]], sample[["ball1"]])
   expect_identical(sample[], sample)
@@ -98,7 +101,8 @@ test_that("a specimen that is not there is refused with what is there", {
   expect_crestline_error(sample[c("ball1", "ball1")], "ball1 is asked for twice")
   expect_crestline_error(sample[c(TRUE, FALSE)], c("2 logical values", "4 specimens"))
   expect_crestline_error(sample[c(TRUE, NA, TRUE, TRUE)], "1 of them NA")
-  expect_crestline_error(sample[c(a = TRUE, b = TRUE, c = TRUE, d = FALSE)], "which are not the specimens")
+  expect_crestline_error(sample[c(a = TRUE, b = TRUE, c = TRUE, d = FALSE)],
+                         "which are not the specimens")
   expect_crestline_error(sample[1, ], "no rows")
 })
 
@@ -108,7 +112,8 @@ test_that("samples of one template are joined", {
   expect_identical(joined[names(sample)], sample)
   new <- paired_shape(c(1.05, 1.05, 1.15), "new")
   more <- homologise(list(new), sample$template, rounds = 0, progress = FALSE)
-  expect_identical(as.array(c(sample, more), "surface")[, , "new"], coords(slide(new, sample$template), "surface"))
+  expect_identical(as.array(c(sample, more), "surface")[, , "new"],
+                   coords(slide(new, sample$template), "surface"))
   expect_identical(c(more, sample)$convergence, sample$convergence)
   expect_identical(c(sample), sample)
   expect_identical(c(sample, NULL), sample)
@@ -123,7 +128,8 @@ test_that("samples of different templates or schemes, and ids twice, are not joi
     tables$curves$n[7] <- 9
     tables
   })
-  foreign <- homologise(list(paired_shape(id = "x", scheme = denser), paired_shape(c(1, 1, 1.1), "y", denser)), progress = FALSE)
+  foreign <- homologise(list(paired_shape(id = "x", scheme = denser),
+                             paired_shape(c(1, 1, 1.1), "y", denser)), progress = FALSE)
   error <- expect_crestline_error(c(sample, foreign), "different schemes, both named paired")
   expect_match(error$remedy, "rounds = 0, template")
   expect_crestline_error(c(sample, list(shapes[[1]])), "shape_sample")
@@ -142,7 +148,8 @@ test_that("specimens are renamed in the shapes too, and not replaced", {
   expect_crestline_error(changed["ball1"] <- NULL, "cannot be replaced")
   expect_crestline_error(changed$extra <- 1, "cannot be set")
   expect_crestline_error(changed$template <- "mean", "template")
-  expect_crestline_error(changed$shapes <- stats::setNames(sample$shapes, letters[1:4]), "ids of its shapes")
+  expect_crestline_error(changed$shapes <- stats::setNames(sample$shapes, letters[1:4]),
+                         "ids of its shapes")
 })
 
 test_that("analyses take a part of a sample as they take a whole one", {
@@ -156,7 +163,8 @@ test_that("analyses take a part of a sample as they take a whole one", {
   frame <- as_geomorph(part, "curves", data = data.frame(id = names(sample), stretch = 1:4))
   expect_identical(frame$stretch, c(4L, 2L, 1L))
   sex <- c(ball1 = "F", ball2 = "F", ball3 = "M", ball4 = "M")
-  compared <- compare_groups(sample[names(sex)[c(4, 3, 2, 1)]], sex, "curves", n_perm = 5, components = 1, progress = FALSE)
+  compared <- compare_groups(sample[names(sex)[c(4, 3, 2, 1)]], sex, "curves", n_perm = 5,
+                             components = 1, progress = FALSE)
   expect_identical(as.character(compared$group), c("M", "M", "F", "F"))
   repeats <- repeatability(part, c("a", "a", "b"), level = "curves")
   expect_equal(repeats$counts[["measurements"]], 3)

@@ -1,6 +1,8 @@
 test_that("the hash of a scheme is that of its tables' content", {
   tables <- paired_tables()
-  hash <- function(change = identity, name = "paired") scheme_hash(do.call(curve_scheme, c(change(tables), name = name)))
+  hash <- function(change = identity,
+                   name = "paired") scheme_hash(do.call(curve_scheme,
+                                                        c(change(tables), name = name)))
   expect_match(hash(), "^[0-9a-f]{32}$")
   expect_identical(hash(name = "other"), hash())
   expect_identical(hash(function(t) {

@@ -79,3 +79,17 @@ test_that("a row with another number of cells, or no header, is refused by table
   error <- expect_crestline_error(read_scheme(dir), "curves.csv")
   expect_s3_class(error, "crestline_scheme_error")
 })
+
+test_that("tables are found in any case of their names; a name that is nearly a table's is said", {
+  dir <- write_tables(leaf_tables())
+  expected <- read_scheme(dir, "leaf")
+  file <- list.files(dir, full.names = TRUE)
+  file.rename(file, file.path(dir, toupper(basename(file))))
+  expect_equal(read_scheme(dir, "leaf"), expected)
+  file.copy(file.path(dir, "CURVES.CSV"), file.path(dir, "curves.csv"))
+  skip_if(length(list.files(dir)) == length(file), "a file system without case")
+  expect_crestline_error(read_scheme(dir), c("several files of the table curves", "CURVES.CSV"))
+  file.remove(file.path(dir, "curves.csv"))
+  file.rename(file.path(dir, "PAIRS.CSV"), file.path(dir, "pair.csv"))
+  expect_warning(read_scheme(dir), "pair.csv .* is no table", class = "crestline_unread_table")
+})

@@ -34,7 +34,7 @@ test_that("a face in another unit is refused with the factor to give, and measur
     shape <- fit_shape(face, face_lines(), unit = factor, progress = FALSE)
     expect_true(all(shape$status$ok[shape$status$level == "curves"]))
   }
-  expect_crestline_error(fit_shape(in_unit(1), face_lines(), unit = 10, progress = FALSE), "unit = 0.1")
+  expect_crestline_error(fit_shape(in_unit(1), face_lines(), unit = 10, progress = FALSE), "unit = 1`")
   expect_crestline_error(refine_landmarks(in_unit(10), face_scheme()), "unit = 10")
 })
 
