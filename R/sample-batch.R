@@ -230,14 +230,14 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 lost_failure <- function(lost) {
   new_failure("worker",
               sprintf("the worker that measured it died, and again when it measured it alone: %s.",
-                                sub("[.]$", "", shorten_text(lost$message))),
+                                sub("[.]$", "", first_line(lost$message))),
               "Is there memory enough? Run it again with fewer workers, or decimate the mesh.",
               fault = TRUE)
 }
 
 #' The first line of a text, not longer than that
 #' @noRd
-shorten_text <- function(text, most = 200) {
+first_line <- function(text, most = 200) {
   line <- strsplit(text[1], "\n", fixed = TRUE)[[1]][1]
   if (nchar(line) > most) paste0(substr(line, 1, most), "...") else line
 }

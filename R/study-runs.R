@@ -178,7 +178,7 @@ study_block <- function(task, methods, constant) {
 #' Rows of a block whose worker died twice
 #' @noRd
 lost_block <- function(task, methods, lost) {
-  message <- paste("the worker died:", shorten_text(lost$message))
+  message <- paste("the worker died:", first_line(lost$message))
   unlist(lapply(task$seeds, function(seed) lapply(names(methods), function(name) {
     c(task$cell, list(seed = seed, method = name), study_result(message), list(seconds = NA_real_, error = message))
   })), recursive = FALSE)
