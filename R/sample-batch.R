@@ -79,7 +79,8 @@
 #' shapes
 #' shapes[["ball 2"]]
 #' @export
-fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL, doubtful = 0, ...,
+fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL,
+                       doubtful = 0, ...,
                        found = NULL, reading = list(), chunk = NULL, progress = interactive()) {
   check_given()
   check_flags(progress)
@@ -114,7 +115,8 @@ check_fit_arguments <- function(settings, call = rlang::caller_env()) {
   if (!length(strange)) return(settings)
   for_reading <- intersect(strange, unlist(reading_arguments()))
   crestline_abort(
-    sprintf("%s no argument of fit_shapes() or fit_shape().", if (all(nzchar(strange))) paste(shorten(strange), "is") else
+    sprintf("%s no argument of fit_shapes() or fit_shape().",
+            if (all(nzchar(strange))) paste(shorten(strange), "is") else
       "what has no name is"),
     if (length(for_reading)) {
       sprintf("What reading takes goes into `reading`: reading = list(%s = ...).", for_reading[1])
@@ -148,7 +150,8 @@ result_files <- function(dir, ids, keys, meshes) {
     if (is.na(own) && !keys[i] %in% kept || !is.na(own) && kept[own] %in% keys[i]) next
     if (keys[i] %in% kept) {
       files[i] <- there[match(keys[i], kept)]
-    } else if (!inside[[own]]$own || !inside[[own]]$mesh %in% c(NA, meshes[i]) || kept[own] %in% keys) {
+    } else if (!inside[[own]]$own || !inside[[own]]$mesh %in% c(NA, meshes[i]) ||
+               kept[own] %in% keys) {
       files[i] <- sub("[.]shape$", sprintf("-%s.shape", substr(meshes[i], 1, 8)), files[i])
     }
   }
@@ -171,9 +174,12 @@ measure_tasks <- function(tasks, scheme, settings, chunk) {
   if (is.null(chunk)) chunk <- ceiling(length(tasks) / (2 * future::nbrOfWorkers()))
   arguments <- list(scheme = scheme, settings = settings)
   results <- run_tasks(tasks, measure_task, arguments, chunk)
-  again <- vapply(results, function(result) inherits(result, "lost_task") || isTRUE(result$fault), NA)
-  if (any(again)) results[again] <- run_tasks(tasks[again], measure_task, arguments, 1, alone = TRUE)
-  lapply(results, function(result) if (inherits(result, "lost_task")) lost_failure(result) else result)
+  again <- vapply(results, function(result) inherits(result, "lost_task") || isTRUE(result$fault),
+                  NA)
+  if (any(again)) results[again] <- run_tasks(tasks[again], measure_task, arguments, 1,
+                                              alone = TRUE)
+  lapply(results,
+         function(result) if (inherits(result, "lost_task")) lost_failure(result) else result)
 }
 
 #' One specimen measured
@@ -186,9 +192,11 @@ measure_task <- function(task, scheme, settings) {
     if (!is.null(kept)) return(kept)
   }
   ear <- new_ear()
-  shape <- tryCatch(fit_job(task$job, scheme, settings, ear), error = function(e) failure_of(e, ear$heard))
+  shape <- tryCatch(fit_job(task$job, scheme, settings, ear),
+                    error = function(e) failure_of(e, ear$heard))
   if (is.null(task$file) || !inherits(shape, "shape")) return(shape)
-  about <- c(list(key = task$key, mesh = task$mesh, id = task$name, warnings = shape$warnings), told_of(shape))
+  about <- c(list(key = task$key, mesh = task$mesh, id = task$name, warnings = shape$warnings),
+             told_of(shape))
   tryCatch({
     keep(shape, about, task$file)
     kept_shape(task, about)
@@ -209,23 +217,27 @@ fit_job <- function(job, scheme, settings, ear) {
 failure_of <- function(e, heard = no_warnings(), fault = FALSE) {
   own <- inherits(e, "crestline_error")
   new_failure(if (own) e$stage else "unforeseen", if (own) e$problem else conditionMessage(e),
-              if (own) e$remedy else "Please report it, with the specimen if you may.", heard, fault)
+              if (own) e$remedy else "Please report it, with the specimen if you may.",
+              heard, fault)
 }
 
 new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault = FALSE) {
-  structure(list(stage = stage, message = message, remedy = remedy, warnings = warnings, fault = fault),
+  structure(list(stage = stage, message = message, remedy = remedy, warnings = warnings,
+                 fault = fault),
             class = "shape_failure")
 }
 
 lost_failure <- function(lost) {
-  new_failure("worker", sprintf("the worker that measured it died, and died again when it measured it alone: %s.",
-                                sub("[.]$", "", shorten_text(lost$message))),
-              "Is there memory enough for it? Run it again with fewer workers, or decimate the mesh.", fault = TRUE)
+  new_failure("worker",
+              sprintf("the worker that measured it died, and again when it measured it alone: %s.",
+                                sub("[.]$", "", first_line(lost$message))),
+              "Is there memory enough? Run it again with fewer workers, or decimate the mesh.",
+              fault = TRUE)
 }
 
 #' The first line of a text, not longer than that
 #' @noRd
-shorten_text <- function(text, most = 200) {
+first_line <- function(text, most = 200) {
   line <- strsplit(text[1], "\n", fixed = TRUE)[[1]][1]
   if (nchar(line) > most) paste0(substr(line, 1, most), "...") else line
 }
@@ -255,8 +267,10 @@ failures <- function(x) {
   rows <- lapply(names(x), function(name) {
     one <- elements[[name]]
     lost <- if (is.null(one)) failed[[name]] else if (inherits(one, "kept_shape")) kept_fault(one)
-    if (!is.null(lost)) data.frame(id = name, stage = lost$stage, message = lost$message, remedy = lost$remedy)
+    if (!is.null(lost)) data.frame(id = name, stage = lost$stage, message = lost$message,
+                                   remedy = lost$remedy)
   })
-  empty <- data.frame(id = character(), stage = character(), message = character(), remedy = character())
+  empty <- data.frame(id = character(), stage = character(), message = character(),
+                      remedy = character())
   structure(do.call(rbind, c(list(empty), rows)), warnings = warnings_of(x))
 }

@@ -9,7 +9,8 @@
 with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rlang::caller_env()) {
   doubtful <- check_number(doubtful, "doubtful", 0, 1, call = call)
   if (!is.null(found) && !(is.logical(found) && length(found) == 1 && !is.na(found))) {
-    crestline_abort(sprintf("`found` is %s.", describe_value(found)), "Give TRUE, FALSE or NULL.", stage = "arguments",
+    crestline_abort(sprintf("`found` is %s.", describe_value(found)), "Give TRUE, FALSE or NULL.",
+                    stage = "arguments",
                     call = call)
   }
   bare <- vapply(jobs, is_bare, NA)
@@ -20,7 +21,8 @@ with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rla
   }
   template <- batch_template(template, scheme)
   if (is.null(template)) return(jobs)
-  key <- content_hash(list(template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful))
+  key <- content_hash(list(template$specimen$mesh[c("vb", "it")],
+                           template[c("landmarks", "predicted", "unit")], doubtful))
   shared <- rlang::env(template = template)
   folder <- if (is.null(dir)) tempdir() else dir
   pictures <- file.path(folder, paste0(file_stems(names(jobs)), "-placing.png"))
@@ -34,7 +36,8 @@ with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rla
 #' @noRd
 is_bare <- function(job) {
   if (!is.null(job$specimen)) return(!nrow(job$specimen$landmarks))
-  is.null(job$refusal) && if (is.character(job$landmarks)) !nzchar(job$landmarks) else !NROW(job$landmarks)
+  if (!is.null(job$refusal)) return(FALSE)
+  if (is.character(job$landmarks)) !nzchar(job$landmarks) else !NROW(job$landmarks)
 }
 
 #' A job that is refused for want of landmarks
@@ -42,13 +45,16 @@ is_bare <- function(job) {
 #' @noRd
 refused_bare <- function(job, others, never) {
   beside <- if (!is.null(job$mesh)) {
-    sprintf("Put a landmark file %s.* beside it (see read_landmarks())", sub("[.][^.]*$", "", basename(job$mesh)))
+    sprintf("Put a landmark file %s.* beside it (see read_landmarks())",
+            sub("[.][^.]*$", "", basename(job$mesh)))
   } else "Give it landmarks: place_landmarks(), find_landmarks()"
   problem <- if (never) "it has no landmarks, and `found` is FALSE." else
-    sprintf("it has no landmarks, but %s of the batch %s: found landmarks are not mixed with placed ones unasked.",
+    sprintf(paste("it has no landmarks, but %s of the batch %s:",
+                  "found landmarks are not mixed with placed ones unasked."),
             amount(others, "other"), if (others == 1) "has" else "have")
   if (!is.null(job$wanting)) problem <- job$wanting
-  job$refusal <- tryCatch(refuse_landmarks(problem, paste0(beside, ", or have them found: found = TRUE."), job$id),
+  remedy <- paste0(beside, ", or have them found: found = TRUE.")
+  job$refusal <- tryCatch(refuse_landmarks(problem, remedy, job$id),
                           crestline_error = identity)
   job
 }
@@ -56,7 +62,8 @@ refused_bare <- function(job, others, never) {
 batch_template <- function(template, scheme) {
   if (!is.null(template)) return(check_template(template))
   face <- face_template()
-  if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) face
+  if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks),
+                                           rownames(face$predicted)))) face
 }
 
 #' A specimen with found landmarks
@@ -71,7 +78,8 @@ found_specimen <- function(one, finder) {
 #' @noRd
 without_doubted <- function(found, finder) {
   most <- max(find_settings()$wrong, finder$doubtful)
-  found <- tryCatch(check_placing(found, doubtful = most, picture = finder$picture), error = function(e) {
+  found <- tryCatch(check_placing(found, doubtful = most, picture = finder$picture),
+                    error = function(e) {
     if (inherits(e, "crestline_placing_error")) rlang::cnd_signal(e)
     # The picture could not be written: the refusal matters more.
     check_placing(found, doubtful = most)

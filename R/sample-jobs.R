@@ -11,15 +11,16 @@ batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
   if (inherits(x, "specimen")) x <- list(x)
   if (is.character(x) && length(x)) return(file_jobs(x, landmarks, reading, call))
   if (!is.list(x) || !length(x)) {
-    crestline_abort(sprintf("`x` is %s.", describe_value(x)), "Give paths of meshes, or a list of specimens.",
+    crestline_abort(sprintf("`x` is %s.", describe_value(x)),
+                    "Give paths of meshes, or a list of specimens.",
                     stage = "arguments", call = call)
   }
   for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()", call)
   if (!is.null(landmarks) || length(reading)) {
     crestline_abort(sprintf("`%s` goes with mesh files, but `x` holds specimens.",
                             if (is.null(landmarks)) "reading" else "landmarks"),
-                    "Give the specimens their landmarks first, or give the paths of the meshes.", stage = "arguments",
-                    call = call)
+                    "Give the specimens their landmarks first, or give the paths of the meshes.",
+                    stage = "arguments", call = call)
   }
   ids <- specimen_ids(x)
   stats::setNames(Map(function(one, id) {
@@ -34,24 +35,29 @@ batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
 specimen_ids <- function(x) {
   ids <- vapply(x, `[[`, "", "id", USE.NAMES = FALSE)
   given <- names(x)
-  if (anyDuplicated(ids) && !is.null(given) && all(nzchar(given)) && !anyDuplicated(given)) return(given)
+  distinct <- !is.null(given) && all(nzchar(given)) && !anyDuplicated(given)
+  if (anyDuplicated(ids) && distinct) return(given)
   make.unique(ifelse(nzchar(ids), ids, "unnamed"), sep = " ")
 }
 
 #' @noRd
 file_jobs <- function(files, landmarks, reading, call) {
   if (anyNA(files)) {
-    crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(is.na(files)))), "Give paths of meshes.",
+    crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(is.na(files)))),
+                    "Give paths of meshes.",
                     stage = "arguments", call = call)
   }
   reading <- check_reading(reading, call)
   ids <- file_ids(files)
-  own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else given_landmarks(landmarks, ids, reading$landmarks)
+  own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else
+    given_landmarks(landmarks, ids, reading$landmarks)
+  wanting <- c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)]
   stats::setNames(Map(function(mesh, id, at, wanting) {
     failed <- inherits(at, "condition")
-    list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading, refusal = if (failed) at,
+    list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading,
+         refusal = if (failed) at,
          wanting = if (!is.na(wanting)) wanting)
-  }, files, ids, own, c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)], USE.NAMES = FALSE), ids)
+  }, files, ids, own, wanting, USE.NAMES = FALSE), ids)
 }
 
 #' Ids of files: their names without extension; where these are the same, with as many folders as
@@ -86,7 +92,8 @@ landmarks_or_refusal <- function(file) {
 #' Landmarks as [landmarks_for()] has them, none for meshes whose path is NA
 #' @noRd
 given_landmarks <- function(landmarks, ids, options) {
-  none <- if (is.character(landmarks) && length(landmarks) == length(ids)) is.na(landmarks) | !nzchar(landmarks) else FALSE
+  paths <- is.character(landmarks) && length(landmarks) == length(ids)
+  none <- if (paths) is.na(landmarks) | !nzchar(landmarks) else FALSE
   if (!any(none)) return(do.call(landmarks_for, c(list(landmarks, ids), options)))
   own <- stats::setNames(vector("list", length(ids)), ids)
   if (all(none)) return(own)
@@ -101,10 +108,12 @@ given_landmarks <- function(landmarks, ids, options) {
 #' @noRd
 check_reading <- function(reading, call) {
   takes <- reading_arguments()
-  wrong <- !is.list(reading) || length(reading) && (is.null(names(reading)) || any(!nzchar(names(reading))))
+  named <- names(reading)
+  wrong <- !is.list(reading) || length(reading) && (is.null(named) || any(!nzchar(named)))
   strange <- if (!wrong) setdiff(names(reading), unlist(takes))
   if (wrong || length(strange)) {
-    crestline_abort(if (wrong) sprintf("`reading` is %s, not a list with names.", describe_value(reading)) else
+    crestline_abort(if (wrong) sprintf("`reading` is %s, not a list with names.",
+                                       describe_value(reading)) else
       sprintf("`reading` has arguments that reading does not take: %s.", shorten(strange)),
       sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments", call = call)
   }
@@ -130,9 +139,11 @@ job_specimen <- function(job) {
   }
   if (!is.null(job$specimen)) return(job$specimen)
   at <- job$landmarks
-  if (!is.character(at)) return(do.call(read_specimen, c(list(job$mesh, at, job$id), job$reading$specimen)))
+  if (!is.character(at)) return(do.call(read_specimen,
+                                        c(list(job$mesh, at, job$id), job$reading$specimen)))
   points <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
-  from_files(do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen)), job$mesh, at)
+  from_files(do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen)),
+             job$mesh, at)
 }
 
 #' What the answers of a job depend on: its content, not the names of its files
@@ -145,7 +156,8 @@ job_content <- function(job, scheme, settings) {
   tryCatch({
     mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key
     input <- if (is.null(job$specimen)) {
-      list(if (is.character(job$landmarks)) rlang::hash_file(job$landmarks) else job$landmarks, file_format(job), job$reading)
+      list(if (is.character(job$landmarks)) rlang::hash_file(job$landmarks) else job$landmarks,
+           file_format(job), job$reading)
     } else {
       c(unclass(job$specimen)[c("landmarks", "placing", "match")], job$specimen$mesh["material"])
     }

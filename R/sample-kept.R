@@ -18,12 +18,14 @@ content_hash <- function(x) rlang::hash(serialize(x, NULL, version = 2)[-(1:14)]
 #' @noRd
 results_folder <- function(dir, call = rlang::caller_env()) {
   if (!is.character(dir) || length(dir) != 1 || is.na(dir)) {
-    crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.", stage = "arguments",
+    crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.",
+                    stage = "arguments",
                     call = call)
   }
   dir.create(dir, recursive = TRUE, showWarnings = FALSE)
   if (!dir.exists(dir)) {
-    crestline_abort(sprintf("the folder %s cannot be made.", dir), "Choose another, or check who may write there.",
+    crestline_abort(sprintf("the folder %s cannot be made.", dir),
+                    "Choose another, or check who may write there.",
                     stage = "arguments", call = call)
   }
   normalizePath(dir)
@@ -67,7 +69,8 @@ file_stem <- function(id, capitals, longest) {
   n <- length(letters)
   odd <- !letters %in% c(base::letters, if (!capitals) LETTERS, 0:9, " ", ".", "_", "-")
   odd[c(1, n)] <- odd[c(1, n)] | letters[c(1, n)] %in% c(" ", ".")
-  device <- grepl("^(con|prn|aux|nul|com[0-9]|lpt[0-9]) *([.].*)?$", tolower(enc2utf8(id)), useBytes = TRUE)
+  device <- grepl("^(con|prn|aux|nul|com[0-9]|lpt[0-9]) *([.].*)?$", tolower(enc2utf8(id)),
+                  useBytes = TRUE)
   odd[1] <- odd[1] || device
   stem <- paste(ifelse(odd, sprintf("%%%02X", as.integer(bytes)), letters), collapse = "")
   if (nchar(stem) <= longest) return(stem)
@@ -96,7 +99,7 @@ keep <- function(value, about, file, compression = 1) {
 refuse_keeping <- function(file, reason) {
   reason <- sub("[.]$", "", iconv(reason, "", "UTF-8", sub = "byte"))
   crestline_abort(sprintf("its result cannot be written to %s: %s.", file, reason),
-                  "Make room on the disk or check who may write there; then run it again: what is kept stays.",
+                  "Make room or check who may write there; then run it again: what is kept stays.",
                   stage = "keeping", class = "crestline_keeping_error", call = NULL)
 }
 
@@ -110,7 +113,8 @@ write_whole <- function(bytes, file) {
 #' @noRd
 kept_bytes <- function(value, about, compression) {
   first <- charToRaw(paste(kept_layout, about$key, about$mesh))
-  about <- charToRaw(enc2utf8(jsonlite::toJSON(about, auto_unbox = TRUE, null = "null", na = "null")))
+  about <- charToRaw(enc2utf8(jsonlite::toJSON(about, auto_unbox = TRUE, null = "null",
+                                               na = "null")))
   packed <- packed_bytes(value, compression)
   line <- as.raw(10L)
   c(first, line, charToRaw(checksum(first, about, packed)), line, about, line, packed)
@@ -129,7 +133,9 @@ packed_bytes <- function(value, compression) {
   tryCatch(writeBin(bytes, to), finally = close(to))
   packed <- readBin(file, "raw", file.size(file))
   length <- sum(as.integer(utils::tail(packed, 4)) * 256^(0:3))
-  if (length(packed) < 18 || length != length(bytes) %% 2^32) stop("the folder for temporary files is full")
+  if (length(packed) < 18 || length != length(bytes) %% 2^32) {
+    stop("the folder for temporary files is full")
+  }
   packed
 }
 
@@ -139,7 +145,8 @@ packed_bytes <- function(value, compression) {
 #' @noRd
 peek_kept <- function(file, most = 200) {
   none <- list(key = NA_character_, mesh = NA_character_, own = FALSE)
-  start <- tryCatch(readBin(file, "raw", most), error = function(e) NULL, warning = function(w) NULL)
+  start <- tryCatch(readBin(file, "raw", most), error = function(e) NULL,
+                    warning = function(w) NULL)
   if (is.null(start)) return(none)
   layout <- charToRaw(kept_layout)
   known <- min(length(start), length(layout))

@@ -17,7 +17,8 @@
 #' @return List of what `work` returns; of tasks whose worker died a `lost_task`.
 #' @noRd
 run_tasks <- function(tasks, work, arguments, chunk, alone = FALSE, poll = 0.05) {
-  rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll), future.globals.maxSize = Inf)
+  rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll),
+                       future.globals.maxSize = Inf)
   tick <- if (alone) function(name) NULL else progressr::progressor(steps = length(tasks))
   lots <- unname(split(seq_along(tasks), ceiling(seq_along(tasks) / chunk)))
   values <- vector("list", length(lots))
@@ -36,7 +37,8 @@ run_tasks <- function(tasks, work, arguments, chunk, alone = FALSE, poll = 0.05)
   }
   # A task that has cost a worker already is not tried in the user's own process.
   values[open] <- lapply(lots[open], function(lot) {
-    if (alone) list(lost_task("the plan's workers cannot be reached")) else work_lot(tasks[lot], work, arguments, tick)
+    if (alone) return(list(lost_task("the plan's workers cannot be reached")))
+    work_lot(tasks[lot], work, arguments, tick)
   })
   unlist(values, recursive = FALSE, use.names = FALSE)
 }
@@ -46,7 +48,8 @@ run_tasks <- function(tasks, work, arguments, chunk, alone = FALSE, poll = 0.05)
 start_lot <- function(tasks, work, arguments, tick) {
   tryCatch(
     future::future(work_lot(tasks, work, arguments, tick), packages = "crestline", seed = NULL,
-                   globals = list(tasks = tasks, work = work, arguments = arguments, tick = tick, work_lot = work_lot)),
+                   globals = list(tasks = tasks, work = work, arguments = arguments, tick = tick,
+                                  work_lot = work_lot)),
     FutureError = identity
   )
 }

@@ -25,10 +25,12 @@ validate_shape_batch <- function(x, call = rlang::caller_env()) {
   none <- vapply(elements, is.null, NA)
   wrong <- ids[!none & !vapply(elements, inherits, NA, "shape")]
   if (length(wrong)) {
-    fail(sprintf("%s of the batch is no shape.", shorten(wrong)), "Put only shapes into it, as of fit_shape().")
+    fail(sprintf("%s of the batch is no shape.", shorten(wrong)),
+         "Put only shapes into it, as of fit_shape().")
   }
   if (!all(ids[none] %in% names(attr(x, "failed")))) {
-    fail(sprintf("nothing tells why %s is not there.", shorten(setdiff(ids[none], names(attr(x, "failed"))))),
+    fail(sprintf("nothing tells why %s is not there.",
+                 shorten(setdiff(ids[none], names(attr(x, "failed"))))),
          "Leave specimens out with x[-i] or x[ids], not by assigning NULL to them.")
   }
   x
@@ -59,7 +61,8 @@ renewed_batch <- function(x) {
   failed <- vapply(results, inherits, NA, "shape_failure")
   shapes <- results
   shapes[failed] <- list(NULL)
-  new_shape_batch(shapes, lapply(results[failed], function(one) utils::modifyList(new_failure("", "", ""), one)))
+  complete <- function(one) utils::modifyList(new_failure("", "", ""), one)
+  new_shape_batch(shapes, lapply(results[failed], complete))
 }
 
 #' A shape that is in a file, and is read when one of its fields is asked for
@@ -70,7 +73,8 @@ renewed_batch <- function(x) {
 kept_shape <- function(task, about) {
   warnings <- if (NROW(about$warnings)) as.data.frame(about$warnings) else no_warnings()
   lacking <- if (length(about$lacking)) as.integer(about$lacking) else c(0L, NA)
-  structure(list(), file = task$file, key = task$key, id = task$name, warnings = warnings, found = isTRUE(about$found),
+  structure(list(), file = task$file, key = task$key, id = task$name, warnings = warnings,
+            found = isTRUE(about$found),
             lacking = lacking, class = c("kept_shape", "shape"))
 }
 
@@ -89,9 +93,10 @@ told_of <- function(shape) {
 kept_fault <- function(x, opened = open_kept(attr(x, "file"))) {
   file <- attr(x, "file")
   if (opened$state == "whole" && identical(opened$about$key, attr(x, "key"))) return(NULL)
-  problem <- switch(opened$state, absent = "its file %s is not there.", damaged = "its file %s is damaged or cut short.",
-                    former = "its file %s is of a former version, and nothing in it tells whether it is whole.",
-                    whole = "its file %s has another's result now: another mesh, scheme or settings.")
+  problem <- switch(opened$state, absent = "its file %s is not there.",
+                    damaged = "its file %s is damaged or cut short.",
+                    former = "its file %s is of a former version, which has no checksum.",
+                    whole = "its file %s has another's result now.")
   remedy <- if (opened$state == "whole") {
     "Run fit_shapes() again, with a `dir` of its own where two runs use one id for two specimens."
   } else "Run fit_shapes() again: it is measured again."
@@ -130,7 +135,8 @@ renamed_shape <- function(shape, id) {
 unkept <- function(x) {
   shape <- read_shape(x)
   if (inherits(shape, "shape")) return(shape)
-  crestline_abort(shape$message, shape$remedy, shape$stage, attr(x, "id"), class = "crestline_keeping_error", call = NULL)
+  crestline_abort(shape$message, shape$remedy, shape$stage, attr(x, "id"),
+                  class = "crestline_keeping_error", call = NULL)
 }
 
 #' @export
@@ -179,9 +185,11 @@ refuse_place <- function(i, ids, call) {
   words <- is.character(i) && length(i) && !all(i %in% ids)
   wrong <- if (words) shorten(paste0("\"", setdiff(i, ids), "\"")) else describe_value(i)
   near <- if (words && length(ids)) {
-    sprintf("Near ids: %s.", shorten(ids[order(utils::adist(setdiff(i, ids)[1], ids, ignore.case = TRUE))]))
+    sprintf("Near ids: %s.",
+            shorten(ids[order(utils::adist(setdiff(i, ids)[1], ids, ignore.case = TRUE))]))
   } else sprintf("It has %s: names(x).", amount(length(ids), "specimen"))
-  crestline_abort(sprintf("the batch has no specimen %s.", wrong), near, stage = "batch", call = call)
+  crestline_abort(sprintf("the batch has no specimen %s.", wrong), near, stage = "batch",
+                  call = call)
 }
 
 #' @export
@@ -192,7 +200,8 @@ refuse_place <- function(i, ids, call) {
   if (!inherits(shape, "kept_shape")) return(shape)
   shape <- read_shape(shape)
   if (inherits(shape, "shape")) return(shape)
-  crestline_warn(shape$message, shape$remedy, shape$stage, names(x)[i], class = "crestline_keeping_warning")
+  crestline_warn(shape$message, shape$remedy, shape$stage, names(x)[i],
+                 class = "crestline_keeping_warning")
   NULL
 }
 
@@ -205,11 +214,15 @@ refuse_place <- function(i, ids, call) {
   if (missing(i)) return(x)
   ids <- names(x)
   if (is.factor(i)) i <- as.character(i)
-  if (!(is.character(i) || is.numeric(i) || is.logical(i)) || anyNA(i)) refuse_place(i, ids, rlang::caller_env())
+  index <- is.character(i) || is.numeric(i) || is.logical(i)
+  if (!index || anyNA(i)) refuse_place(i, ids, rlang::caller_env())
   at <- suppressWarnings(stats::setNames(seq_along(ids), ids)[i])
-  if (anyNA(at)) refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids, rlang::caller_env())
+  if (anyNA(at)) refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids,
+                              rlang::caller_env())
   shapes <- unclass(x)[at]
-  validate_shape_batch(new_shape_batch(shapes, attr(x, "failed")[intersect(names(shapes), names(attr(x, "failed")))],
+  validate_shape_batch(new_shape_batch(shapes, attr(x, "failed")[intersect(names(shapes),
+                                                                           names(attr(x,
+                                                                                      "failed")))],
                                        attr(x, "scheme")))
 }
 
@@ -221,11 +234,13 @@ c.shape_batch <- function(...) {
   schemes <- Filter(Negate(is.null), lapply(given, attr, "scheme"))
   other <- which(vapply(schemes, `[[`, "", "key") != schemes[[1]]$key)
   if (length(other)) {
-    crestline_abort(sprintf("the batches were measured by different schemes: %s, and another %s.", schemes[[1]]$name,
+    crestline_abort(sprintf("the batches were measured by different schemes: %s, and another %s.",
+                            schemes[[1]]$name,
                             schemes[[other[1]]]$name),
                     "Measure all by one scheme: fit_shapes(..., scheme = ).", stage = "batch")
   }
-  validate_shape_batch(new_shape_batch(do.call(c, lapply(given, plain_list)), do.call(c, lapply(given, attr, "failed")),
+  validate_shape_batch(new_shape_batch(do.call(c, lapply(given, plain_list)),
+                                       do.call(c, lapply(given, attr, "failed")),
                                        schemes[[1]]))
 }
 
@@ -237,7 +252,8 @@ plain_list <- function(x) {
 }
 
 #' @export
-as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x)), function(i) x[[i]]), names(x))
+as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x)),
+                                                               function(i) x[[i]]), names(x))
 
 #' @export
 summary.shape_batch <- function(object, ...) {
@@ -248,8 +264,10 @@ summary.shape_batch <- function(object, ...) {
   landmarks <- ifelse(vapply(told, `[[`, NA, "found"), "found", "placed")
   lacking <- vapply(told, function(one) as.integer(one$lacking[1]), 0L)
   count <- as.vector(table(factor(warnings_of(x)$id, names(x))))
-  data.frame(specimen = names(x), measured = is.na(at), landmarks = unname(ifelse(is.na(at), landmarks, NA)),
-             lacking = unname(ifelse(is.na(at), lacking, NA)), warnings = count, message = failed$message[at])
+  data.frame(specimen = names(x), measured = is.na(at),
+             landmarks = unname(ifelse(is.na(at), landmarks, NA)),
+             lacking = unname(ifelse(is.na(at), lacking,
+                                     NA)), warnings = count, message = failed$message[at])
 }
 
 #' @export
@@ -257,10 +275,13 @@ print.shape_batch <- function(x, most = 8, ...) {
   x <- renewed_batch(x)
   failed <- failures(x)
   files <- unlist(lapply(plain_list(x), attr, "file"))
-  cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed), " measured, ", nrow(failed),
-      " failed", if (length(files)) paste0(", in ", shorten(unique(dirname(files)), 2)), "\n", sep = "")
+  cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed),
+      " measured, ", nrow(failed),
+      " failed", if (length(files)) paste0(", in ",
+                                           shorten(unique(dirname(files)), 2)), "\n", sep = "")
   told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
-  print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]), warning_lines(attr(failed, "warnings"))),
+  print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]),
+                warning_lines(attr(failed, "warnings"))),
               most, "in warnings_of()")
   print_items(told, most, "in failures()")
   invisible(x)
@@ -276,12 +297,14 @@ landmark_lines <- function(shapes) {
   c(
     if (length(found)) sprintf("%s: landmarks found by the template, not placed by hand: %s.",
                                amount(length(found), "specimen"), shorten(found, 12)),
-    if (length(lacking)) sprintf("%s: landmarks of the scheme are missing: %s.", amount(length(lacking), "specimen"),
+    if (length(lacking)) sprintf("%s: landmarks of the scheme are missing: %s.",
+                                 amount(length(lacking), "specimen"),
                                  shorten(sprintf("%s (%s)", names(lacking), counts), 12))
   )
 }
 
 print_items <- function(lines, most, where) {
-  for (line in utils::head(lines, most)) cat(strwrap(paste0("- ", line), width = 80, exdent = 4), sep = "\n")
+  for (line in utils::head(lines, most)) cat(strwrap(paste0("- ", line), width = 80, exdent = 4),
+                                             sep = "\n")
   if (length(lines) > most) cat("- and", length(lines) - most, "more", where, "\n")
 }

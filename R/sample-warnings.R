@@ -11,7 +11,8 @@ hear <- function(code, stage, ear) {
   withCallingHandlers(code, warning = function(w) {
     own <- inherits(w, "crestline_warning")
     row <- data.frame(stage = if (own) w$stage else stage, class = class(w)[1],
-                      problem = if (own) w$problem else conditionMessage(w), remedy = if (own) w$remedy else "")
+                      problem = if (own) w$problem else conditionMessage(w),
+                      remedy = if (own) w$remedy else "")
     ear$heard <- rbind(ear$heard, row)
     tryInvokeRestart("muffleWarning")
   })
@@ -53,7 +54,8 @@ batch_warnings <- function(x) {
 
 bind_warnings <- function(each) {
   rows <- Map(function(id, one) cbind(id = rep(id, NROW(one)), one), names(each), each)
-  rows <- do.call(rbind, c(list(cbind(id = character(), no_warnings())), unname(rows[lengths(each) > 0])))
+  rows <- do.call(rbind,
+                  c(list(cbind(id = character(), no_warnings())), unname(rows[lengths(each) > 0])))
   rownames(rows) <- NULL
   rows
 }
@@ -72,7 +74,8 @@ warning_lines <- function(warnings) {
   lines <- lapply(split(warnings, factor(kind, unique(kind))), function(rows) {
     ids <- unique(rows$id)
     others <- if (length(unique(rows$problem)) > 1) sprintf(" (%s)", ids[1]) else ""
-    trimws(sprintf("%s: %s%s %s In: %s.", amount(length(ids), "specimen"), rows$problem[1], others, rows$remedy[1],
+    trimws(sprintf("%s: %s%s %s In: %s.", amount(length(ids), "specimen"), rows$problem[1], others,
+                   rows$remedy[1],
                    shorten(ids, 12)))
   })
   unlist(lines, use.names = FALSE)

@@ -3,11 +3,14 @@
 #' The methods of a study by name
 #' @noRd
 study_methods <- function(settings) {
-  if (inherits(settings, "ridge_settings")) settings <- stats::setNames(list(settings), attr(settings, "preset"))
+  if (inherits(settings, "ridge_settings")) settings <- stats::setNames(list(settings),
+                                                                        attr(settings, "preset"))
   known <- function(x) inherits(x, "ridge_settings") || is.function(x)
-  if (!is.list(settings) || !length(settings) || is.null(names(settings)) || !all(vapply(settings, known, NA))) {
-    crestline_abort("`settings` holds something that is neither settings nor a function, or has no names.",
-                    "Give ridge_settings(), or a named list of ridge_settings() and functions.", stage = "arguments")
+  listed <- is.list(settings) && length(settings) && !is.null(names(settings))
+  if (!listed || !all(vapply(settings, known, NA))) {
+    crestline_abort("`settings` holds what is neither settings nor a function, or has no names.",
+                    "Give ridge_settings(), or a named list of ridge_settings() and functions.",
+                    stage = "arguments")
   }
   settings
 }
@@ -25,7 +28,8 @@ value_print <- function(x, seen = rlang::env(list = list())) {
   if (is.environment(x)) return(environment_print(x, seen))
   if (is.list(x)) {
     about <- attributes(x)
-    return(list(lapply(unclass(x), value_print, seen), names(about), lapply(unname(about), function(one) {
+    return(list(lapply(unclass(x), value_print, seen), names(about),
+                lapply(unname(about), function(one) {
       if (is.list(one) || is.function(one) || is.environment(one)) value_print(one, seen) else one
     })))
   }
@@ -37,7 +41,8 @@ value_print <- function(x, seen = rlang::env(list = list())) {
 function_print <- function(x, seen) {
   if (is.primitive(x)) return(deparse(x))
   home <- environment(x)
-  text <- deparse(utils::removeSource(x), control = c("keepNA", "keepInteger", "niceNames", "showAttributes", "hexNumeric"))
+  text <- deparse(utils::removeSource(x), control = c("keepNA", "keepInteger", "niceNames",
+                                                      "showAttributes", "hexNumeric"))
   if (is_package(home)) return(list(text, environmentName(home)))
   c(list(text), used_print(home, words_of(x), seen))
 }

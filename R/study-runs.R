@@ -1,44 +1,55 @@
-# Section 5.2 of the paper as a study: many simulated ridges, by any estimator, in parallel, gone on with after a kill.
+# Section 5.2 of the paper as a study: many simulated ridges, by any estimator, in parallel, gone on
+# with after a kill.
 
 #' Study of ridge estimates on simulated surfaces
 #'
-#' For each combination of the surface's bend and sharpness, its noise, its mesh and its landmarks, and of radius and
-#' passes, estimates the ridge of `n` simulated surfaces and measures how far it lies from the true one.
+#' For each combination of the surface's bend and sharpness, its noise, its mesh and its landmarks,
+#' and of radius and passes, estimates the ridge of `n` simulated surfaces and measures how far it
+#' lies from the true one.
 #'
-#' Each curve is compared at `points` points along it and as many along the truth: the mean of the distances from the
-#' first to the true line and from the second to the curve, seen along z, since the noise moves points up and down only.
-#' There are two truths, the crest in height and the locus of greatest curvature, see [simulate_ridge()].
+#' Each curve is compared at `points` points along it and as many along the truth: the mean of the
+#' distances from the first to the true line and from the second to the curve, seen along z, since
+#' the noise moves points up and down only. There are two truths, the crest in height and the locus
+#' of greatest curvature, see [simulate_ridge()].
 #'
-#' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future and progressr are there.
-#' Surfaces depend on their seeds alone, so that results do not depend on the number of workers, and all methods see
-#' the same surfaces. With `dir` a run that was cut short goes on where it was.
+#' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future and
+#' progressr are there. Surfaces depend on their seeds alone, so that results do not depend on the
+#' number of workers, and all methods see the same surfaces. With `dir` a run that was cut short
+#' goes on where it was.
 #'
-#' @param settings [ridge_settings()]; or a named list of such, and of functions `(specimen, radius, width, n)` that return
-#'   the points of another estimate (matrix k x 3, in order from landmark `from` to `to`): several methods on the same
-#'   surfaces. Parallel workers do not see what a function uses of your workspace: put helpers into an environment with it (`local()`).
+#' @param settings [ridge_settings()]; or a named list of such, and of functions `(specimen, radius,
+#'   width, n)` that return the points of another estimate (matrix k x 3, in order from landmark
+#'   `from` to `to`): several methods on the same surfaces. Parallel workers do not see what a
+#'   function uses of your workspace: put helpers into an environment with it (`local()`).
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
 #' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
 #' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
 #' @param width As in [ridge_curve()], in the unit of the surface.
 #' @param points Number of points at which each curve is compared; the paper: 21.
-#' @param dir Folder for the results of a long run, made where it is not there. What is in it already is not run again if
-#'   it was made with the same arguments and the same version of the package. Two functions are the same if their text is, and
-#'   all that they use from the environments that they were made in, or from your workspace. A file that is damaged or cut short
-#'   is run again. `NULL`: nothing is kept.
+#' @param dir Folder for the results of a long run, made where it is not there. What is in it
+#'   already is not run again if it was made with the same arguments and the same version of the
+#'   package. Two functions are the same if their text is, and all that they use from the
+#'   environments that they were made in, or from your workspace. A file that is damaged or cut
+#'   short is run again. `NULL`: nothing is kept.
 #' @param block Surfaces that a worker takes, and writes to `dir`, at a time.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2: finer grids, and studies of more
-#'   curves than this, are refused before any work.
+#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2: finer grids, and
+#'   studies of more curves than this, are refused before any work.
 #' @param ... Further arguments of [simulate_ridge()]: `jitter`, `end`.
-#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`,
-#'   `passes`; `seed`; `method`: the name in `settings`; `distance`: mean distance between estimate and crest, **in spacings**;
-#'   `distance_curvature`: the same from the locus of greatest curvature, `NA` where that does not run from end to end;
-#'   `se`: median standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points that lie
-#'   within two of their standard errors of crest and locus; `determined`, `converged` (logical); `seconds` of processor time;
-#'   `error`: the message where the estimate failed. What a method has not is `NA`.
-#' @section Errors: only for arguments out of their range, before any work; a failed estimate is a row with `error`.
-#' @section Warnings: of class `crestline_keeping_warning`, where results could not be written to `dir`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
+#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`,
+#'   `radius`, `correlation`, `passes`; `seed`; `method`: the name in `settings`; `distance`: mean
+#'   distance between estimate and crest, **in spacings**; `distance_curvature`: the same from the
+#'   locus of greatest curvature, `NA` where that does not run from end to end; `se`: median
+#'   standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points
+#'   that lie within two of their standard errors of crest and locus; `determined`, `converged`
+#'   (logical); `seconds` of processor time; `error`: the message where the estimate failed. What a
+#'   method has not is `NA`.
+#' @section Errors: only for arguments out of their range, before any work; a failed estimate is a
+#'   row with `error`.
+#' @section Warnings: of class `crestline_keeping_warning`, where results could not be written to
+#'   `dir`.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
+#'   5.2.
 #' @examples
 #' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
 #' aggregate(distance ~ a + b + noise, study, mean)
@@ -116,7 +127,8 @@ check_study_size <- function(curves, largest, call = rlang::caller_env()) {
   }
 }
 
-#' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells whether it is kept already
+#' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells
+#' whether it is kept already
 #' @noRd
 study_tasks <- function(cells, n, block, methods, constant, dir) {
   seeds <- split(seq_len(n), ceiling(seq_len(n) / block))
@@ -135,8 +147,8 @@ study_tasks <- function(cells, n, block, methods, constant, dir) {
 
 runs_parallel <- function() rlang::is_installed(c("future", "progressr"))
 
-#' Work at tasks in parallel where the packages for that are there, and one after the other where not; those whose worker has died
-#' once more, each alone
+#' Work at tasks in parallel where the packages for that are there, and one after the other where
+#' not; those whose worker has died once more, each alone
 #' @noRd
 apply_tasks <- function(tasks, arguments) {
   if (!runs_parallel()) return(lapply(tasks, study_block, arguments$methods, arguments$constant))
@@ -147,7 +159,8 @@ apply_tasks <- function(tasks, arguments) {
 }
 
 #' Estimates for one block of surfaces, from its file where they are there
-#' @return List of rows, each a list; with attribute `unkept`, why they could not be written, where they could not.
+#' @return List of rows, each a list; with attribute `unkept`, why they could not be written, where
+#'   they could not.
 #' @noRd
 study_block <- function(task, methods, constant) {
   kept <- if (!is.null(task$file)) open_kept(task$file)
@@ -165,7 +178,7 @@ study_block <- function(task, methods, constant) {
 #' Rows of a block whose worker died twice
 #' @noRd
 lost_block <- function(task, methods, lost) {
-  message <- paste("the worker died:", shorten_text(lost$message))
+  message <- paste("the worker died:", first_line(lost$message))
   unlist(lapply(task$seeds, function(seed) lapply(names(methods), function(name) {
     c(task$cell, list(seed = seed, method = name), study_result(message), list(seconds = NA_real_, error = message))
   })), recursive = FALSE)
@@ -197,7 +210,8 @@ study_surface <- function(cell, seed, crest, methods, constant) {
 
 #' An estimate by one method
 #'
-#' @return List: `line` (the whole curve, k x 3), `at` (its points to be compared, with `se`), `se`, `determined`, `converged`.
+#' @return List: `line` (the whole curve, k x 3), `at` (its points to be compared, with `se`), `se`,
+#'   `determined`, `converged`.
 #' @noRd
 study_estimate <- function(method, surface, cell, constant) {
   points <- constant$points
@@ -217,7 +231,8 @@ study_estimate <- function(method, surface, cell, constant) {
 #' What is kept of an estimate
 #'
 #' @param found As of [study_estimate()], or a message.
-#' @param truths The crest, and the locus of greatest curvature or NULL; both NULL where `found` is a message.
+#' @param truths The crest, and the locus of greatest curvature or NULL; both NULL where `found` is
+#'   a message.
 #' @noRd
 study_result <- function(found, truths = NULL, spacing = 1) {
   failed <- is.character(found)

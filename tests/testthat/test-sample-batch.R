@@ -6,7 +6,8 @@ test_that("a batch has the shapes that fit_shape() gives, by name", {
   shapes <- fit_shapes(specimens, quad_scheme())
   expect_s3_class(shapes, "shape_batch")
   expect_named(shapes, paste("ball", 1:3))
-  for (i in 1:3) same_points(shapes[[i]], fit_shape(specimens[[i]], quad_scheme(), progress = FALSE))
+  for (i in 1:3) same_points(shapes[[i]],
+                             fit_shape(specimens[[i]], quad_scheme(), progress = FALSE))
   expect_identical(shapes[["ball 2"]], shapes[[2]])
   expect_named(as.list(shapes[c(1, 3)]), c("ball 1", "ball 3"))
   expect_identical(nrow(failures(shapes)), 0L)
@@ -30,7 +31,8 @@ test_that("files are read with the landmarks beside them; what goes wrong costs 
   shapes <- fit_shapes(meshes_in(dir), quad_scheme())
   expect_named(shapes, c("ball 1", "ball 2", "ball 3", "broken", "off"))
   expect_null(shapes$broken)
-  same_points(shapes[[2]], fit_shape(batch_specimens()[[2]], quad_scheme(), progress = FALSE), tolerance = 1e-6)
+  same_points(shapes[[2]], fit_shape(batch_specimens()[[2]], quad_scheme(), progress = FALSE),
+              tolerance = 1e-6)
   failed <- failures(shapes)
   expect_identical(failed$id, c("broken", "off"))
   expect_identical(failed$stage, c("reading", "landmarks"))
@@ -49,7 +51,8 @@ test_that("results are kept as they come, and measured again only when something
   first <- run()
   expect_true(all(file.exists(kept())))
   expect_identical(lengths(unclass(first), use.names = FALSE), c(0L, 0L, 0L))
-  same_points(first[[3]], fit_shape(batch_specimens()[[3]], quad_scheme(), progress = FALSE), tolerance = 1e-6)
+  same_points(first[[3]], fit_shape(batch_specimens()[[3]], quad_scheme(), progress = FALSE),
+              tolerance = 1e-6)
   # A killed run: one result is missing, of another only a part was written. What another run has left is not deleted.
   unlink(kept()[2])
   writeLines("half", file.path(out, "part-1.tmp"))
@@ -100,7 +103,8 @@ test_that("a batch goes into quality(), homologise() and lapply()", {
   shapes <- fit_shapes(meshes_in(dir), quad_scheme(), file.path(dir, "out"))
   expect_identical(unique(quality(shapes)$specimen), names(shapes))
   expect_true(any(quality(shapes)$why %in% "it was not measured"))
-  expect_named(Filter(Negate(is.null), lapply(shapes, function(shape) shape$id)), paste("ball", 1:3))
+  expect_named(Filter(Negate(is.null), lapply(shapes, function(shape) shape$id)),
+               paste("ball", 1:3))
   sample <- homologise(shapes, tolerance = 1e-3)
   expect_identical(dim(as.array(sample, "curves"))[3], 3L)
   expect_identical(sample, homologise(Filter(Negate(is.null), as.list(shapes)), tolerance = 1e-3))
@@ -110,7 +114,8 @@ test_that("arguments that serve no specimen are refused", {
   skip_without_futures()
   expect_crestline_error(fit_shapes(list(), quad_scheme()), "`x`")
   expect_crestline_error(fit_shapes(list(1), quad_scheme()), c("`x`", "specimen"))
-  expect_crestline_error(fit_shapes(c("a.ply", "b.ply"), quad_scheme(), landmarks = "a.csv"), c("a.csv", "no file"))
+  expect_crestline_error(fit_shapes(c("a.ply", "b.ply"), quad_scheme(), landmarks = "a.csv"),
+                         c("a.csv", "no file"))
   expect_crestline_error(fit_shapes(batch_specimens(1), quad_scheme(), dir = 1), "`dir`")
   expect_crestline_error(failures(list()), "fit_shapes()")
 })
@@ -138,7 +143,8 @@ test_that("a scan that was renamed is not measured again, and two of one name ne
   file.copy(file.path(dir, "ball 3.ply"), file.path(dir, "anna.ply"), overwrite = TRUE)
   file.copy(file.path(dir, "ball 3.csv"), file.path(dir, "anna.csv"), overwrite = TRUE)
   unlink(file.path(dir, "ball 3.ply"))
-  write_landmarks(quad_corners() %*% diag(c(1.06, 1, 1)) |> `rownames<-`(letters[1:4]), file.path(dir, "anna.csv"))
+  write_landmarks(quad_corners() %*% diag(c(1.06, 1, 1)) |> `rownames<-`(letters[1:4]),
+                  file.path(dir, "anna.csv"))
   again <- fit_shapes(meshes_in(dir), edge_scheme(), out)
   expect_equal(coords(again$anna, "curves"), coords(all[["ball 3"]], "curves"), tolerance = 1e-6)
   expect_identical(nrow(failures(all)), 0L)
@@ -154,10 +160,12 @@ test_that("a folder that two runs share has the results of both, each for its ow
   second <- fit_shapes(two[2], edge_scheme(), out)
   expect_length(list.files(out), 2)
   expect_false(identical(coords(first[[1]], "curves"), coords(second[[1]], "curves")))
-  expect_equal(coords(first[[1]], "curves"), coords(fit_shape(two[[1]], edge_scheme(), progress = FALSE), "curves"))
+  expect_equal(coords(first[[1]], "curves"),
+               coords(fit_shape(two[[1]], edge_scheme(), progress = FALSE), "curves"))
   # Had the other one taken its file, it would be told.
   files <- list.files(out, full.names = TRUE)
-  file.copy(files[grepl("-", basename(files))], files[!grepl("-", basename(files))], overwrite = TRUE)
+  file.copy(files[grepl("-", basename(files))], files[!grepl("-", basename(files))],
+            overwrite = TRUE)
   expect_match(failures(first)$message, "another's result")
   expect_warning(expect_null(first[[1]]), "another's result", class = "crestline_keeping_warning")
 })
@@ -204,19 +212,23 @@ test_that("arguments of reading reach it, and strange ones are refused at once",
   off <- 1.05 * batch_specimens(1)[[1]]$landmarks
   write_landmarks(off, file.path(dir, "ball 1.csv"))
   expect_identical(failures(fit_shapes(mesh, edge_scheme()))$stage, "landmarks")
-  expect_identical(nrow(failures(fit_shapes(mesh, edge_scheme(), reading = list(tolerance = 0.05)))), 0L)
+  expect_identical(nrow(failures(fit_shapes(mesh, edge_scheme(),
+                                            reading = list(tolerance = 0.05)))), 0L)
   unlink(file.path(dir, "ball 1.csv"))
-  write_landmarks(batch_specimens(1)[[1]]$landmarks, file.path(dir, "ball 1.mrk.json"), frame = "RAS")
+  write_landmarks(batch_specimens(1)[[1]]$landmarks, file.path(dir, "ball 1.mrk.json"),
+                  frame = "RAS")
   at <- lapply(c("RAS", "LPS"), function(frame) {
     coords(fit_shapes(mesh, edge_scheme(), reading = list(frame = frame))[[1]], "landmarks")
   })
   expect_equal(at[[1]], batch_specimens(1)[[1]]$landmarks, tolerance = 1e-6)
   expect_equal(at[[2]][, "x"], -at[[1]][, "x"], tolerance = 1e-6)
-  expect_crestline_error(fit_shapes(mesh, edge_scheme(), frame = "RAS"), c("frame", "reading = list(frame"))
+  expect_crestline_error(fit_shapes(mesh, edge_scheme(), frame = "RAS"),
+                         c("frame", "reading = list(frame"))
   expect_crestline_error(fit_shapes(mesh, edge_scheme(), no_such = 1), c("no_such", "cut_scale"))
   expect_crestline_error(fit_shapes(mesh, edge_scheme(), reading = list(no_such = 1)), "no_such")
   expect_crestline_error(fit_shapes(mesh, edge_scheme(), reading = "RAS"), "`reading`")
-  expect_crestline_error(fit_shapes(batch_specimens(1), edge_scheme(), reading = list(frame = "RAS")), "mesh files")
+  expect_crestline_error(fit_shapes(batch_specimens(1), edge_scheme(),
+                                    reading = list(frame = "RAS")), "mesh files")
 })
 
 test_that("a result that cannot be written costs one specimen", {
@@ -225,7 +237,8 @@ test_that("a result that cannot be written costs one specimen", {
   on.exit(unlink(out, recursive = TRUE))
   three <- batch_specimens()
   # Folders stand where the second result could go.
-  taken <- file.path(out, paste0("ball 2", c("", paste0("-", substr(three[[2]]$key, 1, 8))), ".shape"))
+  taken <- file.path(out,
+                     paste0("ball 2", c("", paste0("-", substr(three[[2]]$key, 1, 8))), ".shape"))
   for (folder in taken) dir.create(folder, recursive = TRUE)
   shapes <- fit_shapes(three, edge_scheme(), out)
   expect_identical(failures(shapes)[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))

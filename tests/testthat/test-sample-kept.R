@@ -1,7 +1,8 @@
 # Names of files for any id, and files that are never taken for what they are not.
 
 test_that("any id has a file's name that gives it back, and no two share one on any disk", {
-  ids <- c("anna", "Anna", "ANNA", "a/b", "a\\b", "a:b*?\"<>|", "CON", "nul", "com1.txt", "a.", " a", "a%2Fb", "\u00e9t\u00e9",
+  ids <- c("anna", "Anna", "ANNA", "a/b", "a\\b", "a:b*?\"<>|", "CON", "nul", "com1.txt", "a.",
+           " a", "a%2Fb", "\u00e9t\u00e9",
            "\u4e2d\u6587", "tab\t", "~", ".hidden", "name with blanks", "Mixed Case 7")
   stems <- file_stems(ids)
   expect_identical(enc2utf8(vapply(stems, utils::URLdecode, "", USE.NAMES = FALSE)), enc2utf8(ids))
@@ -55,7 +56,8 @@ test_that("any flipped bit and any cut is noticed before anything is unserialise
       expect_silent(peek_kept(file))
     }
   }
-  cut <- vapply(round(seq(0, length(bytes) - 1, length.out = 30)), function(n) state(bytes[seq_len(n)]), "")
+  cut <- vapply(round(seq(0, length(bytes) - 1, length.out = 30)),
+                function(n) state(bytes[seq_len(n)]), "")
   expect_identical(unique(cut), "damaged")
   expect_identical(state(c(bytes, as.raw(0))), "damaged")
   expect_identical(state(bytes), "whole")
@@ -77,12 +79,14 @@ test_that("files of the former layout are known and not read, those of others ar
 
 test_that("what cannot be written is an error of ours and leaves nothing behind", {
   dir <- tempfile("full-")
-  expect_crestline_error(keep(1, list(key = "k", mesh = "m"), file.path(dir, "a.shape")), "cannot be written")
+  expect_crestline_error(keep(1, list(key = "k", mesh = "m"), file.path(dir, "a.shape")),
+                         "cannot be written")
   dir.create(dir)
   on.exit(unlink(dir, recursive = TRUE))
   # A folder cannot be replaced by a file.
   dir.create(file.path(dir, "a.shape"))
-  expect_crestline_error(keep(1, list(key = "k", mesh = "m"), file.path(dir, "a.shape")), "cannot be written")
+  expect_crestline_error(keep(1, list(key = "k", mesh = "m"), file.path(dir, "a.shape")),
+                         "cannot be written")
   expect_identical(list.files(dir), "a.shape")
   skip_on_os("windows")
   skip_if_not(file.exists("/dev/full"))

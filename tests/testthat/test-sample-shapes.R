@@ -1,6 +1,7 @@
 # A batch behaves as a list does, in memory and in files.
 
-small_batch <- function(dir = NULL, specimens = batch_specimens(), ...) fit_shapes(specimens, edge_scheme(...), dir)
+small_batch <- function(dir = NULL, specimens = batch_specimens(), ...) fit_shapes(specimens,
+                                                                                   edge_scheme(...), dir)
 
 test_that("elements are had by id and number; one that is not there is an error", {
   skip_without_futures()
@@ -9,14 +10,16 @@ test_that("elements are had by id and number; one that is not there is an error"
     expect_length(batch, 3)
     expect_identical(batch$`ball 3`, batch[[3]])
     expect_crestline_error(batch[["bal 2"]], c("bal 2", "Near ids: ball 2"))
-    for (i in list(4, 0, -1, NA, 1.5, 1:2, "", NULL)) expect_crestline_error(batch[[i]], "no specimen")
+    for (i in list(4, 0, -1, NA, 1.5, 1:2, "", NULL)) expect_crestline_error(batch[[i]],
+                                                                             "no specimen")
     expect_crestline_error(batch$anna, "anna")
     expect_named(batch[-2], c("ball 1", "ball 3"))
     expect_named(batch[c(TRUE, FALSE, FALSE)], "ball 1")
     expect_named(rev(batch), paste("ball", 3:1))
     expect_named(utils::head(batch, 2), paste("ball", 1:2))
     expect_length(batch[0], 0)
-    for (i in list(5, "anna", NA, list(1), c(1, NA))) expect_crestline_error(batch[i], "no specimen")
+    for (i in list(5, "anna", NA, list(1), c(1, NA))) expect_crestline_error(batch[i],
+                                                                             "no specimen")
     expect_crestline_error(batch[c(1, 1)], "twice")
     unlink(dir, recursive = TRUE)
   }
@@ -69,7 +72,8 @@ test_that("two batches of one scheme are joined, in memory or in files", {
   expect_identical(names(c(joined[3], joined[1])), c("ball 3", "ball 1"))
   expect_identical(summary(joined)$measured, c(TRUE, TRUE, FALSE))
   expect_crestline_error(c(joined, joined[1]), c("ball 1", "twice"))
-  expect_crestline_error(c(joined, small_batch(NULL, batch_specimens(1), n = 9)), "different schemes")
+  expect_crestline_error(c(joined, small_batch(NULL, batch_specimens(1), n = 9)),
+                         "different schemes")
   expect_crestline_error(c(joined, list(1)), "shape_batch")
 })
 
@@ -91,9 +95,12 @@ test_that("a batch that a former version made is told, not an error", {
   serialize("key", to)
   serialize(quad_shape(edge_scheme()), to)
   close(to)
-  failed <- structure(list(stage = "reading", message = "no mesh", remedy = "none"), class = "shape_failure")
-  old <- structure(list(a = NULL, b = failed, c = quad_shape(edge_scheme())), files = list(file, NULL, NULL), class = "shape_batch")
-  expect_identical(failures(old)[c("id", "stage")], data.frame(id = c("a", "b"), stage = c("keeping", "reading")))
+  failed <- structure(list(stage = "reading", message = "no mesh", remedy = "none"),
+                      class = "shape_failure")
+  old <- structure(list(a = NULL, b = failed, c = quad_shape(edge_scheme())),
+                   files = list(file, NULL, NULL), class = "shape_batch")
+  expect_identical(failures(old)[c("id", "stage")],
+                   data.frame(id = c("a", "b"), stage = c("keeping", "reading")))
   expect_match(failures(old)$message[1], "former version")
   expect_s3_class(old$c, "shape")
   expect_warning(expect_null(old$a), "former version")
@@ -108,7 +115,8 @@ test_that("missing landmarks are told", {
   on.exit(unlink(out, recursive = TRUE))
   for (dir in list(NULL, out)) {
     batch <- small_batch(dir, three)
-    expect_output(print(batch), "1 specimen: landmarks of the scheme are missing: ball 2 (1 of 4)", fixed = TRUE)
+    expect_output(print(batch), "1 specimen: landmarks of the scheme are missing: ball 2 (1 of 4)",
+                  fixed = TRUE)
     expect_identical(summary(batch)$lacking, c(0L, 1L, 0L))
   }
 })
