@@ -22,6 +22,7 @@
 #' @export
 read_curves <- function(file, curves = NULL, ...) {
   check_given()
+  check_dots(..., known = names(formals(read_landmarks))[-1])
   curves <- check_names(curves, "curves", null = TRUE)
   sets <- read_landmarks(file, ...)
   of_set <- function(set) chosen_curves(curves_of_set(set), curves, file)

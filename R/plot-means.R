@@ -17,7 +17,7 @@ plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ..
   if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
-  scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), picture_settings(...))
+  scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), known_settings(...))
   graphics::title(title, font.main = 1, cex.main = 1)
   if (legend) {
     words <- paste(names(meshes), "in front")

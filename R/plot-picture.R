@@ -36,6 +36,13 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
        around = if (!is.null(around)) point_matrix(around, name = "around"), tolerance = check_number(tolerance, "tolerance", 0), inside = check_colour(inside, "inside", none = TRUE))
 }
 
+#' Settings from the dots of a function that draws, where a misspelt one is told of
+#' @noRd
+known_settings <- function(..., call = rlang::caller_env()) {
+  check_dots(..., known = names(formals(picture_settings)), call = call)
+  picture_settings(...)
+}
+
 picture_surface <- function(mesh, colour, rotation, settings) {
   turned <- rotation %*% mesh$vb[1:3, , drop = FALSE]
   shown <- if (is.null(settings$around)) turned else rotation %*% t(settings$around)

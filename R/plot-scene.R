@@ -34,7 +34,7 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
   colour <- check_colours(colour, ncol(mesh$vb))
   rotation <- view_rotation(view)
   switch(engine,
-         picture = picture_surface(mesh, colour, rotation, picture_settings(...)),
+         picture = picture_surface(mesh, colour, rotation, known_settings(...)),
          rgl = rgl_surface(mesh, colour, rotation, ...))
 }
 

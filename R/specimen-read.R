@@ -28,6 +28,7 @@
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_given()
+  check_dots(..., known = names(formals(specimen))[-(1:3)])
   check_file(file, "reading")
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)

@@ -66,4 +66,6 @@ test_that("misspelt arguments are not passed over", {
   expect_crestline_error(as.data.frame(shape, row.names = NULL, FALSE, levl = "curves"), "levl")
   expect_crestline_error(summary(quality(shape), x = 1), "`x`")
   expect_crestline_error(coords(shape, "curves", lvl = 1), "lvl")
+  expect_crestline_error(draw_surface(ball_mesh(), resolutoin = 5), c("resolutoin", "resolution"))
+  expect_crestline_error(as_morpho(array(0, c(4, 3, 4)), "points", scal = TRUE), "scal")
 })

@@ -34,3 +34,53 @@ test_that("errors of the checkers blame the caller", {
   error <- expect_crestline_error(asked("a"))
   expect_identical(as.character(error$call[[1]]), "asked")
 })
+
+test_that("flags, texts, names and choices are what they are called", {
+  expect_true(check_flag(TRUE, "x"))
+  for (wrong in list(NA, NULL, 1, "TRUE", c(TRUE, FALSE))) expect_crestline_error(check_flag(wrong, "x"), "`x` is")
+  both <- function(band, legend) check_flags(band, legend)
+  expect_crestline_error(both(TRUE, 1), "`legend` is 1")
+  expect_identical(check_text(structure("<b>", class = "html"), "x"), "<b>")
+  expect_null(check_text(NULL, "x", null = TRUE))
+  expect_crestline_error(check_text(NA_character_, "x"), "`x` is NA")
+  expect_crestline_error(check_names(c("a", NA), "x"), "`x`")
+  expect_identical(check_choices(c("b", "b"), c("a", "b"), "x"), "b")
+  expect_crestline_error(check_choices(c("b", "c"), c("a", "b"), "x"), c("`x` is b, c", "\"a\", \"b\""))
+})
+
+test_that("numbers, colours, points and paths are checked as wholes", {
+  expect_identical(check_numbers(1:2, "x", 2), c(1, 2))
+  expect_identical(check_numbers(c(1, NA), "x", missing = TRUE), c(1, NA))
+  for (wrong in list(c(1, NA), c(1, Inf), "a", numeric(), matrix(1))) expect_crestline_error(check_numbers(wrong, "x"), "`x` is")
+  expect_identical(check_colour(c("red", "#16218C"), "x"), c("red", "#16218C"))
+  expect_identical(check_colour(NA, "x", none = TRUE), NA)
+  for (wrong in list("zzz", NA, -1, TRUE, NULL, list("red"), 1e10)) expect_crestline_error(check_colour(wrong, "x"), "`x` is")
+  expect_crestline_error(check_matrix(matrix(1, 2, 2), "x"), c("`x` is a matrix of 2 x 2", "3 columns"))
+  expect_crestline_error(check_function("mean", "x"), "Give a function")
+  expect_crestline_error(check_seed(1e10), "`seed`")
+  expect_identical(check_path_to_write(file.path(tempdir(), "a.HTML"), "x", "html"), file.path(tempdir(), "a.HTML"))
+  expect_crestline_error(check_path_to_write("a.txt", "x", "html"), "ends in .html")
+  expect_crestline_error(check_path_to_write(tempdir(), "x"), "a folder")
+  expect_crestline_error(check_path_to_write(file.path(tempdir(), "no", "a.html"), "x"), "does not exist")
+})
+
+test_that("an object without its parts is told of", {
+  expect_crestline_error(check_class(structure(list(id = "a"), class = "specimen"), "specimen", "x", "specimen()"),
+                         c("damaged \"specimen\"", "`mesh`", "`landmarks`"))
+  expect_crestline_error(check_surface(structure(list(), class = "mesh3d"), "x"), c("`x`", "`vb`"))
+  expect_length(check_list(structure(list(path = data.frame(), points = data.frame()), class = "curve"), "curve", "x", "y"), 1)
+  expect_crestline_error(check_list(data.frame(a = 1), "curve", "x", "ridge_curve()"), "`x`")
+})
+
+test_that("what is not given, and what is not known, has its name", {
+  f <- function(a, b = 1, ...) {
+    check_given()
+    check_dots(..., known = "colour")
+  }
+  expect_crestline_error(f(), "`a` is not given")
+  expect_null(f(1, colour = 2))
+  expect_crestline_error(f(1, 2, color = 3), c("`color`", "Near names: colour"))
+  expect_crestline_error(f(1, 2, 3), "place 1")
+  g <- function(x, ...) f(x, ...)
+  expect_crestline_error(g(), "`a` is not given")
+})
