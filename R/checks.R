@@ -194,8 +194,8 @@ check_regions <- function(x, name = "keep_away", call = rlang::caller_env()) {
 class_parts <- list(
   specimen = c(id = "id", mesh = "mesh3d", landmarks = "numbers"), mesh3d = c(vb = "numbers"),
   shape = c(id = "id", points = "table", status = "table", scheme = "curve_scheme"), curve = c(path = "table", points = "table"),
-  curve_scheme = c(landmarks = "table", curves = "table", points = "table"), shape_sample = c(shapes = "list", template = "shape"),
-  aligned = c(coords = "numbers", mean = "numbers"), shape_pca = c(x = "numbers", sdev = "numbers", mean = "numbers"),
+  curve_scheme = c(landmarks = "table", curves = "table", points = "table"),
+  shape_pca = c(x = "numbers", sdev = "numbers", mean = "numbers"),
   landmark_template = c(specimen = "specimen", landmarks = "numbers"), simulated_faces = c(template = "specimen")
 )
 
