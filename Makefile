@@ -27,7 +27,7 @@ ifeq ($(LC_ALL)$(LC_CTYPE)$(LANG),)
 export LC_ALL := C.UTF-8
 endif
 
-.PHONY: help setup install demo test check coverage sanitize studies document site clean
+.PHONY: help setup install demo test check coverage sanitize studies document site lint clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -65,6 +65,9 @@ document: setup  ## writes NAMESPACE, man/ and the Rcpp exports
 
 site: install  ## the site, by pkgdown, into site/; every page opened in headless Chromium
 	@tools/site.sh
+
+lint:  ## lintr over R/ and tools/ by the rules of .lintr; fails on any lint
+	@tools/lint.sh
 
 clean:  ## removes what builds leave in the tree
 	@rm -rf demo-output site crestline.Rcheck src/*.o src/*.so

@@ -13,8 +13,52 @@ cpp_mesh_key <- function(vb, it) {
     .Call(`_crestline_cpp_mesh_key`, vb, it)
 }
 
+cpp_mesh_faults <- function(vb, it) {
+    .Call(`_crestline_cpp_mesh_faults`, vb, it)
+}
+
+cpp_box_diagonal <- function(vb) {
+    .Call(`_crestline_cpp_box_diagonal`, vb)
+}
+
+cpp_twin_faults <- function(it, twin) {
+    .Call(`_crestline_cpp_twin_faults`, it, twin)
+}
+
 cpp_mesh_topology <- function(it, n) {
     .Call(`_crestline_cpp_mesh_topology`, it, n)
+}
+
+cpp_near_pairs <- function(vb, reach, most) {
+    .Call(`_crestline_cpp_near_pairs`, vb, reach, most)
+}
+
+cpp_pair_groups <- function(pairs, n) {
+    .Call(`_crestline_cpp_pair_groups`, pairs, n)
+}
+
+cpp_vertices_on_edges <- function(vb, it, twin, sides, reach, most) {
+    .Call(`_crestline_cpp_vertices_on_edges`, vb, it, twin, sides, reach, most)
+}
+
+cpp_other_sheets <- function(vb, it, twin, piece, sample, reach, parallel, hollow) {
+    .Call(`_crestline_cpp_other_sheets`, vb, it, twin, piece, sample, reach, parallel, hollow)
+}
+
+cpp_numbers_at <- function(raw, places, real, sign, size, big) {
+    .Call(`_crestline_cpp_numbers_at`, raw, places, real, sign, size, big)
+}
+
+cpp_read_numbers <- function(text, from) {
+    .Call(`_crestline_cpp_read_numbers`, text, from)
+}
+
+cpp_read_stl <- function(text) {
+    .Call(`_crestline_cpp_read_stl`, text)
+}
+
+cpp_read_obj <- function(text) {
+    .Call(`_crestline_cpp_read_obj`, text)
 }
 
 cpp_border_loops <- function(twin) {
@@ -57,6 +101,10 @@ cpp_face_bend <- function(vb, normals, it) {
     .Call(`_crestline_cpp_face_bend`, vb, normals, it)
 }
 
+cpp_random_bytes <- function(n) {
+    .Call(`_crestline_cpp_random_bytes`, n)
+}
+
 cpp_half_area_radius <- function(vb, it, used, cap, steps) {
     .Call(`_crestline_cpp_half_area_radius`, vb, it, used, cap, steps)
 }
@@ -89,6 +137,10 @@ cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweep
     .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
 }
 
+cpp_locate <- function(vb, it, xyz, leaf) {
+    .Call(`_crestline_cpp_locate`, vb, it, xyz, leaf)
+}
+
 cpp_geodesic_distances <- function(vb, it, places) {
     .Call(`_crestline_cpp_geodesic_distances`, vb, it, places)
 }
@@ -103,5 +155,17 @@ cpp_match_clouds <- function(xyz, normal, feature, to_xyz, to_normal, to_feature
 
 cpp_fit_poses <- function(xyz, normal, to_xyz, to_normal, starts, settings) {
     .Call(`_crestline_cpp_fit_poses`, xyz, normal, to_xyz, to_normal, starts, settings)
+}
+
+cpp_warp_gram <- function(basis, used, normal, weight, along, across) {
+    .Call(`_crestline_cpp_warp_gram`, basis, used, normal, weight, along, across)
+}
+
+cpp_face_normals <- function(vb, it) {
+    .Call(`_crestline_cpp_face_normals`, vb, it)
+}
+
+cpp_vertex_normals <- function(vb, it) {
+    .Call(`_crestline_cpp_vertex_normals`, vb, it)
 }
 

@@ -46,7 +46,7 @@
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
 #'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
 #'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
-#' @seealso [shape_pca()], [compare_groups()], [as_geomorph()]
+#' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()], [as_geomorph()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' shapes <- shapes + rnorm(120, sd = 0.05)
@@ -57,21 +57,32 @@
 align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
                   missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
                   rounds = 200, limits = sample_limits()) {
+  check_given()
+  check_flags(tangent)
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
-  scaling <- check_scaling(scale)
-  tolerance <- check_number(tolerance, "tolerance", lower = 0)
-  rounds <- check_count(rounds, "rounds")
-  given <- configurations(sample, level, triangles)
-  whole <- complete_configurations(given, missing)
-  weight <- point_weights(weights, whole)
-  fit <- fit_alignment(whole, weight, scaling, tolerance, rounds)
-  check_extent(fit$size)
-  if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
-  coords <- fit$coords
-  if (tangent && scaling > 0) coords <- tangent_projection(coords, fit$mean, weight)
-  told_of(structure(list(coords = coords, mean = fit$mean, size = fit$size, weights = weight, places = whole$places, scale = scale,
-                 tangent = tangent && scaling > 0, level = given$level, missing = whole$missing, moved = fit$moved,
-                 triangles = whole$triangles), class = "aligned"), limits)
+  check_scaling(scale)
+  settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
+                   tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
+  aligned <- align_configurations(configurations(sample, level, triangles), settings)
+  attr(aligned, "provenance") <- aligned_provenance(sample, settings)
+  warn_of_doubts(aligned, limits)
+}
+
+#' @param given As of [configurations()].
+#' @param settings List of arguments of [align()]: `scale`, `weights`, `missing`, `tangent`, `tolerance`, `rounds`.
+#' @noRd
+align_configurations <- function(given, settings, call = rlang::caller_env()) {
+  scaling <- check_scaling(settings$scale, call)
+  whole <- complete_configurations(given, settings$missing, call)
+  weight <- point_weights(settings$weights, whole, call)
+  if (is.numeric(settings$weights)) settings$weights <- settings$weights[whole$kept]
+  fit <- fit_alignment(whole, weight, scaling, settings$tolerance, settings$rounds)
+  check_extent(fit$size, call)
+  if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
+  projected <- settings$tangent && scaling > 0
+  coords <- if (projected) tangent_projection(fit$coords, fit$mean, weight) else fit$coords
+  validate_aligned(new_aligned(coords, fit$mean, fit$size, weight, whole$places, settings$scale, projected, given$level,
+                               whole$missing, fit$moved, whole$triangles, settings, whole$reference))
 }
 
 check_scaling <- function(scale, call = rlang::caller_env()) {
@@ -109,6 +120,7 @@ tangent_projection <- function(coords, mean, weight) {
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
+    check_class(sample, "shape_sample", "sample", "homologise()", call)
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"
@@ -124,7 +136,8 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
   }
   ids <- dimnames(coords)[[3]]
   if (length(ids) < 2) {
-    crestline_abort("there is one specimen only.", "Give two or more.", stage = "align", call = call)
+    crestline_abort(sprintf("there is %s specimen%s.", if (length(ids)) "one" else "no", if (length(ids)) " only" else ""),
+                    "Give two or more.", stage = "align", call = call)
   }
   list(coords = coords, reference = reference, triangles = check_triangles(triangles, dim(coords)[1], call),
        places = places, level = level)
@@ -135,8 +148,9 @@ sample_levels <- c("landmarks", "curves", "surface", "model")
 #' Array of every place of a sample's shapes once
 #' @noRd
 every_place <- function(sample) {
+  like <- places_of(sample$template)
   each <- lapply(sample$shapes, places_of)
-  array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(names(each))))
+  array(as.numeric(unlist(each)), c(dim(like), length(each)), c(dimnames(like), list(names(each))))
 }
 
 #' Triangles of a scheme between its surface points, or between all its places
@@ -159,15 +173,15 @@ check_triangles <- function(triangles, k, call) {
   matrix(as.integer(triangles), 3)
 }
 
-check_array <- function(x, call) {
+check_array <- function(x, call, name = "sample") {
   if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
     size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else describe_value(x)
-    crestline_abort(sprintf("`sample` is %s.", size),
+    crestline_abort(sprintf("`%s` is %s.", name, size),
                     "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
                     call = call)
   }
   if (any(is.infinite(x))) {
-    crestline_abort("`sample` has infinite values.", "Mark what is missing as NA.", stage = "align", call = call)
+    crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.", stage = "align", call = call)
   }
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
@@ -224,7 +238,7 @@ mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
 check_extent <- function(size, call = rlang::caller_env()) {
   at <- which(!(size > 0))
   if (length(at)) {
-    crestline_abort("all its points coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
+    crestline_abort("all its points in `sample` coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
   }
 }
 
@@ -238,6 +252,7 @@ warn_alignment <- function(rounds, moved) {
 #' @param row.names,optional,... Ignored.
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   off <- sweep(x$coords, 1:2, x$mean)
   distance <- sqrt(colSums(matrix(off^2 * x$weights, length(x$mean))))
   ids <- dimnames(x$coords)[[3]]
@@ -247,6 +262,7 @@ as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
 
 #' @export
 print.aligned <- function(x, ...) {
+  check_method_dots(...)
   n <- dim(x$coords)[3]
   cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
       if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",

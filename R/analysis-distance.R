@@ -30,6 +30,9 @@
 #' @export
 curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("points", "curves"), level = "curves",
                            scale = FALSE) {
+  check_given()
+  check_flags(scale)
+  level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   match <- check_choice(match, c("none", "procrustes"), "match")
   between <- check_choice(between, c("points", "curves"), "between")
   if (inherits(a, "shape") && inherits(b, "shape")) warn_cut_scales(list(a = a, b = b), "distance")
@@ -61,12 +64,16 @@ distance_row <- function(part, distance) {
 #' @noRd
 curve_list <- function(x, level, name, call = rlang::caller_env()) {
   if (inherits(x, "shape")) {
+    check_class(x, "shape", name, "fit_shape()", call)
     level <- check_choice(level, c("landmarks", "curves", "surface"), "level", call)
     own <- x$points[x$points$level == level, ]
     return(split_rows(as.matrix(own[c("x", "y", "z")]), own$part))
   }
   if (is.matrix(x) && is.numeric(x) && ncol(x) == 3 && !is.null(rownames(x))) {
-    return(split_rows(x, sub(" [^ ]*$", "", rownames(x))))
+    part <- sub(" [^ ]*$", "", rownames(x))
+    number <- suppressWarnings(as.numeric(sub("^.* ", "", rownames(x))))
+    order <- if (anyNA(number)) seq_along(part) else order(match(part, part), number)
+    return(split_rows(x[order, , drop = FALSE], part[order]))
   }
   fine <- is.list(x) && length(x) && !is.null(names(x)) && !anyDuplicated(names(x)) &&
     all(vapply(x, function(one) is.matrix(one) && is.numeric(one) && ncol(one) == 3, NA))
@@ -123,6 +130,8 @@ polyline_distances <- function(points, line) {
 
 #' @export
 print.curve_distance <- function(x, most = 12, digits = 3, ...) {
+  check_method_dots(..., known = c("most", "digits"))
+  check_most(most)
   all <- attr(x, "all")
   whole <- !is.null(all) && all(c("part", "rms", "mean", "max") %in% names(x))
   if (!whole) return(invisible(print(as.data.frame(x), digits = digits, ...)))
@@ -140,6 +149,7 @@ print.curve_distance <- function(x, most = 12, digits = 3, ...) {
 
 #' @export
 as.data.frame.curve_distance <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   attributes(x)[c("all", "match", "between")] <- NULL
   class(x) <- "data.frame"
   x

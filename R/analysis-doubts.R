@@ -41,10 +41,10 @@ print.sample_limits <- function(x, ...) {
   invisible(x)
 }
 
-#' An alignment, what is doubtful of it told
+#' An alignment, after a warning of each kind of doubt about it
 #' @param aligned An `aligned`.
 #' @noRd
-told_of <- function(aligned, limits) {
+warn_of_doubts <- function(aligned, limits) {
   check_class(limits, "sample_limits", "limits", "sample_limits()")
   said <- c(said_of_sizes(aligned, limits), said_of_distances(aligned, limits),
             said_of_gaps(aligned, limits))

@@ -6,30 +6,50 @@
 #' does the mean shape, do the first principal components together (Hotelling's T2) and one by one, and where. All p-values
 #' come from the same permutations of the groups; where there are few regroupings, from all of them.
 #'
-#' | test | statistic (two groups; more) | `p_parametric` |
-#' |---|---|---|
-#' | "size t" | Student's t of centroid sizes, first group less second; F | of t, F |
-#' | "mean shape" | Procrustes distance between the mean shapes; Goodall's F | none |
-#' | "T2" | Hotelling's T2 on the first components; Hotelling and Lawley's trace times (n - groups) | of F |
-#' | "PC1", ... | t of the scores, first group less second; F | of t, F |
-#' | points | on a surface t of the displacement along the mean's normal (F), elsewhere Goodall's F of the point | none |
+#' | test | statistic (two groups; more) | null hypothesis: equal | `p_parametric` |
+#' |---|---|---|---|
+#' | "size t" | Student's t of centroid sizes, first group less second; F | mean sizes | of t, F |
+#' | "mean shape" | Procrustes distance between the mean shapes; Goodall's F | mean shapes | none |
+#' | "T2" | Hotelling's T2 on the first components; Hotelling and Lawley's trace times (n - groups) | mean scores | of F |
+#' | "PC1", ... | t of the scores, first group less second; F | mean scores | of t, F |
+#' | points | on a surface t of the displacement along the mean's normal (F), elsewhere Goodall's F of the point | mean places | none |
+#' | "dispersion" | greatest over least spread (root mean square distance to the own mean) | mean distances | none |
 #'
-#' For covariates, interactions, nested designs, give the sample to RRPP or geomorph: [as_geomorph()].
+#' **Unequal spread.** Pooled statistics test whether the groups have one distribution, spread included. Where a small
+#' group varies more than a large one they reject although the means are equal: with 24 and 6 specimens and a threefold
+#' spread in up to 9 of 10 samples. A warning says so where it can happen. With `equal_spread = FALSE` every group has a
+#' spread of its own, and only the means are compared. The permutation test of such statistics is exact where the groups
+#' have one distribution, and right in large samples where only their means agree (Janssen 1997). t is then Welch's, F
+#' that of Brown and Forsythe (the squares between groups over the sum of (1 - n_g / n) times the variance of group g),
+#' and T2 has separate covariances, on at most half as many components as the smallest group has degrees of freedom.
+#'
+#' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent: name them by `block`. Where
+#' blocks hold specimens of several groups (before and after; sites with patients and controls) specimens are exchanged
+#' within their block only, and what the blocks differ by is taken out. Where each block lies in one group (repeated scans
+#' of persons) the means of the blocks are compared, and whole blocks exchanged.
+#'
+#' For covariates and interactions give the sample to RRPP or geomorph: [as_geomorph()].
 #'
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same specimens, named by level;
 #'   or an `aligned`.
-#' @param group Factor of n, or what makes one; with names, matched by the specimens' names.
+#' @param group Factor of n, or what makes one. With names it is matched by the specimens' names, as
+#'   is a data frame of one column of groups and one of the specimens (`id`, `specimen`, `file` and
+#'   the like, or row names); case, blanks and a file's extension aside. Without names it is taken
+#'   in the order of the specimens, with a message.
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
 #' @param components How many principal components: a whole number, or a share of the variance below 1. Never more than
 #'   n - groups - 1.
 #' @param seed Number that starts the random stream; the stream of the session is then left untouched. `NULL`: the
 #'   session's stream.
-#' @param tests Which: "size", "shape", "T2", "components", "points".
+#' @param tests Which: "size", "shape", "T2", "components", "points", "dispersion" (not with exchange within blocks).
 #' @param exact Most regroupings that are enumerated instead of drawn at random.
 #' @param permutations Orders to use in place of random ones: n x B matrix or list (as of `RRPP:::perm.index()`), each
 #'   an order
 #'   of the specimens that takes the place of the observed one.
+#' @param block Factor of n, or what makes one: specimens of one block are not independent of each other. With names,
+#'   matched by the specimens' names. `NULL`: all are.
+#' @param equal_spread Whether the groups are taken to be equally spread, and their variances pooled.
 #' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none. Not used
 #'   with an `aligned`, which is aligned already.
 #' @param progress Whether to show a progress bar.
@@ -45,14 +65,20 @@
 #'     means), in the unit of the meshes; `statistic`, `p_value`, `p_adjusted` (by the greatest statistic over all points of
 #'     the level);
 #'   * `aligned`, `pca`: lists by level; `group`; `n_perm` (regroupings besides the observed one), `exact` (whether all),
-#'     `components` (by level), `seed`.
+#'     `components` (by level), `seed`, `equal_spread`; `design`: list with `kind` of exchange ("free", "within" or "whole"
+#'     blocks), `group` (of the units exchanged), `block`.
 #'
 #'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a level.
 #' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group only, groups that do
-#'   not match
-#'   the specimens, permutations that are none.
+#'   not match the specimens, a specimen in two groups, groups whose names differ by blanks or case
+#'   only, permutations that are none.
+#' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in spread and are pooled.
 #' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of the
-#'   Royal Statistical Society B* 53, 285-339; Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest
+#'   Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized permutation tests for non-i.i.d. hypotheses,
+#'   *Statistics and Probability Letters* 36, 9-21; Brown and Forsythe (1974) The small sample behavior of some statistics
+#'   which test the equality of several means, *Technometrics* 16, 129-132; Krishnamoorthy and Yu (2004) Modified Nel and
+#'   Van der Merwe test, *Statistics and Probability Letters* 66, 161-169; Anderson (2006) Distance-based tests for
+#'   homogeneity of multivariate dispersions, *Biometrics* 62, 245-253; Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest
 #'   statistics); Phipson and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in Genetics
 #'   and Molecular Biology* 9, 39.
 #' @seealso [plot.group_comparison()], [align()], [shape_pca()]
@@ -66,41 +92,58 @@
 #' head(compared$points)
 #' @export
 compare_groups <- function(sample, group, level = c("landmarks", "curves", "surface"), n_perm = 1000, components = 10,
-                           seed = NULL, tests = c("size", "shape", "T2", "components", "points"), exact = n_perm,
-                           permutations = NULL, scale = TRUE, weights = NULL,
-                           missing = c("estimate", "drop", "stop"), progress = interactive()) {
-  n_perm <- check_count(n_perm, "n_perm")
+                           seed = NULL, tests = c("size", "shape", "T2", "components", "points", "dispersion"),
+                           exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
+                           missing = c("estimate", "drop", "stop"), progress = interactive(), block = NULL,
+                           equal_spread = TRUE) {
+  check_given()
+  check_flags(progress, equal_spread)
+  seed <- check_seed(seed)
+  n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
   exact <- check_number(exact, "exact", lower = 0)
   components <- check_components(components)
   tests <- check_tests(tests)
   aligned <- aligned_levels(sample, level, scale, weights, missing)
   group <- check_group(group, dimnames(aligned[[1]]$coords)[[3]])
-  dealt <- regroupings(group, n_perm, exact, permutations, seed)
+  check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
+  design <- comparison_design(group, block)
+  dealt <- design_regroupings(design, n_perm, exact, permutations, seed)
   # A block of point-wise tests needs 250 x k numbers.
   blocks <- permutation_blocks(ncol(dealt$labels), 250)
   tick <- comparison_ticks(progress, length(aligned) * (1 + length(blocks) * ("points" %in% tests)))
+  spread <- list(equal = equal_spread, lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
+  if (design$kind == "within") tests <- setdiff(tests, "dispersion")
   each <- lapply(aligned, function(one) {
     tick()
-    compare_level(one, dealt$labels, components, tests, blocks, tick)
+    compare_level(in_design(one, design), dealt$labels, components, tests, spread, blocks, tick)
   })
   count <- vapply(each, function(one) as.integer(one$components), 0L)
-  structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
+  compared <- structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
                  pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L, exact = dealt$exact,
-                 components = count, seed = seed), class = "group_comparison")
+                 components = count, seed = seed, design = design, equal_spread = equal_spread,
+                 provenance = with_settings(aligned[[1]]$provenance, "compare",
+                                            list(n_perm = n_perm, components = components, tests = tests,
+                                                 exchange = design$kind, equal_spread = equal_spread))),
+                        class = "group_comparison")
+  warn_unequal_spread(compared)
+  compared
 }
 
 #' The tests of one level
 #' @return List: `tests`, `points`, `pca`, `components`.
 #' @noRd
-compare_level <- function(aligned, labels, components, tests, blocks, tick) {
+compare_level <- function(aligned, labels, components, tests, spread, blocks, tick) {
   wants <- function(test) test %in% tests
   flat <- matrix(aligned$coords, length(aligned$mean))
   y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
   pca <- if (wants("T2") || wants("components")) shape_pca(aligned)
-  count <- if (is.null(pca)) NA else component_count(components, pca, max(labels))
-  rows <- list(if (wants("size")) size_test(aligned$size, labels), if (wants("shape")) mean_shape_test(y, labels),
-               if (wants("T2")) t2_test(pca, count, labels), if (wants("components")) component_tests(pca, count, labels))
-  points <- if (wants("points")) point_tests(aligned, labels, blocks, tick)
+  count <- if (is.null(pca)) NA else component_count(components, pca, labels[, 1], spread)
+  rows <- list(if (wants("size")) size_test(aligned$size, labels, spread),
+               if (wants("shape")) mean_shape_test(y, labels, spread),
+               if (wants("T2")) t2_test(pca, count, labels, spread),
+               if (wants("components")) component_tests(pca, count, labels, spread),
+               if (wants("dispersion")) dispersion_test(y, labels))
+  points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick)
   list(tests = do.call(rbind, rows), points = points, pca = pca, components = count)
 }
 
@@ -125,13 +168,16 @@ comparison_ticks <- function(progress, n) {
 #' `aligned`s named by level
 #' @noRd
 aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
-  if (inherits(sample, "aligned")) return(stats::setNames(list(sample), sample$level))
+  if (inherits(sample, "aligned")) {
+    validate(sample)
+    return(stats::setNames(list(sample), sample$level))
+  }
   as_aligned <- function(one, level) {
     areas <- identical(weights, "area") && inherits(one, "shape_sample") && !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (inherits(sample, "shape_sample")) {
-    for (one in level) check_choice(one, sample_levels, "level", call)
+    level <- check_choices(level, sample_levels, "level", call)
     return(lapply(stats::setNames(nm = level), function(one) as_aligned(sample, one)))
   }
   if (is.list(sample) && length(sample) && !is.null(names(sample))) {
@@ -156,29 +202,26 @@ check_components <- function(components, call = rlang::caller_env()) {
 }
 
 check_tests <- function(tests, call = rlang::caller_env()) {
-  known <- c("size", "shape", "T2", "components", "points")
-  for (test in tests) check_choice(test, known, "tests", call)
-  if (!length(tests)) check_choice("", known, "tests", call)
-  unique(tests)
+  known <- c("size", "shape", "T2", "components", "points", "dispersion")
+  check_choices(tests, known, "tests", call)
 }
 
 #' A factor with the levels that occur, in the order of the specimens
 #' @noRd
 check_group <- function(group, ids, call = rlang::caller_env()) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison", call = call)
-  if (!is.null(names(group))) {
-    absent <- setdiff(ids, names(group))
-    if (length(absent)) fail(sprintf("`group` has no value for %s.", shorten(absent)),
-                             "Name its values by specimens, or not at all.")
-    group <- group[ids]
+  group <- by_specimen(group, ids, "group", fail)
+  if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)
+  absent <- is.na(group) | !nzchar(trimws(as.character(group)))
+  if (any(absent)) fail(sprintf("`group` is missing for %s.", shorten(ids[absent])),
+                        "Leave these specimens out.")
+  group <- stats::setNames(droplevels(group), ids)
+  alike <- alike_levels(levels(group))
+  if (length(alike)) {
+    fail(sprintf("the groups %s differ by blanks or case only.",
+                 paste0("\"", alike, "\"", collapse = " and ")),
+         "Give them one name.")
   }
-  if (length(group) != length(ids)) {
-    fail(sprintf("`group` has %d values for %d specimens.", length(group), length(ids)), "Give one for each.")
-  }
-  if (anyNA(group)) {
-    fail(sprintf("`group` is missing for %s.", shorten(ids[is.na(group)])), "Leave these specimens out.")
-  }
-  group <- stats::setNames(droplevels(as.factor(group)), ids)
   if (nlevels(group) < 2) fail("there is one group only.", "Give two or more.")
   if (min(table(group)) < 2) {
     fail(sprintf("the group \"%s\" has one specimen.", names(which.min(table(group)))), "Give every group two or more.")
@@ -190,28 +233,46 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 #' @param x,object A `group_comparison`.
 #' @param row.names,optional,... Ignored.
 #' @export
-as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) x$tests
+as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$tests
+}
 
 #' @rdname compare_groups
 #' @export
 summary.group_comparison <- function(object, ...) {
+  check_method_dots(...)
   levels <- names(object$aligned)
   tests <- unique(object$tests$test)
   p <- lapply(levels, function(level) {
     own <- object$tests[object$tests$level == level, ]
     own$p_value[match(tests, own$test)]
   })
-  data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
+  table <- data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
+  structure(table, provenance = object$provenance, class = c("comparison_summary", "data.frame"))
+}
+
+#' @export
+print.comparison_summary <- function(x, ...) {
+  print.data.frame(x, row.names = FALSE)
+  if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
+  invisible(x)
 }
 
 #' @export
 print.group_comparison <- function(x, most = 5, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   counts <- table(x$group)
   drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
     amount(x$n_perm, "random permutation")
   cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
       drawn, "\n", sep = "")
   if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+  line <- design_line(x$design)
+  if (!is.null(line)) cat("  ", line, "\n", sep = "")
+  said <- spread_line(x)
+  if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
   for (level in names(x$aligned)) {
     for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
   }
@@ -235,6 +296,36 @@ comparison_lines <- function(x, most) {
   width <- apply(nchar(all), 2, max) + 2
   cells <- vapply(seq_along(width), function(j) formatC(all[, j], width = width[j]), character(nrow(all)))
   paste0(formatC(c("", table$test), width = -12), apply(matrix(cells, nrow(all)), 1, paste, collapse = ""))
+}
+
+#' One line about the spread of the groups
+#' @noRd
+spread_line <- function(x) {
+  worst <- worst_spread(x)
+  if (is.null(worst)) return(NULL)
+  sprintf("dispersion: the spreads of the groups differ by a factor of %.2g at most (%s, p = %s)", worst$statistic,
+          worst$level, format.pval(worst$p_value, digits = 2, eps = 1e-4))
+}
+
+worst_spread <- function(x) {
+  own <- x$tests[x$tests$test %in% "dispersion", ]
+  if (NROW(own)) own[which.max(own$statistic), ]
+}
+
+#' @param ratio Of the spreads of groups of unequal size, above which pooled tests are not to be trusted: at 24 and 6
+#'   specimens and a ratio of 2 they reject a true null hypothesis in more than half of the samples, see
+#'   `tests/testthat/test-analysis-spread.R`.
+#' @noRd
+warn_unequal_spread <- function(x, ratio = 1.5) {
+  worst <- worst_spread(x)
+  sizes <- table(x$design$group)
+  if (!x$equal_spread || is.null(worst) || min(sizes) == max(sizes) || worst$statistic <= ratio) return(invisible())
+  crestline_warn(
+    sprintf("the groups are unequal in size (%s), and their spreads differ by a factor of %.2g (%s).",
+            paste(sizes, collapse = ", "), worst$statistic, worst$level),
+    "Pooled tests then have wrong p-values: give `equal_spread = FALSE`.", stage = "comparison",
+    class = "crestline_unequal_spread"
+  )
 }
 
 points_line <- function(points, level = 0.05) {

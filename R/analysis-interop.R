@@ -14,8 +14,11 @@
 #'
 #' @param sample A `shape_sample`, an `aligned`, or an array, k x 3 x n.
 #' @param level Level of a `shape_sample`, as in [align()].
-#' @param data Data frame of covariates, a row a specimen, or `NULL`; where it has a column `id` or row names that are the
-#'   specimens' names, they are matched.
+#' @param data Data frame of covariates, a row a specimen, or `NULL`. Rows are matched to the
+#'   specimens by a column of their names (`id`, `specimen`, `subject`, `name`, `file`, `sample`,
+#'   `scan` and the like, in any case) or by row names; case and blanks of the names and a file's
+#'   extension aside. Rows are taken in order only where the specimens have no names and the table
+#'   none, with a message.
 #' @param ... Passed to [align()]: `scale`, `weights`, `missing`.
 #' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned), `size` (centroid
 #'   sizes), and the
@@ -25,7 +28,10 @@
 #'   `as_morpho()`: list
 #'   of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata` (after), `mshape`, `PCs`, `PCscores`,
 #'   `eigenvalues`, `Variance`, `rho`.
-#' @section Errors: of class `crestline_error`: `data` that lacks a specimen, or has a column `coords` or `size`.
+#' @section Errors: of class `crestline_error`: `data` that lacks a specimen, has different rows of
+#'   one or no column of the specimens' names, or has a column `coords` or `size`.
+#' @section Warnings: of class `crestline_alike_groups`, when values of a column differ by blanks or
+#'   case only.
 #' @seealso [compare_groups()]; `vignette("interop")`
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -35,6 +41,7 @@
 #' as_aligned(frame)
 #' @export
 as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+  check_given()
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   columns <- covariates(data, dimnames(aligned$coords)[[3]])
   structure(c(list(coords = aligned$coords, size = aligned$size), columns), class = "geomorph.data.frame")
@@ -43,6 +50,7 @@ as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "mod
 #' @rdname as_geomorph
 #' @export
 as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+  check_given()
   frame <- as_geomorph(sample, level, data, ...)
   coords <- frame$coords
   flat <- matrix(aperm(coords, c(3, 2, 1)), dim(coords)[3])
@@ -54,6 +62,7 @@ as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model")
 #' @rdname as_geomorph
 #' @export
 as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model"), ...) {
+  check_given()
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
   variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share, "Cumulative %" = 100 * cumsum(pca$share))
@@ -81,27 +90,37 @@ before_projection <- function(aligned) {
 #' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or `Morpho::procSym()` returns, or an
 #'   array of
 #'   aligned configurations.
-#' @param size Centroid sizes; `NULL`: those that `x` has (`size`, `Csize`), else of `coords`.
+#' @param size Centroid sizes, matched by name where they have names; `NULL`: those that `x` has
+#'   (`size`, `Csize`), else of `coords`.
 #' @param triangles As in [align()].
 #' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
 #' @export
 as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
+  check_given()
+  level <- check_text(level, "level")
   coords <- if (inherits(x, "nosymproc")) x$orpdata else if (is.list(x)) x$coords else x
-  coords <- named_array(check_array(coords, rlang::current_env()))
+  coords <- named_array(check_array(coords, rlang::current_env(), "x"))
   n <- dim(coords)[3]
   if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
   if (is.null(size)) size <- own
-  if (!is.numeric(size) || length(size) != n) {
-    crestline_abort(sprintf("`size` is %s.", describe_value(size)), sprintf("Give %d centroid sizes.", n), stage = "align")
+  fits <- length(size) == n || !is.null(names(size))
+  if (!is.numeric(size) || !fits || !all(is.finite(size) & size > 0)) {
+    crestline_abort(sprintf("`size`, or that of `x`, is %s.", describe_value(size)),
+                    sprintf("Give %d centroid sizes above 0.", n), stage = "align")
   }
+  ids <- dimnames(coords)[[3]]
+  if (!is.null(names(size)) && has_ids(ids)) size <- sizes_by_specimen(size, ids)
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
-  structure(list(coords = coords, mean = apply(coords, 1:2, mean),
-                 size = stats::setNames(as.vector(size), dimnames(coords)[[3]]),
-                 weights = rep(1, dim(coords)[1]), scale = scaled, tangent = FALSE, level = level,
-                 missing = data.frame(id = character(), point = character(), action = character()), moved = numeric(),
-                 triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())), class = "aligned")
+  validate_aligned(new_aligned(provenance = made_with(), coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
+                               rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
+                               triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())))
+}
+
+sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call)
+  by_specimen(size, ids, "size", fail)
 }
 
 #' Columns of covariates in the order of the specimens
@@ -112,16 +131,20 @@ covariates <- function(data, ids, call = rlang::caller_env()) {
   if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
   clash <- intersect(names(data), c("coords", "size"))
   if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]), "Rename it: the sample's own has that name.")
-  # Numbers stand for names that were not given: then rows are taken in their order.
-  named <- !identical(ids, as.character(seq_along(ids))) && all(ids %in% rownames(data))
-  names <- if (!is.null(data[["id"]])) as.character(data[["id"]]) else if (named) rownames(data)
-  if (!is.null(names)) {
-    absent <- setdiff(ids, names)
-    if (length(absent)) fail(sprintf("`data` has no row for %s.", shorten(absent)), "Add it, or leave the specimen out.")
-    data <- data[match(ids, names), , drop = FALSE]
-  }
-  if (nrow(data) != length(ids)) {
-    fail(sprintf("`data` has %d rows for %d specimens.", nrow(data), length(ids)), "Give a row for each, or a column `id`.")
-  }
+  data <- data[rows_of_specimens(data, ids, "data", fail), , drop = FALSE]
+  for (name in names(data)) warn_alike_levels(data[[name]], name)
   as.list(data)
+}
+
+#' Values of a covariate that differ by blanks or case only make two groups of one
+#' @noRd
+warn_alike_levels <- function(x, name) {
+  value <- if (is.factor(x)) levels(droplevels(x)) else if (is.character(x)) unique(x[!is.na(x)])
+  if (length(value) >= length(x)) return(invisible())
+  alike <- alike_levels(value)
+  if (length(alike)) {
+    crestline_warn(sprintf("`%s` has %s, which differ by blanks or case only.", name,
+                           paste0("\"", alike, "\"", collapse = " and ")),
+                   "Give them one name.", stage = "arguments", class = "crestline_alike_groups")
+  }
 }

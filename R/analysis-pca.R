@@ -29,11 +29,14 @@
 #' shape_at(pca, 1, 2)
 #' @export
 shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
+  check_given()
+  tolerance <- check_number(tolerance, "tolerance", lower = 0)
   check_class(aligned, "aligned", "aligned", "align()")
   weights <- point_weights(weights, as_whole(aligned))
-  dims <- dim(aligned$coords)
+  coords <- aligned$coords
+  dims <- dim(coords)
   weight <- rep(weights, dims[2])
-  x <- t(matrix(aligned$coords, dims[1] * dims[2], dims[3]))
+  x <- t(matrix(coords, dims[1] * dims[2], dims[3]))
   center <- colMeans(x)
   parts <- thin_svd(sweep(x, 2, center) * rep(sqrt(weight), each = dims[3]), tolerance)
   if (!length(parts$d)) {
@@ -49,18 +52,42 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   direction <- if (all(weight == 1)) rotation else
     crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
   dimnames(direction) <- dimnames(rotation)
-  rownames(scores) <- dimnames(aligned$coords)[[3]]
+  rownames(scores) <- names(aligned)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE,
                  x = scores,
                  share = variance / sum(variance), direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)), size = mean(aligned$size),
-                 weights = weights, level = aligned$level, triangles = aligned$triangles), class = c("shape_pca", "prcomp"))
+                 weights = weights, level = aligned$level, triangles = aligned$triangles,
+                 provenance = with_settings(aligned$provenance, "pca", list(tolerance = tolerance))),
+            class = c("shape_pca", "prcomp"))
+}
+
+#' A provenance with the arguments of one stage more
+#' @noRd
+with_settings <- function(provenance, stage, settings) {
+  provenance$settings[[stage]] <- settings
+  provenance
+}
+
+#' @rdname provenance
+#' @export
+summary.shape_pca <- function(object, ...) {
+  found <- NextMethod()
+  found$provenance <- object$provenance
+  class(found) <- c("summary_shape_pca", class(found))
+  found
+}
+
+#' @export
+print.summary_shape_pca <- function(x, ...) {
+  NextMethod()
+  print_provenance(x$provenance)
+  invisible(x)
 }
 
 as_whole <- function(aligned) {
-  places <- if (is.null(aligned$places)) rownames(aligned$mean) else aligned$places
   k <- nrow(aligned$mean)
-  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = places, given = k,
+  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = aligned$places, given = k,
        kept = seq_len(k))
 }
 
@@ -86,6 +113,7 @@ thin_svd <- function(x, tolerance) {
 #' @param row.names,optional,... Ignored.
 #' @export
 as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
   data.frame(component = names_of_components(x), sd = x$sdev, share = x$share, cumulative = cumsum(x$share))
 }
 
@@ -93,6 +121,8 @@ names_of_components <- function(pca) colnames(pca$x)
 
 #' @export
 print.shape_pca <- function(x, most = 6, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
       amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
   shown <- utils::head(as.data.frame(x), most)
@@ -122,13 +152,11 @@ print.shape_pca <- function(x, most = 6, ...) {
 #' shape_at(pca, component = 1, sd = 2, size = pca$size)      # of mean size
 #' @export
 shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size = 1) {
+  check_given()
   check_class(pca, "shape_pca", "pca", "shape_pca()")
   as <- check_choice(as, c("matrix", "mesh"), "as")
   size <- check_number(size, "size", lower = 0, open = TRUE)
-  if (!is.numeric(component) || !length(component) || !all(component %in% seq_along(pca$sdev))) {
-    crestline_abort(sprintf("`component` is %s.", describe_value(component)),
-                    sprintf("There are components 1 to %d.", length(pca$sdev)), stage = "components")
-  }
+  check_component(component, pca)
   if (!is.numeric(sd) || !length(sd) %in% c(1, length(component)) || any(!is.finite(sd))) {
     crestline_abort(sprintf("`sd` is %s.", describe_value(sd)), "Give a number for each component.", stage = "components")
   }
@@ -147,4 +175,10 @@ points_mesh <- function(xyz, triangles, call = rlang::caller_env()) {
   row <- sort(unique(as.vector(triangles)))
   mesh <- rgl::mesh3d(vertices = unname(rbind(t(xyz[row, ]), 1)), triangles = matrix(match(triangles, row), 3))
   structure(with_normals(mesh), row = row)
+}
+
+check_component <- function(component, pca, call = rlang::caller_env()) {
+  if (!is.numeric(component) || !length(component) || !all(component %in% seq_along(pca$sdev))) {
+    refuse_argument("component", component, sprintf("There are components 1 to %d.", length(pca$sdev)), call)
+  }
 }

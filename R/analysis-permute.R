@@ -22,8 +22,8 @@ regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL, 
 }
 
 check_permutations <- function(x, n, call) {
-  if (is.list(x)) x <- matrix(unlist(x), ncol = length(x))
-  ok <- is.matrix(x) && nrow(x) == n && all(apply(x, 2, function(order) all(sort(order) == seq_len(n))))
+  if (is.list(x) && length(x) && all(lengths(x) == n)) x <- matrix(unlist(x), ncol = length(x))
+  ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2, function(order) all(sort(order) == seq_len(n))))
   if (!ok) {
     crestline_abort("`permutations` are not orders of all specimens.",
                     sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d.", n, n),

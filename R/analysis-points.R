@@ -6,28 +6,27 @@
 #'
 #' @param aligned An `aligned`.
 #' @param labels n x B matrix of group numbers.
+#' @param spread As in [observed_f()].
 #' @param blocks List of its columns, as of [permutation_blocks()].
 #' @param tick Called once a block.
 #' @return Data frame, a row a point: `point`, `x`, `y`, `z`, `distance`, `displacement`, `statistic`, `p_value`,
 #'   `p_adjusted`.
 #' @noRd
-point_tests <- function(aligned, labels, blocks, tick) {
+point_tests <- function(aligned, labels, spread, blocks, tick) {
   along <- !is.null(aligned$triangles)
   y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
-  total <- Reduce(`+`, lapply(y, function(part) colSums(part^2)))
-  n <- nrow(labels)
   groups <- max(labels)
-  observed <- between_of(y, labels[, 1, drop = FALSE], total)
+  observed <- group_scores(y, labels[, 1, drop = FALSE], spread$equal)
   as_great <- 0
   family <- numeric()
   for (columns in blocks) {
-    share <- between_of(y, labels[, columns, drop = FALSE], total)
-    as_great <- as_great + colSums(share >= rep(observed * (1 - 1e-10), each = nrow(share)))
-    family <- c(family, do.call(pmax, c(as.data.frame(share), na.rm = TRUE)))
+    score <- group_scores(y, labels[, columns, drop = FALSE], spread$equal)
+    as_great <- as_great + colSums(score >= rep(observed * (1 - 1e-10), each = nrow(score)))
+    family <- c(family, do.call(pmax, c(as.data.frame(score), na.rm = TRUE)))
     tick()
   }
   described <- point_table(aligned, labels[, 1], along)
-  f <- share_to_f(observed[1, ], n, groups)
+  f <- observed_f(y, labels[, 1], spread)$f
   described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
   described$p_value <- as_great / ncol(labels)
   described$p_adjusted <- vapply(observed[1, ], function(value) mean(family >= value * (1 - 1e-10)), 0)
@@ -48,15 +47,6 @@ point_table <- function(aligned, code, along) {
   }
   data.frame(point = rownames(aligned$mean), at, distance = unname(distance), displacement = unname(displacement),
              row.names = NULL)
-}
-
-#' Share of a point's variance between groups, B x k, NA where a point does not vary
-#' @noRd
-between_of <- function(y, labels, total) {
-  between <- Reduce(`+`, lapply(y, between_squares, labels))
-  share <- between / rep(total, each = nrow(between))
-  share[, total <= 0] <- NA
-  share
 }
 
 #' Second group's mean minus the first's, k x d
@@ -81,8 +71,9 @@ normal_displacements <- function(aligned) {
 #' List of n x k matrices, one a co-ordinate, centred
 #' @noRd
 coordinate_blocks <- function(aligned) {
+  coords <- aligned$coords
   lapply(seq_len(ncol(aligned$mean)), function(d) {
-    part <- t(aligned$coords[, d, ])
+    part <- t(coords[, d, ])
     sweep(part, 2, colMeans(part))
   })
 }

@@ -16,7 +16,9 @@
 #'
 #' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
 #'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".
-#' @param specimen N names: the specimen that each measurement is of; those that failed may be counted or not.
+#' @param specimen N names: the specimen that each measurement is of; those that failed may be
+#'   counted or not. A vector with names, or a data frame with a column of names, is matched to the
+#'   names of the measurements; a vector without is taken in their order.
 #' @param observer N names, in the same way: who made it; `NULL`: not told apart.
 #' @param level Of shapes and samples: "landmarks", "curves" or "surface".
 #' @param match In which frame specimens are compared. "specimen": all measurements of a specimen share a frame, as on
@@ -50,13 +52,17 @@
 #' repeatability(arcs, specimen)
 #' @export
 repeatability <- function(shapes, specimen, observer = NULL, level = "curves", match = c("specimen", "each", "none")) {
+  check_given()
   match <- check_choice(match, c("specimen", "each", "none"), "match")
   if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
   failed <- failed_measurements(shapes)
-  coords <- measurements(if (any(failed)) shapes[!failed] else shapes, level)
+  if (any(failed)) shapes <- shapes[!failed]
+  coords <- measurements(shapes, level)
   n <- dim(coords)[3]
-  specimen <- check_factor(without_failed(specimen, failed), n, "specimen")
-  if (!is.null(observer)) observer <- check_factor(without_failed(observer, failed), n, "observer")
+  ids <- measurement_names(shapes, n)
+  specimen <- check_factor(without_failed(specimen, failed), ids, "specimen")
+  if (!is.null(observer)) observer <- check_factor(without_failed(observer, failed), ids,
+                                                   "observer")
   gap <- rowSums(is.na(matrix(coords, dim(coords)[1]))) > 0
   missing <- rownames(coords)[gap]
   coords <- coords[!gap, , , drop = FALSE]
@@ -73,9 +79,18 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves", m
   parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)), component_table(by_part))
   structure(list(parts = parts, points = points, missing = missing, failed = names(failed)[failed],
                  counts = c(specimens = nlevels(specimen), observers = nlevels(observer), measurements = n,
-                            failed = sum(failed))),
+                            failed = sum(failed)),
+                 provenance = repeats_provenance(shapes)),
             class = "repeatability")
 }
+
+repeats_provenance <- function(shapes) {
+  if (inherits(shapes, "shape_sample")) whole_provenance(shapes) else if (is.list(shapes)) shapes_provenance(shapes) else made_with()
+}
+
+#' @rdname provenance
+#' @export
+summary.repeatability <- function(object, ...) new_summary(printed_lines(object), object$provenance)
 
 #' Which measurements of a list failed, with a warning that names them
 #'
@@ -94,9 +109,21 @@ failed_measurements <- function(shapes) {
   failed
 }
 
-#' Names of the measurements that are there, where those that failed are counted too
+#' Values by measurement of those that are there, where those that failed are counted too
 #' @noRd
-without_failed <- function(x, failed) if (length(x) == length(failed)) x[!failed] else x
+without_failed <- function(x, failed) if (is.null(names(x)) &&
+                                          length(x) == length(failed)) x[!failed] else x
+
+#' Names of the measurements: of the list or array, else the shapes' ids where each has its own;
+#' else numbers
+#' @noRd
+measurement_names <- function(shapes, n) {
+  name <- if (is.array(shapes)) dimnames(shapes)[[3]] else
+    if (inherits(shapes, "shape_sample")) names(shapes$shapes) else
+    names(shapes)
+  if (is.null(name) && is.list(shapes)) name <- vapply(shapes, `[[`, "", "id")
+  if (is.null(name) || anyDuplicated(name)) as.character(seq_len(n)) else name
+}
 
 #' Measurements as a k x 3 x N array
 #' @noRd
@@ -115,12 +142,24 @@ measurements <- function(shapes, level, call = rlang::caller_env()) {
   shapes
 }
 
-check_factor <- function(x, n, name, call = rlang::caller_env()) {
-  if (!is.atomic(x) || length(x) != n || anyNA(x)) {
-    crestline_abort(sprintf("`%s` is %s, for %s.", name, describe_value(x), amount(n, "measurement")),
-                    "Give a name for each measurement.", stage = "arguments", call = call)
+check_factor <- function(x, ids, name, call = rlang::caller_env()) {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments",
+                                                    call = call)
+  bad <- !is.atomic(x) || is.null(names(x)) && length(x) != length(ids) || anyNA(x)
+  if (bad && !is.data.frame(x)) {
+    fail(sprintf("`%s` is %s, for %s.", name, describe_value(x),
+                 amount(length(ids), "measurement")),
+         "Give a name for each measurement.")
   }
-  factor(x)
+  if (is.matrix(x)) x <- as.vector(x)
+  x <- factor(trimws(by_specimen(x, ids, name, fail)))
+  alike <- alike_levels(levels(x))
+  if (length(alike)) {
+    fail(sprintf("`%s` has %s, which differ by blanks or case only.", name,
+                 paste0("\"", alike, "\"", collapse = " and ")),
+         "Give them one name.")
+  }
+  x
 }
 
 check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
@@ -220,10 +259,15 @@ component_table <- function(variance) {
 }
 
 #' @export
-as.data.frame.repeatability <- function(x, row.names = NULL, optional = FALSE, ...) x$parts
+as.data.frame.repeatability <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$parts
+}
 
 #' @export
 print.repeatability <- function(x, most = 10, digits = 3, ...) {
+  check_method_dots(..., known = c("most", "digits"))
+  check_most(most)
   count <- x$counts
   cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ", amount(count[["specimens"]], "specimen"),
       if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n", sep = "")

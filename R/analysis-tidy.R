@@ -27,6 +27,7 @@ NULL
 #' @rdname tidy.group_comparison
 #' @exportS3Method generics::tidy
 tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
+  check_method_dots(..., known = "what")
   what <- check_choice(what, c("tests", "points"), "what")
   table <- x[[what]]
   if (is.null(table)) {
@@ -44,6 +45,7 @@ tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
 #' @rdname tidy.group_comparison
 #' @exportS3Method generics::glance
 glance.group_comparison <- function(x, ...) {
+  check_method_dots(...)
   shape <- x$tests$p_value[startsWith(as.character(x$tests$test), "mean shape")]
   data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned), permutations = x$n_perm,
              exact = x$exact,
@@ -53,22 +55,28 @@ glance.group_comparison <- function(x, ...) {
 #' @rdname tidy.group_comparison
 #' @exportS3Method generics::tidy
 tidy.shape_pca <- function(x, ...) {
+  check_method_dots(...)
   data.frame(PC = seq_along(x$sdev), std.dev = x$sdev, percent = x$share, cumulative = cumsum(x$share))
 }
 
 #' @rdname tidy.group_comparison
 #' @exportS3Method generics::glance
 glance.shape_pca <- function(x, ...) {
+  check_method_dots(...)
   data.frame(nobs = nrow(x$x), points = nrow(x$mean), components = length(x$sdev), variance = sum(x$sdev^2))
 }
 
 #' @rdname tidy.group_comparison
 #' @exportS3Method generics::tidy
-tidy.aligned <- function(x, ...) as.data.frame(x)
+tidy.aligned <- function(x, ...) {
+  check_method_dots(...)
+  as.data.frame(x)
+}
 
 #' @rdname tidy.group_comparison
 #' @exportS3Method generics::glance
 glance.aligned <- function(x, ...) {
+  check_method_dots(...)
   table <- as.data.frame(x)
   data.frame(nobs = nrow(table), points = nrow(x$mean), size = mean(table$size), distance = sqrt(mean(table$distance^2)),
              missing = nrow(x$missing))

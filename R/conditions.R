@@ -27,6 +27,10 @@ crestline_warn <- function(problem, remedy, stage, id = NULL, class = NULL) {
   )
 }
 
+#' Say what was taken for granted: one sentence
+#' @noRd
+crestline_inform <- function(said) rlang::inform(said, class = "crestline_message")
+
 condition_text <- function(problem, remedy, stage, id) {
   where <- if (is.null(id)) stage else paste0("specimen ", id, ", ", stage)
   c(paste0(where, ": ", problem), i = remedy)

@@ -24,6 +24,7 @@
 #' curvedness(c(1, 1, 1, 0), c(1, 0, -1, -1))
 #' @export
 shape_index <- function(x, k2 = NULL) {
+  check_given()
   k <- principal_pair(x, k2)
   index <- -2 / pi * atan2(k$k1 + k$k2, k$k1 - k$k2)
   index[k$k1 == 0 & k$k2 == 0] <- NA
@@ -33,12 +34,13 @@ shape_index <- function(x, k2 = NULL) {
 #' @rdname shape_index
 #' @export
 curvedness <- function(x, k2 = NULL) {
+  check_given()
   k <- principal_pair(x, k2)
   sqrt((k$k1^2 + k$k2^2) / 2)
 }
 
 principal_pair <- function(x, k2, call = rlang::caller_env()) {
-  if (inherits(x, "curvature")) return(x[c("k1", "k2")])
+  if (inherits(x, "curvature") && is.numeric(x$k1) && is.numeric(x$k2)) return(x[c("k1", "k2")])
   if (!is.numeric(x) || !is.numeric(k2) || length(x) != length(k2)) {
     crestline_abort("`x` and `k2` are not two numeric vectors of one length.",
                     "Give a `curvature` as `x`, or k1 as `x` and k2 as `k2`.",
@@ -75,6 +77,7 @@ shape_scale <- function() {
 #' shape_colours(c(-1, -0.5, 0, 0.5, 1, NA))
 #' @export
 shape_category <- function(index) {
+  check_given()
   check_index(index)
   scale <- shape_scale()
   limits <- c(-1, scale$index[-1] - 1 / 8, 1)
@@ -84,12 +87,15 @@ shape_category <- function(index) {
 #' @rdname shape_category
 #' @export
 shape_colours <- function(index, missing = "#BEBEBE") {
+  check_given()
+  missing <- check_colour(missing, "missing")
   check_index(index)
   ramp_colours((index + 1) / 2, shape_scale()$colour, missing)
 }
 
 check_index <- function(index, call = rlang::caller_env()) {
-  if (!(is.numeric(index) || all(is.na(index))) || any(abs(index) > 1, na.rm = TRUE)) {
+  number <- is.null(dim(index)) && (is.numeric(index) || (is.logical(index) && all(is.na(index))))
+  if (!number || any(abs(index) > 1, na.rm = TRUE)) {
     crestline_abort("`index` is not a vector of numbers in [-1, 1].",
                     "Compute it with shape_index().", stage = "curvature", call = call)
   }

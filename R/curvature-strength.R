@@ -47,12 +47,15 @@ normal_curvature <- function(curved, at, direction) {
 #' keep_away("exL", "enL") # for the left brow ridge of a face
 #' @export
 keep_away <- function(from, to, radius = 0.7, extension = 0.2) {
+  check_given()
+  check_ends(from = from, to = to)
   structure(list(from = from, to = to, radius = check_number(radius, "radius", lower = 0),
                  extension = check_number(extension, "extension", lower = 0)), class = "keep_away")
 }
 
 #' @export
 print.keep_away <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Keep away from %s - %s: radius %g, extension %g of their distance\n", end_name(x$from),
               end_name(x$to), x$radius, x$extension))
   invisible(x)
@@ -73,11 +76,14 @@ print.keep_away <- function(x, ...) {
 #' keep_side("exL", "enL", towards = "acL") # for the ridge of the left lower eyelid
 #' @export
 keep_side <- function(from, to, towards) {
+  check_given()
+  check_ends(from = from, to = to, towards = towards)
   structure(list(from = from, to = to, towards = towards), class = "keep_side")
 }
 
 #' @export
 print.keep_side <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Keep to the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to), end_name(x$towards)))
   invisible(x)
 }

@@ -41,7 +41,8 @@
 #'   * `neighbours`: integer n, vertices in the ball;
 #'   * `reason`: character n, `NA` where fitted, else why not.
 #'
-#'   At vertices that were not asked for all are `NA`, and `reason` says so.
+#'   At vertices that were not asked for all are `NA`, and `reason` says so. Attributes `radius`, `order`, `key` and `id` (of
+#'   the mesh): what takes a curvature refuses that of another mesh.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
 #'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 2.
@@ -53,10 +54,13 @@
 curvature <- function(mesh, radius, order = "adaptive",
                       threads = getOption("crestline.threads", 1L), vertices = NULL,
                       shrinkage = 6, points_per_term = 1.5, one_sided = 0.2, widen = 2.25) {
+  check_given()
+  check_surface(mesh, "mesh")
+  of <- mesh_of(mesh)
   whole <- mesh
   mesh <- as_mesh(mesh)
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
-  threads <- check_count(threads, "threads")
+  threads <- check_threads(threads)
   check_number(widen, "widen", lower = 1)
   check_radius(radius, whole)
   n <- ncol(mesh$vb)
@@ -64,8 +68,45 @@ curvature <- function(mesh, radius, order = "adaptive",
   out <- curvature_at(mesh, targets, settings, threads, widen)
   if (length(targets) > 0 && all(is.na(out$k1))) abort_radius(out$neighbours, radius)
   if (!is.null(vertices)) out <- fill_curvature(empty_curvature(n, "not asked for"), out, targets)
-  structure(out, radius = radius, order = order, class = "curvature")
+  new_curvature(out, radius, order, of)
 }
+
+#' @param fields List as [curvature()] says.
+#' @param mesh As of [mesh_of()].
+#' @noRd
+new_curvature <- function(fields, radius, order, mesh) {
+  structure(fields, radius = radius, order = order, key = mesh$key, id = mesh$id, class = "curvature")
+}
+
+#' Refuse a curvature whose parts do not belong together
+#' @noRd
+validate_curvature <- function(x) {
+  n <- if (is.list(x)) length(unclass(x)$k1)
+  rows <- function(name) is.numeric(x[[name]]) && identical(dim(x[[name]]), c(n, 3L))
+  values <- function(name) is.numeric(x[[name]]) && length(x[[name]]) == n
+  right <- !is.null(n) && all(vapply(c("k1", "k2", "sigma"), values, NA)) &&
+    all(vapply(c("direction1", "direction2", "normal"), rows, NA))
+  if (right) return(invisible(x))
+  crestline_abort("the curvature lacks values or directions of some of its vertices.",
+                  "Give what curvature() returns, whole.", stage = "curvature", id = attr(x, "id"), call = NULL)
+}
+
+#' Refuse the curvature of another mesh
+#'
+#' @param mesh The specimen or mesh that it is to be used with.
+#' @noRd
+check_curvature_on <- function(curvature, mesh) {
+  check_class(curvature, "curvature", "curvature", "curvature()")
+  check_same_mesh(curvature, mesh, "`curvature`")
+  n <- ncol(as_mesh(mesh)$vb)
+  if (length(curvature$k1) == n) return(invisible(curvature))
+  crestline_abort(sprintf("`curvature` has %d values for %d vertices.", length(curvature$k1), n),
+                  "Give what curvature() returns, whole.", stage = "curvature", id = mesh_of(mesh)$id,
+                  class = "crestline_wrong_mesh", call = NULL)
+}
+
+#' @exportS3Method
+validate.curvature <- function(x) validate_curvature(x)
 
 #' Curvature at some vertices, in wider balls where the radius holds too few points
 #'
@@ -135,35 +176,29 @@ fill_curvature <- function(out, found, at) {
   out
 }
 
+# The lowest and the highest order of the nested fits.
+fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
+                   quartic = c(4L, 4L), forced = c(2L, 2L))
+
+check_order <- function(order, call = rlang::caller_env()) check_choice(order, names(fit_orders), "order", call)
+
 #' Settings of the local fit in the form of the kernel
 #' @noRd
 fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_term = 1.5,
                          one_sided = 0.2) {
-  orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
-                 quartic = c(4L, 4L), forced = c(2L, 2L))
-  order <- check_choice(order, names(orders), "order")
+  order <- check_order(order)
+  orders <- fit_orders
   list(radius = check_number(radius, "radius", lower = 0, open = TRUE),
        lowest = orders[[order]][1], highest = orders[[order]][2], forced = order == "forced",
        shrinkage = check_number(shrinkage, "shrinkage", lower = 0),
-       points_per_term = check_number(points_per_term, "points_per_term", lower = 1),
+       points_per_term = check_number(points_per_term, "points_per_term", lower = 1, upper = 1000),
        one_sided = check_number(one_sided, "one_sided", lower = 0))
-}
-
-as_mesh <- function(mesh) {
-  if (inherits(mesh, "specimen")) mesh <- mesh$mesh
-  check_class(mesh, "mesh3d", "mesh", "`read_specimen()` or `Rvcg::vcgImport()`")
-  if (length(mesh$it) == 0) {
-    crestline_abort("the mesh has no triangles.", "Pass it through specimen(), which mends what it can.",
-                    stage = "mesh")
-  }
-  if (!is.integer(mesh$it)) storage.mode(mesh$it) <- "integer"
-  mesh
 }
 
 vertex_indices <- function(vertices, n) {
   if (is.null(vertices)) return(seq_len(n))
   if (is.logical(vertices) && length(vertices) == n && !anyNA(vertices)) vertices <- which(vertices)
-  if (!is.numeric(vertices) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
+  if (!is.numeric(vertices) || !is.null(dim(vertices)) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
     crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
                     sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
   }
@@ -191,6 +226,7 @@ abort_radius <- function(neighbours, radius) {
 
 #' @export
 print.curvature <- function(x, ...) {
+  check_method_dots(...)
   fitted <- !is.na(x$k1)
   cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
               length(fitted), attr(x, "radius")))
@@ -212,6 +248,7 @@ spread <- function(x) {
 
 #' @export
 as.data.frame.curvature <- function(x, ...) {
+  check_method_dots(...)
   vectors <- c("direction1", "direction2", "normal")
   wide <- lapply(vectors, function(name) {
     stats::setNames(as.data.frame(x[[name]]), paste0(name, c("_x", "_y", "_z")))

@@ -17,7 +17,8 @@ read_landmarks_amira <- function(file, options) {
   section <- amira_sections(line, file)
   sets <- lapply(section, function(at) landmark_set(amira_rows(line, at, n, file), name))
   specimen <- amira_names(line, "Sets", length(sets))
-  stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen)
+  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen),
+            numbered = is.null(specimen))
 }
 
 # The numbers after @ of every set of co-ordinates, in the order of their declaration.
@@ -60,7 +61,7 @@ write_landmarks_amira <- function(sets, file, options) {
   number <- seq_along(sets)
   coordinates <- paste0("Coordinates", c("", number[-1]))
   write_file_lines(c(
-    "# AmiraMesh 3D ASCII 2.0", "", paste("define Markers", nrow(x)), "",
+    "# AmiraMesh 3D ASCII 2.0", "", sprintf("define Markers %d", nrow(x)), "",
     "Parameters {", sprintf("    NumSets %d,", length(sets)),
     paste0('    ContentType "LandmarkSet"', amira_parameter("Sets", names(sets)), amira_parameter("Names", rownames(x))),
     "}", "", sprintf("Markers { float[3] %s } @%d", coordinates, number), "", "# Data section follows",

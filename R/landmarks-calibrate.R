@@ -16,6 +16,7 @@
 #' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the template.
 #' @references The paper, section 7.
 #' @seealso [find_landmarks()]
+#' @section Warnings: of class `crestline_unused_landmarks`, as [fit_shape()].
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -27,7 +28,9 @@
 #' @export
 calibrate_template <- function(template, specimens, rounds = 4, settings = find_settings(),
                                threads = getOption("crestline.threads", 1L)) {
-  if (!inherits(template, "landmark_template")) template <- landmark_template(template)
+  check_given()
+  threads <- check_threads(threads)
+  template <- check_template(template)
   check_class(settings, "find_settings", "settings", "find_settings()")
   rounds <- check_count(rounds, "rounds")
   if (inherits(specimens, "specimen")) specimens <- list(specimens)
@@ -36,6 +39,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
                     stage = "arguments")
   }
   for (one in specimens) check_class(one, "specimen", "specimens", "specimen() or read_specimen()")
+  known <- data.frame(landmark = rownames(template$landmarks), name = NA)
+  for (one in specimens) warn_unused_names(one, list(landmarks = known), "the template")
   prepared <- prepared_template(template, settings, threads)
   fits <- lapply(specimens, calibration_fit, prepared, template, settings, threads)
   before <- template

@@ -5,7 +5,7 @@ as_landmarks <- function(x, id = NULL) {
   if (is.null(x)) return(matrix(0, 0, 3, dimnames = list(character(), c("x", "y", "z"))))
   if (is.data.frame(x)) x <- landmarks_of_table(x)
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3) {
-    refuse_landmarks(sprintf("the landmarks are %s, not a k x 3 numeric matrix.", describe_shape(x)),
+    refuse_landmarks(sprintf("`landmarks` are %s, not a k x 3 numeric matrix.", describe_shape(x)),
                      "Give a matrix with one row a landmark, or a data frame name, x, y, z.", id)
   }
   name <- rownames(x)

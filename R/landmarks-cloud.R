@@ -39,17 +39,13 @@ scan_cloud <- function(specimen, scale, settings, threads) {
   broad <- curvature(mesh, settings$bend, "quadratic", threads, vertex)
   anchors <- cloud_anchors(mesh$vb[1:3, vertex, drop = FALSE], lapply(unclass(broad), rows_at, vertex), settings)
   points <- list(xyz = mesh$vb[1:3, ], normal = mesh$normals[1:3, ], k1 = fine$k1, k2 = fine$k2,
-                 border = seq_len(ncol(mesh$vb)) %in% border_vertices(specimen))
+                 border = seq_len(ncol(mesh$vb)) %in%
+                   border_vertices(mesh$it, specimen$geometry$twin))
   sparse <- sum(row_lengths(face_normals(mesh))) / 2 > ncol(mesh$vb) * settings$cluster^2
   points <- if (sparse) with_centres(points, mesh$it, settings$cluster) else at_points(points, vertex)
   points[c("k1", "k2")] <- lapply(points[c("k1", "k2")], function(k) ifelse(is.na(k), 0, k))
   coarse <- cell_vertices(t(points$xyz), settings$coarse)
   c(points, list(coarse = coarse, spacing = c(settings$cluster, settings$coarse), anchors = anchors))
-}
-
-border_vertices <- function(specimen) {
-  side <- which(specimen$geometry$twin == 0)
-  unique(c(specimen$mesh$it[side], specimen$mesh$it[next_side(side)]))
 }
 
 at_points <- function(points, at) {

@@ -21,6 +21,8 @@
 #' read_curves(file, "lower lip")
 #' @export
 read_curves <- function(file, curves = NULL, ...) {
+  check_given()
+  curves <- check_names(curves, "curves", null = TRUE)
   sets <- read_landmarks(file, ...)
   of_set <- function(set) chosen_curves(curves_of_set(set), curves, file)
   if (is.list(sets)) lapply(sets, of_set) else of_set(sets)
@@ -74,6 +76,6 @@ curves_as_points <- function(sets, file) {
     names <- paste(rep(names(curves), vapply(curves, nrow, 0L)), unlist(lapply(curves, function(x) seq_len(nrow(x)))))
     points <- do.call(rbind, c(list(set), unname(curves)))
     rownames(points) <- c(rownames(set), names)
-    as_landmarks(points)
+    structure(as_landmarks(points), comments = attr(set, "comments"))
   }, sets, curves)
 }

@@ -13,8 +13,10 @@
 defined_place <- function(specimen, definition, start, pairs, curvature, settings) {
   find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile, turn = place_of_turn,
                  end = place_of_end, crossing = place_of_crossing)
-  tryCatch(find(specimen, definition, start, pairs, curvature, settings),
-           crestline_error = function(e) list(reason = sub("\n.*", "", conditionMessage(e))))
+  tryCatch(find(specimen, definition, start, pairs, curvature, settings), crestline_error = function(e) {
+    if (inherits(e, "crestline_wrong_mesh")) rlang::cnd_signal(e)
+    list(reason = sub("\n.*", "", conditionMessage(e)))
+  })
 }
 
 #' Peak of a field as a place
@@ -209,7 +211,7 @@ place_of_end <- function(specimen, definition, start, pairs, curvature, settings
 beyond_landmark <- function(specimen, definition, start) {
   from <- specimen$landmarks[definition$from, ]
   onward <- (start - from) / sqrt(sum((start - from)^2))
-  point_near(specimen$mesh, start + definition$reach * onward, definition$reach + definition$radius)
+  surface_points(specimen$mesh, matrix(start + definition$reach * onward, 1))
 }
 
 #' Strength along a path, smoothed as local fits are
@@ -227,19 +229,4 @@ path_strength_along <- function(specimen, path, definition, curvature, window, s
     if (sum(weight) > 0) sum(weight * raw) / sum(weight) else stats::approx(path$s, raw, at)$y
   }, 0)
   list(s = s, value = value)
-}
-
-#' The closest point of a mesh to a place that is near it
-#' @return One row as of [surface_points()].
-#' @noRd
-point_near <- function(mesh, at, distance) {
-  inside <- logical(ncol(mesh$vb))
-  inside[cpp_vertices_in_box(mesh$vb, at - distance, at + distance)] <- TRUE
-  faces <- which(colSums(matrix(inside[mesh$it], 3)) > 0)
-  if (!length(faces)) return(surface_points(mesh, matrix(at, 1)))
-  near <- mesh
-  near$it <- mesh$it[, faces, drop = FALSE]
-  point <- surface_points(near, matrix(at, 1))
-  point$face <- faces[point$face]
-  point
 }

@@ -15,6 +15,8 @@ read_landmarks_fcsv <- function(file, options) {
     refuse_landmark_file(file, "no columns x, y, z", "Give them in the line # columns = id,x,y,z,...")
   }
   field <- fcsv_fields(line[row], row, column, file)
+  check_fcsv_fields(field, column, row, file)
+  field <- padded_rows(field, length(column))
   xyz <- field[, match(c("x", "y", "z"), column)]
   x <- matrix(landmark_numbers(xyz, file, rep(row, 3)), ncol = 3)
   x[fcsv_absent(field, column), ] <- NA
@@ -36,16 +38,33 @@ fcsv_frame <- function(comment) {
   if (is.na(version) || numeric_version(sub("^[^0-9]*", "", version)) < "4.11") "RAS" else "LPS"
 }
 
-# Matrix of strings, a row a line; columns after the named ones where there are any.
+# The fields of each line.
 fcsv_fields <- function(text, line, column, file) {
-  field <- lapply(seq_along(text), function(i) {
-    value <- tryCatch(unquote_names(text[i]), error = function(e) character())
-    if (length(value) < max(match(c("x", "y", "z"), column))) {
-      refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.", line[i])
-    }
-    value
-  })
-  width <- max(length(column), lengths(field))
+  field <- split_fields(text, ",")
+  few <- which(lengths(field) < max(match(c("x", "y", "z"), column)))
+  if (length(few)) {
+    refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.",
+                         line[few[1]])
+  }
+  field
+}
+
+# As many fields as there are columns, or two more: the state of the point, and whether it was made
+# by itself.
+check_fcsv_fields <- function(field, column, line, file) {
+  state <- vapply(field, function(value) value[length(column) + 1], "")
+  more <- lengths(field) - length(column)
+  wrong <- which(!(more == 0 | more == 2 & trimws(state) %in% c("", 0:3)))
+  if (length(wrong)) {
+    refuse_landmark_file(file, sprintf("%d fields where there are %d columns",
+                                       lengths(field)[wrong[1]], length(column)),
+                         "Quote labels and descriptions that hold commas.", line[wrong[1]])
+  }
+}
+
+# Matrix of strings, a row a line, as wide as the widest and no less than `width`.
+padded_rows <- function(field, width) {
+  width <- max(width, lengths(field))
   full <- lapply(field, function(value) c(value, rep("", width - length(value))))
   matrix(as.character(unlist(full)), ncol = width, byrow = TRUE)
 }
@@ -67,9 +86,10 @@ fcsv_labels <- function(field, column) {
 write_landmarks_fcsv <- function(sets, file, options) {
   x <- sets[[1]]
   quoted <- ifelse(grepl("[,\"#']|^\\s|\\s$", rownames(x)), quote_name(rownames(x)), rownames(x))
-  state <- ifelse(is.na(x[, 1]), 0L, 2L)
+  state <- ifelse(is.na(x[, 1]), "0", "2")
   position <- row_text(x, missing = "0", sep = ",")
-  row <- paste(seq_len(nrow(x)), position, "0,0,0,1,1,1,0", quoted, "", "", state, 0, sep = ",")
+  row <- paste(sprintf("%d", seq_len(nrow(x))), position, "0,0,0,1,1,1,0", quoted, "", "", state,
+               "0", sep = ",")
   write_file_lines(c(
     "# Markups fiducial file version = 4.11", paste("# CoordinateSystem =", options$frame),
     "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID",

@@ -45,14 +45,20 @@
 #' @export
 find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(), unit = NULL,
                            threads = getOption("crestline.threads", 1L)) {
+  check_given()
+  check_surface(mesh, "mesh")
+  threads <- check_threads(threads)
   check_class(settings, "find_settings", "settings", "find_settings()")
-  if (!inherits(template, "landmark_template")) template <- landmark_template(template)
-  scan <- mesh
+  template <- check_template(template)
+  scan <- validate(mesh)
   if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads, unit)
   placed <- carried_landmarks(prepared, template, scan, laid)
-  if (laid$inverted) scan <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
+  if (laid$inverted) {
+    turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
+    scan <- with_fields(turned, file = scan$file)
+  }
   doubt <- placing_doubt(placed, settings$low)
   found <- with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
                                            rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
@@ -94,7 +100,7 @@ with_placing <- function(scan, placing, match) {
   scan$geometry[c("landmarks", "located")] <- placed[c("landmarks", "located")]
   scan$placing <- placing
   scan$match <- match
-  scan
+  with_origin(scan, placing$landmark, ifelse(placing$state == "absent", NA, placing$state))
 }
 
 #' The template's landmarks carried to a scan, with what speaks for each

@@ -11,7 +11,10 @@
 #' @noRd
 move_landmark <- function(specimen, name, point) {
   if (is.null(point)) point <- surface_points(specimen$mesh, rep(NA_real_, 3))
+  there <- isTRUE(!is.na(specimen$landmarks[match(name, rownames(specimen$landmarks)), 1]))
+  same <- there && identical(unname(specimen$landmarks[name, ]), unname(unlist(point[c("x", "y", "z")])))
   specimen <- with_landmark_at(specimen, name, point)
+  specimen <- with_origin(specimen, name, if (there && !same) "moved" else "placed", time = time_stamp())
   if (!is.null(specimen$placing)) {
     specimen$placing <- moved_placing(specimen$placing, name, unlist(point[c("x", "y", "z")]))
   }

@@ -110,7 +110,10 @@ write_landmarks_mrkjson <- function(sets, file, options) {
   )
   schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/",
                    "Resources/Schema/markups-schema-v1.0.3.json#")
-  write_file_lines(sprintf('{"@schema": "%s",\n"markups": [\n%s\n]}', schema, paste(list, collapse = ",\n")), file)
+  comments <- attr(x, "comments")
+  said <- if (length(comments)) sprintf('"provenance": [%s],\n', paste(json_text(comments), collapse = ", "))
+  head <- paste0(sprintf('{"@schema": "%s",\n', schema), said)
+  write_file_lines(paste0(head, '"markups": [\n', paste(list, collapse = ",\n"), "\n]}"), file)
 }
 
 mrkjson_list <- function(x, type, name, label, options) {

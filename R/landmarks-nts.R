@@ -41,6 +41,7 @@ nts_body <- function(text, line, head, file) {
     label <- trimws(text[seq_len(labels)])
     word <- word[seq_along(word) > labels]
     line <- line[seq_along(line) > labels]
+    check_separators(text[seq_along(text) > labels], file, line)
     number <- landmark_numbers(unlist(word), file, rep(line, lengths(word)))
   } else if (sum(lengths(word)) == labels + wanted) {
     flat <- unlist(word)
@@ -57,12 +58,13 @@ nts_body <- function(text, line, head, file) {
 
 nts_sets <- function(body, head, comment, file) {
   swapped <- head$columns == head$dim && !any(grepl('^landmarks: "', comment))
-  if (swapped) return(list("1" = landmark_set(nts_missing(body$x, head), body$label)))
+  if (swapped) return(landmark_set(nts_missing(body$x, head), body$label))
   name <- commented_names(comment, "landmarks", head$columns / head$dim, file)
   sets <- lapply(seq_len(head$rows), function(i) {
     landmark_set(nts_missing(matrix(body$x[i, ], ncol = head$dim, byrow = TRUE), head), name)
   })
-  stats::setNames(sets, if (is.null(body$label)) seq_along(sets) else body$label)
+  structure(stats::setNames(sets, if (is.null(body$label)) seq_along(sets) else body$label),
+            numbered = is.null(body$label))
 }
 
 # The code, exactly: in one co-ordinate where the header declares it, else only in all of a point.
@@ -80,9 +82,15 @@ write_landmarks_nts <- function(sets, file, options) {
   if (nrow(x) == 1) comment <- sprintf("landmarks: %s", quote_names(rownames(x)))
   write_file_lines(c(
     "'Landmarks, written by crestline", if (!is.null(comment)) paste0("'", comment),
+    unlist(Map(nts_comment, sets, names(sets), MoreArgs = list(alone = length(sets) == 1))),
     sprintf("1 %dL %d 1 %d DIM=3", length(sets), 3L * nrow(x), code), "", names(sets), "",
     unlist(lapply(sets, function(x) if (nrow(x)) c(row_text(x, missing = code), "")))
   ), file)
+}
+
+nts_comment <- function(x, id, alone) {
+  lines <- attr(x, "comments")
+  if (length(lines)) paste0("'", if (!alone) paste0(comment_text(id), ", "), lines)
 }
 
 check_nts_sets <- function(sets, file) {

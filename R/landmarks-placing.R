@@ -24,9 +24,11 @@
 #' }
 #' @export
 check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
-  placing <- placing_of(specimen)
+  check_given()
   least <- check_number(least, "least", 0, 1)
   doubtful <- check_number(doubtful, "doubtful", 0, 1)
+  placing <- placing_of(specimen)
+  if (!is.null(picture)) check_path_to_write(picture, "picture", "png")
   found <- placing$state %in% c("found", "placed")
   low <- placing$state == "found" & placing$confidence < least
   if (any(found) && sum(low) <= doubtful * sum(found)) return(specimen)
@@ -95,7 +97,7 @@ print_placing <- function(placing, wrong = find_settings()$wrong) {
 placing_of <- function(specimen, call = rlang::caller_env()) {
   check_class(specimen, "specimen", "specimen", "find_landmarks()", call = call)
   if (is.null(specimen$placing)) {
-    crestline_abort("its landmarks were not found but given.", "Give a specimen of find_landmarks().", stage = "landmarks",
+    crestline_abort("the landmarks of `specimen` were not found but given.", "Give a specimen of find_landmarks().", stage = "landmarks",
                     id = specimen$id, call = call)
   }
   specimen$placing
@@ -108,6 +110,9 @@ placing_of <- function(specimen, call = rlang::caller_env()) {
 #' @return `plot_placing()`: the specimen, invisibly.
 #' @export
 plot_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
+  check_given()
+  least <- check_number(least, "least", 0, 1)
+  views <- check_numbers(views, "views")
   placing <- placing_of(specimen)
   old <- graphics::par(mfrow = c(1, length(views)), mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))

@@ -53,7 +53,7 @@ write_landmarks_pts <- function(sets, file, options) {
     sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1, pts_rows(curves[[i]], file, options))
   }))
   row <- c(if (nrow(x)) paste(rownames(x), pts_rows(x, file, options)), point)
-  write_file_lines(c("Version 1.0", length(row), row), file)
+  write_file_lines(c("Version 1.0", sprintf("%d", length(row)), row), file)
 }
 
 pts_rows <- function(x, file, options) {

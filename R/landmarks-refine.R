@@ -53,14 +53,20 @@
 refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05, share = 0.5,
                              order = "adaptive cubic", tolerance = 1e-3, rounds = 10, curvature = NULL,
                              unit = NULL, threads = getOption("crestline.threads", 1L)) {
+  check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  definitions <- definitions_of(scheme, specimen, unit)
-  move <- check_move(move, definitions$landmark)
   settings <- list(window = check_number(window, "window", 0, open = TRUE), apart = check_number(apart, "apart", 0),
                    faint = check_number(faint, "faint", 0), share = check_number(share, "share", 0, 1, open = TRUE),
                    ridge = ridge_settings(error = FALSE))
+  tolerance <- check_number(tolerance, "tolerance", 0)
+  rounds <- check_count(rounds, "rounds")
+  if (!is.null(curvature)) check_function(curvature, "curvature")
+  threads <- check_threads(threads)
+  order <- check_order(order)
+  definitions <- definitions_of(scheme, specimen, unit)
+  move <- check_move(move, definitions$landmark)
   specimen$refinement <- NULL
-  curvature <- curvature_by_radius(specimen, curvature, order, check_count(threads, "threads"))
+  curvature <- curvature_by_radius(specimen, curvature, order, threads)
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
   places <- refined_places(specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
                            check_count(rounds, "rounds"))
@@ -73,7 +79,7 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
     }
   }
   specimen$refinement <- refinement
-  specimen
+  with_origin(specimen, refinement$landmark[refinement$moved], "defined")
 }
 
 definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
@@ -165,10 +171,10 @@ located_place <- function(specimen, definition, given, inputs, pairs, curvature,
   if (anyNA(start) || anyNA(inputs)) return(list(state = "missing", reason = "a landmark is missing"))
   place <- defined_place(specimen, definition, start, pairs, curvature, settings)
   if (!is.null(place$reason)) {
-    return(list(state = "none", reason = place$reason, point = point_near(specimen$mesh, start, definition$radius)))
+    return(list(state = "none", reason = place$reason, point = surface_points(specimen$mesh, matrix(start, 1))))
   }
   place$state <- "found"
-  place$point <- point_near(specimen$mesh, place$at, definition$radius)
+  place$point <- surface_points(specimen$mesh, matrix(place$at, 1))
   place
 }
 
@@ -198,10 +204,13 @@ refinement_table <- function(specimen, definitions, places) {
 #' @return `plot_refinement()`: the scene of [draw_surface()], invisibly.
 #' @export
 plot_refinement <- function(specimen, view = "front", labels = TRUE, main = NULL, ...) {
+  check_given()
+  check_flags(labels)
+  main <- check_text(main, "main", null = TRUE)
   check_class(specimen, "specimen", "specimen", "refine_landmarks()")
   table <- specimen$refinement
   if (is.null(table)) {
-    crestline_abort("its landmarks were not refined.", "Give a specimen of refine_landmarks().", stage = "picture",
+    crestline_abort("the landmarks of `specimen` were not refined.", "Give a specimen of refine_landmarks().", stage = "picture",
                     id = specimen$id)
   }
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))

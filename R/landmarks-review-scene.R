@@ -80,7 +80,7 @@ curve_items <- function(review, width = 3) {
   curves <- review$fitting$scheme$curves
   colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
   items <- Map(function(fit, colour) {
-    list(path = as.matrix(unbridged_path(fit$path, review$specimen$mesh)[c("x", "y", "z")]), colour = colour, width = width)
+    list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]), colour = colour, width = width)
   }, fits, unname(colour))
   stats::setNames(items, paste("curve", names(fits)))
 }

@@ -24,8 +24,10 @@
 #' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks
 #'   are put on the mesh as it is.
 #' @param bridge,unit As in [fit_shape()].
-#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `launch.browser`.
+#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `quiet`, `launch.browser` (a function gets the address of the page).
 #' @inheritParams curvature
+#' @details The address of the page has a random token. R answers nobody who does not know it, and no page of another site.
+#'   With `launch.browser = FALSE` the address is printed.
 #' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were
 #'   ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said
 #'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them.
@@ -46,6 +48,7 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
                              least = 0.5, settings = ridge_settings(error = FALSE), view = NULL,
                              radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL, bridge = 0.2,
                              threads = getOption("crestline.threads", 1L), ...) {
+  check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rlang::check_installed("shiny", "to review landmarks.")
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
@@ -55,12 +58,17 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   }
   surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
   least <- check_number(least, "least", 0, 1)
-  review <- begin_review(specimen, scheme, least, settings, check_number(bridge, "bridge", 0, 1), threads)
+  bridge <- check_number(bridge, "bridge", 0, 1)
+  threads <- check_threads(threads)
+  radius <- check_number(radius, "radius", 0, open = TRUE)
+  faces <- check_count(faces, "faces")
+  if (!is.null(view)) view_rotation(view)
+  check_dots(..., known = names(formals(shiny::runApp))[-1])
+  review <- begin_review(specimen, scheme, least, settings, bridge, threads)
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
-  shown <- shown_surface(specimen, surface, check_number(radius, "radius", 0, open = TRUE), check_count(faces, "faces"))
-  app <- shiny::shinyApp(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view))
-  reviewed <- shiny::runApp(app, ...)
+  shown <- shown_surface(specimen, surface, radius, faces)
+  reviewed <- run_review(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view), ...)
   warn_exchanged(specimen_slips(reviewed), reviewed$id)
   reviewed
 }
@@ -70,6 +78,8 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
 #' @param id Name of the specimen, where a mesh is given.
 #' @export
 place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
+  check_given()
+  check_surface(mesh, "mesh")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   review_landmarks(without_landmarks(mesh, scheme, id), scheme, ...)
 }
@@ -79,6 +89,8 @@ place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
 without_landmarks <- function(mesh, scheme, id = NULL) {
   names <- scheme$landmarks$landmark
   empty <- matrix(NA_real_, length(names), 3, dimnames = list(names, c("x", "y", "z")))
-  if (inherits(mesh, "specimen")) return(specimen(mesh$mesh, empty, mesh$id, outward = "keep"))
+  if (inherits(mesh, "specimen")) {
+    return(with_fields(specimen(as_mesh(mesh), empty, mesh$id, outward = "keep"), file = mesh$file))
+  }
   specimen(mesh, empty, id)
 }

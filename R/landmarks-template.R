@@ -28,7 +28,10 @@
 #' landmark_template(face, predicted = c("tL", "tR", "oiL", "oiR"))
 #' @export
 landmark_template <- function(specimen, predicted = character(), unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA) {
+  check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  predicted <- check_names(predicted, "predicted")
+  if (!identical(mirror, NA)) check_flags(mirror)
   unit <- check_number(unit, "unit", lower = 0, open = TRUE)
   at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
   missing <- setdiff(predicted, rownames(at))
@@ -55,6 +58,7 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
 
 #' @export
 print.landmark_template <- function(x, ...) {
+  check_method_dots(...)
   cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"),
       if (x$mirror) ", with a mirror",
       ", unit ", signif(x$unit, 3), "\n", sep = "")
@@ -96,13 +100,13 @@ least_rotation <- function(axis) {
 #' A specimen after rotation about an origin, which goes to 0
 #' @noRd
 moved_specimen <- function(specimen, rotation, origin) {
-  specimen$mesh$vb[1:3, ] <- rotation %*% (specimen$mesh$vb[1:3, ] - origin)
-  specimen$mesh$normals[1:3, ] <- rotation %*% specimen$mesh$normals[1:3, ]
-  names <- dimnames(specimen$landmarks)
-  specimen$landmarks <- t(rotation %*% (t(specimen$landmarks) - origin))
-  dimnames(specimen$landmarks) <- names
-  specimen$geometry[c("landmarks", "located")] <- list(specimen$landmarks[0, , drop = FALSE], specimen$geometry$located[0, ])
-  specimen
+  mesh <- specimen$mesh
+  mesh$vb[1:3, ] <- rotation %*% (mesh$vb[1:3, ] - origin)
+  mesh$normals[1:3, ] <- rotation %*% mesh$normals[1:3, ]
+  landmarks <- structure(t(rotation %*% (t(specimen$landmarks) - origin)), dimnames = dimnames(specimen$landmarks))
+  geometry <- specimen$geometry
+  geometry[c("landmarks", "located")] <- list(landmarks[0, , drop = FALSE], geometry$located[0, ])
+  with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key, landmarks = landmarks, geometry = geometry)
 }
 
 #' A template with what matching needs: its cloud, anchors and displacements
@@ -143,20 +147,31 @@ with_landmarks <- function(prepared, landmarks) {
   prepared$landmarks <- landmarks
   n <- ncol(prepared$xyz)
   prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), n, prepared$mirror, prepared$settings)
-  rows <- lapply(prepared$basis, function(b) b[seq_len(n), ])
-  plane <- do.call(cbind, lapply(1:3, function(k) prepared$normal[k, ] * rows[[k]]))
-  root <- warp_root(rows, plane, rep(1 / prepared$settings$error^2, n), prepared$settings)
+  weight <- rep(1 / prepared$settings$error^2, n)
+  root <- warp_root(prepared$basis, seq_len(n), prepared$normal, weight, prepared$settings)
   prepared$sd <- warp_sd(lapply(prepared$basis, function(b) b[-seq_len(n), , drop = FALSE]), root)
   prepared
 }
 
 #' @rdname landmark_template
 #' @export
-face_template <- function() {
+face_template <- function() once("face template", read_face_template)
+
+read_face_template <- function() {
   folder <- system.file("extdata", "face_template", package = "crestline", mustWork = TRUE)
   at <- read_landmarks(file.path(folder, "landmarks.csv"))
   ears <- c("tL", "tR", "oiL", "oiR")
   face <- read_specimen(file.path(folder, "mesh.ply"), at[!rownames(at) %in% ears, ], id = "face")
   face$landmarks <- at
   landmark_template(face, ears, unit = 1)
+}
+
+#' A template, or a specimen made into one
+#' @noRd
+check_template <- function(template, call = rlang::caller_env()) {
+  if (inherits(template, "specimen")) {
+    check_class(template, "specimen", "template", "specimen() or read_specimen()", call)
+    return(landmark_template(template))
+  }
+  check_class(template, "landmark_template", "template", "landmark_template() or face_template()", call)
 }

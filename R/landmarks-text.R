@@ -1,29 +1,61 @@
 # What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets, errors.
 
-# UTF-8, with or without a mark of it; else taken for Latin 1, as Windows writes names with accents.
+# The lines of a text file, ended as on any system. UTF-8 or UTF-16, with or without a mark of it;
+# else taken for Latin 1, as Windows writes names with accents.
 file_lines <- function(file) {
-  line <- readLines(file, warn = FALSE, skipNul = TRUE)
+  bytes <- readBin(file, "raw", file.size(file))
+  bytes <- if (is.na(wide <- wide_encoding(bytes))) bytes[bytes != 0] else {
+    charToRaw(c(iconv(list(bytes), wide, "UTF-8", sub = "byte"), "")[1])
+  }
+  text <- gsub("\r\n?", "\n", rawToChar(bytes), useBytes = TRUE)
+  line <- strsplit(text, "\n", fixed = TRUE, useBytes = TRUE)[[1]]
   line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
-  sub("^\ufeff", "", line)
+  if (length(line)) line[1] <- sub("^\ufeff", "", line[1])
+  line
+}
+
+# The UTF-16 of a text: by its mark, else where every second byte is 0, as in names and numbers; NA
+# for none.
+wide_encoding <- function(bytes) {
+  if (length(bytes) < 2) return(NA_character_)
+  mark <- paste(bytes[1:2], collapse = "")
+  if (mark %in% c("fffe", "feff")) return(if (mark == "fffe") "UTF-16LE" else "UTF-16BE")
+  zero <- c(mean(bytes[c(TRUE, FALSE)] == 0), mean(bytes[c(FALSE, TRUE)] == 0))
+  if (zero[2] > 0.5 && zero[1] == 0) "UTF-16LE" else
+    if (zero[1] > 0.5 && zero[2] == 0) "UTF-16BE" else NA_character_
 }
 
 write_file_lines <- function(line, file) {
+  if (is_pipe(file)) {
+    refuse_landmark_file(file, "is a pipe, no file on disk", "Write to a file.")
+  }
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
   })
-  on.exit(close(connection))
-  writeLines(enc2utf8(line), connection, useBytes = TRUE)
+  line <- enc2utf8(line)
+  tryCatch(writeLines(line, connection, useBytes = TRUE),
+           finally = suppressWarnings(close(connection)))
+  if (!identical(file.size(file), sum(nchar(line, "bytes") + 1))) {
+    refuse_landmark_file(file, "was not written whole",
+                         "Is the disk full, or the file a device? Write to another place.")
+  }
 }
+
+# NA and NaN as R, C and the compilers of Windows write them (-nan(ind), -1.#IND, 1.#QNAN0).
+missing_word <- "^(|na|[-+]?(s|q)?nan(\\([a-z]*\\))?|[-+]?1\\.#(ind|[sq]?nan)0*)$"
 
 # Words to numbers, the words for a missing one to NA; `line`: the line of each word.
 landmark_numbers <- function(word, file, line) {
-  missing <- tolower(word) %in% c("", "na", "nan", "-nan", "nan(ind)", "-nan(ind)")
-  number <- suppressWarnings(as.numeric(ifelse(missing, NA, word)))
-  wrong <- which(!is.finite(number) & !missing)
+  number <- suppressWarnings(as.numeric(word))
+  odd <- which(!is.finite(number))
+  missing <- grepl(missing_word, word[odd], ignore.case = TRUE)
+  number[odd[missing]] <- NA
+  wrong <- odd[!missing]
   if (length(wrong)) {
     refuse_landmark_file(
       file, sprintf('"%s" is not a %snumber', word[wrong[1]], if (is.na(number[wrong[1]])) "" else "finite "),
-      "Write numbers with a decimal point, NA for a missing one.", rep_len(line, length(word))[wrong[1]]
+      "Write numbers with a decimal point, NA for a missing one.",
+      if (!is.null(line)) rep_len(line, length(word))[wrong[1]]
     )
   }
   number
@@ -37,7 +69,20 @@ landmark_rows <- function(text, width, file, line) {
     refuse_landmark_file(file, sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]], width),
                          "Give every point its own line, blanks between the numbers.", line[wrong[1]])
   }
+  check_separators(text, file, line)
   matrix(landmark_numbers(unlist(word), file, rep(line, each = width)), ncol = width, byrow = TRUE)
+}
+
+# Commas in some places and blanks in others: the commas may be decimal ones, and every number
+# another.
+check_separators <- function(text, file, line) {
+  mixed <- grepl("[^[:space:]],[^[:space:]]",
+                 text) & grepl("[^[:space:],][[:space:]]+[^[:space:],]", trimws(text))
+  if (any(mixed)) {
+    refuse_landmark_file(file, sprintf("\"%s\" has both commas and blanks between numbers",
+                                       trimws(text[mixed][1])),
+                         "Write decimal points, and blanks between the numbers.", line[mixed][1])
+  }
 }
 
 # 15 digits where they give the number back, else the 17 that always do.

@@ -11,7 +11,8 @@ read_landmarks_tps <- function(file, options) {
   record <- Map(function(from, to) tps_record(line[from:to], from:to, file), start, end)
   scale <- tps_scales(record, file, options)
   sets <- Map(tps_set, record, scale, MoreArgs = list(file = file))
-  stats::setNames(sets, tps_names(record))
+  name <- tps_names(record)
+  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias)
 }
 
 # One record as its keys: data frame key, value, line, and the rows of numbers after each.
@@ -97,13 +98,17 @@ tps_scales <- function(record, file, options) {
   scale
 }
 
-# By ID=, else by IMAGE=, where each has its own; else numbered.
+#' By ID=, else by IMAGE=, where each has its own; else numbered
+#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=.
+#' @noRd
 tps_names <- function(record) {
-  for (key in c("ID", "IMAGE")) {
+  by <- lapply(c(ID = "ID", IMAGE = "IMAGE"), function(key) {
     name <- vapply(record, function(r) c(r$value[r$key == key], "")[1], "")
-    if (all(nzchar(name)) && !anyDuplicated(name)) return(name)
-  }
-  as.character(seq_along(record))
+    if (all(nzchar(name)) && !anyDuplicated(name)) name
+  })
+  if (!is.null(by$ID)) return(list(name = by$ID, numbered = FALSE, alias = by$IMAGE))
+  if (!is.null(by$IMAGE)) return(list(name = by$IMAGE, numbered = FALSE))
+  list(name = as.character(seq_along(record)), numbered = TRUE)
 }
 
 write_landmarks_tps <- function(sets, file, options) {
@@ -112,9 +117,10 @@ write_landmarks_tps <- function(sets, file, options) {
 
 tps_lines <- function(x, id) {
   curves <- attr(x, "curves")
-  c(paste0("LM3=", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves), paste0("ID=", id),
+  c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves),
+    paste0("ID=", id),
     tps_comment(name_comment(rownames(x), "landmarks")),
-    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))))
+    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))), tps_comment(attr(x, "comments")))
 }
 
 tps_comment <- function(text) if (!is.null(text)) paste0("COMMENT=", text)
@@ -125,8 +131,9 @@ tps_curve_lines <- function(curves) {
   run <- rle(as.vector(closed))
   first <- cumsum(c(1, run$lengths))
   head <- character(length(curves))
-  head[first[seq_along(run$lengths)]] <- paste0(ifelse(run$values, "OUTLINES=", "CURVES="), run$lengths)
+  head[first[seq_along(run$lengths)]] <- sprintf("%s%d", ifelse(run$values, "OUTLINES=", "CURVES="),
+                                                 run$lengths)
   unlist(lapply(seq_along(curves), function(i) {
-    c(head[i][nzchar(head[i])], paste0("POINTS=", nrow(curves[[i]])), row_text(curves[[i]]))
+    c(head[i][nzchar(head[i])], sprintf("POINTS=%d", nrow(curves[[i]])), row_text(curves[[i]]))
   }))
 }

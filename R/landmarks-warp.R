@@ -114,24 +114,19 @@ solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
   across <- row_products(to - moved[used, , drop = FALSE], normal)
   weight <- 1 / ((1 + (across / settings$robust)^2) * settings$error^2)
   gap <- to - xyz[used, , drop = FALSE]
-  rows <- lapply(basis, function(b) b[used, , drop = FALSE])
-  plane <- do.call(cbind, lapply(1:3, function(k) normal[, k] * rows[[k]]))
-  right <- crossprod(plane, (1 - settings$along) * weight * row_products(gap, normal))
-  right <- right + unlist(lapply(1:3, function(k) crossprod(rows[[k]], settings$along * weight * gap[, k])))
-  root <- warp_root(rows, plane, weight, settings)
-  list(coefficients = drop(backsolve(root, forwardsolve(t(root), right))), root = root)
+  pull <- weight * ((1 - settings$along) * row_products(gap, normal) * normal + settings$along * gap)
+  right <- unlist(lapply(1:3, function(k) {
+    crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
+  }))
+  root <- warp_root(basis, used, cloud$normal[, at, drop = FALSE], weight, settings)
+  list(coefficients = drop(backsolve(root, backsolve(root, right, transpose = TRUE))), root = root)
 }
 
 #' Cholesky factor of the precision of the coefficients
-#' @param rows Basis at the matched points; `plane`: the same along the normals.
+#' @param used Numbers of the matched points; `normal` (3 x matches) and `weight`: theirs.
 #' @noRd
-warp_root <- function(rows, plane, weight, settings) {
-  precision <- crossprod(plane * sqrt((1 - settings$along) * weight))
-  end <- cumsum(vapply(rows, ncol, 0L))
-  for (k in 1:3) {
-    part <- (end[k] - ncol(rows[[k]]) + 1):end[k]
-    precision[part, part] <- precision[part, part] + crossprod(rows[[k]] * sqrt(settings$along * weight))
-  }
+warp_root <- function(basis, used, normal, weight, settings) {
+  precision <- cpp_warp_gram(basis, used, normal, weight, settings$along, 1 - settings$along)
   diag(precision) <- diag(precision) + 1
   chol(precision)
 }

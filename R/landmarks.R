@@ -2,24 +2,31 @@
 
 #' Read and write landmarks and curves of points
 #'
-#' The format goes by the file's extension, in any case. Files are taken for UTF-8, else Latin 1, and
-#' written in UTF-8, numbers with as many digits as give them back to the last bit. What is written is
-#' read back identically, except where the list below says otherwise.
+#' The format goes by the file's extension, in any case. Files are taken for UTF-8 or UTF-16, else
+#' Latin 1, and written in UTF-8, numbers with as many digits as give them back to the last bit.
+#' What is written is read back identically, except where the list below says otherwise.
 #'
 #' | extension | from | specimens in a file | curves |
 #' |---|---|---|---|
-#' | `.csv` | tables | one | yes |
+#' | `.csv` | tables | one; several are read | yes |
 #' | `.pts` | IDAV Landmark, Checkpoint | one | open, by number |
 #' | `.tps` | tpsDig and kin | several | yes |
 #' | `.nts`, `.dta` | NTSYS, IDAV Landmark | several | no; a shape's as points |
 #' | `.landmarkAscii` | Amira, Avizo | several | no; a shape's as points |
 #' | `.fcsv` | 3D Slicer | one | no; a shape's as points |
 #' | `.mrk.json` | 3D Slicer | one | yes |
+#' | `.pp` | MeshLab | one | no; a shape's as points |
+#' | `.ckpt` | Checkpoint | one, read only | no |
 #'
 #' * `.csv`: commas, tabs, or semicolons (then with decimal points or commas) between; a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
-#'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order. Rows with something in a
-#'   column `curve` are points of that curve, closed where a column `closed` says TRUE. Other columns
-#'   are ignored; a missing landmark has NA or nothing.
+#'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order; or in `r`, `a`, `s` or
+#'   `l`, `p`, `s`, as 3D Slicer exports its lists (`defined` 0: missing). Rows with something in a
+#'   column `curve` are points of that curve, in the order of a column `point`, closed where a
+#'   column `closed` says TRUE. A column of specimens (`specimen`, `subject`, `file`, `scan`, ...;
+#'   `id` where landmarks repeat) makes a list of them. Other columns are ignored; a missing
+#'   landmark has NA or nothing. Fields are counted: a row with more or fewer than the header is
+#'   refused. What spreadsheets leave is taken off: a line `sep=;`, comments (#) above the header,
+#'   empty rows and columns, a separator at the end of all rows.
 #' * `.pts`: names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get
 #'   numbers, and closed ones are opened, with a warning.
 #' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. Names of landmarks and curves, which the format has
@@ -33,12 +40,23 @@
 #' * `.mrk.json`: all lists of the file, Fiducial as landmarks (the list's name before the label where two
 #'   lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Lists of other
 #'   types are left out with a warning. Numbers stay in the file's unit.
+#' * `.pp`: a point that is not active is missing.
+#' * `.ckpt`: single points, in the file's unit; points of curves and patches are left out with a
+#'   warning.
+#'
+#' Of a specimen or shape the provenance (see [summary.specimen()]) is written too, where readers of
+#' other programs pass over it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a
+#' field `provenance` of `.mrk.json`. In `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and `.pp` it would
+#' disturb some, and is left out.
+#'
+#' A folder is read as the landmark files in it, by their names. Two files of one specimen must
+#' agree. Empty and compressed files, pipes and devices are refused before they are opened.
 #'
 #' Of a `shape` landmarks and curves are written, with what is missing of them as missing points. Where the format
 #' has no curves their points are landmarks, named "curve point" as in [coords()], with a warning (`curves = list()` leaves
 #' them out). [read_curves()] gives curves back by name from either.
 #'
-#' @param file Path of the file.
+#' @param file Path of the file; for reading also of a folder of landmark files.
 #' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the
 #'   frame in which the co-ordinates are wanted. "LPS" (left, posterior, superior) is that of the
 #'   meshes Slicer saves unless told otherwise, "RAS" that of its scene, "file" leaves the numbers as
@@ -49,15 +67,16 @@
 #'   only some specimens have one is refused.
 #' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z, a
 #'   [specimen()], a `shape` as [fit_shape()] returns it, NULL for no landmarks, or, where the format holds several
-#'   specimens, a list of them.
+#'   specimens, a list of them, a k x 3 x n array, a `shape_sample`, a `shape_batch` or an
+#'   `aligned`.
 #' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of data
 #'   frames with columns x, y, z, or of values of [ridge_curve()]. NULL: those of the shape, or the attribute
 #'   `curves` of `x`, if any; `list()`: none.
 #' @return `read_landmarks()`: k x 3 numeric matrix with row names and columns `x`, `y`, `z`, in the
 #'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA in all
 #'   three co-ordinates of a missing one. Where the file has curves, the attribute `curves`: named list of n x 3
-#'   matrices, each with the attribute `closed`. For a file of several specimens a named list of such
-#'   matrices. `write_landmarks()`: `file`, invisibly. Errors are of class
+#'   matrices, each with the attribute `closed`. For a file of several specimens, or a folder, a
+#'   named list of such matrices. `write_landmarks()`: `file`, invisibly. Errors are of class
 #'   `crestline_landmark_error` and name file, line and remedy.
 #' @examples
 #' file <- tempfile(fileext = ".csv")
@@ -70,17 +89,39 @@
 #' read_landmarks(slicer)
 #' @export
 read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999, scale = TRUE) {
+  check_given()
+  check_flags(scale)
+  if (is.character(file) && length(file) == 1 && isTRUE(dir.exists(file))) {
+    return(read_landmark_folder(file, frame = frame, missing = missing, scale = scale))
+  }
+  found <- read_sets(file, frame, missing, scale)
+  if (is.matrix(found)) return(found)
+  attr(found, "numbered") <- attr(found, "alias") <- NULL
+  if (length(found) == 1) found[[1]] else found
+}
+
+#' One matrix, or a named list of them whose attributes say whether the names are but numbers of
+#' ours (`numbered`), and other names (`alias`)
+#' @noRd
+read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
   check_file(file, "landmarks")
   options <- list(frame = check_choice(frame, c("LPS", "RAS", "file"), "frame"),
                   missing = check_number(missing, "missing"), scale = isTRUE(scale))
-  found <- landmark_format(file)$read(file, options)
-  if (is.list(found) && length(found) == 1) found[[1]] else found
+  format <- landmark_format(file)
+  check_stored(file, "landmarks")
+  format$read(file, options)
 }
 
 #' @rdname read_landmarks
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
+  check_given()
+  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   format <- landmark_format(file)
+  if (is.null(format$write)) {
+    refuse_landmark_file(file, "this format is read, not written",
+                         "Write a .pts file, which Checkpoint reads.")
+  }
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
   if (!format$curves && has_shape(x)) sets <- curves_as_points(sets, file)
@@ -101,23 +142,44 @@ landmark_formats <- function() {
     dta = nts,
     landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE, curves = FALSE),
     fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE, curves = FALSE),
-    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE, curves = TRUE)
+    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE,
+                    curves = TRUE),
+    pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE,
+              curves = FALSE),
+    ckpt = list(read = read_landmarks_ckpt, write = NULL, several = FALSE, curves = FALSE)
   )
 }
 
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
 written_sets <- function(x, curves, file) {
+  x <- sets_of_sample(x, file)
   if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) || !is.list(x)) {
     id <- if (inherits(x, c("specimen", "shape"))) x$id else "1"
     return(stats::setNames(list(written_set(x, curves)), id))
   }
   if (!length(x) || !is.null(curves) && length(x) > 1) {
-    refuse_landmark_file(file, "curves go with one specimen, and there must be one",
+    refuse_landmark_file(file, "`x` holds no specimen, or several for one set of `curves`",
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
   if (is.null(names(x))) names(sets) <- specimen_names(x)
   sets
+}
+
+#' The specimens of an array, a sample, a batch or an alignment, as a list; anything else as it is
+#' @noRd
+sets_of_sample <- function(x, file) {
+  if (inherits(x, "shape_sample")) return(x$shapes)
+  if (inherits(x, "shape_batch")) x <- as.list(x)
+  if (inherits(x, "aligned")) x <- x$coords
+  if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
+  none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
+  if (length(none)) {
+    name <- if (is.null(names(x))) none else names(x)[none]
+    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)),
+                         "Leave out what failed.")
+  }
+  x
 }
 
 specimen_names <- function(x) {
@@ -126,19 +188,21 @@ specimen_names <- function(x) {
 }
 
 written_set <- function(x, curves) {
+  if (inherits(x, "shape")) check_class(x, "shape", "x", "fit_shape()")
   if (is.null(curves)) curves <- if (inherits(x, "shape")) shape_curves(x) else attr(x, "curves")
-  if (inherits(x, "specimen")) x <- x$landmarks
+  comments <- comment_lines(provenance_of(x))
+  if (inherits(x, "specimen")) x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")$landmarks
   if (inherits(x, "shape")) x <- coords(x, "landmarks")
   x <- as_landmarks(x)
   curves <- as_curves(curves)
-  if (length(curves)) structure(x, curves = curves) else x
+  structure(x, curves = if (length(curves)) curves, comments = if (length(comments)) paste("provenance,", comments))
 }
 
 # A named list of n x 3 matrices, each with attribute `closed`.
 as_curves <- function(x) {
   name <- names(x)
   if (length(x) && (!is.list(x) || is.null(name) || anyNA(name) || any(!nzchar(name)) || anyDuplicated(name))) {
-    refuse_landmarks("the curves are not a list with a name of its own for each.",
+    refuse_landmarks("`curves` is not a list with a name of its own for each.",
                      "Give list(name = n x 3 matrix, ...).", id = NULL)
   }
   Map(as_curve, as.list(x), as.character(name))
@@ -149,7 +213,7 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf("curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
+    refuse_landmarks(sprintf("`curves`: %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
@@ -180,9 +244,11 @@ landmark_format <- function(file) {
   extension <- sub("^(mrk[.])?json$", "mrk.json", file_extension(file))
   format <- match(extension, tolower(names(formats)))
   if (is.na(format)) {
+    first <- if (extension %in% c("gz", "bz2", "xz", "zip")) "Unpack it first. " else
+      if (extension %in% c("xlsx", "xls", "ods")) "Save the sheet as CSV. "
     crestline_abort(
-      sprintf("no landmark format has the extension of %s.", basename(file)),
-      paste0("Known: ", paste0(".", names(formats), collapse = ", "), "."),
+      sprintf("`file`: no landmark format has the extension of %s.", basename(file)),
+      paste0(first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),
       stage = "landmarks", class = "crestline_landmark_error", call = NULL
     )
   }
@@ -191,13 +257,56 @@ landmark_format <- function(file) {
 
 file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
 
-check_file <- function(file, stage) {
-  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, stage)
+check_file <- function(file, stage, name = "file") {
+  if (!is_path(file)) refuse_no_path(file, stage)
   if (!file.exists(file) || dir.exists(file)) {
-    crestline_abort(sprintf("there is no file %s.", file),
+    crestline_abort(sprintf("`%s`: there is no file %s.", name, file),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)
   }
+}
+
+#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and
+#' devices, which might keep R waiting for ever, have no size
+#'
+#' @param id Name of the specimen, where there is one.
+#' @param unpacks Kinds of packed files that the caller reads.
+#' @noRd
+check_stored <- function(file, stage, id = NULL, unpacks = character()) {
+  refuse <- function(problem, remedy) {
+    crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
+                    call = NULL)
+  }
+  if (!isTRUE(file.size(file) > 0)) {
+    refuse(": it is empty, or no file on disk but a pipe or device",
+           "If it is empty, export or copy it again; save what comes through a pipe first.")
+  }
+  if (file.access(file, 4) != 0) refuse("", "Check the right to read it.")
+  packed <- packed_by(readBin(file, "raw", 10))
+  if (!is.na(packed) && !packed %in% unpacks) {
+    refuse(sprintf(": it is compressed by %s, whatever its name", packed),
+           "Unpack it first; of a spreadsheet save the sheet as CSV.")
+  }
+}
+
+#' Whether a path is a pipe, which would keep R waiting for a reader. R cannot tell, the shell can
+#' @noRd
+is_pipe <- function(file) {
+  if (.Platform$OS.type != "unix" || !isTRUE(file.size(file) == 0)) return(FALSE)
+  system2("test", c("-p", shQuote(path.expand(file)))) == 0
+}
+
+#' The program that a file's first bytes are of, NA for none
+#' @noRd
+packed_by <- function(bytes) {
+  start <- list(gzip = c(0x1f, 0x8b, 0x08), zip = c(0x50, 0x4b, 0x03, 0x04),
+                bzip2 = c(0x42, 0x5a, 0x68, NA, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59),
+                xz = c(0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00))
+  is_of <- vapply(start, function(mark) {
+    length(bytes) >= length(mark) &&
+      all(as.integer(bytes)[seq_along(mark)] == mark, na.rm = TRUE)
+  }, NA)
+  c(names(start)[is_of], NA)[1]
 }
 
 refuse_no_path <- function(file, stage) {

@@ -22,9 +22,9 @@ bridge_holes <- function(specimen, largest) {
   fans <- Map(function(loop, centre) rbind(c(loop[-1], loop[1]), loop, centre), holes, centre)
   mesh$it <- unname(cbind(mesh$it, do.call(cbind, fans)))
   storage.mode(mesh$it) <- "integer"
-  specimen$mesh <- mesh
-  specimen$geometry[c("twin", "piece")] <- mesh_topology(mesh)[c("twin", "piece")]
-  specimen
+  geometry <- specimen$geometry
+  geometry[c("twin", "piece")] <- mesh_topology(mesh)[c("twin", "piece")]
+  with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key, geometry = geometry)
 }
 
 #' A loop of vertices taken apart where it meets itself
@@ -43,15 +43,19 @@ simple_loops <- function(loop) {
 
 #' Diagonal of the bounding box of points, 3 x n
 #' @noRd
-box_diagonal <- function(xyz) sqrt(sum(vapply(1:3, function(i) diff(range(xyz[i, ])), 0)^2))
+box_diagonal <- function(xyz) cpp_box_diagonal(xyz)
 
 #' A path without its parts on bridges: straight from rim to rim
 #' @noRd
-unbridged_path <- function(path, mesh) {
+unbridged_path <- function(path, specimen) {
+  mesh <- specimen$mesh
+  if (is.null(path)) return(NULL)
+  attr(path, "key") <- specimen_key(specimen)
   bridge <- path$face > ncol(mesh$it)
   if (!any(bridge)) return(path)
   landing <- which(bridge & !c(bridge[-1], TRUE))
   path[landing, mesh_columns] <- surface_points(mesh, as.matrix(path[landing, c("x", "y", "z")]))
   kept <- sort(c(which(!bridge), landing))
-  structure(path[kept, ], length = attr(path, "length"), class = class(path))
+  # Its arc lengths stay those of the way over the bridges, along which it was measured.
+  new_mesh_path(lapply(unclass(path)[c("s", mesh_columns)], `[`, kept), attr(path, "length"), attr(path, "key"), attr(path, "id"))
 }

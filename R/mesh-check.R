@@ -7,15 +7,16 @@
 #' @param outward "detect", "keep" or "flip", see [specimen()].
 #' @param debris Pieces with less than this share of the faces are left out.
 #' @return A list: `mesh` (`vb`, `it`, `normals`, perhaps `material$color`), `topology` (see
-#'   mesh_topology()), `report` (data frame: `check`, `count`, `action`, a row for every check).
+#'   mesh_topology()), `report` (data frame: `check`, `count`, `action`, a row for every check), `vertices` (for every
+#'   vertex given its number in `mesh`, NA where it was left out).
 #' @noRd
 check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   outward <- check_choice(outward, c("detect", "keep", "flip"), "outward")
   debris <- check_number(debris, "debris", lower = 0, upper = 1)
   steps <- list(
-    as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices, drop_non_finite,
-    merge_duplicate_vertices, triangulate_cloud, drop_degenerate_faces, drop_duplicate_faces,
-    refuse_empty, mend_winding, function(mesh, id) drop_debris(mesh, id, debris),
+    as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices, drop_non_finite, drop_far,
+    merge_duplicate_vertices, triangulate_cloud, drop_degenerate_faces, drop_duplicate_faces, refuse_empty,
+    join_near_vertices, split_edges_at_vertices, mend_winding, function(mesh, id) drop_debris(mesh, id, debris),
     drop_unreferenced, function(mesh, id) turn_outward(mesh, id, outward)
   )
   report <- list()
@@ -24,14 +25,16 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
     mesh <- done$mesh
     report <- c(report, list(done$row))
   }
+  warn_dropped(mesh, do.call(rbind, report), id)
   topology <- with_topology(mesh)$topology
-  mesh$topology <- NULL
-  normal <- face_normals(mesh)
+  vertices <- mesh$given
+  normal <- if (is.null(mesh$face_normals)) face_normals(mesh) else mesh$face_normals
+  mesh[c("topology", "given", "lost", "face_normals")] <- NULL
   area <- row_lengths(normal)
   if (!any(area > 0)) refuse_flat(id)
-  mesh$normals <- vertex_normals(mesh, normal)
-  report <- c(report, describe_topology(mesh, topology, area))
-  list(mesh = mesh, topology = topology, report = do.call(rbind, report))
+  mesh$normals <- vertex_normals(mesh)
+  report <- c(report, describe_topology(mesh, topology, area), tell_contacts(mesh, topology, area, id))
+  list(mesh = mesh, topology = topology, report = do.call(rbind, report), vertices = vertices)
 }
 
 # What a step hands on: the mesh and its row of the report ("none" where nothing was found).
@@ -47,29 +50,22 @@ refuse_mesh <- function(problem, remedy, id) {
 }
 
 as_plain_mesh <- function(mesh, id) {
-  if (!inherits(mesh, "mesh3d")) {
+  if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
     refuse_mesh(sprintf("the mesh is %s, not a mesh3d.", describe_value(mesh)),
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
   }
   vb <- mesh$vb
-  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 || ncol(vb) < 3) {
-    refuse_mesh("the mesh has no vertices (`vb` must be 4 x n, n at least 3).",
-                "Read or export it again.", id)
-  }
+  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 || ncol(vb) < 3) refuse_no_vertices(id)
   if (nrow(vb) == 3) vb <- rbind(vb, 1)
-  plain <- list(vb = unname(vb), it = index_matrix(mesh$it, 3, id), ib = index_matrix(mesh$ib, 4, id))
+  plain <- list(vb = unname(vb), it = face_matrix(mesh$it, 3, id), ib = face_matrix(mesh$ib, 4, id))
   colour <- vertex_colours(mesh)
   if (!is.null(colour)) plain$material <- list(color = colour)
-  list(mesh = structure(plain, class = "mesh3d"), row = NULL)
-}
-
-index_matrix <- function(x, corners, id) {
-  if (is.null(x) || length(x) == 0) return(matrix(0L, corners, 0))
-  if (!is.numeric(x) || length(x) %% corners != 0) {
-    refuse_mesh(sprintf("the faces are not a numeric matrix of %d rows.", corners),
-                "Give `it` as 3 x m vertex numbers.", id)
-  }
-  matrix(suppressWarnings(as.integer(x)), corners)
+  # What the steps keep count of: each vertex's number now, triangles that were lost.
+  plain$given <- seq_len(ncol(vb))
+  plain$lost <- 0
+  short <- sum(mesh$short)
+  list(mesh = structure(plain, class = "mesh3d"),
+       row = report_row("polygons with fewer than three corners", short, "left out"))
 }
 
 normalise_homogeneous <- function(mesh, id) {
@@ -87,19 +83,68 @@ split_quads <- function(mesh, id) {
 }
 
 refuse_bad_indices <- function(mesh, id) {
-  bad <- sum(colSums(is.na(mesh$it) | mesh$it < 1 | mesh$it > ncol(mesh$vb)) > 0)
-  if (bad > 0) {
-    refuse_mesh(sprintf("%d of %d faces name vertices that do not exist.", bad, ncol(mesh$it)),
-                "The mesh is damaged: export or download it again.", id)
-  }
+  if (anyNA(mesh$it) || any(mesh$it < 1 | mesh$it > ncol(mesh$vb))) refuse_indices(mesh$it, ncol(mesh$vb), id)
   mended(mesh, "faces naming missing vertices", 0, "refused")
 }
 
 # Finite to the fourth power, so that squared areas are too.
 drop_non_finite <- function(mesh, id) {
   finite <- is.finite(colSums(mesh$vb[1:3, , drop = FALSE]^4))
-  mended(keep_vertices(mesh, finite), "non-finite co-ordinates", sum(!finite),
+  if (!any(finite)) {
+    refuse_mesh("none of its vertices has finite co-ordinates, or all are absurdly large.", "Export it again.", id)
+  }
+  absurd <- sum(is.finite(colSums(mesh$vb[1:3, !finite, drop = FALSE] / 4)))
+  if (absurd > 0) warn_far(absurd, "have absurdly large co-ordinates", id)
+  mended(losing(mesh, keep_vertices(mesh, finite)), "non-finite co-ordinates", sum(!finite),
          "vertices and their faces left out")
+}
+
+# Vertices of the surface that are no part of it: more than `far` times as far from its middle as half of the vertices
+# (a scan with its platform, or a whole body with most vertices on the head: up to 20 times). They would blind every
+# tolerance that goes by the size.
+drop_far <- function(mesh, id, far = 50) {
+  check <- "vertices far from all others"
+  gone <- far_vertices(mesh, seq_len(ncol(mesh$vb)), far)
+  if (!length(gone)) return(mended(mesh, check, 0))
+  # Those that no triangle uses are none of the surface, and may be most.
+  if (ncol(mesh$it)) gone <- far_vertices(mesh, which(tabulate(mesh$it, ncol(mesh$vb)) > 0), far)
+  if (length(gone)) {
+    warn_far(length(gone), sprintf("are more than %g times as far from the middle as half of the others", far), id)
+  }
+  kept <- !seq_len(ncol(mesh$vb)) %in% gone
+  mended(losing(mesh, keep_vertices(mesh, kept)), check, length(gone), "left out, with their faces")
+}
+
+warn_far <- function(count, what, id) {
+  crestline_warn(sprintf("%d vertices %s: left out, with their faces.", count, what),
+                 "Look at the mesh; if they belong to it, scale or crop it first.", stage = "mesh", id = id,
+                 class = "crestline_far_vertices")
+}
+
+far_vertices <- function(mesh, among, far) {
+  xyz <- mesh$vb[1:3, among, drop = FALSE]
+  away <- sqrt(colSums((xyz - apply(xyz, 1, stats::median))^2))
+  usual <- stats::median(away)
+  if (isTRUE(usual > 0)) among[away > far * usual] else integer()
+}
+
+# The mesh after a step by which surface is lost.
+losing <- function(before, after) {
+  after$lost <- before$lost + ncol(before$it) - ncol(after$it)
+  after
+}
+
+# `noticeable`: share of the faces (3 square centimetres of a face scan's 300).
+warn_dropped <- function(mesh, report, id, noticeable = 0.01) {
+  given <- mesh$lost + ncol(mesh$it)
+  if (mesh$lost <= noticeable * given) return(invisible())
+  why <- report[report$check %in% c("non-finite co-ordinates", "vertices far from all others", "debris") & report$count > 0, ]
+  crestline_warn(
+    sprintf("%.0f %% of the triangles were left out (%s).", 100 * mesh$lost / given,
+            paste(why$count, why$check, collapse = ", ")),
+    "Look whether the surface has what you measure; if not, export it again.", stage = "mesh", id = id,
+    class = "crestline_triangles_dropped"
+  )
 }
 
 # The first of equal vertices stands for all; colours are the first's.
@@ -114,8 +159,14 @@ merge_duplicate_vertices <- function(mesh, id) {
   group <- cumsum(c(TRUE, !same))
   stands_for <- integer(length(x))
   stands_for[sorted] <- sorted[!duplicated(group)][group]
+  mended(merge_vertices(mesh, stands_for), "duplicate vertices", sum(same), "merged")
+}
+
+merge_vertices <- function(mesh, stands_for) {
   mesh$it[] <- stands_for[mesh$it]
-  mended(keep_vertices(mesh, stands_for == seq_along(x)), "duplicate vertices", sum(same), "merged")
+  mesh$given <- stands_for[mesh$given]
+  mesh$topology <- NULL
+  keep_vertices(mesh, stands_for == seq_along(stands_for))
 }
 
 triangulate_cloud <- function(mesh, id) {
@@ -126,6 +177,11 @@ triangulate_cloud <- function(mesh, id) {
     refuse_mesh(sprintf("there are no triangles, and its %d points give none.", n),
                 "Export it with its triangles, or give more points of the surface.", id)
   }
+  crestline_warn(
+    sprintf("there are points only; %d triangles between them were made by ball pivoting.", ncol(mesh$it)),
+    "Export the scan with its own triangles, or look whether these are the surface.", stage = "mesh", id = id,
+    class = "crestline_triangulated"
+  )
   mended(mesh, "point cloud without triangles", n, "triangulated by ball pivoting (Rvcg)")
 }
 
@@ -172,8 +228,15 @@ drop_debris <- function(mesh, id, debris) {
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
   small <- tabulate(piece) < debris * length(piece)
-  mended(keep_faces(mesh, !small[piece]), "debris", sum(small),
+  if (all(small)) refuse_debris(length(small), debris, id)
+  mended(losing(mesh, keep_faces(mesh, !small[piece])), "debris", sum(small),
          sprintf("pieces below %g of the faces left out", debris))
+}
+
+refuse_debris <- function(pieces, debris, id) {
+  refuse_mesh(sprintf("it falls apart into %d pieces, each with less than %g (`debris`) of the triangles: %s.",
+                      pieces, debris, "their corners do not meet"),
+              "Join them: in MeshLab by Merge Close Vertices. Real pieces so small are kept with debris = 0.", id)
 }
 
 drop_unreferenced <- function(mesh, id) {
@@ -191,9 +254,28 @@ describe_topology <- function(mesh, topology, area) {
   )
 }
 
+# What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
+tell_contacts <- function(mesh, topology, area, id) {
+  edge <- sqrt(2 / sqrt(3) * stats::median(area))  # of equilateral triangles of the median area; `area` is twice it
+  loose <- warn_loose(topology, id)
+  list(tell_seams(mesh, topology, edge, id, silent = loose), tell_second_skin(mesh, topology, edge, id))
+}
+
+# Whether that `share` of the triangles, and so many at `least`, have no neighbour.
+warn_loose <- function(topology, id, share = 0.1, least = 10) {
+  loose <- sum(colSums(topology$twin > 0) == 0)
+  if (loose < max(least, share * length(topology$piece))) return(FALSE)
+  crestline_warn(
+    sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.",
+            100 * loose / length(topology$piece)),
+    "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id, class = "crestline_loose_triangles"
+  )
+  TRUE
+}
+
 # Border loops beyond the one outer loop of each piece that has a border.
 count_holes <- function(mesh, topology) {
-  side <- which(topology$twin == 0)
+  side <- border_sides(topology)
   if (!length(side)) return(0L)
   start <- mesh$it[side]
   end <- mesh$it[next_side(side)]
@@ -239,6 +321,7 @@ keep_vertices <- function(mesh, keep) {
   it[] <- number[it]
   mesh$it <- it[, !is.na(colSums(it)), drop = FALSE]
   mesh$vb <- mesh$vb[, keep, drop = FALSE]
+  if (!is.null(mesh$given)) mesh$given <- number[mesh$given]
   mesh$topology <- NULL
   if (!is.null(mesh$material$color)) mesh$material$color <- mesh$material$color[keep]
   mesh

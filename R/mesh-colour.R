@@ -5,7 +5,7 @@ vertex_colours <- function(mesh) {
   colour <- as.vector(mesh$material$color)
   n <- ncol(mesh$vb)
   if (length(colour) == n) return(colour)
-  if (length(mesh$it) && length(colour) == length(mesh$it)) {
+  if (length(mesh$it) && length(colour) == length(mesh$it) && isTRUE(all(mesh$it >= 1 & mesh$it <= n))) {
     by_vertex <- rep(NA_character_, n)
     by_vertex[mesh$it[length(colour):1]] <- rev(colour)
     return(ifelse(is.na(by_vertex), "#BFBFBF", by_vertex))

@@ -3,38 +3,94 @@
 # The columns of a point on a mesh.
 mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
 
-# Columns of a data frame as a matrix, and columns as a data frame: without the checks of as.matrix() and data.frame(),
-# which cost more than what is done with them.
+# Columns of a data frame as a matrix, and columns as a data frame: without the checks of
+# as.matrix() and data.frame(), which cost more than what is done with them.
 columns_of <- function(x, names = mesh_columns) do.call(cbind, unclass(x)[names])
 frame_of <- function(columns, ..., class = NULL) {
-  structure(columns, row.names = .set_row_names(length(columns[[1]])), ..., class = c(class, "data.frame"))
+  structure(columns, row.names = .set_row_names(length(columns[[1]])), ...,
+            class = c(class, "data.frame"))
 }
 
-#' Closest points of a mesh
+#' The closest places of a surface
 #'
-#' Candidates come from a k-d tree of the faces' centres; a point is settled once the faces
-#' beyond its candidates are provably farther away, else all faces are searched. All in double
-#' precision (Rvcg's own closest point works in single precision).
+#' For every point the place of the surface that is nearest to it, exactly and in double precision.
+#' A place on a mesh is a triangle (`face`) and three weights of its corners; from these any value
+#' that is known at the vertices can be interpolated.
+#'
+#' @param mesh A [specimen()], or a `mesh3d` of triangles.
+#' @param xyz Points in the unit of the mesh: n x 3 matrix, three co-ordinates, or a data frame with
+#'   columns `x`, `y`, `z`. A row with `NA` gives a row of `NA`.
+#' @return Data frame, a row a point, with the row names of `xyz`: `face` (column of `mesh$it`),
+#'   `w1`, `w2`, `w3` (weights of its corners: 0 to 1, of sum 1), `x`, `y`, `z` (the place),
+#'   `distance` (of the point from it, in the unit of the mesh). Of triangles that are equally near,
+#'   the one with the lowest number. A triangle without area is never the nearest, unless there are
+#'   no others.
+#' @section Errors: of class `crestline_error`: a mesh without triangles, `xyz` that is no matrix of
+#'   three columns, or holds infinite numbers.
+#' @seealso [frechet_mean()] for the mean of such places; [path_coordinates()]
+#' @examples
+#' ball <- Rvcg::vcgSphere(4)
+#' found <- locate(ball, rbind(above = c(0, 0, 2), inside = c(0.5, 0, 0)))
+#' found
+#' # What is known at the vertices, here their height, at these places:
+#' corners <- ball$it[, found$face]
+#' colSums(matrix(ball$vb[3, corners], 3) * t(found[c("w1", "w2", "w3")]))
+#' @export
+locate <- function(mesh, xyz) {
+  mesh <- as_mesh(mesh)
+  xyz <- check_positions(xyz)
+  found <- located_points(mesh, xyz)
+  columns <- found$columns[c("face", "w1", "w2", "w3", "x", "y", "z")]
+  rows <- frame_of(c(columns, list(distance = found$distance)))
+  if (!is.null(rownames(xyz))) rownames(rows) <- make.unique(rownames(xyz))
+  rows
+}
+
+#' Positions as an n x 3 matrix of numbers, each finite or NA
+#' @noRd
+check_positions <- function(xyz, call = rlang::caller_env()) {
+  remedy <- "Give an n x 3 matrix, three numbers, or a data frame with columns x, y, z."
+  refuse <- function(problem, remedy) {
+    crestline_abort(problem, remedy, stage = "arguments", call = call)
+  }
+  given <- xyz
+  if (is.data.frame(xyz)) {
+    if (!all(c("x", "y", "z") %in% names(xyz))) refuse("`xyz` has no columns x, y and z.", remedy)
+    xyz <- as.matrix(xyz[c("x", "y", "z")])
+    if (.row_names_info(given) <= 0) rownames(xyz) <- NULL
+  }
+  if (is.logical(xyz) && all(is.na(xyz))) storage.mode(xyz) <- "double"
+  if (is.numeric(xyz) && is.null(dim(xyz)) && length(xyz) == 3) xyz <- matrix(xyz, 1)
+  if (!is.numeric(xyz) || !is.matrix(xyz) || ncol(xyz) != 3) {
+    refuse(sprintf("`xyz` is %s.", describe_shape(given)), remedy)
+  }
+  if (any(is.infinite(xyz))) refuse("`xyz` has infinite numbers.", "Mark what is missing as NA.")
+  xyz
+}
+
+#' The closest place of a mesh to each of some points, in the columns of a point on a mesh
 #'
 #' @param mesh A `mesh3d` with triangles.
 #' @param xyz n x 3 matrix in the mesh's unit; rows with NA give rows of NA.
-#' @param candidates How many faces are tried before the search of all faces (speed only).
-#' @return Data frame of n rows: `x, y, z` (exactly the weighted mean of the face's corners),
-#'   `face` (column of `mesh$it`), `w1, w2, w3` (barycentric, in 0 to 1, sum 1).
+#' @param ... As of [located_points()].
+#' @return Data frame of n rows: `x, y, z`, `face` (column of `mesh$it`), `w1, w2, w3`, as in
+#'   [locate()].
 #' @noRd
-surface_points <- function(mesh, xyz, candidates = 24L) {
+surface_points <- function(mesh, xyz, ...) {
+  frame_of(located_points(mesh, xyz, ...)$columns[mesh_columns])
+}
+
+#' @param few So many points are searched for among all faces: to build a tree takes as long (of
+#'   5,000 to 120,000 faces).
+#' @param leaf Faces in a box of the tree that is not divided further (speed only).
+#' @return List: `columns` (list by column of a point on a mesh), `distance`.
+#' @noRd
+located_points <- function(mesh, xyz, few = 24L, leaf = 8L) {
   xyz <- matrix(as.numeric(xyz), ncol = 3)
-  known <- which(is.finite(rowSums(xyz)))
-  face <- rep(NA_integer_, nrow(xyz))
-  weight <- matrix(NA_real_, nrow(xyz), 3)
-  if (length(known)) {
-    nearest <- nearest_faces(mesh, xyz[known, , drop = FALSE], candidates)
-    face[known] <- nearest$face
-    weight[known, ] <- nearest$weight
-  }
-  place <- place_on_faces(mesh, face, weight)
-  data.frame(x = place[, 1], y = place[, 2], z = place[, 3], face = face,
-             w1 = weight[, 1], w2 = weight[, 2], w3 = weight[, 3])
+  found <- cpp_locate(mesh$vb, mesh$it, xyz, if (nrow(xyz) <= few) ncol(mesh$it) else leaf)
+  columns <- stats::setNames(lapply(1:6, function(i) found$at[, i]),
+                             c("x", "y", "z", "w1", "w2", "w3"))
+  list(columns = c(columns, list(face = found$face)), distance = found$distance)
 }
 
 # n x 3 positions from faces and barycentric weights.
@@ -44,35 +100,6 @@ place_on_faces <- function(mesh, face, weight) {
   weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
 }
 
-# Faces without area have no plane to go on from; what lies on them lies on their neighbours' edges.
-nearest_faces <- function(mesh, xyz, candidates) {
-  solid <- which(row_lengths(face_normals(mesh)) > 0)
-  if (length(solid) < ncol(mesh$it)) {
-    mesh$it <- mesh$it[, solid, drop = FALSE]
-    nearest <- nearest_faces(mesh, xyz, candidates)
-    nearest$face <- solid[nearest$face]
-    return(nearest)
-  }
-  corners <- face_corners(mesh)
-  centre <- (corners[[1]] + corners[[2]] + corners[[3]]) / 3
-  reach <- do.call(pmax, lapply(corners, function(a) row_lengths(a - centre)))
-  tried <- nearest_centres(centre, xyz, min(candidates, nrow(centre)))
-  best <- best_of_candidates(xyz, corners, tried)
-  farthest <- row_lengths(xyz - centre[tried[, ncol(tried)], , drop = FALSE])
-  # One part in a thousand for the k-d tree's single precision.
-  unsettled <- which(0.999 * farthest - max(reach) <= best$distance)
-  # At a corner the gap of its own face is 0 but for rounding.
-  rounding <- 1e-12 * max(reach)
-  for (i in if (ncol(tried) < nrow(centre)) unsettled) {
-    gap <- sqrt(colSums((t(centre) - xyz[i, ])^2)) - reach
-    all <- best_of_candidates(xyz[i, , drop = FALSE], corners,
-                              matrix(which(gap <= best$distance[i] * (1 + 1e-12) + rounding), 1))
-    best$face[i] <- all$face
-    best$weight[i, ] <- all$weight
-  }
-  best
-}
-
 # n x k: the columns of faces whose centres are nearest, nearest first.
 nearest_centres <- function(centre, xyz, k) {
   middle <- colMeans(centre)
@@ -80,43 +107,6 @@ nearest_centres <- function(centre, xyz, k) {
   unit <- function(x) sweep(x, 2, middle) / size
   near <- Rvcg::vcgKDtree(unit(centre), unit(xyz), k = k)$index
   matrix(near, nrow(xyz))
-}
-
-best_of_candidates <- function(xyz, corners, tried) {
-  row <- rep(seq_len(nrow(xyz)), ncol(tried))
-  face <- as.vector(tried)
-  found <- closest_on_triangles(xyz[row, , drop = FALSE], corners[[1]][face, , drop = FALSE],
-                                corners[[2]][face, , drop = FALSE],
-                                corners[[3]][face, , drop = FALSE])
-  first <- order(row, found$distance, face)
-  first <- first[!duplicated(row[first])]
-  list(face = face[first], weight = found$weight[first, , drop = FALSE],
-       distance = found$distance[first])
-}
-
-# Row by row: the closest point of triangle (a, b, c) to p, as weights, and its distance.
-closest_on_triangles <- function(p, a, b, c) {
-  none <- numeric(nrow(p))
-  ab <- closest_on_segments(p, a, b)
-  bc <- closest_on_segments(p, b, c)
-  ca <- closest_on_segments(p, c, a)
-  options <- list(cbind(1 - ab, ab, none), cbind(none, 1 - bc, bc), cbind(ca, none, 1 - ca),
-                  foot_in_triangles(p, a, b, c))
-  distance <- vapply(options, function(w) {
-    row_lengths(p - w[, 1] * a - w[, 2] * b - w[, 3] * c)
-  }, none)
-  distance <- matrix(distance, nrow(p))
-  distance[!is.finite(distance)] <- Inf
-  pick <- max.col(-distance, ties.method = "first")
-  weight <- matrix(0, nrow(p), 3)
-  for (i in seq_along(options)) weight[pick == i, ] <- options[[i]][pick == i, ]
-  list(weight = weight, distance = distance[cbind(seq_along(pick), pick)])
-}
-
-closest_on_segments <- function(p, a, b) {
-  along <- row_products(p - a, b - a) / row_products(b - a, b - a)
-  along[!is.finite(along)] <- 0
-  pmin(pmax(along, 0), 1)
 }
 
 # Barycentric weights of the foot of the perpendicular, NA where it is outside.

@@ -62,8 +62,10 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
   if (outward == "keep") return(mended(mesh, check, 0))
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
-  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece), tabulate(piece), certainty)
+  normal <- face_normals(mesh)
+  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece, normal), tabulate(piece), certainty)
   face <- which(inward[piece])
+  if (!length(face)) mesh$face_normals <- normal
   if (outward == "detect" && length(face)) {
     crestline_warn(
       sprintf("%d of %d triangles looked inwards and were turned round.", length(face), length(piece)),
@@ -82,10 +84,9 @@ looks_inward <- function(outwardness, size, certainty) {
 # For each piece the area-weighted mean of cos(normal, direction away from the mesh's centroid):
 # positive outside a closed surface, and on the outer side of an open, mainly convex one. Unlike
 # the signed volume a far rim counts no more than its area.
-outwardness <- function(mesh, piece) {
+outwardness <- function(mesh, piece, normal = face_normals(mesh)) {
   corner <- face_corners(mesh)
   middle <- (corner[[1]] + corner[[2]] + corner[[3]]) / 3
-  normal <- face_normals(mesh, corner)
   area <- row_lengths(normal)
   away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin), each = nrow(middle))
   cosine <- row_products(normal, away) / pmax(row_lengths(away), .Machine$double.xmin)
@@ -100,22 +101,11 @@ face_corners <- function(mesh) {
 }
 
 # m x 3, twice the area long.
-face_normals <- function(mesh, corner = face_corners(mesh)) {
-  u <- corner[[2]] - corner[[1]]
-  v <- corner[[3]] - corner[[1]]
-  cbind(u[, 2] * v[, 3] - u[, 3] * v[, 2], u[, 3] * v[, 1] - u[, 1] * v[, 3],
-        u[, 1] * v[, 2] - u[, 2] * v[, 1])
-}
+face_normals <- function(mesh) cpp_face_normals(mesh$vb, mesh$it)
 
 row_products <- function(a, b) a[, 1] * b[, 1] + a[, 2] * b[, 2] + a[, 3] * b[, 3]
 row_lengths <- function(a) sqrt(row_products(a, a))
 
 # 4 x n unit normals of the vertices, area-weighted means of their faces' (as Rvcg's, in double
-# precision); 0 where all faces are without area. `normal`: m x 3, of face_normals().
-vertex_normals <- function(mesh, normal = face_normals(mesh)) {
-  face_of_vertex <- Matrix::sparseMatrix(i = as.vector(mesh$it), j = rep(seq_len(ncol(mesh$it)), each = 3),
-                                         x = 1, dims = c(ncol(mesh$vb), ncol(mesh$it)))
-  total <- as.matrix(face_of_vertex %*% normal)
-  long <- row_lengths(total)
-  unname(rbind(t(total / ifelse(long > 0, long, 1)), 1))
-}
+# precision); 0 where all faces are without area.
+vertex_normals <- function(mesh) cpp_vertex_normals(mesh$vb, mesh$it)

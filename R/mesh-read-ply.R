@@ -2,15 +2,52 @@
 # Own code, since Rvcg rounds double co-ordinates to single precision.
 
 read_ply <- function(file, id) {
-  header <- ply_header(file, id)
-  table <- ply_elements_read(ply_stream(file, header), header$elements)
-  vertex <- table$vertex
+  raw <- file_bytes(file, id)
+  header <- ply_header(raw, file, id)
+  stream <- ply_stream(header, file, id)
+  read <- ply_elements_read(stream, header$elements)
+  stream$check(read$start, read$end)
+  vertex <- read$table$vertex
   if (!all(c("x", "y", "z") %in% names(vertex))) refuse_file(file, "its vertices have no x, y, z", id)
-  face <- table$face
-  list_name <- intersect(c("vertex_indices", "vertex_index"), names(face))
-  polygon <- if (length(list_name)) face[[list_name[1]]] else list(value = integer(), sides = integer())
+  polygon <- ply_polygons(read$table, header, file, id)
   mesh_of_polygons(cbind(vertex$x, vertex$y, vertex$z), polygon$value + 1, polygon$sides,
                    ply_colours(vertex, header))
+}
+
+ply_index_names <- c("vertex_indices", "vertex_index")
+
+# The polygons of `face` and the triangles of `tristrips`, 0-based. A surface in any other element is refused, since
+# the vertices alone would be taken for a cloud.
+ply_polygons <- function(table, header, file, id) {
+  index <- function(element) table[[element]][[intersect(ply_index_names, names(table[[element]]))[1]]]
+  listed <- vapply(header$elements, function(x) {
+    x$count > 0 && any(nzchar(x$properties$count_type) & x$properties$name %in% ply_index_names)
+  }, NA)
+  other <- setdiff(names(listed)[listed], c("face", "tristrips"))
+  nameless <- isTRUE(header$elements$face$count > 0) && !listed["face"]
+  if (nameless || length(other) && !any(listed[c("face", "tristrips")], na.rm = TRUE)) {
+    refuse_file(file, if (nameless) "its faces have no list vertex_indices" else
+      sprintf("its surface is in the element %s, that is not read", other[1]), id,
+      "Export it as triangles: open and save it with MeshLab.")
+  }
+  face <- if (isTRUE(listed["face"])) index("face")
+  strip <- if (isTRUE(listed["tristrips"])) strip_triangles(index("tristrips"))
+  list(value = c(face$value, strip$value), sides = c(face$sides, strip$sides))
+}
+
+# Triangles of strips: every vertex with the two before it, every other one turned. A negative number ends a strip,
+# as the end of a row does.
+strip_triangles <- function(strip) {
+  n <- length(strip$value)
+  row <- rep(seq_along(strip$sides), strip$sides)
+  break_at <- !is.na(strip$value) & strip$value < 0
+  run <- cumsum(break_at | c(TRUE, row[-1] != row[-n])[seq_len(n)])
+  place <- sequence(rle(run)$lengths) - break_at[match(run, run)]
+  last <- which(place >= 3 & !break_at)
+  odd <- place[last] %% 2 == 0
+  value <- rbind(strip$value[last - 2], strip$value[last - 1], strip$value[last])
+  value[1:2, odd] <- value[2:1, odd]
+  list(value = as.vector(value), sides = rep(3, length(last)))
 }
 
 ply_colours <- function(vertex, header) {
@@ -23,24 +60,34 @@ ply_colours <- function(vertex, header) {
   if (bytes) colour_hex(colour, 255) else colour_hex(colour)
 }
 
-# list(format, lines, bytes, elements): an element has `count` and `properties` (data frame: name,
-# type, count_type, which is "" but for lists).
-ply_header <- function(file, id) {
-  raw <- readBin(file, "raw", min(file.size(file), 65536))
-  end <- grepRaw("end_header[ \t]*\r?\n", raw, all = FALSE, value = TRUE)
-  at <- grepRaw("end_header[ \t]*\r?\n", raw)
-  if (!length(at) || !identical(rawToChar(raw[1:3]), "ply")) refuse_file(file, "it has no PLY header", id)
-  text <- raw[seq_len(at - 1)]
-  if (any(text == 0)) refuse_file(file, "its header is no text", id)
-  lines <- strsplit(gsub("\r", "", rawToChar(text), useBytes = TRUE), "\n", fixed = TRUE, useBytes = TRUE)[[1]]
-  token <- strsplit(trimws(lines), "[ \t]+", useBytes = TRUE)
+# list(format, raw, body, elements): `body` the bytes of `raw` before the data; an element has `count` and `properties`
+# (data frame: name, type, count_type, which is "" but for lists).
+ply_header <- function(raw, file, id) {
+  raw <- unmarked_bytes(raw)
+  body <- ply_header_end(raw)
+  if (is.na(body)) refuse_file(file, "it has no PLY header", id)
+  if (any(raw[seq_len(body)] == 0)) refuse_file(file, "its header is no text", id)
+  token <- strsplit(text_lines(raw[seq_len(body)]), "[ \t]+", useBytes = TRUE)
   key <- vapply(token, function(x) c(x, "")[1], "")
   format <- unlist(token[key == "format"])[2]
   if (!isTRUE(format %in% c("ascii", "binary_little_endian", "binary_big_endian"))) {
     refuse_file(file, sprintf("the format %s is not known", format), id)
   }
-  list(format = format, lines = length(lines) + 1, bytes = at - 1 + length(end),
-       elements = ply_elements(token[key %in% c("element", "property")], file, id))
+  list(format = format, raw = raw, body = body, lines = length(token),
+       elements = ply_elements(token[key %in% c("element", "property")], length(raw), file, id))
+}
+
+# Bytes up to the end of the line end_header, NA where there is none. Where lines end in CR alone, as the first tells,
+# a byte LF behind it is data. `usual`: most headers end within so many bytes.
+ply_header_end <- function(raw, usual = 2^16) {
+  if (!identical(raw[1:3], charToRaw("ply"))) return(NA)
+  first <- grepRaw("^ply[ \t]*\r[^\n]", raw[seq_len(min(usual, length(raw)))])
+  end <- if (length(first)) "[\r\n]end_header[ \t]*\r" else "[\r\n]end_header[ \t]*\r?\n"
+  for (size in c(usual, length(raw))) {
+    found <- grepRaw(end, raw[seq_len(min(size, length(raw)))], value = TRUE)
+    if (length(found)) return(grepRaw(end, raw) + length(found) - 1)
+  }
+  NA
 }
 
 ply_types <- function() {
@@ -48,16 +95,19 @@ ply_types <- function() {
     int = 4, int32 = 4, uint = 4, uint32 = 4, float = 4, float32 = 4, double = 8, float64 = 8)
 }
 
-ply_elements <- function(token, file, id) {
+# `most`: an element cannot have more rows than the file has bytes.
+ply_elements <- function(token, most, file, id) {
   is_element <- vapply(token, function(x) x[1] == "element", NA)
   group <- cumsum(is_element)
   if (!length(token) || !is_element[1] || any(lengths(token) < 3)) refuse_file(file, "its header is damaged", id)
   count <- suppressWarnings(vapply(token[is_element], function(x) as.numeric(x[3]), 0))
-  if (anyNA(count) || any(count < 0 | count > file.size(file))) {
+  if (anyNA(count) || any(count < 0 | count > most | count != round(count))) {
     refuse_file(file, "it promises more than it holds", id)
   }
   properties <- lapply(seq_along(count), function(g) ply_properties(token[group == g & !is_element], file, id))
   names(properties) <- vapply(token[is_element], `[`, "", 2)
+  twice <- names(properties)[duplicated(names(properties))]
+  if (length(twice)) refuse_file(file, sprintf("its header has the element %s twice", twice[1]), id)
   elements <- Map(function(count, properties) list(count = count, properties = properties), count, properties)
   stats::setNames(elements, names(properties))
 }
@@ -73,41 +123,68 @@ ply_properties <- function(token, file, id) {
   data.frame(name = as.character(pick(3, 5)), type = type, count_type = count_type)
 }
 
-# What follows the header as a stream: `get(at, type)` gives the numbers at 0-based places, `size`
-# the places a number of each type takes, `end` how many places there are.
-ply_stream <- function(file, header) {
-  if (header$format == "ascii") {
-    number <- scan(file, numeric(), skip = header$lines, quiet = TRUE, comment.char = "",
-                   na.strings = c("NA", "nan", "-nan", "-nan(ind)"))
-    return(list(get = function(at, type) number[at + 1], size = 0 * ply_types() + 1,
-                start = 0, end = length(number)))
-  }
-  raw <- readBin(file, "raw", file.size(file))
+# What follows the header as a stream: `get(at, type)` gives the numbers at 0-based places, `size` the places a number
+# of each type takes, `start` and `end` the first place and the one behind the last; `short()` refuses a file that ends
+# too early, `check(start, end)` warns of what is behind the places that were used and refuses rows that are no lines.
+ply_stream <- function(header, file, id) {
+  if (header$format == "ascii") return(ply_text_stream(header, file, id))
+  raw <- header$raw
   endian <- if (header$format == "binary_big_endian") "big" else "little"
-  list(get = function(at, type) ply_numbers(raw, at, type, endian), size = ply_types(),
-       start = header$bytes, end = length(raw))
+  check <- function(start, end) {
+    rest <- length(raw) - end
+    if (rest > 0 && !all(raw[end + seq_len(rest)] %in% blank_bytes)) warn_extra(file, rest, id)
+  }
+  list(get = function(at, type) ply_numbers(raw, at, type, endian), size = ply_types(), start = header$body,
+       end = length(raw), short = function() refuse_file(file, "it ends too early", id), check = check)
+}
+
+ply_text_stream <- function(header, file, id) {
+  text <- cpp_read_numbers(c(header$raw, as.raw(10)), header$body)
+  short <- function() {
+    if (nzchar(text$bad)) refuse_word(file, text$bad, text$bad_line + header$lines, id)
+    refuse_file(file, "it ends too early", id)
+  }
+  list(get = function(at, type) text$number[at + 1], size = 0 * ply_types() + 1, start = 0,
+       end = length(text$number), short = short,
+       check = function(start, end) ply_check_lines(text, start, end, header$lines, file, id))
+}
+
+# Rows stand on lines of their own. Only where exactly as many numbers are there as the header promises, on another number
+# of lines, lines may be broken as they like.
+ply_check_lines <- function(text, start, end, lines, file, id) {
+  rows <- seq_along(start)
+  aligned <- length(text$start) >= length(start) && all(text$start[rows] == start)
+  rest <- length(text$number) - end
+  if (!aligned && (rest > 0 || nzchar(text$bad) || length(text$start) == length(start))) {
+    wrong <- which(text$start[rows] != start | is.na(text$start[rows]))[1]
+    refuse_file(file, sprintf("line %d has not as many numbers as the header promises",
+                              lines + text$line[max(wrong - 1, 1)]), id,
+                "The header's numbers of vertices, faces or properties are wrong: export it again.")
+  }
+  if (rest > 0 || nzchar(text$bad)) {
+    warn_file(file, sprintf("goes on behind what its header promises, at line %d: that was passed over",
+                            lines + c(text$line, text$bad_line)[length(start) + 1]),
+              "See whether the surface is whole, or export it again.", id)
+  }
 }
 
 ply_numbers <- function(raw, at, type, endian) {
-  size <- ply_types()[[type]]
-  bytes <- raw[rep(at, each = size) + seq_len(size)]
-  if (grepl("float|double", type)) return(readBin(bytes, "double", length(at), size, endian = endian))
-  unsigned <- startsWith(type, "u")
-  number <- as.numeric(readBin(bytes, "integer", length(at), size, signed = size > 2 || !unsigned, endian = endian))
-  if (size == 4 && unsigned) number[which(number < 0)] <- number[which(number < 0)] + 2^32
-  number
+  cpp_numbers_at(raw, at, grepl("float|double", type), !startsWith(type, "u"), ply_types()[[type]], endian == "big")
 }
 
-# Every element as a named list: a vector for each property, list(value, sides) for a list.
+# `table`: every element as a named list, a vector for each property, list(value, sides) for a list; `start`: where all
+# rows start; `end`: behind the last.
 ply_elements_read <- function(stream, elements) {
   at <- stream$start
+  starts <- list()
   for (name in names(elements)) {
     start <- ply_row_starts(stream, elements[[name]], at)
     row <- ply_rows(stream, elements[[name]]$properties, start)
     at <- if (length(start)) row$end[length(start)] else at
     elements[[name]] <- row$column
+    starts <- c(starts, list(start))
   }
-  elements
+  list(table = elements, start = unlist(starts), end = at)
 }
 
 # The columns of rows that start at known places, and where each row ends.
@@ -133,7 +210,7 @@ ply_rows <- function(stream, properties, at) {
 }
 
 ply_get <- function(stream, at, type) {
-  if (length(at) && max(at) + stream$size[[type]] > stream$end) stop("it ends too early")
+  if (length(at) && max(at) + stream$size[[type]] > stream$end) stream$short()
   stream$get(at, type)
 }
 

@@ -1,52 +1,55 @@
 # STL: triangles without shared vertices; the door merges equal ones.
 
-# Binary where the length says so: a binary header may start with "solid", as the ascii format does.
+# Binary unless the length says otherwise and the text is one: a binary header may start with "solid", as the ascii
+# format does.
 read_stl <- function(file, id) {
-  bytes <- file.size(file)
-  faces <- if (bytes >= 84) readBin(readBin(file, "raw", 84)[81:84], "integer", size = 4, endian = "little") else NA
-  binary <- !is.na(faces) && faces >= 0 && bytes >= 84 + 50 * as.numeric(faces)
-  if (binary && faces == 0) refuse_file(file, "it has no triangles", id)
-  vertex <- if (binary) stl_binary(file, faces) else stl_ascii(file, id)
-  corner <- seq_len(nrow(vertex))
-  mesh_of_polygons(vertex, corner, rep(3L, nrow(vertex) / 3))
-}
-
-# Each face: 12 floats (normal, three corners) and two bytes.
-stl_binary <- function(file, faces) {
-  raw <- matrix(readBin(file, "raw", 84 + 50 * faces)[-(1:84)], 50)
-  matrix(readBin(as.vector(raw[13:48, ]), "double", 9 * faces, size = 4, endian = "little"), ncol = 3, byrow = TRUE)
-}
-
-stl_ascii <- function(file, id) {
-  line <- text_lines(file)
-  line <- line[startsWith(line, "vertex ")]
-  if (!length(line) || length(line) %% 3 != 0) refuse_file(file, "its vertices are not in threes", id)
-  number_rows(line, 3)
-}
-
-# The lines of a text file, whatever bytes are in it; tabs and carriage returns become blanks.
-text_lines <- function(file) {
-  raw <- readBin(file, "raw", file.size(file))
-  for (blank in as.raw(c(0, 9, 13))) {
-    if (length(grepRaw(blank, raw, fixed = TRUE))) raw[raw == blank] <- as.raw(32)
+  raw <- file_bytes(file, id)
+  faces <- stl_faces(raw)
+  vertex <- if (length(raw) >= 84 + 50 * faces && faces > 0 || stl_is_binary(raw)) {
+    stl_binary(raw, faces, file, id)
+  } else {
+    stl_ascii(raw, file, id)
   }
-  line <- strsplit(rawToChar(raw), "\n", fixed = TRUE, useBytes = TRUE)[[1]]
-  indented <- startsWith(line, " ")
-  line[indented] <- sub("^ +", "", line[indented], useBytes = TRUE)
-  line
+  mesh_of_polygons(vertex, seq_len(nrow(vertex)), rep(3L, nrow(vertex) / 3))
 }
 
-# Lines of a word and at least `n` numbers, as a matrix of these. By a file, since scanning text is slow.
-number_rows <- function(line, n) {
-  rows <- scan_rows(line, rep(list(0), n), flush = TRUE)
-  matrix(unlist(rows, use.names = FALSE), ncol = n)
+# The number that a binary file has behind its 80 bytes of header; infinite in a shorter one.
+stl_faces <- function(raw) {
+  if (length(raw) < 84) Inf else sum(as.numeric(raw[81:84]) * 256^(0:3))
 }
 
-# The fields after each line's first word, as a list of columns.
-scan_rows <- function(line, what, flush = FALSE) {
-  file <- tempfile()
-  on.exit(unlink(file))
-  writeLines(line, file, useBytes = TRUE)
-  scan(file, c(list(NULL), what), quiet = TRUE, flush = flush, multi.line = FALSE, quote = "", comment.char = "",
-       na.strings = c("NA", "nan", "-nan", "-nan(ind)"))[-1]
+# Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.
+stl_is_binary <- function(raw, bytes = 1000) {
+  first <- utils::head(text_bytes(utils::head(raw, bytes)), -1)
+  any(first < 9 | first > 13 & first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
+}
+
+# Each face: 12 floats (normal, three corners) and two bytes. The number of faces is the content's where that is whole.
+stl_binary <- function(raw, faces, file, id) {
+  there <- (length(raw) - 84) / 50
+  if (there < 1) refuse_file(file, "it has no triangles", id)
+  if (faces > there && faces > 0) {
+    refuse_file(file, sprintf("it promises %.0f triangles and holds %.0f", faces, floor(there)), id)
+  }
+  if (there > faces && (faces == 0 || there == floor(there))) {
+    warn_file(file, sprintf("promises %.0f triangles and holds %.0f: all were read", faces, floor(there)),
+              "See that nothing is on the surface that does not belong there, or export it again.", id)
+    faces <- floor(there)
+  } else if (!all(raw[-seq_len(84 + 50 * faces)] %in% blank_bytes)) {
+    warn_extra(file, length(raw) - 84 - 50 * faces, id)
+  }
+  body <- matrix(raw[84 + seq_len(50 * faces)], 50)[13:48, ]
+  matrix(readBin(as.vector(body), "double", 9 * faces, size = 4, endian = "little"), ncol = 3, byrow = TRUE)
+}
+
+stl_ascii <- function(raw, file, id) {
+  text <- cpp_read_stl(text_bytes(raw))
+  if (nzchar(text$bad)) refuse_word(file, text$bad, text$bad_line, id)
+  if (text$bad_line > 0) refuse_file(file, sprintf("its vertices are not in threes at line %d", text$bad_line), id)
+  if (!length(text$vertex)) refuse_file(file, "it has no triangles", id)
+  if (!text$ended) {
+    warn_file(file, 'ends without "endsolid", as a file that was cut short does',
+              "Look whether the surface is whole, or export or copy it again.", id)
+  }
+  matrix(text$vertex, ncol = 3, byrow = TRUE)
 }

@@ -6,3 +6,11 @@
 #'   edge-connected piece of each triangle; the counts `pieces`, `border_edges`, `nonmanifold_edges`.
 #' @noRd
 mesh_topology <- function(mesh) cpp_mesh_topology(mesh$it, ncol(mesh$vb))
+
+#' Vertices of the borders, and of edges that act as such, each once
+#' @param it 3 x m; `twin`: of [mesh_topology()].
+#' @noRd
+border_vertices <- function(it, twin) {
+  side <- which(twin == 0)
+  unique(c(it[side], it[next_side(side)]))
+}

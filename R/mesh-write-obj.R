@@ -3,5 +3,5 @@
 write_obj <- function(mesh, file, ascii) {
   vertex <- paste("v", row_text(mesh$xyz, missing = "nan"))
   if (!is.null(mesh$rgb)) vertex <- paste(vertex, row_text(mesh$rgb / 255))
-  write_content(c("# written by crestline", vertex, paste("f", row_text(mesh$it))), file)
+  write_content(c(paste("#", mesh$comments), vertex, paste("f", row_text(mesh$it))), file)
 }

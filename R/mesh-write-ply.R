@@ -20,7 +20,7 @@ write_ply <- function(mesh, file, ascii) {
 ply_rows_of <- function(mesh) as.integer(ifelse(is.na(mesh$row), 0, mesh$row))
 
 ply_head <- function(mesh, format) {
-  c("ply", paste("format", format, "1.0"), "comment written by crestline", paste("element vertex", nrow(mesh$xyz)),
+  c("ply", paste("format", format, "1.0"), paste("comment", mesh$comments), paste("element vertex", nrow(mesh$xyz)),
     "property double x", "property double y", "property double z",
     if (!is.null(mesh$rgb)) c("property uchar red", "property uchar green", "property uchar blue"),
     if (!is.null(mesh$value)) "property double quality", if (!is.null(mesh$row)) "property int row",

@@ -17,6 +17,9 @@
 #' * `.obj`: text, colours as numbers from 0 to 1.
 #' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the triangles.
 #'
+#' * `.ply` and `.obj` of a specimen or a shape have its provenance (see [summary.specimen()]) in comment lines; `.stl` has no
+#'   place for it.
+#'
 #' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer takes meshes for LPS unless told otherwise, as
 #' [write_landmarks()] does.
 #'
@@ -47,11 +50,18 @@
 #' @export
 write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevices::hcl.colors(11, "Viridis"),
                        limits = NULL, missing = "#BEBEBE", ascii = FALSE) {
+  check_given()
+  check_flags(ascii)
+  palette <- check_colour(palette, "palette")
+  missing <- check_colour(missing, "missing")
+  parts <- check_names(parts, "parts")
+  if (!is.null(limits)) limits <- check_numbers(limits, "limits", 2)
   write <- mesh_writer(file)
   shape <- if (inherits(x, "shape")) x
   mesh <- if (is.null(shape)) written_mesh(x) else shape_mesh(shape, parts)
   painted <- painted_mesh(mesh, colour, shape, palette, limits, missing)
-  write(painted, file, isTRUE(ascii))
+  painted$comments <- c("written by crestline", comment_lines(provenance_of(x)))
+  write(painted, file, ascii)
   if (!is.null(colour) && identical(file_extension(file), "stl")) {
     crestline_warn(sprintf("%s: .stl has no colours: they are left out.", basename(file)), "Write a .ply or .obj file.",
                    stage = "writing", class = "crestline_format_warning")
@@ -62,7 +72,7 @@ write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevi
 mesh_writers <- function() list(ply = write_ply, obj = write_obj, stl = write_stl)
 
 mesh_writer <- function(file) {
-  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, "writing")
+  if (!is_path(file)) refuse_no_path(file, "writing")
   writer <- mesh_writers()[[file_extension(file)]]
   if (is.null(writer)) {
     refuse_writing(file, "the format is not known by its extension",
@@ -72,19 +82,16 @@ mesh_writer <- function(file) {
 }
 
 refuse_writing <- function(file, reason, remedy) {
-  crestline_abort(sprintf("%s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
+  crestline_abort(sprintf("`file`: %s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
                   class = "crestline_mesh_error", call = NULL)
 }
 
 #' A mesh of triangles, each corner a vertex that is there, with the attributes of [shape_mesh()]
 #' @noRd
 written_mesh <- function(x) {
-  mesh <- if (inherits(x, "specimen")) x$mesh else x
-  check_class(mesh, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
-  for (step in list(as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices)) mesh <- step(mesh, NULL)$mesh
-  if (!ncol(mesh$it)) {
-    refuse_mesh("the mesh has no triangles.", "Pass it through specimen(), which mends what it can.", NULL)
-  }
+  if (inherits(x, "specimen")) return(as_mesh(x))
+  check_class(x, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
+  mesh <- as_mesh(split_quads(as_plain_mesh(x, NULL)$mesh, NULL)$mesh)
   structure(mesh, row = attr(x, "row"), group = attr(x, "group"))
 }
 
@@ -124,6 +131,7 @@ shape_errors <- function(shape) {
 
 # Bytes, or lines of text.
 write_content <- function(content, file) {
+  if (is_pipe(file)) refuse_writing(file, "it is a pipe, no file on disk", "Write to a file.")
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
     refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
   })

@@ -16,7 +16,8 @@
 #' @return Object of class `path_coordinates`: data frame with a row a vertex and columns
 #'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (in the
 #'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
-#'   attributes `length` (of the path) and `width`.
+#'   attributes `length` (of the path), `width`, `key` and `id` (of the mesh).
+#' @section Errors: of class `crestline_wrong_mesh`, when the path belongs to another mesh.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.2.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
@@ -24,9 +25,13 @@
 #' head(path_coordinates(ball, path, width = 0.2))
 #' @export
 path_coordinates <- function(specimen, path, width, margin = width) {
+  check_given()
+  check_surface(specimen, "specimen")
   check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
   check_number(width, "width", lower = 0, open = TRUE)
+  margin <- check_number(margin, "margin", lower = 0)
   mesh <- as_mesh(specimen)
+  check_path_on(path, specimen, "`path`")
   clear <- without_stubs(path)
   track <- t(columns_of(clear, c("x", "y", "z")))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
@@ -39,7 +44,40 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width
   columns <- list(vertex = near, s = found$s, d = found$d, inside = inside, tx = found$tangent[, 1],
                   ty = found$tangent[, 2], tz = found$tangent[, 3])
-  frame_of(lapply(columns, `[`, joined), length = attr(path, "length"), width = width, class = "path_coordinates")
+  new_path_coordinates(lapply(columns, `[`, joined), attr(path, "length"), width, mesh_of(specimen))
+}
+
+#' @param columns List of the columns that [path_coordinates()] says.
+#' @param mesh As of [mesh_of()].
+#' @noRd
+new_path_coordinates <- function(columns, length, width, mesh) {
+  frame_of(columns, length = length, width = width, key = mesh$key, id = mesh$id, class = "path_coordinates")
+}
+
+#' Refuse co-ordinates without their columns, length or width
+#' @noRd
+validate_path_coordinates <- function(x) {
+  columns <- c("vertex", "s", "d", intersect(c("tx", "ty", "tz"), names(x)))
+  one <- function(value) is.numeric(value) && length(value) == 1 && is.finite(value)
+  right <- is.data.frame(x) && all(c(columns, "inside") %in% names(x)) && is.logical(x$inside) &&
+    all(vapply(unclass(x)[columns], function(column) is.numeric(column) && all(is.finite(column)), NA)) &&
+    one(attr(x, "length")) && one(attr(x, "width"))
+  if (right) return(invisible(x))
+  crestline_abort("the co-ordinates lack columns, the path's length or the window's width.",
+                  "Give what path_coordinates() returns, whole.", stage = "path", id = attr(x, "id"), call = NULL)
+}
+
+#' @exportS3Method
+validate.path_coordinates <- function(x) validate_path_coordinates(x)
+
+#' Refuse co-ordinates of the vertices of another mesh
+#' @noRd
+check_coordinates_on <- function(coordinates, mesh, name) {
+  check_same_mesh(coordinates, mesh, name)
+  vertex <- coordinates$vertex
+  if (all(vertex == round(vertex) & vertex >= 1 & vertex <= ncol(as_mesh(mesh)$vb))) return(invisible(coordinates))
+  crestline_abort(sprintf("%s names vertices that the mesh does not have.", name), "Give what path_coordinates() returns, whole.",
+                  stage = "path", id = mesh_of(mesh)$id, class = "crestline_wrong_mesh", call = NULL)
 }
 
 #' A path without the crossings next to its ends
@@ -47,12 +85,13 @@ path_coordinates <- function(specimen, path, width, margin = width) {
 #' An end at a corner or on an edge of the mesh is moved inside its triangle for the walk, so that the first
 #' crossing may be next to it, in any direction; the path's direction at its ends is that beyond.
 #'
+#' @return Data frame of its rows, not a path: their arc lengths are those of the whole.
 #' @param stub Arc length below which a crossing is next to an end, as a share of the path's length.
 #' @noRd
 without_stubs <- function(path, stub = 1e-5) {
   least <- stub * attr(path, "length")
   beyond <- path$s > least & path$s < attr(path, "length") - least
-  path[c(1, which(beyond), nrow(path)), ]
+  frame_of(lapply(unclass(path)[c("s", mesh_columns)], `[`, c(1, which(beyond), nrow(path))))
 }
 
 #' Surface normals along a path: the vertices' normals weighted as the points are, 3 x k

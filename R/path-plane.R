@@ -28,11 +28,14 @@
 #' attr(quarter, "length") # about pi / 2
 #' @export
 plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
+  check_given()
+  check_surface(mesh, "mesh")
+  check_ends(from = from, to = to)
   surface <- walkable(mesh)
   ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
   check_number(side, "side", lower = 0, upper = 1)
-  cut_path(surface, ends, cut_axis(surface, ends), angle, side, reach)
+  cut_path(surface, ends, cut_axis(surface, ends), angle, side, check_reach(reach))
 }
 
 #' One plane cut as a path
@@ -45,15 +48,16 @@ cut_path <- function(surface, ends, axis, angle, side, reach, ...) {
   found <- cpp_plane_path(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, angle), side,
                           reach * axis$span)
   if (found$end != "arrived") abort_cut(found$end, ends, surface$id)
-  new_path(found$points, ends, angle = angle, side = side, ...)
+  new_path(found$points, ends, surface, angle = angle, side = side, ...)
 }
 
 #' The arrays that walks need, from a specimen (kept) or a mesh (worked out)
 #' @noRd
 walkable <- function(mesh) {
   whole <- as_mesh(mesh)
+  known <- passed_mesh(whole, NULL)
   geometry <- if (inherits(mesh, "specimen")) mesh$geometry else mesh_topology(whole)[c("twin", "piece")]
-  list(vb = whole$vb, it = whole$it, twin = geometry$twin, piece = geometry$piece,
+  list(vb = known$vb, it = known$it, twin = geometry$twin, piece = geometry$piece, key = known$key, diagonal = known$diagonal,
        id = if (inherits(mesh, "specimen")) mesh$id)
 }
 
@@ -65,7 +69,7 @@ walkable <- function(mesh) {
 #' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact` (2 x 7 matrix), `names`.
 #' @noRd
 path_ends <- function(mesh, surface, from, to, inside = 1e-6) {
-  exact <- rbind(end_vector(mesh, from, "from"), end_vector(mesh, to, "to"))
+  exact <- rbind(end_vector(mesh, surface, from, "from"), end_vector(mesh, surface, to, "to"))
   names <- c(end_name(from), end_name(to))
   if (all(exact[1, 1:3] == exact[2, 1:3])) {
     crestline_abort(sprintf("%s and %s are the same point.", names[1], names[2]),
@@ -83,20 +87,42 @@ path_ends <- function(mesh, surface, from, to, inside = 1e-6) {
 
 #' An end of a path as one row of its columns
 #' @noRd
-end_vector <- function(mesh, at, name) {
-  if (is.numeric(at) && identical(names(at), mesh_columns)) return(at)
+end_vector <- function(mesh, surface, at, name) {
+  if (is.numeric(at) && identical(names(at), mesh_columns)) {
+    check_places(t(at), surface, sprintf("`%s`", name), surface$id)
+    return(at)
+  }
   unlist(unclass(end_point(mesh, at, name))[mesh_columns])
 }
 
 end_point <- function(mesh, at, name) {
-  if (is.character(at) && inherits(mesh, "specimen")) return(landmark_point(mesh, at))
-  if (is.data.frame(at) && all(mesh_columns[-(1:3)] %in% names(at)) && nrow(at) == 1) return(at[mesh_columns])
+  if (is.character(at) && inherits(mesh, "specimen")) {
+    known <- rownames(mesh$landmarks)
+    if (!all(at %in% known)) {
+      refuse_landmarks(sprintf("there is no landmark %s (`%s`).", describe_value(at), name), near_names(at, known), mesh$id)
+    }
+    return(landmark_point(mesh, at))
+  }
+  if (is.data.frame(at) && all(mesh_columns %in% names(at)) && nrow(at) == 1) return(checked_point(mesh, at, name))
   if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
                     "Give the name of a landmark of a specimen, or three finite co-ordinates.",
                     stage = "path", class = "crestline_path_error", call = NULL)
   }
   surface_points(as_mesh(mesh), matrix(at, 1))
+}
+
+#' One row of a point on a mesh, after a check that it lies on this one
+#' @noRd
+checked_point <- function(mesh, at, name) {
+  name <- sprintf("`%s`", name)
+  if (!is.null(attr(at, "key"))) check_same_mesh(at, mesh, name)
+  if (anyNA(at$face)) {
+    crestline_abort(sprintf("%s is missing (NA).", name), "Choose a point that is there.", stage = "path",
+                    id = mesh_of(mesh)$id, class = "crestline_path_error", call = NULL)
+  }
+  check_places(at, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
+  at[mesh_columns]
 }
 
 end_name <- function(at) {
@@ -133,21 +159,66 @@ cross_product <- function(a, b) {
 #'
 #' @param crossings k x 7.
 #' @param ends As of [path_ends()].
+#' @param surface As of [walkable()].
 #' @noRd
-new_path <- function(crossings, ends, ...) path_through(rbind(ends$exact[1, ], crossings, ends$exact[2, ]), ...)
+new_path <- function(crossings, ends, surface, ...) {
+  path_through(rbind(ends$exact[1, ], crossings, ends$exact[2, ]), surface, ...)
+}
 
 #' A path through points that follow one another on the mesh; of neighbours at one place the later goes, but not the last
 #'
 #' @param points k x 7 matrix.
+#' @param mesh The mesh that they lie on: list of `key` and `id`, as of [walkable()] or [mesh_of()].
 #' @param ... Attributes of the path.
 #' @noRd
-path_through <- function(points, ...) {
+path_through <- function(points, mesh = NULL, ...) {
   step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] - points[-nrow(points), 1:3, drop = FALSE]))
   kept <- c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))]
   columns <- lapply(1:7, function(i) as.vector(points[kept, i]))
   columns[[4]] <- as.integer(columns[[4]])
   columns <- c(list(c(0, cumsum(step))[kept]), columns)
-  frame_of(stats::setNames(columns, c("s", mesh_columns)), length = sum(step), ..., class = "mesh_path")
+  new_mesh_path(stats::setNames(columns, c("s", mesh_columns)), sum(step), mesh$key, mesh$id, ...)
+}
+
+#' A path from its parts: all its attributes are declared here
+#'
+#' @param columns List of `s` and the columns of points on a mesh.
+#' @param length In the unit of the mesh.
+#' @param key,id Of the mesh that its faces are numbers of, and of the specimen; NULL where there is none.
+#' @param angle,side Of a plane cut.
+#' @param type,criterion,optima,competing Of a reference path.
+#' @param trusted Arc lengths between which it is believed.
+#' @param lifted Whether a lifted curve was walked in one.
+#' @noRd
+new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL, type = NULL, criterion = NULL,
+                          optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
+  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type, criterion = criterion,
+           optima = optima, competing = competing, trusted = trusted, lifted = lifted, class = "mesh_path")
+}
+
+#' Refuse a path without its columns, length or order
+#' @noRd
+validate_mesh_path <- function(x) {
+  at <- if (is.data.frame(x)) place_columns(x)
+  length <- attr(x, "length")
+  right <- !is.null(at) && nrow(at) >= 2 && is.numeric(x$s) && !is.unsorted(x$s, na.rm = FALSE) &&
+    is.numeric(length) && length(length) == 1 && is.finite(length)
+  if (isTRUE(right)) return(invisible(x))
+  crestline_abort("the path lacks co-ordinates, faces, weights, rising arc lengths `s`, or its length.",
+                  "Give a path as plane_path() or reference_path() returns it, whole.", stage = "path", id = attr(x, "id"),
+                  class = "crestline_path_error", call = NULL)
+}
+
+#' @exportS3Method
+validate.mesh_path <- function(x) validate_mesh_path(x)
+
+#' Refuse a path that does not lie on a mesh
+#'
+#' @param mesh The specimen or mesh that it is to be used with.
+#' @noRd
+check_path_on <- function(path, mesh, name) {
+  if (!is.null(attr(path, "key"))) check_same_mesh(path, mesh, name)
+  check_places(path, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
 }
 
 abort_cut <- function(end, ends, id) {
@@ -160,6 +231,7 @@ abort_cut <- function(end, ends, id) {
 
 #' @export
 print.mesh_path <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
   if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
   cat("\n")

@@ -51,6 +51,17 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
                            spacing = 0.25, angles = 60, refined = 21, tie = 0.002,
                            rival = 0.05, distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
+  check_given()
+  check_surface(specimen, "specimen")
+  threads <- check_threads(threads)
+  reach <- check_reach(reach)
+  angles <- check_count(angles, "angles")
+  refined <- check_count(refined, "refined")
+  if (!identical(longest, Inf)) longest <- check_number(longest, "longest", lower = 1)
+  check_shares(spacing, tie, rival, distinct)
+  check_ends(from = from, to = to)
+  keep_away <- check_regions(keep_away)
+  order <- check_order(order)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, from, to)
@@ -184,15 +195,10 @@ path_strength <- function(curvature, type, keep_away, specimen) {
 #' Curvature as a function of vertices: the one that was given, after a check, or estimated where it is asked for
 #' @noRd
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
-  if (is.function(curvature)) return(curvature)
+  # A source of curvature, as of curvature_source(), not any function.
+  if (is.function(curvature) && identical(names(formals(curvature)), "vertices")) return(curvature)
   if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
-  check_class(curvature, "curvature", "curvature", "curvature()")
-  n <- ncol(as_mesh(specimen)$vb)
-  if (length(curvature$k1) != n) {
-    crestline_abort(sprintf("`curvature` has %d vertices, the mesh %d.", length(curvature$k1), n),
-                    "Give the curvature of this specimen's own mesh: curvature(specimen, radius).",
-                    stage = "curvature", id = specimen$id)
-  }
+  check_curvature_on(curvature, specimen)
   function(vertices) curvature_rows(curvature, vertices)
 }
 

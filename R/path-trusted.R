@@ -6,7 +6,7 @@ part_of_path <- function(mesh, path, from, to) {
   range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
   between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
   ends <- columns_of(place_along(mesh, path, range))
-  part <- path_through(rbind(ends[1, ], between, ends[2, ]))
+  part <- path_through(rbind(ends[1, ], between, ends[2, ]), mesh_of(path))
   if (from > to) reversed_path(mesh, part) else part
 }
 
@@ -17,7 +17,7 @@ reversed_path <- function(mesh, path) {
   back <- columns_of(path)[n:1, ]
   back[-1, "face"] <- path$face[n:2]
   back[-1, 5:7] <- weights_in_faces(mesh, back[-1, "face"], back[-1, 1:3, drop = FALSE])
-  path_through(back)
+  path_through(back, mesh_of(path))
 }
 
 #' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
@@ -35,11 +35,12 @@ trusted_path <- function(trust, specimen, path) {
   )
   lengths <- vapply(parts, function(part) if (is.null(part)) 0 else attr(part, "length"), 0)
   points <- do.call(rbind, lapply(Filter(Negate(is.null), parts), columns_of))
-  path_through(points, trusted = cumsum(lengths)[1:2], type = attr(path, "type"), competing = attr(path, "competing"))
+  path_through(points, mesh_of(path), trusted = cumsum(lengths)[1:2], type = attr(path, "type"),
+               competing = attr(path, "competing"))
 }
 
 check_trusted <- function(trust, call = rlang::caller_env()) {
-  if (!is.numeric(trust) || length(trust) != 2 || anyNA(trust) || trust[1] < 0 || trust[2] > 1 || trust[1] >= trust[2]) {
+  if (!is.numeric(trust) || length(trust) != 2 || !all(is.finite(trust)) || trust[1] < 0 || trust[2] > 1 || trust[1] >= trust[2]) {
     crestline_abort(sprintf("`trust` is %s.", describe_value(trust)),
                     "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments", call = call)
   }

@@ -34,8 +34,15 @@ plot.curve <- function(x, specimen, ...) plot_curves(list(x), specimen, ...)
 plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL, band = TRUE,
                         points = TRUE, width = 2.5, landmarks = FALSE,
                         engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
+  check_given()
+  check_flags(band, points, landmarks, legend)
+  if (!is.null(colour)) check_colour(colour, "colour")
+  width <- check_number(width, "width", lower = 0)
+  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  surface <- check_choice(surface, surface_choices, "surface")
   curves <- check_curves(curves)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  for (i in seq_along(curves)) check_curve_on(curves[[i]], specimen, curve_label(curves, i))
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
@@ -67,19 +74,9 @@ draw_curve_band <- function(scene, curve, mesh, colour) {
   if (n < 2) return(scene)
   middle <- (sides$left + sides$right) / 2
   xyz <- rbind(sides$left, sides$right)
-  reach <- 2 * max(row_lengths(sides$left - middle))
-  near <- faces_in_box(mesh, apply(middle, 2, min) - reach, apply(middle, 2, max) + reach)
-  outer <- columns_of(surface_points(near, xyz))[, 1:3]
+  outer <- columns_of(surface_points(mesh, xyz))[, 1:3]
   scene <- draw_band(scene, outer[seq_len(n), ], middle, colour)
   draw_band(scene, middle, outer[n + seq_len(n), ], colour)
-}
-
-# The mesh with only those faces whose bounding boxes meet a box.
-faces_in_box <- function(mesh, low, high) {
-  corner <- lapply(1:3, function(i) mesh$vb[1:3, mesh$it[i, ], drop = FALSE])
-  meets <- do.call(pmax, corner) >= low & do.call(pmin, corner) <= high
-  mesh$it <- mesh$it[, colSums(meets) == 3, drop = FALSE]
-  mesh
 }
 
 # The two sides of the band along the path: `multiple` standard errors across it, along the surface.
@@ -106,8 +103,12 @@ path_tangents <- function(xyz) {
   xyz[c(2:n, n), , drop = FALSE] - xyz[c(1, 1:(n - 1)), , drop = FALSE]
 }
 
+curve_label <- function(curves, i) {
+  name <- c(names(curves)[i], "")[1]
+  if (nzchar(name)) sprintf("curve \"%s\"", name) else sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
+}
+
 check_curves <- function(curves, call = rlang::caller_env()) {
-  if (inherits(curves, "curve")) curves <- list(curves)
-  for (curve in curves) check_class(curve, "curve", "curves", "ridge_curve()", call)
-  curves
+  if (is.list(curves) && !is.object(curves) && !length(curves)) return(curves)
+  check_list(curves, "curve", "curves", "ridge_curve()", call)
 }

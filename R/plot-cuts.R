@@ -26,6 +26,13 @@
 plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surface = "plain",
                       colour = grDevices::hcl.colors(length(angles), "Dark 3"), width = 2.5,
                       engine = if (interactive()) "rgl" else "picture", ...) {
+  check_given()
+  check_ends(from = from, to = to)
+  angles <- check_numbers(angles, "angles")
+  colour <- check_colour(colour, "colour")
+  width <- check_number(width, "width", lower = 0)
+  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  surface <- check_choice(surface, surface_choices, "surface")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   paths <- lapply(angles, function(angle) {
     tryCatch(plane_path(specimen, from, to, angle), crestline_path_error = identity)

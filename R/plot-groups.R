@@ -76,10 +76,11 @@ p_value_of <- function(x, level, test) {
 }
 
 plot_boxes <- function(x, level, colour, components, main, ...) {
+  compared <- in_design(x$aligned[[level]], x$design)
   pca <- x$pca[[level]]
-  if (is.null(pca)) pca <- shape_pca(x$aligned[[level]])
+  if (is.null(pca)) pca <- shape_pca(compared)
   components <- intersect(components, seq_along(pca$sdev))
-  panels <- c(list("centroid size" = x$aligned[[level]]$size),
+  panels <- c(list("centroid size" = compared$size),
               stats::setNames(lapply(components, function(j) pca$x[, j]),
                               sprintf("PC%d (%.0f %%)", components, 100 * pca$share[components])))
   tests <- c(intersect(c("size t", "size F"), x$tests$test)[1], paste0("PC", components))
@@ -88,7 +89,7 @@ plot_boxes <- function(x, level, colour, components, main, ...) {
   invisible(Map(function(y, name, test) {
     title <- paste(c(if (is.null(main)) name else paste(main, name, sep = ": "), p_value_of(x, level, test)),
                    collapse = ", ")
-    box_panel(y, x$group, title, colour, ...)
+    box_panel(y, x$design$group, title, colour, ...)
   }, panels, names(panels), tests))
 }
 

@@ -34,8 +34,20 @@
 write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
                        title = paste("Specimen", specimen$id), caption = NULL, surface = "shape index",
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
+  check_given()
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  title <- check_text(title, "title")
+  caption <- check_text(caption, "caption", null = TRUE)
+  surface <- check_choice(surface, surface_choices, "surface")
+  if (!is.null(colour)) check_colour(colour, "colour")
+  width <- check_number(width, "width", lower = 0)
+  check_flags(selfcontained)
+  size <- check_size(size)
+  curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves", "fit_shape()") else check_curves(curves)
+  table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rgl::open3d(useNULL = TRUE)
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
@@ -43,20 +55,78 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
   layers <- page_layers(curves, specimen, surface, colour, width, ...)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-                   page_scene(layers, size), page_legend(surface), tags$p(caption), html_table(table))
+                   page_scene(layers, size), page_legend(surface), tags$p(caption), html_table(table),
+                   provenance_block(provenance_of(if (inherits(curves, "shape")) curves else specimen)))
   save_page(page, file, selfcontained)
   invisible(file)
 }
 
+#' Make a page in a folder of our own, then put it where it belongs: what stands there may be the user's
+#' @noRd
 save_page <- function(page, file, selfcontained) {
-  folder <- paste0(tools::file_path_sans_ext(basename(file)), "_files")
-  htmltools::save_html(page, file, libdir = folder)
-  if (!selfcontained) return(invisible(file))
-  html <- paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
-  html <- inline_files(html, dirname(file), '<script src="([^"]+)"></script>', "script", "</script")
-  html <- inline_files(html, dirname(file), '<link href="([^"]+)" rel="stylesheet" />', "style", "</style")
-  writeLines(html, file, useBytes = TRUE)
-  unlink(file.path(dirname(file), folder), recursive = TRUE)
+  made <- tempfile("page")
+  dir.create(made)
+  on.exit(unlink(made, recursive = TRUE))
+  draft <- file.path(made, "page.html")
+  files <- basename(made)
+  htmltools::save_html(page, draft, libdir = files)
+  html <- safe_scripts(paste(readLines(draft, encoding = "UTF-8", warn = FALSE), collapse = "\n"))
+  if (selfcontained) {
+    html <- inline_files(html, made, '<script src="([^"]+)"></script>', "script", "</script")
+    html <- inline_files(html, made, '<link href="([^"]+)" rel="stylesheet" />', "style", "</style")
+  } else {
+    folder <- paste0(tools::file_path_sans_ext(basename(file)), "_files")
+    place_files(file.path(made, files), file.path(dirname(file), folder))
+    address <- utils::URLencode(folder, reserved = TRUE, repeated = TRUE)
+    html <- gsub(paste0('"', files, "/"), paste0('"', address, "/"), html, fixed = TRUE)
+  }
+  write_html(html, file)
+}
+
+#' Copy the files that a page needs into a folder, which may be there already; none of another content is written over
+#' @noRd
+place_files <- function(from, to) {
+  files <- list.files(from, recursive = TRUE, all.files = TRUE)
+  target <- file.path(to, files)
+  there <- file.exists(target)
+  same <- unname(tools::md5sum(file.path(from, files))) == unname(tools::md5sum(target))
+  if (any(there & !same %in% TRUE)) {
+    crestline_abort(sprintf("`file` needs the folder %s, where %s is another file already.", to,
+                            shorten(files[there & !same %in% TRUE])),
+                    "Give another name to the page, or move that folder.", stage = "page", call = NULL)
+  }
+  new <- which(!there)
+  for (folder in unique(dirname(target[new]))) dir.create(folder, recursive = TRUE, showWarnings = FALSE)
+  if (!all(suppressWarnings(file.copy(file.path(from, files[new]), target[new])))) refuse_page(to)
+}
+
+write_html <- function(html, file) {
+  tryCatch(suppressWarnings(writeLines(enc2utf8(html), file, useBytes = TRUE)), error = function(e) refuse_page(file))
+}
+
+refuse_page <- function(path) {
+  crestline_abort(sprintf("`file`: %s cannot be written.", path), "Check the folder, and the right to write there.",
+                  stage = "page", call = NULL)
+}
+
+#' The data of widgets in a page, so written that no text in them can end or open a script
+#' @noRd
+safe_scripts <- function(html, opening = '<script type="application/json"') {
+  part <- strsplit(html, opening, fixed = TRUE)[[1]]
+  end <- regexpr("</script>", part, fixed = TRUE)
+  data <- seq_along(part) > 1 & end > 0
+  part[data] <- paste0(script_json(substr(part[data], 1, end[data] - 1)), substr(part[data], end[data], nchar(part[data])))
+  paste(part, collapse = opening)
+}
+
+#' JSON as it may stand between script tags: `<!--<script>` and the line ends of JavaScript are written as escapes
+#' @noRd
+script_json <- function(json) {
+  json <- enc2utf8(json)
+  for (sign in c("<", "\u2028", "\u2029")) {
+    json <- gsub(sign, sprintf("\\u%04x", utf8ToInt(sign)), json, fixed = TRUE)
+  }
+  json
 }
 
 # Every reference to a file, as `pattern` finds it in the page, replaced by an element that holds the file's text.
@@ -72,10 +142,7 @@ inline_files <- function(html, folder, pattern, element, closing) {
 }
 
 check_page_file <- function(file, call = rlang::caller_env()) {
-  if (!is.character(file) || length(file) != 1 || !grepl("[.]html?$", file) || !dir.exists(dirname(file))) {
-    crestline_abort(sprintf("`file` is %s, not an HTML file in a folder that exists.", describe_value(file)),
-                    "Give a path that ends in .html, and create its folder.", stage = "page", call = call)
-  }
+  file <- check_path_to_write(file, "file", c("html", "htm"), "page", call)
   file.path(normalizePath(dirname(file)), basename(file))
 }
 

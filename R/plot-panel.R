@@ -26,6 +26,13 @@
 #' @export
 plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
                        contours = 8, colour = "#16218C", main = NULL, ...) {
+  check_given()
+  check_flags(points)
+  palette <- check_colour(palette, "palette")
+  colour <- check_colour(colour, "colour")
+  contours <- check_count(contours, "contours", upper = 1000)
+  grid <- check_size(grid, "grid")
+  main <- check_text(main, "main", null = TRUE)
   check_class(x, "curve", "x", "ridge_curve()")
   if (is.null(x$line)) {
     crestline_abort(sprintf("the curve from %s to %s was not found by curvature, so it has no panel.", x$from, x$to),

@@ -7,7 +7,7 @@
 #' @param x A `shape_pca`.
 #' @param what "scores" or "shapes": the surfaces at `-sd` and `sd` standard deviations, side by side ("picture").
 #' @param component Two components for "scores", one for "shapes".
-#' @param group Factor, one value a specimen, or `NULL`.
+#' @param group Factor, one value a specimen, as in [compare_groups()], or `NULL`.
 #' @param colour Colours of the groups, or of the surfaces.
 #' @param sd Standard deviations.
 #' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to [graphics::plot.default()].
@@ -81,16 +81,24 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev))), sd = 3, colour = "#E3CDB8",
                            title = "Principal components of shape", size = c(420, 460), view = "front",
                            selfcontained = TRUE) {
+  check_given()
+  colour <- check_colour(colour, "colour")
+  title <- check_text(title, "title")
+  size <- check_size(size)
+  check_flags(selfcontained)
+  view_rotation(view)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
   check_class(pca, "shape_pca", "pca", "shape_pca()")
+  check_component(component, pca)
   sd <- check_number(sd, "sd", lower = 0, open = TRUE)
   blocks <- lapply(component, component_block, pca, sd, colour, size, view)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
                    tags$p(sprintf("%d specimens, %d points (%s). ", nrow(pca$x), nrow(pca$mean), pca$level),
                           sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd, sd)),
-                   tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks))
+                   tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks),
+                   provenance_block(pca$provenance))
   save_page(page, file, selfcontained)
   invisible(file)
 }

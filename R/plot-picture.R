@@ -31,9 +31,9 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
        ambient = check_number(ambient, "ambient", 0, 1), wrap = check_number(wrap, "wrap", 0, 1),
        gloss = check_number(gloss, "gloss", 0, 1),
        sharpness = check_number(sharpness, "sharpness", 0),
-       resolution = check_number(resolution, "resolution", 1), samples = check_count(samples, "samples"),
+       resolution = check_number(resolution, "resolution", 1), samples = check_count(samples, "samples", upper = 64),
        margin = check_number(margin, "margin", 0),
-       around = if (!is.null(around)) point_matrix(around), tolerance = check_number(tolerance, "tolerance", 0), inside = inside)
+       around = if (!is.null(around)) point_matrix(around, name = "around"), tolerance = check_number(tolerance, "tolerance", 0), inside = check_colour(inside, "inside", none = TRUE))
 }
 
 picture_surface <- function(mesh, colour, rotation, settings) {
@@ -72,8 +72,15 @@ picture_frame <- function(turned, settings) {
   graphics::plot.window(limits[, 1] + c(-room, room), limits[, 2] + c(-room, room), asp = 1, xaxs = "i", yaxs = "i")
   usr <- graphics::par("usr")
   pixels <- pmax(1, ceiling(graphics::par("pin") * settings$resolution))
+  check_pixels(prod(pixels) * settings$samples^2, settings$resolution)
   list(usr = usr, width = pixels[1], height = pixels[2],
        pixel = max((usr[2] - usr[1]) / pixels[1], (usr[4] - usr[3]) / pixels[2]))
+}
+
+check_pixels <- function(pixels, resolution) {
+  most <- argument_limits()$pixels
+  if (pixels <= most) return(invisible())
+  refuse_argument("resolution", resolution, sprintf("Give less, or fewer `samples`: %.3g pixels, at most %g.", pixels, most), NULL)
 }
 
 # 3 x n colours in [0, 1] under ambient light, one lamp (Lambert, wrapped) and its highlight (Blinn and Phong).
@@ -91,6 +98,7 @@ shade_vertices <- function(colour, normals, settings) {
 #' @rdname draw_surface
 #' @export
 visible_points <- function(scene, x) {
+  check_given()
   check_class(scene, "picture_scene", "scene", "draw_surface(engine = \"picture\")")
   seen_from(scene, view_points(scene, point_matrix(x)))
 }

@@ -24,6 +24,7 @@
 #' @export
 plot.repeatability <- function(x, view = "front", most = 40,
                                palette = grDevices::hcl.colors(64, "YlOrRd", rev = TRUE)[10:64], size = 0.9, ...) {
+  check_most(most)
   old <- graphics::par("mar", "mgp", "las")
   on.exit({
     graphics::layout(1)

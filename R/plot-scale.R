@@ -15,6 +15,10 @@
 #' plot_shape_scale()
 #' @export
 plot_shape_scale <- function(curvedness = 0.45, spacing = 3, turn = 0.35, tilt = 0.85, ...) {
+  curvedness <- check_number(curvedness, "curvedness", 0, open = TRUE)
+  spacing <- check_number(spacing, "spacing", 0, open = TRUE)
+  turn <- check_number(turn, "turn")
+  tilt <- check_number(tilt, "tilt")
   scale <- shape_scale()
   spin <- rbind(c(cos(turn), -sin(turn), 0), c(sin(turn), cos(turn), 0), c(0, 0, 1))
   rotation <- view_rotation(c(0, -tilt)) %*% spin

@@ -27,6 +27,8 @@
 #' @export
 draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
                          engine = c("picture", "rgl"), ...) {
+  check_given()
+  check_surface(mesh, "mesh")
   engine <- check_choice(engine, c("picture", "rgl"), "engine")
   mesh <- with_normals(as_mesh(mesh))
   colour <- check_colours(colour, ncol(mesh$vb))
@@ -42,13 +44,40 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 #' @param width Line width, as `lwd` of [graphics::par()].
 #' @param halo Colour of a wider line below the line, or of a ring about the points, NA for none ("picture" only).
 #' @export
-draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) UseMethod("draw_lines")
+draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) {
+  check_given()
+  check_scene(scene)
+  point_matrix(x)
+  check_drawn(colour, halo)
+  check_number(width, "width", lower = 0)
+  UseMethod("draw_lines")
+}
+
+#' A scene of one engine or the other
+#' @noRd
+check_scene <- function(scene, call = rlang::caller_env()) {
+  if (inherits(scene, "rgl_scene")) return(invisible(scene))
+  check_class(scene, "picture_scene", "scene", "draw_surface()", call)
+}
+
+#' Colours and rings of what is drawn
+#' @noRd
+check_drawn <- function(colour, halo = NA, call = rlang::caller_env()) {
+  check_colour(colour, "colour", call = call)
+  check_colour(halo, "halo", none = TRUE, call = call)
+}
 
 #' @rdname draw_surface
 #' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the diagonal of the mesh's box wide at size 1.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
+  check_given()
+  check_scene(scene)
+  point_matrix(x)
+  check_drawn(colour, halo)
+  check_number(size, "size", lower = 0)
+  check_names(labels, "labels", null = TRUE)
   UseMethod("draw_points")
 }
 
@@ -56,7 +85,18 @@ draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels 
 #' @param left,right The two sides of a band: points, as many on one side as on the other.
 #' @param opacity Opacity of the band, 0 to 1.
 #' @export
-draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) UseMethod("draw_band")
+draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) {
+  check_given()
+  check_scene(scene)
+  sides <- list(point_matrix(left, name = "left"), point_matrix(right, name = "right"))
+  if (nrow(sides[[1]]) != nrow(sides[[2]])) {
+    crestline_abort(sprintf("`left` has %d points, `right` %d.", nrow(sides[[1]]), nrow(sides[[2]])), "Give as many on either side.",
+                    stage = "picture")
+  }
+  check_drawn(colour)
+  check_number(opacity, "opacity", 0, 1)
+  UseMethod("draw_band")
+}
 
 view_rotation <- function(view, call = rlang::caller_env()) {
   if (is.matrix(view) && is.numeric(view)) return(check_rotation(view, call))
@@ -86,6 +126,7 @@ check_rotation <- function(view, call) {
 }
 
 check_colours <- function(colour, n, call = rlang::caller_env()) {
+  check_colour(colour, "colour", call = call)
   if (!length(colour) %in% c(1L, n)) {
     crestline_abort(sprintf("`colour` has %d values for %d vertices.", length(colour), n),
                     "Give one colour, or one for each vertex.", stage = "picture", call = call)
@@ -94,12 +135,10 @@ check_colours <- function(colour, n, call = rlang::caller_env()) {
 }
 
 # n x 3 co-ordinates from a matrix or from columns x, y, z.
-point_matrix <- function(x, call = rlang::caller_env()) {
+point_matrix <- function(x, call = rlang::caller_env(), name = "x") {
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
-    crestline_abort(sprintf("The points are %s.", describe_value(x)),
-                    "Give a matrix with three columns or a data frame with x, y and z.",
-                    stage = "picture", call = call)
+    refuse_argument(name, x, "Give points: a matrix with three columns or a data frame with x, y and z.", call)
   }
   x
 }

@@ -35,10 +35,12 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index", edges = "#00000070", band = TRUE,
                        points = TRUE, patches = points, width = 2, legend = TRUE,
                        engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
+  check_class(x, "shape", "x", "fit_shape()")
   scene <- if (is.null(specimen)) {
     draw_model(shape_mesh(x, parts), surface, edges, engine, view, ...)
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+    check_shape_on(x, specimen)
     plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, legend = legend, ...)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]

@@ -29,7 +29,11 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
                           curvature = NULL, radius = mesh_diagonal(x$mesh) / 25,
                           engine = if (interactive()) "rgl" else "picture", view = "front",
                           landmarks = TRUE, labels = FALSE, legend = TRUE, main = NULL, ...) {
-  colour <- check_choice(colour, c("natural", "shape index", "curvature", "plain"), "colour")
+  check_class(x, "specimen", "x", "specimen() or read_specimen()")
+  if (!is.null(curvature)) check_curvature_on(curvature, x)
+  check_flags(landmarks, labels, legend)
+  main <- check_text(main, "main", null = TRUE)
+  colour <- check_choice(colour, surface_choices, "colour")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   if (colour %in% c("shape index", "curvature") && is.null(curvature)) {
     curvature <- curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE))
@@ -53,11 +57,10 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
 }
 
 # The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of the way.
-specimen_scale <- function(x, colour, curvature, call = rlang::caller_env()) {
-  if (!is.null(curvature) && length(curvature$k1) != ncol(x$mesh$vb)) {
-    crestline_abort(sprintf("The curvature has %d values for %d vertices.", length(curvature$k1), ncol(x$mesh$vb)),
-                    "Give the curvature of this specimen's mesh.", stage = "picture", id = x$id, call = call)
-  }
+# What the colours of a specimen's surface may show.
+surface_choices <- c("natural", "shape index", "curvature", "plain")
+
+specimen_scale <- function(x, colour, curvature) {
   natural <- x$mesh$material$color
   switch(colour,
          "shape index" = shape_legend(shape_index(curvature)),

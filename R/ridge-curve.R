@@ -29,7 +29,8 @@
 #'   * `determined`: whether curvature determines the curve: `FALSE` when the median
 #'     standard error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, the curvature is fainter than `settings$faint`, the line cannot be lifted onto the mesh, or there is no such curvature by the path (`reason` says why); then the
 #'     plane path (`reference`, or `type = "plane"`) is the safer choice; `NA` for plane curves and without standard errors;
-#'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`.
+#'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
+#'   * `key`: of the mesh, so that what draws it refuses another.
 #' @section Standard error: the standard deviation of the curve's position across
 #'   itself if the mesh had been scanned again with independent noise at each
 #'   vertex. On simulated ridges with such noise and a radius of five spacings, at most the feature's own radius of curvature, the
@@ -52,9 +53,15 @@
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
                         reach = 0.5, threads = getOption("crestline.threads", 1L), trust = c(0, 1)) {
+  check_given(if (identical(type, "plane")) c("radius", "width"))
+  check_surface(specimen, "specimen")
+  check_ends(from = from, to = to)
+  keep_away <- check_regions(keep_away)
+  threads <- check_threads(threads)
+  reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   n <- check_count(n, "n", lower = 2)
-  passes <- check_count(passes, "passes")
+  passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
   about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from), to = end_name(to),
@@ -62,16 +69,16 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to), code = {
     if (type == "plane") {
       path <- reference_path(specimen, from, to, "plane", reach = reach)
-      new_curve(specimen, path, path, n, about)
+      assembled_curve(specimen, path, path, n, about)
     } else {
       about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
       about$width <- check_number(width, "width", lower = 0, open = TRUE)
-      curvature <- known_curvature(curvature, specimen, radius, check_count(threads, "threads"), settings$order)
+      curvature <- known_curvature(curvature, specimen, radius, threads, settings$order)
       path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
                              longest = settings$longest)
       if (trust[1] > 0 || trust[2] < 1) path <- trusted_path(trust, specimen, path)
       fit <- fit_passes(specimen, path, curvature, keep_away, about)
-      new_curve(specimen, fit$path, fit$reference, n, about, fit)
+      assembled_curve(specimen, fit$path, fit$reference, n, about, fit)
     }
   })
 }
@@ -195,7 +202,11 @@ cross_rows <- function(a, b) {
         a[, 1] * b[, 2] - a[, 2] * b[, 1])
 }
 
-new_curve <- function(specimen, path, reference, n, about, fit = NULL) {
+#' The one place where a curve comes together
+#'
+#' @param fit As of [fit_passes()]; NULL for plane curves.
+#' @noRd
+assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
   placed <- resample_path(as_mesh(specimen), path, n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
@@ -204,14 +215,58 @@ new_curve <- function(specimen, path, reference, n, about, fit = NULL) {
   d <- if (about$type == "plane") numeric(n) else on_line(fit$line$alpha)
   points <- frame_of(c(list(point = seq_len(n)), unclass(placed)[c("s", "x", "y", "z")],
                        list(d = d, se = on_line(fit$line$se)), unclass(placed)[c("face", "w1", "w2", "w3")]))
-  verdict <- judge_curve(about, fit)
-  curve <- c(list(points = points, path = path, length = attr(path, "length"), reference = reference,
-                  coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
-                  strength = mean_strength(specimen, path, fit), scale = fit$scale),
-             verdict, about)
-  curve$converged <- !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged)
-  curve$even <- attr(placed, "converged")
-  structure(curve, class = "curve")
+  new_curve(points, path, reference, about, judge_curve(about, fit), mesh_of(specimen)$key,
+            coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
+            strength = mean_strength(specimen, path, fit), scale = fit$scale,
+            converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged), even = attr(placed, "converged"))
+}
+
+#' A curve from its parts: all its fields are declared here
+#'
+#' @param points,path,reference,coordinates,surface,line,strength,scale,converged As in the value of [ridge_curve()].
+#' @param about List of `id`, `from`, `to`, `type`, `settings`, `passes`; of ridges and valleys `radius` and `width`.
+#' @param verdict List of `se`, `determined`, `reason`.
+#' @param key Of the mesh that its faces are numbers of.
+#' @param even Whether its points stand at equal chords.
+#' @noRd
+new_curve <- function(points, path, reference, about, verdict, key, coordinates = NULL, surface = NULL, line = NULL,
+                      strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE) {
+  structure(
+    list(points = points, path = path, length = attr(path, "length"), reference = reference, coordinates = coordinates,
+         surface = surface, line = line, strength = strength, scale = scale, se = verdict$se,
+         determined = verdict$determined, reason = verdict$reason, id = about$id, from = about$from, to = about$to,
+         type = about$type, settings = about$settings, passes = about$passes, radius = about$radius, width = about$width,
+         key = key, converged = converged, even = even),
+    class = "curve"
+  )
+}
+
+#' Refuse a curve without its points or path
+#' @noRd
+validate_curve <- function(x) {
+  path <- if (is.list(x)) x$path
+  right <- inherits(path, "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
+    is.numeric(x$points$s) && is_error(x$points$se)
+  if (right) return(validate_mesh_path(path))
+  crestline_abort("the curve lacks its path, or points with co-ordinates, faces, weights and errors.",
+                  "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve", id = if (is.list(x)) x$id,
+                  call = NULL)
+}
+
+#' @exportS3Method
+validate.curve <- function(x) validate_curve(x)
+
+# Standard errors, all NA where there are none.
+is_error <- function(x) is.numeric(x) || is.logical(x) && length(x) && all(is.na(x))
+
+#' Refuse a curve that does not lie on a mesh
+#'
+#' @param mesh The specimen or mesh that it is to be used with.
+#' @noRd
+check_curve_on <- function(curve, mesh, name) {
+  if (!is.null(curve$key)) check_same_mesh(curve, mesh, name)
+  check_path_on(curve$path, mesh, name)
+  check_places(curve$points, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
 }
 
 #' Whether curvature determines the curve, with the reason where not
@@ -260,10 +315,14 @@ mean_strength <- function(specimen, path, fit) {
 }
 
 #' @export
-as.data.frame.curve <- function(x, ...) x$points
+as.data.frame.curve <- function(x, ...) {
+  check_method_dots(...)
+  x$points
+}
 
 #' @export
 print.curve <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
               x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
   cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))

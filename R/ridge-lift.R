@@ -13,7 +13,8 @@
 #' @return A `mesh_path` from the first to the last point of `path`. Attribute `lifted` is `FALSE`
 #'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
 #'   the places of the curve.
-#' @section Errors: of class `crestline_path_error`, when neither way gives a path.
+#' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class `crestline_wrong_mesh`, when
+#'   the path or its co-ordinates belong to another mesh.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.3;
 #'   the walk takes the place of its Delaunay triangulation of (s, d).
 #' @examples
@@ -24,12 +25,24 @@
 #' lift(ball, window, path, s, alpha = 0.1 * sin(2 * s))
 #' @export
 lift <- function(specimen, coordinates, path, s, alpha) {
+  check_given()
+  check_surface(specimen, "specimen")
+  check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  check_class(path, "mesh_path", "path", "reference_path() or plane_path()")
+  s <- check_numbers(s, "s")
+  alpha <- check_numbers(alpha, "alpha")
+  if (length(s) < 2 || is.unsorted(s, strictly = TRUE) || length(alpha) != length(s)) {
+    crestline_abort(sprintf("`s` (%s) and `alpha` (%s) are no line.", describe_value(s), describe_value(alpha)),
+                    "Give two places or more, in order, and an offset for each.", stage = "arguments")
+  }
   surface <- walkable(specimen)
+  check_path_on(path, specimen, "`path`")
+  check_coordinates_on(coordinates, specimen, "`coordinates`")
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)
   towards <- first_direction(specimen, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
   walked <- cpp_level_path(surface$vb, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
-  if (walked$end == "arrived") return(new_path(walked$points, ends, lifted = TRUE))
+  if (walked$end == "arrived") return(new_path(walked$points, ends, surface, lifted = TRUE))
   piece_together(specimen, surface, coordinates, path, s, alpha)
 }
 
@@ -81,7 +94,7 @@ piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
     columns_of(reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf, rival = 0))
   })
-  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))), lifted = FALSE)
+  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))), surface, lifted = FALSE)
 }
 
 places_in_plane <- function(surface, coordinates, path, s, alpha) {

@@ -26,9 +26,16 @@
 #' ridge_line(smooth, scale = 1, radius = 0.2)
 #' @export
 ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
+  check_given()
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  radius <- check_number(radius, "radius", lower = 0, open = TRUE)
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
   problem <- ridge_problem(surface, scale, radius, settings)
+  if (!all(is.finite(problem$roughness), is.finite(problem$lambda), is.finite(problem$weight))) {
+    crestline_abort(sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius, scale),
+                    "Give both in the unit of the surface.", stage = "ridge")
+  }
   found <- climb(problem, settings)
   structure(
     list(s = problem$u * surface$length, alpha = c(0, found$alpha, 0), lambda = problem$lambda,
@@ -124,6 +131,7 @@ rise <- function(problem, alpha, value, step, small) {
 
 #' @export
 print.ridge_line <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s), min(x$alpha),
               max(x$alpha), if (x$converged) "converged" else "NOT converged", x$iterations,
               if (x$at_bound) ", along the edge of the window" else ""))

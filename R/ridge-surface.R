@@ -25,7 +25,10 @@
 #' predict(smooth, s = 0.7, d = c(0, 0.1))
 #' @export
 curvature_surface <- function(coordinates, strength, settings = ridge_settings()) {
+  check_given()
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
+  strength <- check_numbers(strength, "strength", nrow(coordinates), missing = TRUE)
   length <- attr(coordinates, "length")
   width <- attr(coordinates, "width")
   rows <- which(coordinates$inside & !is.na(strength))
@@ -121,6 +124,10 @@ penalty_for_df <- function(moments, penalty, df) {
 #' @param ... Not used.
 #' @export
 predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
+  check_method_dots(..., known = c("s", "d", "derivative"))
+  s <- check_numbers(s, "s")
+  d <- check_numbers(d, "d")
+  derivative <- check_count(derivative, "derivative", lower = 0, upper = 3)
   along <- margin_design(object$margins$along, rep_len(s, max(length(s), length(d))) / object$length)
   across <- margin_design(object$margins$across, rep_len(d, nrow(along)) / object$width, derivative)
   rowSums(across * tcrossprod(along, object$coefficients)) / object$width^derivative
@@ -128,6 +135,7 @@ predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
 
 #' @export
 print.curvature_surface <- function(x, ...) {
+  check_method_dots(...)
   cat(sprintf("Curvature surface over %.4g x %.4g (s, d): %d vertices, %.1f df%s\n", x$length,
               2 * x$width, length(x$rows), x$df, if (x$converged) "" else ", df not reached"))
   invisible(x)

@@ -1,41 +1,74 @@
-# Many specimens by one scheme: in parallel as the user plans it, each result kept as it comes, a killed run gone on with.
+# Many specimens by one scheme: in parallel as the user plans it, each result kept as it comes, a
+# killed run gone on with.
 
 #' Measure many specimens
 #'
-#' [fit_shape()] for every specimen, over the package future.apply: the plan is yours,
-#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, a queue through future.batchtools;
-#' without one they are measured one after the other. What goes wrong with one specimen costs only that one, see
-#' [failures()].
+#' [fit_shape()] for every specimen, over the package future: the plan is yours,
+#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, a queue
+#' through future.batchtools; without one they are measured one after the other. What goes wrong
+#' with one specimen costs only that one, see [failures()]; what its reading, finding and fitting
+#' warn of is kept with its shape, see [warnings_of()], and printed.
 #'
-#' With `dir` every result is written there as it comes, whole or not at all, and read only when asked for, so that
-#' memory does not grow with the number of specimens. A run that was cut short goes on where it was: what is in `dir` is
-#' not measured again as long as its input (the files' or specimen's content), the scheme, the settings and the package's
-#' version are the same; only the rest is sent to the workers. Failures are tried again.
+#' With `dir` every result is written there as it comes, whole or not at all, and read only when
+#' asked for, so that memory does not grow with the number of specimens. A run that was cut short
+#' goes on where it was: a specimen is not measured again as long as `dir` has a result of the same
+#' mesh, landmarks, scheme, settings, template and `reading`, and the package gives the same answers
+#' as then. The names of files do not count: a scan that was renamed is not measured again, and two
+#' scans of one name in different folders never answer for each other. Failures are tried again.
 #'
-#' Where a mesh comes without landmarks they are found by `template`, see [find_landmarks()]. A landmark with little
-#' confidence is left out: it costs the curves that end there, not the specimen. Where most of them have little confidence
-#' the specimen is refused, see [check_placing()], with a picture of them: in `dir`, or in R's temporary folder.
+#' A result's file has a checksum, which is compared before it is read: what is damaged or cut short
+#' is measured again. Several runs may share a folder. A run deletes no file but its own unfinished
+#' ones; those of a run that was killed (`part-*.tmp`) stay, never count, and may be deleted.
 #'
-#' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s.
+#' A result that cannot be written, as on a full disk, or a worker that dies costs what it held:
+#' these specimens are tried once more, each alone, and are failures if it happens again.
+#'
+#' Where no mesh comes with landmarks they are found by `template`, see [find_landmarks()]. A
+#' landmark with little confidence is left out: it costs the curves that end there, not the
+#' specimen. Where most of them have little confidence the specimen is refused, see
+#' [check_placing()], with a picture of them: in `dir`, or in R's temporary folder. `print()` and
+#' `summary()` tell of which specimens landmarks were found.
+#'
+#' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file
+#'   is its name without the extension; where files share it, with as many folders as tell them
+#'   apart: "visit 1/anna", "visit 2/anna".
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
-#' @param landmarks With mesh files: their landmark files, one for each; `NULL`: the file beside each mesh with its name
-#'   and an extension of [read_landmarks()], where there is one.
-#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()] where the scheme's
-#'   landmarks
-#'   are those of the face, else none.
-#' @param doubtful Greatest share of found landmarks with little confidence that are used nevertheless (and graded amber).
+#' @param landmarks With mesh files: `NULL`: the file beside each mesh with its name and an
+#'   extension of [read_landmarks()], in any case, where there is one; two that differ are a
+#'   failure. Or, told by the ids of the specimens: a landmark file for each, one file for all
+#'   (.tps, .nts, .csv with a column of specimens), a folder of landmark files, a list of k x 3
+#'   matrices by name, a k x 3 x n array with names.
+#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()]
+#'   where the scheme's landmarks are those of the face, else none.
+#' @param doubtful Greatest share of found landmarks with little confidence that are used
+#'   nevertheless (and graded amber).
 #' @param ... Further arguments of [fit_shape()], the same for all.
-#' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that each worker is
-#'   given two lots. Small lots cost more starts, large ones more waiting at the end.
+#' @param found Whether landmarks are found where a mesh has none. `NULL`: only where none of the
+#'   meshes has any, so that found landmarks are never mixed with placed ones unasked: a mesh
+#'   without them among others that have some is a failure.
+#' @param reading With mesh files: named list of further arguments of [read_specimen()],
+#'   [specimen()] and [read_landmarks()], such as `list(frame = "RAS", tolerance = 0.02)`.
+#' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that
+#'   each worker is given two lots. Small lots cost more starts, large ones more waiting at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @return Object of class `shape_batch`: a list of shapes by name of specimen (its id, or the file's name), `NULL` where
-#'   it failed.
-#'   With `dir`, `x[[i]]` reads a shape from its file, and so does `as.list(x)` with all of them; `print(x)` counts.
-#' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of single specimens are kept, see
-#'   [failures()].
-#' @seealso [failures()], [homologise()]
-#' @examplesIf requireNamespace("future.apply", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' @return Object of class `shape_batch`: a list of shapes by id, `NULL` where a specimen failed.
+#'   With `dir`, a shape is read when it is asked for.
+#'   * `x[["id"]]`, `x$id`, `x[[i]]`: one shape; an id that is not there is an error;
+#'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some; `c(x, y)`: one of both, where they have one
+#'     scheme and no id twice, in files or not;
+#'   * `length(x)`, `names(x)`: all specimens, failed ones too;
+#'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all
+#'     in memory at once;
+#'   * `print(x)` counts and tells failures and warnings, `summary(x)` is a data frame, a row a
+#'     specimen: `specimen`, `measured`, `landmarks` ("placed", "found"), `lacking` (number of the
+#'     scheme's landmarks that are missing), `warnings` (their number), `message` (why it failed).
+#' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of
+#'   single specimens are kept, see [failures()].
+#' @section Warnings: of class `crestline_keeping_warning`, when a result's file that is asked for
+#'   is damaged, is gone, or has another result now: it is `NULL` then.
+#' @seealso [failures()], [warnings_of()], [homologise()]
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
 #' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane",
@@ -47,176 +80,166 @@
 #' shapes[["ball 2"]]
 #' @export
 fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL, doubtful = 0, ...,
-                       chunk = NULL, progress = interactive()) {
-  rlang::check_installed(c("future", "future.apply", "progressr"), "to measure many specimens.")
+                       found = NULL, reading = list(), chunk = NULL, progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  if (!is.null(template)) template <- check_template(template)
+  rlang::check_installed(c("future", "progressr"), "to measure many specimens.")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
-  jobs <- batch_jobs(x, landmarks)
-  files <- batch_files(names(jobs), dir)
-  jobs <- with_finder(jobs, files, template, doubtful, scheme)
-  settings <- list(...)
-  tasks <- Map(function(job, file, name) batch_task(job, file, name, scheme, settings), jobs, files, names(jobs))
-  open <- !vapply(tasks, is_kept, NA)
+  settings <- check_fit_arguments(list(...))
+  jobs <- batch_jobs(x, landmarks, reading)
+  if (!is.null(dir)) dir <- results_folder(dir)
+  jobs <- with_finder(jobs, dir, template, doubtful, scheme, found)
+  tasks <- batch_tasks(jobs, dir, scheme, settings)
+  results <- if (is.null(dir)) vector("list", length(tasks)) else lapply(tasks, kept_result)
+  open <- vapply(results, is.null, NA)
+  refusal <- if (any(open) && !is.null(dir)) unwritable(dir)
+  if (!is.null(refusal)) {
+    results[open] <- list(failure_of(refusal))
+    open[] <- FALSE
+  }
   run <- function() measure_tasks(tasks[open], scheme, settings, chunk)
-  results <- stats::setNames(vector("list", length(jobs)), names(jobs))
-  if (any(open)) results[open] <- if (progress) progressr::with_progress(run()) else run()
-  structure(results, files = files, class = "shape_batch")
+  if (any(open)) results[open] <- if (isTRUE(progress)) progressr::with_progress(run()) else run()
+  batch_of(stats::setNames(results, names(jobs)), scheme)
 }
 
-#' One specimen's task: what is measured, where it is kept, and the key that tells whether it is kept already
+#' Arguments for fit_shape(), none that it does not take
 #' @noRd
-batch_task <- function(job, file, name, scheme, settings) {
-  key <- if (!is.null(file)) tryCatch(job_key(job, scheme, settings), error = function(e) NULL)
-  list(job = job, file = file, name = name, key = key)
+check_fit_arguments <- function(settings, call = rlang::caller_env()) {
+  given <- names(settings)
+  if (is.null(given)) given <- rep("", length(settings))
+  takes <- setdiff(names(formals(fit_shape)), c("specimen", "scheme"))
+  strange <- setdiff(given, takes)
+  if (!length(strange)) return(settings)
+  for_reading <- intersect(strange, unlist(reading_arguments()))
+  crestline_abort(
+    sprintf("%s no argument of fit_shapes() or fit_shape().", if (all(nzchar(strange))) paste(shorten(strange), "is") else
+      "what has no name is"),
+    if (length(for_reading)) {
+      sprintf("What reading takes goes into `reading`: reading = list(%s = ...).", for_reading[1])
+    } else sprintf("Further arguments: %s.", shorten(takes, 20)),
+    stage = "arguments", call = call
+  )
 }
 
-#' Whether a task's shape is in its file
+#' All tasks: what is measured, where it is kept, and the key that tells whether it is kept already
 #' @noRd
-is_kept <- function(task) !is.null(task$key) && identical(read_kept(task$file, "key"), task$key)
+batch_tasks <- function(jobs, dir, scheme, settings) {
+  tasks <- lapply(jobs, function(job) list(job = job, name = job$id))
+  if (is.null(dir)) return(tasks)
+  contents <- lapply(jobs, job_content, scheme, settings)
+  keys <- vapply(contents, `[[`, "", "key")
+  files <- result_files(dir, names(jobs), keys, vapply(contents, `[[`, "", "mesh"))
+  Map(function(task, content, file) c(task, content, list(file = file)), tasks, contents, files)
+}
 
-#' All tasks, by the user's plan
-#' @return List of what [measure_task()] returns.
+#' The files of results: where a result of that key is; else one of the id's name, if what is there
+#' is of the same mesh and of no use to another specimen of the batch; else one of the id's and the
+#' mesh's
+#' @noRd
+result_files <- function(dir, ids, keys, meshes) {
+  files <- file.path(dir, paste0(file_stems(ids), ".shape"))
+  there <- list.files(dir, "[.]shape$", full.names = TRUE)
+  inside <- lapply(there, peek_kept)
+  kept <- vapply(inside, `[[`, "", "key")
+  for (i in which(!is.na(keys))) {
+    own <- match(files[i], there)
+    if (is.na(own) && !keys[i] %in% kept || !is.na(own) && kept[own] %in% keys[i]) next
+    if (keys[i] %in% kept) {
+      files[i] <- there[match(keys[i], kept)]
+    } else if (!inside[[own]]$own || !inside[[own]]$mesh %in% c(NA, meshes[i]) || kept[own] %in% keys) {
+      files[i] <- sub("[.]shape$", sprintf("-%s.shape", substr(meshes[i], 1, 8)), files[i])
+    }
+  }
+  files
+}
+
+#' The result of a task from its file; NULL where that has not its key or is not whole
+#' @noRd
+kept_result <- function(task) {
+  if (is.na(task$key) || !identical(peek_kept(task$file)$key, task$key)) return(NULL)
+  opened <- open_kept(task$file)
+  if (opened$state == "whole") kept_shape(task, opened$about)
+}
+
+#' All tasks, by the user's plan; what a fault of the machine has cost is tried once more, each
+#' alone
+#' @return List of what [measure_task()] returns, a `shape_failure` for a task that was lost.
 #' @noRd
 measure_tasks <- function(tasks, scheme, settings, chunk) {
   if (is.null(chunk)) chunk <- ceiling(length(tasks) / (2 * future::nbrOfWorkers()))
-  run_tasks(tasks, function(task) measure_task(task, scheme, settings), chunk)
-}
-
-#' Work at each of some tasks by the user's plan, with progress
-#'
-#' @param tasks List of lists, each with its `name`.
-#' @param chunk Number of tasks a future.
-#' @param poll Seconds between two looks at workers that are busy, where the user has set no other: future's own 0.01
-#'   takes a tenth of a core, of which nothing is left when there are as many workers as cores.
-#' @noRd
-run_tasks <- function(tasks, work, chunk, poll = 0.05) {
-  rlang::local_options(future.wait.interval = getOption("future.wait.interval", poll))
-  tick <- progressr::progressor(steps = length(tasks))
-  future.apply::future_lapply(tasks, function(task) {
-    result <- work(task)
-    tick(task$name)
-    result
-  }, future.chunk.size = chunk, future.packages = "crestline", future.seed = NULL)
-}
-
-#' What is to be measured: files or specimens, by name
-#' @noRd
-batch_jobs <- function(x, landmarks) {
-  if (inherits(x, "specimen")) x <- list(x)
-  if (is.character(x) && length(x)) {
-    if (is.null(landmarks)) landmarks <- vapply(x, landmarks_beside, "", USE.NAMES = FALSE)
-    if (length(landmarks) != length(x)) {
-      crestline_abort(sprintf("`landmarks` names %d files, `x` %d.", length(landmarks), length(x)),
-                      "Give one landmark file for each mesh.", stage = "arguments")
-    }
-    jobs <- Map(function(mesh, points) list(mesh = mesh, landmarks = points), x, landmarks, USE.NAMES = FALSE)
-    return(stats::setNames(jobs, make.unique(sub("[.][^.]*$", "", basename(x)), sep = " ")))
-  }
-  if (!is.list(x) || !length(x)) {
-    crestline_abort(sprintf("`x` is %s.", describe_value(x)), "Give paths of meshes, or a list of specimens.", stage = "arguments")
-  }
-  for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()")
-  stats::setNames(lapply(x, function(one) list(specimen = one)), make.unique(vapply(x, `[[`, "", "id"), sep = " "))
-}
-
-#' The landmark file beside a mesh, "" where there is none
-#' @noRd
-landmarks_beside <- function(file) {
-  stem <- sub("[.][^.]*$", "", file)
-  beside <- paste0(stem, ".", names(landmark_formats()))
-  c(beside[file.exists(beside)], "")[1]
-}
-
-#' Where the results go, NULL for memory; parts that a killed run left are cleared away
-#' @noRd
-batch_files <- function(names, dir) {
-  if (is.null(dir)) return(vector("list", length(names)))
-  dir <- results_folder(dir)
-  safe <- make.unique(gsub("[^[:alnum:]._ -]", "_", names), sep = " ")
-  as.list(file.path(dir, paste0(safe, ".shape")))
-}
-
-#' The folder for results, made where it is not there
-#' @noRd
-results_folder <- function(dir) {
-  if (!is.character(dir) || length(dir) != 1 || is.na(dir)) {
-    crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.", stage = "arguments")
-  }
-  dir.create(dir, recursive = TRUE, showWarnings = FALSE)
-  if (!dir.exists(dir)) {
-    crestline_abort(sprintf("the folder %s cannot be made.", dir), "Choose another, or check who may write there.", stage = "arguments")
-  }
-  unlink(list.files(dir, "^part-.*[.]tmp$", full.names = TRUE))
-  normalizePath(dir)
+  arguments <- list(scheme = scheme, settings = settings)
+  results <- run_tasks(tasks, measure_task, arguments, chunk)
+  again <- vapply(results, function(result) inherits(result, "lost_task") || isTRUE(result$fault), NA)
+  if (any(again)) results[again] <- run_tasks(tasks[again], measure_task, arguments, 1, alone = TRUE)
+  lapply(results, function(result) if (inherits(result, "lost_task")) lost_failure(result) else result)
 }
 
 #' One specimen measured
 #'
-#' @return Where it is kept in a file NULL; else the shape, or a failure (class `shape_failure`).
+#' @return A `shape`, or a `kept_shape` where it is in its file; or a `shape_failure`.
 #' @noRd
 measure_task <- function(task, scheme, settings) {
-  result <- tryCatch(fit_job(task$job, scheme, settings), error = function(e) failure_of(e))
-  if (is.null(task$file)) return(result)
-  keep(result, if (inherits(result, "shape")) task$key, task$file)
-  NULL
-}
-
-#' Write a result: the key first, so that it can be read alone; under another name until all of it is there
-#'
-#' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five times as long.
-#' @noRd
-keep <- function(result, key, file, compression = 1) {
-  part <- tempfile("part-", dirname(file), ".tmp")
-  to <- gzfile(part, "wb", compression = compression)
-  serialize(key, to)
-  serialize(result, to)
-  close(to)
-  file.rename(part, file)
-}
-
-#' @param what "key", of a shape, or the "result"; NULL where the file is not there or cannot be read.
-#' @noRd
-read_kept <- function(file, what) {
-  if (!file.exists(file)) return(NULL)
-  from <- gzfile(file, "rb")
-  on.exit(close(from))
-  tryCatch({
-    key <- unserialize(from)
-    if (what == "key") key else unserialize(from)
-  }, error = function(e) NULL)
-}
-
-#' What a result depends on, as one string
-#' @noRd
-job_key <- function(job, scheme, settings) {
-  input <- if (is.null(job$specimen)) {
-    rlang::hash_file(c(job$mesh, if (nzchar(job$landmarks)) job$landmarks))
-  } else {
-    job$specimen[c("mesh", "landmarks", "id")]
+  if (!is.null(task$file)) {
+    kept <- kept_result(task)
+    if (!is.null(kept)) return(kept)
   }
-  rlang::hash(list(input, unclass(scheme), lapply(settings, unclass), job$finder$key, as.character(utils::packageVersion("crestline"))))
+  ear <- new_ear()
+  shape <- tryCatch(fit_job(task$job, scheme, settings, ear), error = function(e) failure_of(e, ear$heard))
+  if (is.null(task$file) || !inherits(shape, "shape")) return(shape)
+  about <- c(list(key = task$key, mesh = task$mesh, id = task$name, warnings = shape$warnings), told_of(shape))
+  tryCatch({
+    keep(shape, about, task$file)
+    kept_shape(task, about)
+  }, crestline_keeping_error = function(e) failure_of(e, ear$heard, fault = TRUE))
 }
 
-fit_job <- function(job, scheme, settings) {
-  quiet <- function(code) suppressWarnings(code, classes = "crestline_warning")
-  one <- job$specimen
-  if (is.null(one)) one <- quiet(read_specimen(job$mesh, if (nzchar(job$landmarks)) job$landmarks))
-  if (!is.null(job$finder)) one <- quiet(found_specimen(one, job$finder))
-  quiet(do.call(fit_shape, c(list(one, scheme), utils::modifyList(list(progress = FALSE), settings))))
+fit_job <- function(job, scheme, settings, ear) {
+  one <- hear(job_specimen(job), "reading", ear)
+  if (!is.null(job$finder)) one <- hear(found_specimen(one, job$finder), "landmarks", ear)
+  settings <- utils::modifyList(list(progress = FALSE), settings)
+  shape <- hear(do.call(fit_shape, c(list(one, scheme), settings)), "shape", ear)
+  shape$warnings <- unique(rbind(shape$warnings, ear$heard))
+  shape
 }
 
-failure_of <- function(e) {
+#' @param fault Whether it is one of the machine, so that it is worth trying once more.
+#' @noRd
+failure_of <- function(e, heard = no_warnings(), fault = FALSE) {
   own <- inherits(e, "crestline_error")
-  structure(list(stage = if (own) e$stage else "unforeseen", message = if (own) e$problem else conditionMessage(e),
-                 remedy = if (own) e$remedy else "Please report it, with the specimen if you may."), class = "shape_failure")
+  new_failure(if (own) e$stage else "unforeseen", if (own) e$problem else conditionMessage(e),
+              if (own) e$remedy else "Please report it, with the specimen if you may.", heard, fault)
+}
+
+new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault = FALSE) {
+  structure(list(stage = stage, message = message, remedy = remedy, warnings = warnings, fault = fault),
+            class = "shape_failure")
+}
+
+lost_failure <- function(lost) {
+  new_failure("worker", sprintf("the worker that measured it died, and died again when it measured it alone: %s.",
+                                sub("[.]$", "", shorten_text(lost$message))),
+              "Is there memory enough for it? Run it again with fewer workers, or decimate the mesh.", fault = TRUE)
+}
+
+#' The first line of a text, not longer than that
+#' @noRd
+shorten_text <- function(text, most = 200) {
+  line <- strsplit(text[1], "\n", fixed = TRUE)[[1]][1]
+  if (nchar(line) > most) paste0(substr(line, 1, most), "...") else line
 }
 
 #' What went wrong with the specimens of a batch
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
-#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what), `remedy` (what to do about it).
+#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),
+#'   `remedy` (what to do about it). Its attribute `warnings` is the data frame of [warnings_of()].
+#'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
+#'   now.
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
-#' @examplesIf requireNamespace("future.apply", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' @seealso [warnings_of()] for what those that were measured were warned of.
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
 #' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
@@ -224,61 +247,16 @@ failure_of <- function(e) {
 #' failures(fit_shapes(bad, scheme))
 #' @export
 failures <- function(x) {
+  check_given()
   check_class(x, "shape_batch", "x", "fit_shapes()")
+  x <- renewed_batch(x)
+  elements <- unclass(x)
+  failed <- attr(x, "failed")
   rows <- lapply(names(x), function(name) {
-    result <- batch_result(x, name)
-    if (inherits(result, "shape")) return(NULL)
-    if (is.null(result)) result <- unreadable(attr(x, "files")[[match(name, names(x))]])
-    data.frame(id = name, stage = result$stage, message = result$message, remedy = result$remedy)
+    one <- elements[[name]]
+    lost <- if (is.null(one)) failed[[name]] else if (inherits(one, "kept_shape")) kept_fault(one)
+    if (!is.null(lost)) data.frame(id = name, stage = lost$stage, message = lost$message, remedy = lost$remedy)
   })
   empty <- data.frame(id = character(), stage = character(), message = character(), remedy = character())
-  do.call(rbind, c(list(empty), rows))
-}
-
-unreadable <- function(file) {
-  list(stage = "keeping", message = sprintf("its file %s is not there or cannot be read.", file),
-       remedy = "Delete it if it is there, and run fit_shapes() again.")
-}
-
-#' Result of one specimen, from memory or its file
-#' @noRd
-batch_result <- function(x, i) {
-  all <- unclass(x)
-  i <- if (is.character(i)) match(i, names(all)) else i
-  file <- attr(x, "files")[[i]]
-  if (is.null(file)) all[[i]] else read_kept(file, "result")
-}
-
-#' @export
-`[[.shape_batch` <- function(x, i, ...) {
-  if (length(i) != 1 || is.na(if (is.character(i)) match(i, names(x)) else i)) return(NULL)
-  result <- batch_result(x, i)
-  if (inherits(result, "shape")) result
-}
-
-#' @export
-`$.shape_batch` <- function(x, name) x[[name]]
-
-#' @export
-`[.shape_batch` <- function(x, i, ...) {
-  all <- unclass(x)
-  files <- stats::setNames(attr(x, "files"), names(all))
-  attr(all, "files") <- NULL
-  structure(all[i], files = unname(files[i]), class = "shape_batch")
-}
-
-#' @export
-as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x)), function(i) x[[i]]), names(x))
-
-#' @export
-print.shape_batch <- function(x, most = 8, ...) {
-  failed <- failures(x)
-  files <- unlist(attr(x, "files"))
-  cat("<shape_batch> ", amount(length(names(x)), "specimen"), ": ", length(names(x)) - nrow(failed), " measured, ", nrow(failed), " failed",
-      if (length(files)) paste0(", in ", dirname(files[1])), "\n", sep = "")
-  for (i in seq_len(min(most, nrow(failed)))) {
-    cat(strwrap(sprintf("- %s, %s: %s %s", failed$id[i], failed$stage[i], failed$message[i], failed$remedy[i]), width = 80, exdent = 4), sep = "\n")
-  }
-  if (nrow(failed) > most) cat("- and", nrow(failed) - most, "more in failures()\n")
-  invisible(x)
+  structure(do.call(rbind, c(list(empty), rows)), warnings = warnings_of(x))
 }

@@ -1,29 +1,60 @@
-# Specimens of a batch that come without landmarks.
+# Specimens of a batch that come without landmarks: found where that was asked for, never mixed with placed ones in silence.
 
-#' Jobs without landmarks, with what finds them
+#' Jobs without landmarks, with what finds them, or refused
 #'
+#' @param dir Folder of the results, NULL for memory: pictures of refused specimens go there.
 #' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with `template`, which all jobs of a
-#'   worker have in common), `doubtful`, `picture` (path) and `key`.
+#'   worker have in common), `doubtful`, `picture` (path) and `key`; or with `refusal`.
 #' @noRd
-with_finder <- function(jobs, files, template, doubtful, scheme) {
-  doubtful <- check_number(doubtful, "doubtful", 0, 1)
-  bare <- vapply(jobs, function(job) if (is.null(job$specimen)) !nzchar(job$landmarks) else !nrow(job$specimen$landmarks), NA)
+with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rlang::caller_env()) {
+  doubtful <- check_number(doubtful, "doubtful", 0, 1, call = call)
+  if (!is.null(found) && !(is.logical(found) && length(found) == 1 && !is.na(found))) {
+    crestline_abort(sprintf("`found` is %s.", describe_value(found)), "Give TRUE, FALSE or NULL.", stage = "arguments",
+                    call = call)
+  }
+  bare <- vapply(jobs, is_bare, NA)
   if (!any(bare)) return(jobs)
+  if (isFALSE(found) || is.null(found) && !all(bare)) {
+    jobs[bare] <- lapply(jobs[bare], refused_bare, sum(!bare), isFALSE(found))
+    return(jobs)
+  }
   template <- batch_template(template, scheme)
   if (is.null(template)) return(jobs)
-  key <- rlang::hash(list(template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful))
+  key <- content_hash(list(template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful))
   shared <- rlang::env(template = template)
-  jobs[bare] <- Map(function(job, file, name) {
-    picture <- if (is.null(file)) tempfile(paste0("placing-", gsub("[^[:alnum:]_-]", "_", name), "-"), fileext = ".png") else
-      sub("[.]shape$", "-placing.png", file)
+  folder <- if (is.null(dir)) tempdir() else dir
+  pictures <- file.path(folder, paste0(file_stems(names(jobs)), "-placing.png"))
+  jobs[bare] <- Map(function(job, picture) {
     c(job, list(finder = list(shared = shared, doubtful = doubtful, picture = picture, key = key)))
-  }, jobs[bare], files[bare], names(jobs)[bare])
+  }, jobs[bare], pictures[bare])
   jobs
 }
 
+#' Whether a job has no landmarks, and none that only could not be read
+#' @noRd
+is_bare <- function(job) {
+  if (!is.null(job$specimen)) return(!nrow(job$specimen$landmarks))
+  is.null(job$refusal) && if (is.character(job$landmarks)) !nzchar(job$landmarks) else !NROW(job$landmarks)
+}
+
+#' A job that is refused for want of landmarks
+#' @param others How many of the batch have landmarks.
+#' @noRd
+refused_bare <- function(job, others, never) {
+  beside <- if (!is.null(job$mesh)) {
+    sprintf("Put a landmark file %s.* beside it (see read_landmarks())", sub("[.][^.]*$", "", basename(job$mesh)))
+  } else "Give it landmarks: place_landmarks(), find_landmarks()"
+  problem <- if (never) "it has no landmarks, and `found` is FALSE." else
+    sprintf("it has no landmarks, but %s of the batch %s: found landmarks are not mixed with placed ones unasked.",
+            amount(others, "other"), if (others == 1) "has" else "have")
+  if (!is.null(job$wanting)) problem <- job$wanting
+  job$refusal <- tryCatch(refuse_landmarks(problem, paste0(beside, ", or have them found: found = TRUE."), job$id),
+                          crestline_error = identity)
+  job
+}
+
 batch_template <- function(template, scheme) {
-  if (inherits(template, "landmark_template")) return(template)
-  if (!is.null(template)) return(landmark_template(template))
+  if (!is.null(template)) return(check_template(template))
   face <- face_template()
   if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) face
 }
@@ -39,8 +70,12 @@ found_specimen <- function(one, finder) {
 #' The same without the landmarks that are doubted; where most are, an error that names the picture of them
 #' @noRd
 without_doubted <- function(found, finder) {
-  found <- check_placing(found, doubtful = max(find_settings()$wrong, finder$doubtful), picture = finder$picture)
-  unlink(finder$picture)
+  most <- max(find_settings()$wrong, finder$doubtful)
+  found <- tryCatch(check_placing(found, doubtful = most, picture = finder$picture), error = function(e) {
+    if (inherits(e, "crestline_placing_error")) rlang::cnd_signal(e)
+    # The picture could not be written: the refusal matters more.
+    check_placing(found, doubtful = most)
+  })
   doubt <- placing_doubt(found$placing)
   if (doubt$share > finder$doubtful) found$landmarks[doubt$names, ] <- NA
   found

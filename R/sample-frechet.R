@@ -29,10 +29,12 @@
 #' frechet_mean(ball, corners[1:2, ], weights = c(2, 1)) # 30 degrees from the first
 #' @export
 frechet_mean <- function(mesh, points, weights = NULL, rings = 3) {
+  check_given()
+  check_surface(mesh, "mesh")
   mesh <- as_mesh(mesh)
   points <- check_mean_points(points)
   weights <- check_weights(weights, nrow(points))
-  rings <- check_count(rings, "rings")
+  rings <- check_count(rings, "rings", upper = 1000)
   total <- as.vector(geodesic_distances(mesh, surface_points(mesh, points))^2 %*% weights)
   if (!any(is.finite(total))) {
     crestline_abort("the points lie on separate pieces of the mesh.", "Give points that a path on the surface can join.",

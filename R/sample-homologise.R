@@ -18,8 +18,9 @@
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
 #' @param settings [slide_settings()].
-#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them by id, or a function
-#'   that gives the specimen of an id (so that only one at a time is in memory).
+#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
+#'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
+#'   only one at a time is in memory).
 #' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about
 #'   0.01 mm on a face).
 #' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
@@ -30,11 +31,12 @@
 #'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the template), `largest`
 #'     (unit of the mesh), `energy` (mean over specimens of the sum over curves), `slide` (RMS distance that curve
 #'     points have slid);
-#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`.
+#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`;
+#'   * `provenance`: what it came from, see [summary.shape_sample()].
 #'
-#'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
+#'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample]. `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
-#'   not there.
+#'   not there, or has another mesh than the shape was measured on.
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
 #'   `crestline_cut_scale`, when curves were cut off at different shares (`cut_scale`), with the one to measure all by.
 #' @references The paper, section 4; departures: [slide_settings()], and the gauge.
@@ -61,6 +63,9 @@
 #' @export
 homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL, tolerance = 2e-4, rounds = 20,
                        progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  check_specimens(specimens)
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
   warn_cut_scales(shapes, "homologise")
@@ -83,7 +88,12 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     tick()
     finish_slide(shape, cut, plan, specimen_of(shape, specimens))
   }, shapes, cuts)
-  new_sample(slid, found$template, found$convergence)
+  slid <- lapply(slid, function(shape) {
+    shape$specimen <- NULL
+    shape
+  })
+  provenance <- sample_provenance(found$template, plan, list(tolerance = tolerance, rounds = rounds))
+  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
@@ -96,6 +106,7 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
     fail(sprintf("element %d of `shapes` is %s.", wrong[1], describe_value(shapes[[wrong[1]]])),
          "Give shapes only, as fit_shape() returns them: leave out what failed.")
   }
+  for (shape in shapes) check_class(shape, "shape", "shapes", "fit_shape()", call)
   ids <- vapply(shapes, `[[`, "", "id")
   if (anyDuplicated(ids)) {
     fail(sprintf("two shapes have the id \"%s\".", ids[anyDuplicated(ids)]), "Give every specimen an `id` of its own.")
@@ -117,15 +128,28 @@ measured <- function(batch) {
 }
 
 specimens_in_files <- function(x) {
-  if (inherits(x, "shape_batch") && length(unlist(attr(x, "files")))) function(id) x[[id]]$specimen
+  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
+  if (kept) function(id) x[[id]]$specimen
 }
 
 #' @param specimens As in [homologise()].
 #' @noRd
 specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
+  nameless <- is.list(specimens) && is.null(names(specimens))
+  if (nameless && all(vapply(specimens, inherits, NA, "specimen"))) {
+    names(specimens) <- vapply(specimens, `[[`, "", "id")
+  }
   specimen <- if (is.null(specimens)) shape$specimen else
     if (is.function(specimens)) specimens(shape$id) else specimens[[shape$id]]
   kept_specimen(shape, specimen, call)
+}
+
+#' A list of specimens by id, a function of the id, or NULL
+#' @noRd
+check_specimens <- function(specimens, call = rlang::caller_env()) {
+  if (is.null(specimens) || is.function(specimens)) return(invisible())
+  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
+  if (is.null(names(specimens))) refuse_argument("specimens", NULL, "Name each by its id.", call, "a list without names")
 }
 
 has_pairs <- function(scheme) any(scheme$pairs$level != "surface")

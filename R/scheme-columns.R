@@ -14,6 +14,10 @@ column <- function(type, required = FALSE, default = NA, lower = -Inf, upper = I
        choices = choices)
 }
 
+# Most points of a curve, of a side or of a patch, and most rows: far above any scheme (the face: 28
+# a curve, 108 a patch), far below what fills the memory.
+most_points <- 1e5
+
 scheme_columns <- list(
   landmarks = list(
     landmark = column("text", TRUE), name = column("text"), where = column("text"),
@@ -23,7 +27,7 @@ scheme_columns <- list(
     curve = column("text", TRUE), from = column("text", TRUE), to = column("text", TRUE),
     kind = column("choice", TRUE, choices = c("ridge", "valley", "plane")),
     radius = column("number", lower = 0, open = TRUE), width = column("number", lower = 0, open = TRUE),
-    n = column("count", TRUE, lower = 2),
+    n = column("count", TRUE, lower = 2, upper = most_points),
     cut_share = column("number", lower = 0, open = TRUE), cut_from = column("text"), cut_to = column("text"),
     keep_away_from = column("text"), keep_away_to = column("text"),
     keep_away_radius = column("number", lower = 0, open = TRUE), keep_away_extension = column("number", lower = 0),
@@ -33,10 +37,11 @@ scheme_columns <- list(
     angle_limit = column("number", lower = 0, upper = pi / 2), note = column("text")
   ),
   patches = list(
-    patch = column("text", TRUE), block = column("count", lower = 1), n = column("count", TRUE, lower = 1),
-    columns = column("text", TRUE), rows = column("count", TRUE, lower = 1), rows_kept = column("text", TRUE),
-    curve_a = column("text", TRUE), resample_a = column("count", lower = 2),
-    curve_b = column("text"), resample_b = column("count", lower = 2),
+    patch = column("text", TRUE), block = column("count", lower = 1, upper = most_points),
+    n = column("count", TRUE, lower = 1, upper = most_points), columns = column("text", TRUE),
+    rows = column("count", TRUE, lower = 1, upper = most_points), rows_kept = column("text", TRUE),
+    curve_a = column("text", TRUE), resample_a = column("count", lower = 2, upper = most_points),
+    curve_b = column("text"), resample_b = column("count", lower = 2, upper = most_points),
     first_column = column("text"), outward = column("choice", choices = c("columns", "rows")), note = column("text")
   ),
   pairs = list(
@@ -44,7 +49,8 @@ scheme_columns <- list(
     left = column("text", TRUE), right = column("text", TRUE)
   ),
   strips = list(
-    part = column("text", TRUE), strip = column("text", TRUE), rung = column("count", TRUE, lower = 1),
+    part = column("text", TRUE), strip = column("text", TRUE),
+    rung = column("count", TRUE, lower = 1, upper = most_points),
     a = column("text", TRUE), b = column("text", TRUE),
     outward = column("choice", TRUE, choices = c("columns", "rows"))
   ),

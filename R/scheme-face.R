@@ -20,5 +20,7 @@
 #' face_scheme()
 #' @export
 face_scheme <- function() {
-  read_scheme(system.file("extdata", "face_scheme", package = "crestline", mustWork = TRUE), name = "face")
+  once("face scheme", function() {
+    read_scheme(system.file("extdata", "face_scheme", package = "crestline", mustWork = TRUE), name = "face")
+  })
 }

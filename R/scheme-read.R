@@ -3,38 +3,78 @@
 #' Read a scheme from a folder
 #'
 #' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`, `pairs.csv`,
-#'   `strips.csv` and `definitions.csv`: comma-separated, a header line, the columns of [curve_scheme()], empty cells for what is not given.
+#'   `strips.csv` and `definitions.csv`: a header line, commas, semicolons (then with decimal points
+#'   or commas) or tabs between, the columns of [curve_scheme()], empty cells for what is not given.
+#'   A row with more or fewer cells than the header is refused.
 #' @param name Name of the scheme; the folder's unless given.
 #' @return As [curve_scheme()].
 #' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or file that is
 #'   not there or cannot be read.
+#' @section Warnings: of class `crestline_unread_table`, when a file has nearly the name of a table
+#'   that is not there (`pair.csv`).
 #' @examples
 #' face <- read_scheme(system.file("extdata", "face_scheme", package = "crestline"))
 #' head(as.data.frame(face, "curves"))
 #' @export
 read_scheme <- function(dir, name = basename(dir)) {
-  if (!is.character(dir) || length(dir) != 1 || is.na(dir) || !dir.exists(dir)) {
-    crestline_abort(sprintf("there is no folder %s.", describe_value(dir)),
+  check_given()
+  if (!missing(name)) name <- check_text(name, "name")
+  if (!is_path(dir) || !dir.exists(dir)) {
+    crestline_abort(sprintf("`dir`: there is no folder %s.", describe_value(dir)),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = "scheme", class = "crestline_scheme_error", call = NULL)
   }
   tables <- names(scheme_columns)
-  file <- stats::setNames(file.path(dir, paste0(tables, ".csv")), tables)
+  file <- vapply(tables, scheme_file, "", dir)
+  warn_near_tables(dir, file)
   build_scheme(lapply(file, read_scheme_table), name, labels = stats::setNames(basename(file), tables))
+}
+
+#' The file of a table, in any case of its letters
+#' @noRd
+scheme_file <- function(table, dir) {
+  name <- paste0(table, ".csv")
+  found <- list.files(dir)
+  found <- found[tolower(found) == name]
+  if (length(found) > 1) {
+    crestline_abort(sprintf("there are several files of the table %s: %s.", table, shorten(found)),
+                    "Leave one of them.", stage = "scheme", class = "crestline_scheme_error",
+                    call = NULL)
+  }
+  file.path(dir, c(found, name)[1])
+}
+
+#' A warning of files whose names are nearly those of tables that are not there
+#'
+#' @param letters Most letters by which the names differ.
+#' @noRd
+warn_near_tables <- function(dir, file, letters = 2) {
+  other <- setdiff(list.files(dir, "[.]csv$", ignore.case = TRUE), basename(file))
+  absent <- basename(file)[!file.exists(file)]
+  near <- other[rowSums(utils::adist(other, absent, ignore.case = TRUE) <= letters) > 0]
+  if (length(near)) {
+    crestline_warn(sprintf("%s in %s is no table of a scheme, and not read.", shorten(near), dir),
+                   sprintf("The tables are %s.", toString(basename(file))), stage = "scheme",
+                   class = "crestline_unread_table")
+  }
 }
 
 #' @return Data frame of text; `NULL` where there is no such file and none is needed.
 #' @noRd
 read_scheme_table <- function(file) {
-  if (!file.exists(file) && !basename(file) %in% c("landmarks.csv", "curves.csv")) return(NULL)
-  check_file(file, "scheme")
-  tryCatch(
-    utils::read.csv(text = file_lines(file), colClasses = "character", na.strings = "", strip.white = TRUE,
-                    check.names = FALSE),
-    error = function(e) {
-      crestline_abort(sprintf("%s cannot be read: %s.", basename(file), conditionMessage(e)),
-                      "Give a header line and commas between the cells.", stage = "scheme",
-                      class = "crestline_scheme_error", call = NULL)
-    }
-  )
+  if (!file.exists(file) && !tolower(basename(file)) %in% c("landmarks.csv", "curves.csv")) {
+    return(NULL)
+  }
+  check_file(file, "scheme", "dir")
+  check_stored(file, "scheme")
+  refuse <- function(problem, line = NULL) {
+    where <- paste0(basename(file), if (!is.null(line)) sprintf(", line %d", as.integer(line)))
+    crestline_abort(sprintf("%s cannot be read: %s.", where, problem),
+                    "Give a header line and commas between the cells.",
+                    stage = "scheme", class = "crestline_scheme_error", call = NULL)
+  }
+  table <- text_table(file_lines(file), refuse)
+  columns <- scheme_columns[[sub("[.]csv$", "", tolower(basename(file)))]]
+  numeric <- names(Filter(function(column) column$type %in% c("number", "count"), columns))
+  decimal_points(table, intersect(numeric, names(table)), refuse)
 }

@@ -85,6 +85,7 @@
 #' @export
 curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL, name = "scheme",
                          definitions = NULL) {
+  check_given()
   tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs, strips = strips,
                  definitions = definitions)
   build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
@@ -94,7 +95,7 @@ curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
-  scheme <- list(name = check_id(name))
+  scheme <- list(name = check_text(name, "name"))
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]), scheme_columns[[table]])
     rows <- scheme_rows(table, typed$table)
@@ -103,10 +104,49 @@ build_scheme <- function(tables, name, labels) {
     scheme[[table]] <- typed$table
   }
   scheme$curves <- with_defaults(scheme$curves)
-  scheme$points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
-  scheme$triangles <- scheme_triangles(scheme$patches, scheme$strips, scheme$points)
-  structure(scheme, class = "curve_scheme")
+  points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
+  new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
+                   scheme_triangles(scheme$patches, scheme$strips, points))
 }
+
+#' A scheme from its parts: all its fields are declared here
+#'
+#' @param tables List of the six tables, with all their columns.
+#' @param points,triangles As in the value of [curve_scheme()].
+#' @noRd
+new_curve_scheme <- function(name, tables, points, triangles) {
+  structure(c(list(name = name), tables[names(scheme_columns)], list(points = points, triangles = triangles)),
+            class = "curve_scheme")
+}
+
+#' Refuse a scheme whose tables lack columns, or do not fit each other
+#' @noRd
+validate_curve_scheme <- function(x) {
+  if (passed_lately(x, "curve_scheme")) return(invisible(x))
+  refuse <- function(problem) {
+    crestline_abort(problem, "Make it anew: curve_scheme() of its tables, as.data.frame(scheme, table).", stage = "scheme",
+                    class = "crestline_scheme_error", call = NULL)
+  }
+  if (!is.list(x) || !is.character(x$name) || length(x$name) != 1) refuse("the scheme has no name.")
+  derived <- list(points = c("level", "part", "point", "place"), triangles = c("part", "group", "v1", "v2", "v3"))
+  wanted <- c(lapply(scheme_columns[setdiff(names(scheme_columns), "definitions")], names), derived)
+  for (table in names(wanted)) {
+    lacking <- if (is.data.frame(x[[table]])) setdiff(wanted[[table]], names(x[[table]])) else "all its columns"
+    if (length(lacking)) refuse(sprintf("the scheme's table %s lacks %s.", table, shorten(lacking)))
+  }
+  count <- c(landmarks = nrow(x$landmarks), curves = sum(x$curves$n), surface = sum(x$patches$n))
+  if (!identical(as.vector(table(factor(x$points$level, names(count)))), as.integer(count))) {
+    refuse("the scheme's `points` are not those of its landmarks, curves and patches.")
+  }
+  corner <- unlist(x$triangles[c("v1", "v2", "v3")])
+  if (anyNA(corner) || any(corner < 1 | corner > count[["surface"]])) {
+    refuse("the scheme's `triangles` name points that it does not have.")
+  }
+  remember_passed(x, "curve_scheme")
+}
+
+#' @exportS3Method
+validate.curve_scheme <- function(x) validate_curve_scheme(x)
 
 scheme_problems <- function(which, table, scheme) {
   check <- switch(which, landmarks = check_scheme_landmarks, curves = check_scheme_curves,
@@ -156,12 +196,14 @@ with_defaults <- function(curves) {
 #' @param ... Ignored.
 #' @export
 as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, table = "curves", ...) {
+  check_method_dots(..., known = "table")
   if (is.character(row.names)) table <- row.names
   x[[check_choice(table, c(names(scheme_columns), "points", "triangles"), "table")]]
 }
 
 #' @export
 print.curve_scheme <- function(x, ...) {
+  check_method_dots(...)
   line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
   curves <- x$curves
   kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))

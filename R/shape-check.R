@@ -11,7 +11,7 @@
 #'   from the specimen's normals at its corners; "doubled"; "crossing"), `group` (the patch or strip of the triangle, as in the
 #'   scheme's `triangles`), `v1`, `v2`, `v3` (rows of the surface points), and for crossings `other` (group of the
 #'   triangle that it passes through).
-#' @section Errors: as [shape_mesh()].
+#' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another mesh.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -21,7 +21,11 @@
 #' }
 #' @export
 surface_faults <- function(x, specimen, parts = "model") {
+  check_given()
+  check_class(x, "shape", "x", "fit_shape()")
+  parts <- check_names(parts, "parts")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  check_shape_on(x, specimen)
   row <- attr(shape_mesh(x, parts), "row")
   at <- x$points[x$points$level == "surface", ]
   triangles <- x$scheme$triangles[x$scheme$triangles$part %in% parts, ]

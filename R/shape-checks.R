@@ -115,8 +115,7 @@ face_centres <- function(mesh) Reduce(`+`, face_corners(mesh)) / 3
 #' The vertices of the mesh's borders, and of edges that act as such: n x 3
 #' @noRd
 border_places <- function(surface) {
-  side <- which(surface$twin == 0)
-  t(surface$vb[1:3, unique(c(surface$it[side], surface$it[next_side(side)])), drop = FALSE])
+  t(surface$vb[1:3, border_vertices(surface$it, surface$twin), drop = FALSE])
 }
 
 #' Distance of every part to the `count`-th nearest of some places of damage; Inf where there are fewer

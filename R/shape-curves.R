@@ -113,7 +113,7 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
     ridge_curve(specimen, row$from, row$to, "plane", n = row$n)
   } else if (row$kind == "plane") {
     path <- limited_reference(row, specimen, NULL, NULL, settings)
-    new_curve(specimen, path, path, row$n, about_curve(row, specimen, settings, passes))
+    assembled_curve(specimen, path, path, row$n, about_curve(row, specimen, settings, passes))
   } else {
     fit_curved(row, specimen, sources[[as.character(row$radius)]], fits, settings, passes)
   }
@@ -143,7 +143,7 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
   about <- about_curve(row, specimen, settings, passes)
   path <- trusted_path(c(row$trust_from, row$trust_to), specimen, path)
   fit <- fit_passes(specimen, path, curvature, away, about)
-  new_curve(specimen, fit$path, fit$reference, row$n, about, fit)
+  assembled_curve(specimen, fit$path, fit$reference, row$n, about, fit)
 }
 
 #' The regions of a row, NULL where it has none

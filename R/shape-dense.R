@@ -187,6 +187,14 @@ arc_lengths_on <- function(path, xyz, tolerance) {
   s
 }
 
+#' Row by row: the share of the way along a segment at which it is closest to a point
+#' @noRd
+closest_on_segments <- function(p, a, b) {
+  along <- row_products(p - a, b - a) / row_products(b - a, b - a)
+  along[!is.finite(along)] <- 0
+  pmin(pmax(along, 0), 1)
+}
+
 #' The points inside quads, on cuts between those opposite sides that are bowed more
 #' @return `points`, filled.
 #' @noRd
@@ -229,7 +237,8 @@ side_bow <- function(side, points, normal) {
   bow <- numeric(nrow(side))
   for (k in seq_len(last)[-c(1, last)]) {
     share <- (k - 1) / (last - 1)
-    gap <- xyz[side[, k], ] - (1 - share) * xyz[side[, 1], ] - share * xyz[side[, last], ]
+    at <- function(j) xyz[side[, j], , drop = FALSE]
+    gap <- at(k) - (1 - share) * at(1) - share * at(last)
     bow <- pmax(bow, row_lengths(gap - row_products(gap, normal) * normal), na.rm = TRUE)
   }
   bow

@@ -63,6 +63,9 @@
 #'     given) and `exchanged` (what other landmark it looks exchanged with, text);
 #'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
+#'   * `provenance`: what it came from, see [summary.shape()];
+#'   * `key`: of the specimen's mesh, see [specimen()]; what takes a shape and a specimen refuses another mesh, and one whose
+#'     vertices or triangles stand in another order, by name (an error of class `crestline_wrong_mesh`);
 #'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
 #'     shape small).
 #'
@@ -82,7 +85,9 @@
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
 #'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
 #' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left
-#'   and right of all pairs). [quality()] grades them, and the curves that end there, red.
+#'   and right of all pairs). [quality()] grades them, and the curves that end there, red. Of class
+#'   `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one of another name that may
+#'   be meant (`prn` for `pn`, `CHL` for `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -97,10 +102,17 @@
 fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  passes <- check_count(passes, "passes", upper = 1000)
+  threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  named <- scheme
+  if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme, unit)
+  warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
@@ -110,24 +122,33 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   specimen <- bridge_holes(scan, column$bridge)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
+  given <- given_fits(specimen, scan, scheme, curves, column)
   slips <- scheme_slips(scan, scheme)
-  given <- given_fits(specimen, scheme, curves, column)
-  fits <- fit_scheme_curves(specimen, scan, scheme, settings, check_count(passes, "passes"), threads, cut_scale, given, tick)
+  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
                      shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
-                     paths = lapply(fits, function(fit) unbridged_path(fit$path, scan$mesh)),
-                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan)
+                     paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
+                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan,
+                     provenance = shape_provenance(scan, named, unit, measured_with(settings, passes, cut_scale, column, curves)))
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults), landmark_checks(shape, scan$placing, slips))
   shape
 }
 
+#' The arguments that a shape was measured with, for its provenance
+#' @noRd
+measured_with <- function(settings, passes, cut_scale, column, curves) {
+  list(ridge = lapply(unclass(settings), identity),
+       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
+                  column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
+}
+
 check_column <- function(column_angle, column_angles, column_reach) {
   list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-       angles = check_count(column_angles, "column_angles"),
+       angles = check_count(column_angles, "column_angles", upper = 10000),
        reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 
@@ -149,6 +170,8 @@ fit_scheme_landmarks <- function(specimen, scheme) {
     if (is.character(found)) found <- c(left_out_reason(specimen, name), found)[1]
     if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else reason[name] <- found
   }
+  near <- attr(unused_names(specimen$landmarks, scheme), "near")
+  reason[near] <- sprintf("%s; near: %s", reason[near], names(near))
   list(points = points, reason = reason)
 }
 

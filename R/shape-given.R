@@ -2,11 +2,15 @@
 
 #' Fits of the curves that are given
 #'
+#' @param specimen The specimen with its holes bridged, `scan` as it is.
 #' @param curves As in [fit_shape()].
 #' @param column As of [fit_scheme_patches()].
 #' @return Named list of the given curves, each as of [fit_scheme_curves()].
 #' @noRd
-given_fits <- function(specimen, scheme, curves, column) {
+given_fits <- function(specimen, scan, scheme, curves, column) {
+  for (name in names(curves)) {
+    if (inherits(curves[[name]], "curve")) check_curve_on(curves[[name]], scan, sprintf("`curves`: %s", name))
+  }
   curves <- as_curves(curves)
   unknown <- unknown_names(names(curves), scheme$curves$curve, "curve", "curve")
   if (nrow(unknown)) {
@@ -90,7 +94,7 @@ join_knots <- function(knots, specimen, surface, column) {
   s <- c(0, cumsum(length))
   s[seq_len(first - 1)] <- NA
   rows <- lapply(Filter(Negate(is.null), pieces), function(piece) as.data.frame(piece)[mesh_columns])
-  list(path = if (length(rows)) path_through(do.call(rbind, rows)), first = first, s = s, problem = problem)
+  list(path = if (length(rows)) path_through(do.call(rbind, rows), surface), first = first, s = s, problem = problem)
 }
 
 #' A cut from one knot to the next, NULL where they are one place

@@ -18,7 +18,7 @@
 #'   triangles with a missing point are left out. Attribute `points`: data frame `column`, `row`, `x`, `y`, `z`, `face`,
 #'   `w1`, `w2`, `w3` of all points on the specimen's mesh (NA where a column is missing; these have no vertex).
 #' @section Errors: of class `crestline_error`, when there is no such patch or block, it is a single row of points, a
-#'   bounding curve is missing, or no column is left.
+#'   bounding curve is missing, or no column is left; of class `crestline_wrong_mesh`, for a specimen with another mesh.
 #' @seealso [shape_mesh()]
 #' @examples
 #' \donttest{
@@ -32,12 +32,16 @@
 #' @export
 patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = NULL, column_angle = pi / 4,
                        column_angles = 51, column_reach = 1) {
+  check_given()
+  patch <- check_text(patch, "patch")
+  if (!is.null(block) && !is.atomic(block)) refuse_argument("block", block, "Give a block's name.", rlang::current_env())
   check_class(x, "shape", "x", "fit_shape()")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  check_shape_on(x, specimen)
   block <- block_of(x, patch, block)
   own <- if (is.na(block$resample_a)) nrow(side_points(block$curve_a)) else block$resample_a
-  columns <- check_count(if (is.null(columns)) own else columns, "columns", 2)
-  rows <- check_count(if (is.null(rows)) block$rows else rows, "rows", 2)
+  columns <- check_count(if (is.null(columns)) own else columns, "columns", 2, upper = 10000)
+  rows <- check_count(if (is.null(rows)) block$rows else rows, "rows", 2, upper = 10000)
   points <- block_grid(x, specimen, block, columns, rows, check_column(column_angle, column_angles, column_reach))
   place <- ifelse(is.na(points$x), NA, paste(points$x, points$y, points$z))
   vertex <- match(place, unique(place[!is.na(place)]))

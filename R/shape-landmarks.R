@@ -5,11 +5,13 @@
 check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::caller_env()) {
   wanted <- scheme$landmarks$landmark
   if (!any(wanted %in% rownames(specimen$landmarks))) {
+    near <- attr(unused_names(specimen$landmarks, scheme), "near")
     crestline_abort(
-      sprintf("it has none of the landmarks of the scheme %s (%s), but %s.", scheme$name, shorten(wanted),
-              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all"),
-      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().",
-      stage = "landmarks", id = specimen$id, class = "crestline_landmark_error", call = call
+      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name, shorten(wanted),
+              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
+              if (length(near)) paste("; near:", shorten(near)) else ""),
+      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
+      id = specimen$id, class = "crestline_landmark_error", call = call
     )
   }
   check_scale(specimen, scheme, unit, call)

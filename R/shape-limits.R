@@ -81,6 +81,7 @@ check_limit <- function(x, name, falling, call = rlang::caller_env()) {
 
 #' @export
 print.quality_limits <- function(x, ...) {
+  check_method_dots(...)
   cat("Quality limits: amber, red\n")
   pairs <- x[lengths(x) == 2]
   side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")

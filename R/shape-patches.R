@@ -133,7 +133,7 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
       pieces <- c(pieces, list(part_of_path(specimen$mesh, fit$path, s[1], s[2])))
     }
   }
-  path_through(do.call(rbind, lapply(pieces, columns_of)))
+  path_through(do.call(rbind, lapply(pieces, columns_of)), surface)
 }
 
 #' Direction out of a patch at one of its columns, by the order of its corners

@@ -32,9 +32,11 @@
 #'   * `grade`: ordered factor green < amber < red;
 #'   * `why`: text, NA where there is nothing to say.
 #'
-#'   A specimen that could not be measured is one row with level "specimen", red. `print()` gives the counts and the
-#'   worst parts, `summary()` a data frame with a row for each specimen: `specimen`, and the number of parts that are
-#'   `green`, `amber`, `red`.
+#'   A specimen that could not be measured is one row with level "specimen", red; one that was warned of while it was
+#'   measured (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the
+#'   worst parts, and the specimens whose landmarks were found and not placed by hand; `summary()` a data frame with a row for each
+#'   specimen: `specimen`, the number of parts that are `green`, `amber`, `red`, and `landmarks` ("found" or "placed"; NA
+#'   where it could not be measured).
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
 #' @seealso [quality_report()] for a page with pictures.
 #' @examples
@@ -48,18 +50,25 @@
 #' }
 #' @export
 quality <- function(x, limits = quality_limits(), others = NULL) {
+  check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   shapes <- named_shapes(x)
   measured <- Filter(Negate(is.null), shapes)
   parts <- Map(part_measures, measured, names(measured))
   scores <- sample_scores(measured, if (!is.null(others)) named_shapes(others, "others"), limits)
   parts <- Map(function(part, name) grade_parts(part, scores[name, ], limits, measured[[name]]$scheme), parts, names(parts))
+  noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
   lost <- lapply(setdiff(names(shapes), names(measured)), lost_specimen)
-  table <- do.call(rbind, c(unname(parts), lost))
+  table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
   rownames(table) <- NULL
-  structure(table, class = c("shape_quality", "data.frame"))
+  found <- vapply(measured, has_found, NA)
+  structure(table, found = names(measured)[found], class = c("shape_quality", "data.frame"))
 }
+
+#' Whether landmarks of a shape were found by [find_landmarks()], and not all corrected by hand since
+#' @noRd
+has_found <- function(shape) any(shape$placing$state == "found")
 
 #' A list of shapes by name of specimen; every name once
 #' @noRd
@@ -124,11 +133,19 @@ sample_scores <- function(shapes, others, limits) {
 
 #' A specimen that is not there
 #' @noRd
-lost_specimen <- function(name) {
+lost_specimen <- function(name) specimen_row(name, "red", "it was not measured")
+
+#' What a specimen was warned of while it was measured; NULL where it was not
+#' @noRd
+noted_specimen <- function(name, warnings) {
+  if (NROW(warnings)) specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
+}
+
+specimen_row <- function(name, grade, why) {
   empty <- stats::setNames(as.list(rep(NA_real_, length(quality_columns))), quality_columns)
-  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen", why = "it was not measured")
+  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen", why = why)
   empty[names(said)] <- said
-  empty$grade <- factor("red", grades, ordered = TRUE)
+  empty$grade <- factor(grade, grades, ordered = TRUE)
   empty$faults <- NA_integer_
   as.data.frame(empty)
 }
@@ -138,30 +155,51 @@ quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", 
                      "why")
 
 #' @export
-as.data.frame.shape_quality <- function(x, ...) structure(x, class = "data.frame")
+as.data.frame.shape_quality <- function(x, ...) {
+  check_method_dots(...)
+  structure(x, class = "data.frame")
+}
 
 #' @export
 summary.shape_quality <- function(object, ...) {
+  check_method_dots(...)
   specimen <- factor(object$specimen, unique(object$specimen))
   counts <- table(specimen, object$grade)
-  data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]), amber = as.vector(counts[, "amber"]),
-             red = as.vector(counts[, "red"]))
+  counted <- data.frame(specimen = levels(specimen), green = as.vector(counts[, "green"]),
+                        amber = as.vector(counts[, "amber"]), red = as.vector(counts[, "red"]))
+  found <- attr(object, "found")
+  if (!is.null(found)) counted$landmarks <- landmarks_came(counted$specimen, object)
+  counted
+}
+
+#' How the landmarks of specimens came: "found", "placed", NA where they were not measured
+#' @noRd
+landmarks_came <- function(specimens, table) {
+  lost <- table$specimen[table$level == "specimen" & table$grade == "red"]
+  ifelse(specimens %in% attr(table, "found"), "found", ifelse(specimens %in% lost, NA, "placed"))
 }
 
 #' @export
 print.shape_quality <- function(x, most = 10, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
   counts <- summary(x)
   counts <- counts[order(-counts$red, -counts$amber), ]
   cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
       paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
+  found <- attr(x, "found")
+  if (length(found)) {
+    cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s", amount(length(found), "specimen"),
+                        shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
+  }
   if (nrow(counts) > 1) {
     shown <- utils::head(counts, most)
     cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
     if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
   }
   worst <- x[x$grade > "green", ]
-  worst <- worst[order(-as.integer(worst$grade)), ]
+  worst <- worst[order(worst$level != "specimen", -as.integer(worst$grade)), ]
   for (i in utils::head(seq_len(nrow(worst)), most)) {
     of <- if (nrow(counts) > 1) paste0(" of ", worst$specimen[i])
     line <- paste0("- ", worst$grade[i], ": ", worst$part[i], of, ": ", worst$why[i])

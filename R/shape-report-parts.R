@@ -142,5 +142,5 @@ report_data <- function(table, digits = 3) {
   shown <- lapply(as.list(table)[columns], function(x) if (is.numeric(x)) signif(x, digits) else as.character(x))
   shown <- lapply(shown, function(x) if (is.numeric(x)) ifelse(is.finite(x), x, NA) else x)
   json <- jsonlite::toJSON(shown, na = "null", digits = NA)
-  htmltools::tags$script(id = "data", type = "application/json", htmltools::HTML(gsub("</", "<\\/", json, fixed = TRUE)))
+  htmltools::tags$script(id = "data", type = "application/json", htmltools::HTML(script_json(json)))
 }

@@ -29,6 +29,9 @@
 #' @export
 quality_report <- function(x, file, specimens = NULL, limits = quality_limits(), others = NULL,
                            title = "Quality of measured specimens", pictures = 12, size = c(1500, 640)) {
+  check_given()
+  title <- check_text(title, "title")
+  size <- check_size(size)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
   pictures <- check_count(pictures, "pictures", lower = 0)
@@ -46,7 +49,8 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
   tags <- htmltools::tags
   page <- tags$body(
     tags$header(tags$h1(title), report_sum(table, counts)), report_overview(counts), report_matrix(counts),
-    report_figures(figures), report_parts(table), report_limits(limits), report_data(table),
+    report_figures(figures), report_parts(table), report_limits(limits),
+    provenance_block(shapes_provenance(shapes)), report_data(table),
     tags$script(htmltools::HTML(report_text("quality.js")))
   )
   write_report(page, title, file)
@@ -57,8 +61,7 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
 #' @noRd
 specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
   if (is.null(specimens)) return(list())
-  if (inherits(specimens, "specimen")) specimens <- list(specimens)
-  for (specimen in specimens) check_class(specimen, "specimen", "specimens", "specimen() or read_specimen()", call)
+  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
   id <- vapply(specimens, `[[`, "", "id")
   own <- vapply(shapes, function(shape) if (is.null(shape)) NA_character_ else shape$id, "")
   strange <- setdiff(id, own)
@@ -67,7 +70,9 @@ specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
                     "Give the specimens that the shapes were measured on; they are told by `id`.",
                     stage = "page", call = call)
   }
-  stats::setNames(specimens[match(own, id)], names(shapes))
+  found <- stats::setNames(specimens[match(own, id)], names(shapes))
+  for (name in names(shapes)) if (!is.null(found[[name]])) check_shape_on(shapes[[name]], found[[name]])
+  found
 }
 
 #' A shape's pictures as the text of a data address; NULL where there is nothing to draw
@@ -94,5 +99,5 @@ write_report <- function(page, title, file) {
     "<meta name=\"viewport\" content=\"width=device-width\">", as.character(htmltools::tags$title(title)),
     "<style>", report_text("quality.css"), "</style>", "</head>", as.character(page), "</html>"
   )
-  writeLines(enc2utf8(lines), file, useBytes = TRUE)
+  write_html(lines, file)
 }

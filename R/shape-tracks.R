@@ -13,10 +13,31 @@ curve_tracks <- function(fits, scheme, faces) {
   cut <- !is.na(scheme$curves$cut_share[match(names(found), scheme$curves$curve)])
   Map(function(fit, cut) {
     path <- if (is.null(fit$track)) fit$path else fit$track$path
-    path <- structure(as.data.frame(path)[c("s", mesh_columns)], length = attr(path, "length"),
-                      class = c("mesh_path", "data.frame"))
+    path <- new_mesh_path(unclass(path)[c("s", mesh_columns)], attr(path, "length"), attr(path, "key"), attr(path, "id"))
     s <- ifelse(is.na(fit$points$x), NA, fit$points$s + if (is.null(fit$track)) 0 else fit$track$start)
     list(path = path, s = s, kept = if (is.null(fit$track)) fit$length else fit$track$kept, cut = cut,
          off = which(path$face > faces))
   }, found, cut)
+}
+
+#' Refuse tracks that do not lie on the mesh of a shape, or whose points do not lie on them
+#'
+#' @param bridged The shape's specimen with its holes bridged.
+#' @noRd
+check_tracks <- function(shape, bridged) {
+  known <- passed_mesh(bridged$mesh, bridged$id)
+  for (name in names(shape$tracks)) {
+    track <- shape$tracks[[name]]
+    said <- sprintf("the track of %s", name)
+    check_class(track$path, "mesh_path", said, "fit_shape()")
+    check_places(track$path, known, said, shape$id)
+    s <- track$s[!is.na(track$s)]
+    right <- is.numeric(track$s) && length(track$s) == sum(shape$points$level == "curves" & shape$points$part == name) &&
+      !is.unsorted(s) && all(abs(s / attr(track$path, "length") - 0.5) <= 0.5 + 1e-9)
+    if (!right) {
+      crestline_abort(sprintf("%s has points that are not on it, in order.", said),
+                      "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape", id = shape$id,
+                      class = "crestline_wrong_mesh", call = NULL)
+    }
+  }
 }

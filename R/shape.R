@@ -11,7 +11,7 @@
 #' @param sliding,trace Of [slide()].
 #' @noRd
 new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL, column = NULL,
-                      specimen = NULL, key = specimen$key, placing = specimen$placing, warnings = no_warnings(),
+                      specimen = NULL, key = if (!is.null(specimen)) specimen_key(specimen), placing = specimen$placing, warnings = no_warnings(),
                       provenance = list(), sliding = NULL, trace = NULL) {
   structure(
     list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme, tracks = tracks,
@@ -19,6 +19,55 @@ new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(),
          sliding = sliding, trace = trace),
     class = "shape"
   )
+}
+
+#' Refuse a shape that lacks fields, or whose points are not those of its scheme
+#' @noRd
+validate_shape <- function(x) {
+  refuse <- function(problem) {
+    crestline_abort(problem, "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape",
+                    id = if (is.list(x) && is.character(x$id) && length(x$id) == 1) x$id, call = NULL)
+  }
+  fields <- c("id", "points", "status", "paths", "scheme")
+  if (!is.list(x) || !all(fields %in% names(x))) refuse(sprintf("a shape has the fields %s.", shorten(fields)))
+  if (!inherits(x$scheme, "curve_scheme")) refuse("the shape's `scheme` is none.")
+  validate(x$scheme)
+  points <- x$points
+  named <- c("level", "part", "point")
+  own <- is.data.frame(points) && !is.null(place_columns(points)) && is_error(points$se) &&
+    all(vapply(named, function(name) identical(as.vector(points[[name]]), as.vector(x$scheme$points[[name]])), NA))
+  if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
+  if (!is.list(x$paths) || !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
+  invisible(x)
+}
+
+#' @exportS3Method
+validate.shape <- function(x) validate_shape(x)
+
+#' Key of the mesh of a shape; of one that an older version kept worked out from its specimen, where it has that
+#' @noRd
+shape_key <- function(x) {
+  if (!is.null(x$key)) return(x$key)
+  if (inherits(x$specimen, "specimen")) specimen_key(x$specimen)
+}
+
+#' Refuse a shape that was not measured on a specimen's mesh, or that was changed since
+#'
+#' @noRd
+check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
+  if (is.null(shape_key(shape)) && all(is.na(shape$points$face))) {
+    crestline_abort("its points lie on no mesh.", "Give a shape that fit_shape() measured, not a template or a mean.",
+                    stage = "shape", id = shape$id, class = "crestline_wrong_mesh", call = call)
+  }
+  name <- paste("the shape", shape$id)
+  check_same_mesh(shape, specimen, name)
+  known <- passed_mesh(specimen$mesh, specimen$id)
+  check_places(shape$points, known, name, specimen$id)
+  for (path in Filter(Negate(is.null), shape$paths)) {
+    validate(path)
+    check_places(path, known, name, specimen$id)
+  }
+  invisible(shape)
 }
 
 #' Co-ordinates of a shape
@@ -39,11 +88,16 @@ new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(),
 #' coords(shape, "landmarks")
 #' head(coords(shape, "curves"), 3)
 #' @export
-coords <- function(x, level, ...) UseMethod("coords")
+coords <- function(x, level, ...) {
+  check_given()
+  check_class(x, "shape", "x", "fit_shape()")
+  UseMethod("coords")
+}
 
 #' @rdname coords
 #' @export
 coords.shape <- function(x, level, ...) {
+  check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   points <- x$points[x$points$level == level, ]
   names <- if (level == "landmarks") points$part else paste(points$part, points$point)
@@ -86,9 +140,14 @@ coords.shape <- function(x, level, ...) {
 #' @export
 shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_angle = pi / 4, column_angles = 51,
                        column_reach = 1) {
+  check_given()
+  parts <- check_names(parts, "parts")
   check_class(x, "shape", "x", "fit_shape()")
-  dense <- check_count(dense, "dense")
+  dense <- check_count(dense, "dense", upper = 1000)
+  column <- check_column(column_angle, column_angles, column_reach)
+  if (!is.null(specimen)) check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   triangles <- whole_triangles(x, parts)
+  check_memory(3 * nrow(triangles) * as.numeric(dense)^2 * 10, dense, "dense")
   corners <- as.matrix(triangles[c("v1", "v2", "v3")])
   if (dense == 1) {
     row <- sort(unique(as.vector(corners)))
@@ -96,8 +155,9 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
     return(surface_mesh(points, row, matrix(match(t(corners), row), 3), triangles$group))
   }
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen(): a denser surface needs it")
+  check_shape_on(x, specimen)
   quads <- whole_quads(x, parts)
-  divided <- divide_quads(x, specimen, quads, dense, check_column(column_angle, column_angles, column_reach))
+  divided <- divide_quads(x, specimen, quads, dense, column)
   there <- !is.na(divided$points$x)
   whole <- colSums(matrix(there[divided$it], 3)) == 3
   if (!all(whole)) warn_left_out(sum(!whole), length(whole), x$id)
@@ -110,7 +170,7 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
 #' @noRd
 whole_triangles <- function(x, parts) {
   triangles <- x$scheme$triangles
-  for (part in parts) check_choice(part, unique(c("model", triangles$part)), "parts")
+  check_choices(parts, unique(c("model", triangles$part)), "parts")
   there <- !is.na(coords(x, "surface")[, 1])
   triangles <- triangles[triangles$part %in% parts, ]
   triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
@@ -146,10 +206,15 @@ warn_left_out <- function(n, of, id) {
 }
 
 #' @export
-as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) x$points
+as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$points
+}
 
 #' @export
 print.shape <- function(x, most = 8, ...) {
+  check_method_dots(..., known = "most")
+  check_most(most)
   cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
   for (level in c("landmarks", "curves", "surface")) {
     points <- x$points[x$points$level == level, ]
@@ -165,5 +230,8 @@ print.shape <- function(x, most = 8, ...) {
     cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
   }
   if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
+  unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
+  if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
+  if (length(unused)) cat(unused, sep = "\n")
   invisible(x)
 }

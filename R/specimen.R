@@ -29,7 +29,22 @@
 #'     colour a vertex, where there is natural colour);
 #'   * `landmarks` (k x 3 matrix with row names, exactly on the surface; perhaps no row);
 #'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing was found);
+#'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out: `values[!is.na(vertices)]`
+#'     belong to `vertices[!is.na(vertices)]`);
+#'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`, `file`, `time`: how each
+#'     landmark came, see [summary.specimen()]);
+#'   * `key` (hash of the vertices and triangles, in their order): what is measured on the mesh carries it, and is refused with
+#'     any other (errors of class `crestline_wrong_mesh`);
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
+#'
+#'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
+#' @section Warnings: Of class `crestline_warning`, and each of a class of its own: triangles that were
+#'   made from points (`crestline_triangulated`); more than 1 % of the triangles left out
+#'   (`crestline_triangles_dropped`); vertices 50 times as far from the middle as half of the others, left
+#'   out (`crestline_far_vertices`); triangles that touch no other (`crestline_loose_triangles`); borders
+#'   that lie beside one another (`crestline_seam`); a surface that is there twice, one skin a hair from the
+#'   other (`crestline_double_skin`). Corners within 1e-6 of the size are joined, without a warning: both
+#'   sides of a seam, single triangles, vertices on the edge of another triangle.
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
 #'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
 #'   the surface, in another unit.
@@ -41,15 +56,19 @@
 #' @export
 specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01, debris = 0.001,
                      midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn")) {
+  check_given()
+  midline <- check_names(midline, "midline", null = TRUE)
   id <- check_id(id)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   landmarks <- as_landmarks(landmarks, id)
   door <- check_mesh(mesh, id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
   new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
+               origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
                                landmarks = placed$landmarks, located = placed$located, size = placed$size,
-                               slips = placed$slips))
+                               slips = placed$slips),
+               vertices = door$vertices)
 }
 
 #' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled
@@ -79,16 +98,17 @@ no_warnings <- function() {
   data.frame(stage = character(), class = character(), problem = character(), remedy = character())
 }
 
-check_id <- function(id) {
+check_id <- function(id, name = "id", call = NULL) {
   if (is.null(id)) return("unnamed")
-  if (!is.atomic(id) || length(id) != 1 || is.na(id)) {
-    crestline_abort(sprintf("`id` is %s.", describe_value(id)), "Give one string.", stage = "arguments", call = NULL)
+  if (!is.atomic(id) || length(id) != 1 || is.na(id) || !nzchar(as.character(id))) {
+    refuse_argument(name, id, "Give one string.", call)
   }
   as.character(id)
 }
 
 #' @export
 print.specimen <- function(x, ...) {
+  check_method_dots(...)
   count <- function(n, what) paste0(format(n, big.mark = ","), " ", what)
   cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "), count(ncol(x$mesh$it), "triangles"),
       if (!is.null(x$mesh$material$color)) ", natural colour", "\n", sep = "")

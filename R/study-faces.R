@@ -56,6 +56,9 @@
 simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, template = NULL,
                            groups = c("female", "male"), variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
                            size_sd = 0.03, waves = 200, scan = scan_settings(), seed = NULL, progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  seed <- check_seed(seed)
   n <- check_count(n, "n")
   if (is.null(places)) places <- if (is.null(template)) face_effect() else no_places()
   if (is.null(template)) template <- humface_specimen()
@@ -159,6 +162,7 @@ check_groups <- function(groups, call = rlang::caller_env()) {
 
 #' @export
 print.simulated_faces <- function(x, ...) {
+  check_method_dots(...)
   count <- table(x$covariates$group)
   cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "), ", from the template ",
       x$template$id, "\n", sep = "")
@@ -176,4 +180,7 @@ print.simulated_faces <- function(x, ...) {
 }
 
 #' @export
-as.data.frame.simulated_faces <- function(x, row.names = NULL, optional = FALSE, ...) x$covariates
+as.data.frame.simulated_faces <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$covariates
+}

@@ -38,9 +38,11 @@
 #' @export
 simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter = 0, correlation = 0,
                            landmark_error = 0, end = 0.95) {
+  check_given()
+  seed <- check_seed(seed)
   check_number(a, "a")
   check_number(b, "b", lower = 0, open = TRUE)
-  check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE)
+  check_spacing(spacing)
   check_number(noise, "noise", lower = 0)
   check_number(jitter, "jitter", lower = 0, upper = 0.45)
   check_number(correlation, "correlation", lower = 0)
@@ -52,6 +54,14 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
 
 #' The surface without its locus of greatest curvature, which takes as long as the surface
 #' @noRd
+#' Between 1e-3, four million vertices, and a quarter of the side
+#' @noRd
+check_spacing <- function(spacing, call = rlang::caller_env()) {
+  spacing <- check_number(spacing, "spacing", lower = 1e-3, upper = 0.5, call = call)
+  if (spacing == 0.5) check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE, call = call)
+  spacing
+}
+
 simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, landmark_error, end) {
   ridge <- function(y) cbind(x = a * y^3, y = y, z = 0)
   with_seed(seed, {

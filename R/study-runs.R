@@ -9,7 +9,7 @@
 #' first to the true line and from the second to the curve, seen along z, since the noise moves points up and down only.
 #' There are two truths, the crest in height and the locus of greatest curvature, see [simulate_ridge()].
 #'
-#' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future.apply and progressr are there.
+#' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future and progressr are there.
 #' Surfaces depend on their seeds alone, so that results do not depend on the number of workers, and all methods see
 #' the same surfaces. With `dir` a run that was cut short goes on where it was.
 #'
@@ -22,9 +22,13 @@
 #' @param width As in [ridge_curve()], in the unit of the surface.
 #' @param points Number of points at which each curve is compared; the paper: 21.
 #' @param dir Folder for the results of a long run, made where it is not there. What is in it already is not run again if
-#'   it was made with the same arguments and the same version of the package. `NULL`: nothing is kept.
+#'   it was made with the same arguments and the same version of the package. Two functions are the same if their text is, and
+#'   all that they use from the environments that they were made in, or from your workspace. A file that is damaged or cut short
+#'   is run again. `NULL`: nothing is kept.
 #' @param block Surfaces that a worker takes, and writes to `dir`, at a time.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
+#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2: finer grids, and studies of more
+#'   curves than this, are refused before any work.
 #' @param ... Further arguments of [simulate_ridge()]: `jitter`, `end`.
 #' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`,
 #'   `passes`; `seed`; `method`: the name in `settings`; `distance`: mean distance between estimate and crest, **in spacings**;
@@ -32,7 +36,8 @@
 #'   `se`: median standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points that lie
 #'   within two of their standard errors of crest and locus; `determined`, `converged` (logical); `seconds` of processor time;
 #'   `error`: the message where the estimate failed. What a method has not is `NA`.
-#' @section Errors: only for arguments out of their range; a failed estimate is a row with `error`.
+#' @section Errors: only for arguments out of their range, before any work; a failed estimate is a row with `error`.
+#' @section Warnings: of class `crestline_keeping_warning`, where results could not be written to `dir`.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
 #' @examples
 #' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
@@ -45,42 +50,82 @@
 ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5), b = c(0.25, 0.5, 1, 2),
                         noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25, width = 0.4,
                         spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
-                        progress = interactive(), ...) {
+                        progress = interactive(), largest = 2e6, ...) {
   methods <- study_methods(settings)
   check_count(n, "n")
+  check_number(points, "points", 3, 1e5)
   check_count(points, "points", lower = 3)
   check_count(block, "block")
-  cells <- expand.grid(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
-                       landmark_error = landmark_error, noise = noise, b = b, a = a)[8:1]
-  constant <- utils::modifyList(list(width = width, points = points, jitter = 0, end = 0.95), list(...))
+  grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
+                                landmark_error = landmark_error, noise = noise, b = b, a = a), largest)
+  constant <- study_constant(width, points, list(...))
+  check_study_size(n * prod(lengths(grid)) * length(methods), largest)
+  cells <- do.call(expand.grid, grid)[8:1]
   tasks <- study_tasks(cells, n, block, methods, constant, dir)
-  run <- function() apply_tasks(tasks, function(task) study_block(task, methods, constant))
-  bind_blocks(if (progress && runs_parallel()) progressr::with_progress(run()) else run())
+  run <- function() apply_tasks(tasks, list(methods = methods, constant = constant))
+  blocks <- if (isTRUE(progress) && runs_parallel()) progressr::with_progress(run()) else run()
+  blocks[] <- Map(function(block, task) if (inherits(block, "lost_task")) lost_block(task, methods, block) else block,
+                  blocks, tasks)
+  warn_unkept(blocks, dir)
+  bind_blocks(blocks)
 }
 
-#' The methods of a study by name
+#' The factors of a study, each value in its range
+#'
+#' @param largest As in [ridge_study()].
 #' @noRd
-study_methods <- function(settings) {
-  if (inherits(settings, "ridge_settings")) settings <- stats::setNames(list(settings), attr(settings, "preset"))
-  known <- function(x) inherits(x, "ridge_settings") || is.function(x)
-  if (!is.list(settings) || !length(settings) || is.null(names(settings)) || !all(vapply(settings, known, NA))) {
-    crestline_abort("`settings` holds something that is neither settings nor a function, or has no names.",
-                    "Give ridge_settings(), or a named list of ridge_settings() and functions.", stage = "arguments")
+check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
+  largest <- check_number(largest, "largest", 9, call = call)
+  finest <- 2 / (sqrt(largest) - 1)
+  range <- list(passes = c(1, 1e3), correlation = c(0, 1e3), radius = c(0, 2), spacing = c(finest, 0.5),
+                landmark_error = c(0, 2), noise = c(0, 2), b = c(0, 1e4), a = c(-100, 100))
+  open <- c("radius", "b")
+  for (name in names(grid)) {
+    if (!is.numeric(grid[[name]]) || !length(grid[[name]])) {
+      crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])), "Give one number or several.",
+                      stage = "arguments", call = call)
+    }
+    grid[[name]] <- vapply(as.vector(grid[[name]]), function(value) {
+      value <- check_number(value, name, range[[name]][1], range[[name]][2], call = call)
+      if (name %in% open && value == 0) check_number(value, name, 0, open = TRUE, call = call)
+      if (name == "passes") check_count(value, name, call = call) else value
+    }, 0)
   }
-  settings
+  grid
+}
+
+#' What all surfaces and curves of a study have in common
+#' @noRd
+study_constant <- function(width, points, more, call = rlang::caller_env()) {
+  given <- names(more)
+  if (length(more) && (is.null(given) || !all(given %in% c("jitter", "end")))) {
+    crestline_abort(sprintf("ridge_study() does not take %s.", shorten(setdiff(c(given, "what has no name"), c("jitter", "end")))),
+                    "Further arguments are `jitter` and `end`, see simulate_ridge().", stage = "arguments", call = call)
+  }
+  constant <- utils::modifyList(list(width = width, points = points, jitter = 0, end = 0.95), more)
+  check_number(constant$width, "width", 0, 2, open = TRUE, call = call)
+  check_number(constant$jitter, "jitter", 0, 0.45, call = call)
+  check_number(constant$end, "end", 0, 1, call = call)
+  constant
+}
+
+check_study_size <- function(curves, largest, call = rlang::caller_env()) {
+  if (curves > largest) {
+    crestline_abort(sprintf("the study would have %s curves.", format(curves, big.mark = ",")),
+                    "Give fewer values or a smaller `n`, or a greater `largest`.", stage = "arguments", call = call)
+  }
 }
 
 #' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells whether it is kept already
 #' @noRd
 study_tasks <- function(cells, n, block, methods, constant, dir) {
   seeds <- split(seq_len(n), ceiling(seq_len(n) / block))
-  about <- list(lapply(methods, function(one) if (is.function(one)) deparse(one) else unclass(one)), constant,
-                as.character(utils::packageVersion("crestline")))
+  about <- list(value_print(methods), constant, answers_version, as.character(utils::packageVersion("crestline")))
   if (!is.null(dir)) dir <- results_folder(dir)
   tasks <- lapply(seq_len(nrow(cells)), function(i) {
     lapply(seeds, function(some) {
       cell <- as.list(cells[i, ])
-      key <- rlang::hash(list(cell, some, about))
+      key <- content_hash(list(cell, some, about))
       file <- if (!is.null(dir)) file.path(dir, paste0(key, ".study"))
       list(cell = cell, seeds = some, key = key, name = key, file = file)
     })
@@ -88,23 +133,51 @@ study_tasks <- function(cells, n, block, methods, constant, dir) {
   unlist(tasks, recursive = FALSE)
 }
 
-runs_parallel <- function() rlang::is_installed(c("future", "future.apply", "progressr"))
+runs_parallel <- function() rlang::is_installed(c("future", "progressr"))
 
-#' Work at tasks in parallel where the packages for that are there, and one after the other where not
+#' Work at tasks in parallel where the packages for that are there, and one after the other where not; those whose worker has died
+#' once more, each alone
 #' @noRd
-apply_tasks <- function(tasks, work) if (runs_parallel()) run_tasks(tasks, work, 1) else lapply(tasks, work)
+apply_tasks <- function(tasks, arguments) {
+  if (!runs_parallel()) return(lapply(tasks, study_block, arguments$methods, arguments$constant))
+  blocks <- run_tasks(tasks, study_block, arguments, 1)
+  lost <- vapply(blocks, inherits, NA, "lost_task")
+  if (any(lost)) blocks[lost] <- run_tasks(tasks[lost], study_block, arguments, 1, alone = TRUE)
+  blocks
+}
 
 #' Estimates for one block of surfaces, from its file where they are there
-#' @return List of rows, each a list.
+#' @return List of rows, each a list; with attribute `unkept`, why they could not be written, where they could not.
 #' @noRd
 study_block <- function(task, methods, constant) {
-  kept <- if (!is.null(task$file)) read_kept(task$file, "result")
-  if (!is.null(kept)) return(kept)
+  kept <- if (!is.null(task$file)) open_kept(task$file)
+  if (identical(kept$state, "whole") && identical(kept$about$key, task$key)) return(kept_value(kept))
   crest <- ridge_crest(task$cell$a, task$cell$b, constant$end)
   rows <- lapply(task$seeds, function(seed) study_surface(task$cell, seed, crest, methods, constant))
   rows <- unlist(rows, recursive = FALSE)
-  if (!is.null(task$file)) keep(rows, task$key, task$file)
-  rows
+  if (is.null(task$file)) return(rows)
+  tryCatch({
+    keep(rows, list(key = task$key, mesh = "none"), task$file)
+    rows
+  }, crestline_keeping_error = function(e) structure(rows, unkept = e$problem))
+}
+
+#' Rows of a block whose worker died twice
+#' @noRd
+lost_block <- function(task, methods, lost) {
+  message <- paste("the worker died:", shorten_text(lost$message))
+  unlist(lapply(task$seeds, function(seed) lapply(names(methods), function(name) {
+    c(task$cell, list(seed = seed, method = name), study_result(message), list(seconds = NA_real_, error = message))
+  })), recursive = FALSE)
+}
+
+warn_unkept <- function(blocks, dir) {
+  unkept <- unlist(lapply(blocks, attr, "unkept"))
+  if (length(unkept)) {
+    crestline_warn(sprintf("%s of %s not kept: %s", length(unkept), amount(length(blocks), "block"), unkept[1]),
+                   sprintf("Make room in %s; what was not kept is run again next time.", dir), stage = "keeping",
+                   class = "crestline_keeping_warning")
+  }
 }
 
 #' One surface's estimates by all methods
@@ -144,9 +217,9 @@ study_estimate <- function(method, surface, cell, constant) {
 #' What is kept of an estimate
 #'
 #' @param found As of [study_estimate()], or a message.
-#' @param truths The crest, and the locus of greatest curvature or NULL.
+#' @param truths The crest, and the locus of greatest curvature or NULL; both NULL where `found` is a message.
 #' @noRd
-study_result <- function(found, truths, spacing) {
+study_result <- function(found, truths = NULL, spacing = 1) {
   failed <- is.character(found)
   distance <- function(truth) if (failed || is.null(truth)) NA_real_ else line_distance(found, truth) / spacing
   covered <- function(truth) if (failed || is.null(truth)) NA_real_ else share_covered(found, truth)

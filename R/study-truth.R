@@ -17,6 +17,7 @@
 #' max(abs(true_effect(faces))) # no landmark has any of it
 #' @export
 true_points <- function(x, at = NULL) {
+  check_given()
   at <- template_points(x, at)
   each <- lapply(x$deformations, function(map) map(at))
   array(unlist(each), c(dim(at), length(each)), list(rownames(at), c("x", "y", "z"), names(each)))
@@ -25,6 +26,7 @@ true_points <- function(x, at = NULL) {
 #' @rdname true_points
 #' @export
 true_effect <- function(x, at = NULL) {
+  check_given()
   at <- template_points(x, at)
   step <- effect_field(x$places, x$effect)(at)
   structure(step, dimnames = list(rownames(at), c("x", "y", "z")))
@@ -33,5 +35,5 @@ true_effect <- function(x, at = NULL) {
 template_points <- function(x, at, call = rlang::caller_env()) {
   check_class(x, "simulated_faces", "x", "simulate_faces()", call = call)
   if (is.null(at)) return(x$template$landmarks)
-  point_matrix(at, call)
+  point_matrix(at, call, "at")
 }

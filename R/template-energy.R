@@ -35,6 +35,9 @@
 #' energy(bent)
 #' @export
 bending_energy <- function(template, nugget = 0, level = "curves", tolerance = 1e-6) {
+  check_given()
+  nugget <- check_numbers(nugget, "nugget", lower = 0)
+  tolerance <- check_number(tolerance, "tolerance", lower = 0)
   xyz <- energy_points(template, level)
   if (!is.numeric(nugget) || !length(nugget) %in% c(1, nrow(xyz)) || anyNA(nugget) || any(nugget < 0)) {
     crestline_abort(sprintf("`nugget` is %s.", describe_value(nugget)),
@@ -61,15 +64,15 @@ bending_energy <- function(template, nugget = 0, level = "curves", tolerance = 1
 #'
 #' Repeats of a place that a scheme defines more than once are NA.
 #' @noRd
-energy_points <- function(x, level) {
+energy_points <- function(x, level, name = "template", call = rlang::caller_env()) {
   if (inherits(x, "shape")) {
+    check_class(x, "shape", name, "fit_shape()", call)
     level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
     place <- x$scheme$points$place[x$scheme$points$level == level]
     return(replace(unname(coords(x, level)), duplicated(place), NA))
   }
   if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
-    crestline_abort(sprintf("a configuration is %s.", describe_value(x)), "Give a k x 3 matrix, or a shape.",
-                    stage = "energy")
+    refuse_argument(name, x, "Give a k x 3 matrix, or a shape.", call)
   }
   unname(x)
 }
@@ -117,6 +120,7 @@ bending_matrix <- function(xyz, nugget, functions) {
 
 #' @export
 print.bending_energy <- function(x, ...) {
+  check_method_dots(...)
   b <- attr(x, "matrix")
   cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0), attr(x, "affine")))
   invisible(x)

@@ -2,7 +2,7 @@
 
 #' A template and settings, made ready for many specimens
 #'
-#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `radius` (RMS distance of landmarks and curve
+#' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `template` (its id and hash), `radius` (RMS distance of landmarks and curve
 #'   points from their centre), `nugget` (of every place), `kept` (environment: sets by name and by what is missing).
 #' @noRd
 slide_plan <- function(template, settings) {
@@ -11,6 +11,7 @@ slide_plan <- function(template, settings) {
   core <- xyz[points$level[!duplicated(points$place)] != "surface" & !is.na(xyz[, 1]), , drop = FALSE]
   radius <- sqrt(mean(rowSums(sweep(core, 2, colMeans(core))^2)))
   list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
+       template = template_provenance(template$id, xyz),
        nugget = nugget_shares(template, settings), kept = new.env(parent = emptyenv()))
 }
 
@@ -40,8 +41,11 @@ places_of <- function(shape) {
 }
 
 #' The first time `make()`, later what it gave
+#'
+#' @param what What the value depends on: its hash is the key, since R's names end at 10,000 bytes.
 #' @noRd
-kept <- function(plan, key, make) {
+kept <- function(plan, what, make) {
+  key <- rlang::hash(what)
   if (is.null(plan$kept[[key]])) assign(key, make(), plan$kept)
   plan$kept[[key]]
 }
@@ -60,7 +64,7 @@ curve_sets <- function(state, plan) {
   Map(function(name, group) {
     wanted <- unique(c(unlist(lapply(state$curves[group], `[[`, "place"), use.names = FALSE), fixed))
     absent <- is.na(state$store[wanted, "x"]) | is.na(plan$xyz[wanted, 1])
-    kept(plan, paste(c(name, group, wanted[absent]), collapse = "|"), function() {
+    kept(plan, list(name, group, wanted[absent]), function() {
       there <- wanted[!absent]
       list(name = name, curves = group, places = there, b = set_energy(there, plan, plan$settings$nugget),
            points = lapply(state$curves[group], function(curve) match(curve$place, there)))

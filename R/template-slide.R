@@ -24,7 +24,8 @@
 #'     mesh), `longest` (largest distance that a point has slid, along its curve, or straight);
 #'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`, `longest` (slide of
 #'     that sweep).
-#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen.
+#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen; of
+#'   class `crestline_wrong_mesh`: a specimen with another mesh than the shape's.
 #' @references The paper, section 4. Where the default departs from it: `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
 #' @examples
@@ -38,6 +39,7 @@
 #' }
 #' @export
 slide <- function(shape, template, settings = slide_settings(), specimen = shape$specimen) {
+  check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
   check_class(template, "shape", "template", "symmetrise()")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
@@ -56,10 +58,21 @@ check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
-  if (inherits(specimen, "specimen")) return(specimen)
+  if (inherits(specimen, "specimen")) {
+    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()", call)
+    return(specimen_of_shape(shape, specimen))
+  }
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
   crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)
+}
+
+#' A specimen after a check that it is the shape's own
+#' @noRd
+specimen_of_shape <- function(shape, specimen) {
+  validate(specimen)
+  check_shape_on(shape, specimen)
+  specimen
 }
 
 #' The patches cut anew between slid curves
@@ -68,8 +81,10 @@ kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
 #' @return List: `curves`, `fits` (slid curves as [fit_scheme_patches()] takes them), `store` (all places).
 #' @noRd
 cut_between_slid <- function(shape, state, curves, specimen) {
+  cutting <- cutting_of(shape, NULL, specimen)
+  check_tracks(shape, cutting$bridged)
   fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s, state$curves)
-  cutting <- cutting_of(shape, fits, specimen)
+  cutting$fits <- fits
   list(curves = curves, fits = fits, store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
 }
 
@@ -89,6 +104,8 @@ finish_slide <- function(shape, cut, plan, specimen) {
   shape <- with_tracks(with_places(shape, surface$store), cut$curves$s, cutting)
   shape$sliding <- rbind(cut$curves$sliding, surface$sliding)
   shape$trace <- c(cut$curves$trace, surface$trace)
+  shape$provenance$template <- plan$template
+  shape$provenance$settings$slide <- lapply(unclass(plan$settings), identity)
   shape
 }
 
@@ -111,7 +128,7 @@ with_tracks <- function(shape, s, cutting) {
     if (!moved) next
     length <- attr(track$path, "length")
     path <- part_of_path(cutting$bridged$mesh, track$path, min(s[[name]], na.rm = TRUE), length)
-    shape$paths[[name]] <- unbridged_path(path, cutting$specimen$mesh)
+    shape$paths[[name]] <- unbridged_path(path, cutting$specimen)
     shape$status$length[shape$status$level == "curves" & shape$status$part == name] <- attr(path, "length")
   }
   shape

@@ -47,8 +47,7 @@ surface_sets <- function(store, plan) {
   sets <- Map(function(name, group) {
     own <- group[there[group]]
     if (!any(own %in% free)) return(NULL)
-    key <- paste(c("surface", name, group[!there[group]]), collapse = "|")
-    kept(plan, key, function() {
+    kept(plan, list("surface", name, group[!there[group]]), function() {
       list(name = name, places = own, free = intersect(own, free), b = set_energy(own, plan, plan$settings$surface_nugget))
     })
   }, names(groups), groups)

@@ -30,6 +30,8 @@
 #' }
 #' @export
 symmetrise <- function(shape, off_middle = 0.1) {
+  check_given()
+  check_class(shape, "shape", "shape", "fit_shape()")
   check_class(shape, "shape", "shape", "fit_shape()")
   off_middle <- check_number(off_middle, "off_middle", lower = 0)
   xyz <- places_of(shape)
@@ -46,6 +48,8 @@ symmetrise <- function(shape, off_middle = 0.1) {
 #'   the shape's own axes.
 #' @export
 asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
+  check_given()
+  check_class(shape, "shape", "shape", "fit_shape()")
   by <- check_choice(by, c("part", "point"), "by")
   off <- as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(symmetrise(shape, off_middle)$points[c("x", "y", "z")])
   points <- shape$points[c("level", "part", "point")]

@@ -105,7 +105,7 @@ if (mode == "speed") {
   while (length(list.files(out, "[.]shape$")) < 8) Sys.sleep(0.2)
   tools::pskill(as.integer(readLines(pid)), tools::SIGKILL)
   done <- list.files(out, "[.]shape$", full.names = TRUE)
-  good <- done[vapply(done, function(file) inherits(inner("read_kept")(file, "result"), "shape"), NA)]
+  good <- done[vapply(done, function(file) inner("open_kept")(file)$state == "whole", NA)]
   before <- file.mtime(good)
   shapes <- fit_shapes(files, scheme, out)
   cat(sprintf("killed after %d results (%d good); then: %d of those measured again, %d shapes, %d failures\n", length(done),

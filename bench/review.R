@@ -154,8 +154,9 @@ move_chL <- function(what, code, unit, port) {
   after <- finish(page, served)
   others <- setdiff(rownames(before$landmarks), "chL")
   curves <- function(found) {
-    found$mesh$vb[1:3, ] <- unit * found$mesh$vb[1:3, ]
-    found <- specimen(found$mesh, unit * found$landmarks, tolerance = 1)
+    mesh <- found$mesh
+    mesh$vb[1:3, ] <- unit * mesh$vb[1:3, ]
+    found <- specimen(mesh, unit * found$landmarks, tolerance = 1)
     fit_shape(found, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
   }
   data.frame(

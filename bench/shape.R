@@ -4,7 +4,7 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R refined   (a process of its own, for its peak memory)
 #
 # scan_a as read; the refined one has every triangle divided into four, twice (1,291,985 vertices). The method's
-# authors' own software takes over 460 s for the 40 curves of scan_a (measured once, see bench/README.md).
+# authors' own software takes over 460 s for the 40 curves of scan_a (measured once, see bench/shape.md).
 
 library(crestline)
 

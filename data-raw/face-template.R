@@ -76,8 +76,7 @@ symmetric_landmarks <- function(at) {
 head <- scan_of("dummyhead", c("dummyhead", "dummyhead.mesh"))
 face <- scan_of("humface", c("humface", "humface"))
 template <- landmark_template(head, predicted = ears, unit = 1)
-template$specimen$mesh <- face_part(template$specimen)
-template$specimen <- specimen(template$specimen$mesh, template$landmarks, id = "face")
+template$specimen <- specimen(face_part(template$specimen), template$landmarks, id = "face")
 vertex <- t(template$specimen$mesh$vb[1:3, ])
 moved <- onto_face(template, face, vertex)
 

@@ -54,6 +54,41 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_mesh_faults
+List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_faults(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_faults(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_box_diagonal
+double cpp_box_diagonal(NumericMatrix vb);
+RcppExport SEXP _crestline_cpp_box_diagonal(SEXP vbSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_box_diagonal(vb));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_twin_faults
+int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin);
+RcppExport SEXP _crestline_cpp_twin_faults(SEXP itSEXP, SEXP twinSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_twin_faults(it, twin));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_mesh_topology
 List cpp_mesh_topology(IntegerMatrix it, int n);
 RcppExport SEXP _crestline_cpp_mesh_topology(SEXP itSEXP, SEXP nSEXP) {
@@ -63,6 +98,115 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< int >::type n(nSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_mesh_topology(it, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_near_pairs
+IntegerMatrix cpp_near_pairs(NumericMatrix vb, double reach, int most);
+RcppExport SEXP _crestline_cpp_near_pairs(SEXP vbSEXP, SEXP reachSEXP, SEXP mostSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< int >::type most(mostSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_near_pairs(vb, reach, most));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_pair_groups
+IntegerVector cpp_pair_groups(IntegerMatrix pairs, int n);
+RcppExport SEXP _crestline_cpp_pair_groups(SEXP pairsSEXP, SEXP nSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< IntegerMatrix >::type pairs(pairsSEXP);
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_pair_groups(pairs, n));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_vertices_on_edges
+List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector sides, double reach, int most);
+RcppExport SEXP _crestline_cpp_vertices_on_edges(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP mostSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< int >::type most(mostSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertices_on_edges(vb, it, twin, sides, reach, most));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_other_sheets
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece, IntegerVector sample, double reach, double parallel, double hollow);
+RcppExport SEXP _crestline_cpp_other_sheets(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP pieceSEXP, SEXP sampleSEXP, SEXP reachSEXP, SEXP parallelSEXP, SEXP hollowSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type piece(pieceSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type sample(sampleSEXP);
+    Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
+    Rcpp::traits::input_parameter< double >::type parallel(parallelSEXP);
+    Rcpp::traits::input_parameter< double >::type hollow(hollowSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_other_sheets(vb, it, twin, piece, sample, reach, parallel, hollow));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_numbers_at
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big);
+RcppExport SEXP _crestline_cpp_numbers_at(SEXP rawSEXP, SEXP placesSEXP, SEXP realSEXP, SEXP signSEXP, SEXP sizeSEXP, SEXP bigSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type raw(rawSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type places(placesSEXP);
+    Rcpp::traits::input_parameter< bool >::type real(realSEXP);
+    Rcpp::traits::input_parameter< bool >::type sign(signSEXP);
+    Rcpp::traits::input_parameter< int >::type size(sizeSEXP);
+    Rcpp::traits::input_parameter< bool >::type big(bigSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_numbers_at(raw, places, real, sign, size, big));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_numbers
+List cpp_read_numbers(RawVector text, int from);
+RcppExport SEXP _crestline_cpp_read_numbers(SEXP textSEXP, SEXP fromSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    Rcpp::traits::input_parameter< int >::type from(fromSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_numbers(text, from));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_stl
+List cpp_read_stl(RawVector text);
+RcppExport SEXP _crestline_cpp_read_stl(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_stl(text));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_read_obj
+List cpp_read_obj(RawVector text);
+RcppExport SEXP _crestline_cpp_read_obj(SEXP textSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< RawVector >::type text(textSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_read_obj(text));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -226,6 +370,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_random_bytes
+RawVector cpp_random_bytes(int n);
+RcppExport SEXP _crestline_cpp_random_bytes(SEXP nSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< int >::type n(nSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_random_bytes(n));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_half_area_radius
 double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps);
 RcppExport SEXP _crestline_cpp_half_area_radius(SEXP vbSEXP, SEXP itSEXP, SEXP usedSEXP, SEXP capSEXP, SEXP stepsSEXP) {
@@ -344,6 +499,20 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_locate
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf);
+RcppExport SEXP _crestline_cpp_locate(SEXP vbSEXP, SEXP itSEXP, SEXP xyzSEXP, SEXP leafSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< int >::type leaf(leafSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_locate(vb, it, xyz, leaf));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_geodesic_distances
 NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places);
 RcppExport SEXP _crestline_cpp_geodesic_distances(SEXP vbSEXP, SEXP itSEXP, SEXP placesSEXP) {
@@ -408,12 +577,63 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_warp_gram
+NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight, double along, double across);
+RcppExport SEXP _crestline_cpp_warp_gram(SEXP basisSEXP, SEXP usedSEXP, SEXP normalSEXP, SEXP weightSEXP, SEXP alongSEXP, SEXP acrossSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< List >::type basis(basisSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type used(usedSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type weight(weightSEXP);
+    Rcpp::traits::input_parameter< double >::type along(alongSEXP);
+    Rcpp::traits::input_parameter< double >::type across(acrossSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_warp_gram(basis, used, normal, weight, along, across));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_face_normals
+NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_face_normals(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_face_normals(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_vertex_normals
+NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_vertex_normals(SEXP vbSEXP, SEXP itSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_vertex_normals(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
     {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
+    {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
+    {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
+    {"_crestline_cpp_twin_faults", (DL_FUNC) &_crestline_cpp_twin_faults, 2},
     {"_crestline_cpp_mesh_topology", (DL_FUNC) &_crestline_cpp_mesh_topology, 2},
+    {"_crestline_cpp_near_pairs", (DL_FUNC) &_crestline_cpp_near_pairs, 3},
+    {"_crestline_cpp_pair_groups", (DL_FUNC) &_crestline_cpp_pair_groups, 2},
+    {"_crestline_cpp_vertices_on_edges", (DL_FUNC) &_crestline_cpp_vertices_on_edges, 6},
+    {"_crestline_cpp_other_sheets", (DL_FUNC) &_crestline_cpp_other_sheets, 8},
+    {"_crestline_cpp_numbers_at", (DL_FUNC) &_crestline_cpp_numbers_at, 6},
+    {"_crestline_cpp_read_numbers", (DL_FUNC) &_crestline_cpp_read_numbers, 2},
+    {"_crestline_cpp_read_stl", (DL_FUNC) &_crestline_cpp_read_stl, 1},
+    {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
@@ -424,6 +644,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
     {"_crestline_cpp_face_bend", (DL_FUNC) &_crestline_cpp_face_bend, 3},
+    {"_crestline_cpp_random_bytes", (DL_FUNC) &_crestline_cpp_random_bytes, 1},
     {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
@@ -432,10 +653,14 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
+    {"_crestline_cpp_locate", (DL_FUNC) &_crestline_cpp_locate, 4},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},
     {"_crestline_cpp_fit_poses", (DL_FUNC) &_crestline_cpp_fit_poses, 6},
+    {"_crestline_cpp_warp_gram", (DL_FUNC) &_crestline_cpp_warp_gram, 6},
+    {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
+    {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {NULL, NULL, 0}
 };
 

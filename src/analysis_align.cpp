@@ -1,5 +1,7 @@
 #include "analysis_align.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -106,7 +108,8 @@ void nearest_rotation(const double* h, int dim, double* r) {
 }
 
 Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, const double* weight, const double* reference,
-                             const AlignSettings& settings) {
+                             const AlignSettings& settings, const std::function<void()>& between) {
+  Patience patience(between);
   const std::size_t block = static_cast<std::size_t>(k) * dim;
   const bool unit = settings.scaling != Scaling::kNone;
   Aligned out;
@@ -125,6 +128,7 @@ Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, cons
     std::vector<double> aim = weighted(out.mean, weight, k);
     std::fill(next.begin(), next.end(), 0.0);
     for (int i = 0; i < n; ++i) {
+      if (patience.over()) patience.finish();
       double* r = &turns[static_cast<std::size_t>(i) * kMost * kMost];
       overlap(&x[i * block], aim.data(), k, dim, h);
       nearest_rotation(h, dim, r);

@@ -1,5 +1,6 @@
 // Generalised Procrustes alignment of complete configurations.
 #pragma once
+#include <functional>
 #include <vector>
 
 namespace crestline {
@@ -25,7 +26,8 @@ void nearest_rotation(const double* h, int dim, double* r);
 
 // x: k x dim x n, column major, replaced by the aligned configurations: centred; of unit size (kUnit), of unit size times the
 // cosine of their angle to the mean (kFull), or of their own (kNone). weight: k. reference: k x dim, start and pose.
+// `between`: as of curvature().
 Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, const double* weight, const double* reference,
-                             const AlignSettings& settings);
+                             const AlignSettings& settings, const std::function<void()>& between);
 
 }  // namespace crestline

@@ -1,5 +1,7 @@
 #include "curvature.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,12 +9,11 @@
 #include <omp.h>
 #endif
 
+#include "mesh_normals.h"
+
 namespace crestline {
 
 namespace {
-
-constexpr int kBlocks = 40;  // interruptions a call
-constexpr int kLeastBlock = 256;
 
 void store(const LocalFit& fit, int t, Curvature& out) {
   out.neighbours[t] = fit.neighbours;
@@ -38,8 +39,9 @@ template <class Use>
 void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
               const std::vector<int>& targets, const std::vector<double>& normals,
               const FitSettings& settings, ConnectedBalls::Workspace& space, FitBuffer& buffer,
-              Use&& use) {
+              Patience& patience, int thread, Use&& use) {
   balls.visit_cell(cell, space, [&](int t, const ConnectedBalls::Workspace& w) {
+    if (patience.over(thread)) return false;
     std::size_t v = targets[t];
     LocalFit fit;
     fit.neighbours = static_cast<int>(w.selected.size());
@@ -47,35 +49,11 @@ void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
       fit = fit_surface(mesh.xyz + 3 * v, &normals[3 * v], w.x.data(), w.y.data(), w.z.data(),
                         w.selected.data(), fit.neighbours, settings, buffer);
     use(t, fit, w);
+    return true;
   });
 }
 
 }  // namespace
-
-std::vector<double> vertex_normals(const MeshView& mesh) {
-  std::vector<double> normals(3 * static_cast<std::size_t>(mesh.n), 0);
-  for (int f = 0; f < mesh.m; ++f) {
-    const int* v = mesh.it + 3 * static_cast<std::size_t>(f);
-    const double *a = mesh.xyz + 3 * static_cast<std::size_t>(v[0]),
-                 *b = mesh.xyz + 3 * static_cast<std::size_t>(v[1]),
-                 *c = mesh.xyz + 3 * static_cast<std::size_t>(v[2]);
-    double u[3], w[3];
-    for (int i = 0; i < 3; ++i) {
-      u[i] = b[i] - a[i];
-      w[i] = c[i] - a[i];
-    }
-    double cross[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
-                       u[0] * w[1] - u[1] * w[0]};
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) normals[3 * static_cast<std::size_t>(v[k]) + i] += cross[i];
-  }
-  for (int v = 0; v < mesh.n; ++v) {
-    double* p = &normals[3 * static_cast<std::size_t>(v)];
-    double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    for (int i = 0; i < 3; ++i) p[i] = length > 0 ? p[i] / length : 0;
-  }
-  return normals;
-}
 
 Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
@@ -88,27 +66,30 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
   out.neighbours.assign(count, 0);
   if (targets.empty()) return out;
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh);
+  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0);
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
-  int cells = balls.cells(), block = std::max(kLeastBlock, cells / kBlocks);
+  int cells = balls.cells();
+  Patience patience(between);
   std::vector<ConnectedBalls::Workspace> spaces(threads, balls.workspace());
   std::vector<FitBuffer> buffers(threads);
-  for (int begin = 0; begin < cells; begin += block) {
-    int end = std::min(cells, begin + block);
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-    for (int cell = begin; cell < end; ++cell) {
+#pragma omp parallel num_threads(threads) if (threads > 1)
+  {
 #ifdef _OPENMP
-      int thread = omp_get_thread_num();
+    int thread = omp_get_thread_num(), team = omp_get_num_threads();
 #else
-      int thread = 0;
+    int thread = 0, team = 1;
 #endif
-      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread],
+#pragma omp for schedule(dynamic) nowait
+    for (int cell = 0; cell < cells; ++cell) {
+      if (patience.over(thread)) continue;
+      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread], patience, thread,
                [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace&) {
                  store(fit, t, out);
                });
     }
-    between();
+    patience.wait_for_others(thread, team);
   }
+  patience.finish();
   return out;
 }
 
@@ -118,13 +99,14 @@ std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<i
                                        const FitSettings& settings,
                                        const std::function<void()>& between) {
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh), derivative, total;
+  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0), derivative, total;
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
   ConnectedBalls::Workspace space = balls.workspace();
   FitBuffer buffer;
+  Patience patience(between);
   std::vector<int> column(mesh.n, -1), touched;  // column of `total` of each vertex
   for (int cell = 0; cell < balls.cells(); ++cell) {
-    fit_cell(balls, cell, mesh, targets, normals, settings, space, buffer,
+    fit_cell(balls, cell, mesh, targets, normals, settings, space, buffer, patience, 0,
              [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace& w) {
                if (!fit.ok) return;
                derivative.resize(fit.neighbours);
@@ -144,7 +126,7 @@ std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<i
                  for (int g = 0; g < functions; ++g) row[g] += slope * j[g];
                }
              });
-    if (cell % kLeastBlock == 0) between();
+    patience.finish();
   }
   std::vector<double> variance(functions, 0.0);
   for (std::size_t c = 0; c < touched.size(); ++c)

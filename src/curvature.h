@@ -21,10 +21,7 @@ struct MeshView {
   int m;
 };
 
-// Unit normals of the vertices, triangles weighted by area: 3 x n, 0 where there is none.
-std::vector<double> vertex_normals(const MeshView& mesh);
-
-// `between` is called on the calling thread after every block of work: it may throw to interrupt.
+// `between` is called on the calling thread every tenth of a second: it may throw to interrupt.
 Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between);

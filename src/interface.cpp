@@ -1,16 +1,26 @@
 // Every entry that R calls: arguments in, kernel, list out. R has validated them.
 #include <Rcpp.h>
 
+#include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "analysis_align.h"
 #include "curvature.h"
 #include "landmarks_match.h"
 #include "landmarks_rigid.h"
+#include "landmarks_warp.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
+#include "mesh_door.h"
 #include "mesh_geodesic.h"
+#include "mesh_normals.h"
+#include "mesh_join.h"
 #include "mesh_key.h"
+#include "mesh_locate.h"
+#include "mesh_read_obj.h"
+#include "mesh_read_ply.h"
+#include "mesh_read_text.h"
 #include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
@@ -217,6 +227,22 @@ std::string cpp_mesh_key(NumericMatrix vb, IntegerMatrix it) {
   return text;
 }
 
+// vb has three rows or more, it three: the only entry that trusts no index.
+// [[Rcpp::export]]
+List cpp_mesh_faults(NumericMatrix vb, IntegerMatrix it) {
+  crestline::MeshFaults found = crestline::mesh_faults(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol());
+  return List::create(_["faces"] = found.faces, _["vertices"] = found.vertices);
+}
+
+// [[Rcpp::export]]
+double cpp_box_diagonal(NumericMatrix vb) { return crestline::box_diagonal(vb.begin(), vb.nrow(), vb.ncol()); }
+
+// it of a sound mesh, twin of the same size.
+// [[Rcpp::export]]
+int cpp_twin_faults(IntegerMatrix it, IntegerMatrix twin) {
+  return crestline::twin_faults(it.begin(), twin.begin(), it.ncol());
+}
+
 // [[Rcpp::export]]
 List cpp_mesh_topology(IntegerMatrix it, int n) {
   std::vector<int> corners = from_zero(it);
@@ -226,6 +252,81 @@ List cpp_mesh_topology(IntegerMatrix it, int n) {
   return List::create(_["twin"] = twin, _["piece"] = from_one(t.piece), _["pieces"] = t.pieces,
                       _["border_edges"] = t.border_edges,
                       _["nonmanifold_edges"] = t.nonmanifold_edges);
+}
+
+// Pairs as two rows, counted from 1.
+// [[Rcpp::export]]
+IntegerMatrix cpp_near_pairs(NumericMatrix vb, double reach, int most) {
+  std::vector<crestline::Pair> pairs = crestline::near_pairs(vb.begin(), vb.nrow(), vb.ncol(), reach, most);
+  IntegerMatrix out(2, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    out(0, i) = pairs[i].first + 1;
+    out(1, i) = pairs[i].second + 1;
+  }
+  return out;
+}
+
+// [[Rcpp::export]]
+IntegerVector cpp_pair_groups(IntegerMatrix pairs, int n) {
+  std::vector<crestline::Pair> all;
+  for (int i = 0; i < pairs.ncol(); ++i) all.push_back({pairs(0, i) - 1, pairs(1, i) - 1});
+  return from_one(crestline::pair_groups(all, n));
+}
+
+// [[Rcpp::export]]
+List cpp_vertices_on_edges(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector sides,
+                           double reach, int most) {
+  std::vector<crestline::VertexOnEdge> found =
+      crestline::vertices_on_edges(triangulation(vb, it, twin), from_zero(sides), reach, most);
+  IntegerVector side(found.size()), vertex(found.size());
+  NumericVector along(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    side[i] = found[i].side + 1;
+    vertex[i] = found[i].vertex + 1;
+    along[i] = found[i].along;
+  }
+  return List::create(_["side"] = side, _["vertex"] = vertex, _["along"] = along);
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_other_sheets(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, IntegerVector piece,
+                               IntegerVector sample, double reach, double parallel, double hollow) {
+  return wrap(crestline::other_sheets(triangulation(vb, it, twin), piece.begin(), from_zero(sample), reach,
+                                      parallel, hollow));
+}
+
+// [[Rcpp::export]]
+NumericVector cpp_numbers_at(RawVector raw, NumericVector places, bool real, bool sign, int size, bool big) {
+  crestline::Kind kind = real ? crestline::Kind::real : sign ? crestline::Kind::whole : crestline::Kind::natural;
+  return wrap(crestline::numbers_at(raw.begin(), places.begin(), places.size(), kind, size, big));
+}
+
+// The bytes of a text end with a line end.
+// [[Rcpp::export]]
+List cpp_read_numbers(RawVector text, int from) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::NumberText t = crestline::read_numbers(begin + from, begin + text.size());
+  return List::create(_["number"] = t.number, _["start"] = t.start, _["line"] = t.line,
+                      _["bad"] = t.bad, _["bad_line"] = t.bad_line);
+}
+
+// [[Rcpp::export]]
+List cpp_read_stl(RawVector text) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::StlText t = crestline::read_stl_text(begin, begin + text.size());
+  return List::create(_["vertex"] = t.vertex, _["bad"] = t.bad, _["bad_line"] = t.bad_line,
+                      _["ended"] = t.ended);
+}
+
+// [[Rcpp::export]]
+List cpp_read_obj(RawVector text) {
+  const char* begin = reinterpret_cast<const char*>(text.begin());
+  crestline::ObjText t = crestline::read_obj_text(begin, begin + text.size());
+  return List::create(_["vertex"] = t.vertex, _["colour"] = t.colour, _["coloured"] = t.coloured,
+                      _["uv"] = t.uv, _["corner"] = t.corner, _["texture"] = t.corner_uv,
+                      _["sides"] = t.sides, _["material"] = t.material,
+                      _["materials"] = t.materials, _["libraries"] = t.libraries,
+                      _["bad"] = t.bad, _["bad_line"] = t.bad_line);
 }
 
 // [[Rcpp::export]]
@@ -353,6 +454,15 @@ NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatr
   return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
 }
 
+// Bytes from the system's random numbers, for a secret; R's own are not touched.
+// [[Rcpp::export]]
+RawVector cpp_random_bytes(int n) {
+  std::random_device device;
+  RawVector out(n);
+  for (auto& byte : out) byte = static_cast<Rbyte>(device() & 0xffu);
+  return out;
+}
+
 // [[Rcpp::export]]
 double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
   return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
@@ -366,7 +476,7 @@ IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVe
 // [[Rcpp::export]]
 List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals) {
   crestline::PathCoordinates c = crestline::path_coordinates(
-      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol());
+      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol(), [] { checkUserInterrupt(); });
   return List::create(_["s"] = c.s, _["d"] = c.d, _["tangent"] = as_rows(c.tangent));
 }
 
@@ -391,7 +501,7 @@ List cpp_render_mesh(NumericMatrix xyz, NumericMatrix rgb, IntegerMatrix it, int
                      int samples) {
   std::vector<int> corners = from_zero(it);
   crestline::Picture p = crestline::render_mesh(xyz.begin(), rgb.begin(), corners.data(), it.ncol(),
-                                                width, height, samples);
+                                                width, height, samples, [] { checkUserInterrupt(); });
   NumericVector rgba(p.rgba.begin(), p.rgba.end());
   rgba.attr("dim") = IntegerVector::create(height, width, 4);
   return List::create(_["rgba"] = rgba, _["depth"] = NumericMatrix(height, width, p.depth.begin()));
@@ -424,12 +534,39 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
 }
 
+// xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
+// [[Rcpp::export]]
+List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
+  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::FaceTree tree(mesh, leaf);
+  int n = xyz.nrow();
+  IntegerVector face(n, NA_INTEGER);
+  NumericMatrix at(n, 6);
+  NumericVector distance(n, NA_REAL);
+  std::fill(at.begin(), at.end(), NA_REAL);
+  for (int i = 0; i < n; ++i) {
+    double to[3] = {xyz(i, 0), xyz(i, 1), xyz(i, 2)};
+    if (!std::isfinite(to[0]) || !std::isfinite(to[1]) || !std::isfinite(to[2])) continue;
+    crestline::ClosestPoint found = tree.closest(to);
+    if (!std::isfinite(found.distance)) continue;
+    face[i] = found.at.face + 1;
+    distance[i] = found.distance;
+    for (int k = 0; k < 3; ++k) {
+      at(i, k) = found.xyz[k];
+      at(i, 3 + k) = found.at.w[k];
+    }
+    checkUserInterrupt();
+  }
+  return List::create(_["face"] = face, _["at"] = at, _["distance"] = distance);
+}
+
 // [[Rcpp::export]]
 NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, NumericMatrix places) {
   int n = vb.ncol();
   NumericMatrix out(n, places.nrow());
   for (int i = 0; i < places.nrow(); ++i) {
-    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i));
+    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i),
+                                                             [] { checkUserInterrupt(); });
     std::copy(d.begin(), d.end(), out.begin() + static_cast<R_xlen_t>(n) * i);
     checkUserInterrupt();
   }
@@ -443,7 +580,8 @@ List cpp_align(NumericVector x, IntegerVector size, NumericVector weight, Numeri
   std::vector<double> coords(x.begin(), x.end());
   crestline::Aligned aligned =
       crestline::align_configurations(coords, size[0], size[1], size[2], weight.begin(), reference.begin(),
-                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds});
+                                      {static_cast<crestline::Scaling>(scaling), tolerance, rounds},
+                                      [] { checkUserInterrupt(); });
   return List::create(_["coords"] = coords, _["mean"] = aligned.mean, _["size"] = aligned.size,
                       _["moved"] = aligned.moved, _["converged"] = aligned.converged);
 }
@@ -456,6 +594,7 @@ List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix fea
   IntegerVector index(xyz.ncol(), NA_INTEGER);
   NumericVector distance(xyz.ncol(), NA_REAL);
   for (int i = 0; i < xyz.ncol(); ++i) {
+    if (i % 1024 == 0) checkUserInterrupt();
     double d2 = 0;
     int found = fixed.nearest(&xyz(0, i), &normal(0, i), feature.begin() + static_cast<R_xlen_t>(feature.nrow()) * i, reach,
                               cosine, &d2);
@@ -490,4 +629,37 @@ List cpp_fit_poses(NumericMatrix xyz, NumericMatrix normal, NumericMatrix to_xyz
     checkUserInterrupt();
   }
   return List::create(_["poses"] = poses, _["score"] = score);
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight,
+                            double along, double across) {
+  crestline::Basis functions[3];
+  int p = 0;
+  for (int k = 0; k < 3; ++k) {
+    NumericMatrix values = basis[k];
+    functions[k] = {values.begin(), values.nrow(), values.ncol()};
+    p += values.ncol();
+  }
+  std::vector<double> gram = crestline::warp_gram(functions, from_zero(used), normal.begin(), weight.begin(), along,
+                                                  across, [] { checkUserInterrupt(); });
+  return NumericMatrix(p, p, gram.begin());
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it) {
+  NumericMatrix out(it.ncol(), 3);
+  crestline::face_normals(vb.begin(), vb.nrow(), it.begin(), it.ncol(), 1, out.begin());
+  return out;
+}
+
+// [[Rcpp::export]]
+NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it) {
+  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  NumericMatrix out(4, vb.ncol());
+  for (int v = 0; v < vb.ncol(); ++v) {
+    for (int i = 0; i < 3; ++i) out(i, v) = normals[3 * static_cast<std::size_t>(v) + i];
+    out(3, v) = 1;
+  }
+  return out;
 }

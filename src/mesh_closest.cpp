@@ -11,8 +11,10 @@ double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] 
 
 void measure(const Triangulation& mesh, ClosestPoint& p, const double* to) {
   position(mesh, p.at, p.xyz);
-  p.distance2 = 0;
-  for (int k = 0; k < 3; ++k) p.distance2 += (p.xyz[k] - to[k]) * (p.xyz[k] - to[k]);
+  double gap[3] = {to[0], to[1], to[2]};
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < 3; ++k) gap[k] -= p.at.w[c] * corner(mesh, vertex_at(mesh, 3 * p.at.face + c))[k];
+  p.distance = std::sqrt(dot(gap, gap));
 }
 
 // The closest point of the edge from corner c on.
@@ -45,35 +47,33 @@ ClosestPoint closest_on_face(const Triangulation& mesh, int face, const double* 
     w[k] = to[k] - a[k];
   }
   double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
-  double det = uu * vv - uv * uv;
-  if (det > 0) {
-    double w2 = (vv * wu - uv * wv) / det, w3 = (uu * wv - uv * wu) / det;
-    if (w2 >= 0 && w3 >= 0 && w2 + w3 <= 1) {
-      ClosestPoint inside{{face, {1 - w2 - w3, w2, w3}}, {0, 0, 0}, 0};
-      measure(mesh, inside, to);
-      return inside;
-    }
-  }
   ClosestPoint best = on_edge(mesh, face, 0, to);
   for (int e = 1; e < 3; ++e) {
     ClosestPoint here = on_edge(mesh, face, e, to);
-    if (here.distance2 < best.distance2) best = here;
+    if (here.distance < best.distance) best = here;
   }
-  return best;
+  double det = uu * vv - uv * uv;
+  if (!(det > 0)) return best;
+  double w2 = (vv * wu - uv * wv) / det, w3 = (uu * wv - uv * wu) / det, w1 = 1 - w2 - w3;
+  if (!(w1 >= 0 && w2 >= 0 && w3 >= 0)) return best;
+  ClosestPoint inside{{face, {w1, w2, w3}}, {0, 0, 0}, 0};
+  measure(mesh, inside, to);
+  // Of a needle the foot may be anywhere, by rounding: an edge that is as near stands.
+  return inside.distance < best.distance ? inside : best;
 }
 
 ClosestPoint NearSearch::closest(const SurfacePoint& from, const double* to) {
   ClosestPoint best{from, {0, 0, 0}, 0};
   measure(mesh_, best, to);
-  double reach2 = best.distance2;
+  double reach = best.distance;
   ++search_;
   queue_.assign(1, from.face);
   seen_[from.face] = search_;
   for (std::size_t i = 0; i < queue_.size(); ++i) {
     int face = queue_[i];
     ClosestPoint here = closest_on_face(mesh_, face, to);
-    if (here.distance2 < best.distance2) best = here;
-    if (here.distance2 > reach2) continue;
+    if (here.distance < best.distance) best = here;
+    if (here.distance > reach) continue;
     for (int c = 0; c < 3; ++c) {
       int across = twin_of(mesh_, 3 * face + c);
       if (across < 0 || seen_[face_of(across)] == search_) continue;

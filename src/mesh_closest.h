@@ -9,7 +9,7 @@ namespace crestline {
 struct ClosestPoint {
   SurfacePoint at;
   double xyz[3];
-  double distance2;
+  double distance;
 };
 
 // On one triangle; one without area is taken for its edges.

@@ -1,5 +1,7 @@
 #include "mesh_geodesic.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -48,7 +50,8 @@ double unfolded(double from_a, double from_b, double ab, double ac, double bc) {
 
 }  // namespace
 
-std::vector<double> geodesic_distances(const Triangulation& mesh, int n, const SurfacePoint& source) {
+std::vector<double> geodesic_distances(const Triangulation& mesh, int n, const SurfacePoint& source,
+                                       const std::function<void()>& between) {
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   std::vector<double> found(n, kInfinite);
@@ -65,7 +68,9 @@ std::vector<double> geodesic_distances(const Triangulation& mesh, int n, const S
     offer(vertex, distance(corner(mesh, vertex), from));
   }
   Corners corners(mesh, n);
+  Patience patience(between);
   while (!queue.empty()) {
+    if (patience.over()) patience.finish();
     Entry next = queue.top();
     queue.pop();
     int a = next.second;

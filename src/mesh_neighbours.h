@@ -38,20 +38,21 @@ class ConnectedBalls {
   Workspace workspace() const;
 
   // Calls visit(t, w) for each target of a cell: t is its place in `targets`; its neighbours, itself
-  // among them, are the places w.selected in w.candidate, w.x, w.y and w.z.
+  // among them, are the places w.selected in w.candidate, w.x, w.y and w.z. It ends where visit() gives false.
   template <class Visit>
   void visit_cell(int cell, Workspace& w, Visit&& visit) const {
     double rho = gather(cell, w);
     int first = cell_start_[cell], end = cell_start_[cell + 1];
     w.done.assign(end - first, 0);
-    for (int i = first; i < end; ++i) {
+    bool going = true;
+    for (int i = first; i < end && going; ++i) {
       if (w.done[i - first]) continue;
       flood(w.local[targets_[cell_target_[i]]], rho, w);
-      for (int j = i; j < end; ++j) {
+      for (int j = i; j < end && going; ++j) {
         int at = w.local[targets_[cell_target_[j]]];
         if (!w.reached_mark[at] || w.done[j - first]) continue;
         select(at, w);
-        visit(cell_target_[j], w);
+        going = visit(cell_target_[j], w);
         w.done[j - first] = 1;
       }
     }

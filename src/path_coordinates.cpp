@@ -1,29 +1,20 @@
 #include "path_coordinates.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
+
+#include "geometry.h"
 
 namespace crestline {
 
 namespace {
 
-struct Vec {
-  double x, y, z;
-};
-
 Vec at(const double* p, int i) {
   const double* q = p + 3 * static_cast<std::size_t>(i);
   return {q[0], q[1], q[2]};
 }
-Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vec operator*(double f, Vec a) { return {f * a.x, f * a.y, f * a.z}; }
-double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec cross(Vec a, Vec b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Vec unit(Vec a) { return (1 / std::sqrt(dot(a, a))) * a; }
-
 // Segments are held in runs with a ball about each, so that most of a long path is passed over at once.
 constexpr int kRun = 16;
 
@@ -104,7 +95,8 @@ Nearest nearest_place(const Polyline& line, Vec p, int guess) {
 }  // namespace
 
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k) {
+                                 const double* normals, int k, const std::function<void()>& between) {
+  Patience patience(between);
   Polyline line = make_polyline(path, k);
   PathCoordinates out;
   out.s.resize(n);
@@ -112,6 +104,7 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
   out.tangent.resize(3 * static_cast<std::size_t>(n));
   int guess = 0;
   for (int i = 0; i < n; ++i) {
+    if (patience.over()) patience.finish();
     Vec p = at(points, i);
     Nearest best = nearest_place(line, p, guess);
     guess = best.segment / kRun;

@@ -1,5 +1,6 @@
 // Arc length along a path and signed distance from it, of points near the path.
 #pragma once
+#include <functional>
 #include <vector>
 
 namespace crestline {
@@ -11,8 +12,9 @@ struct PathCoordinates {       // one entry (tangent: three) a point
 
 // points: 3 x n; path: 3 x k, k >= 2, no repeated neighbours; normals: 3 x k, the surface's normals
 // along the path. d > 0 on the side of normal x tangent. Past the ends the path goes on straight.
+// `between`: as of curvature().
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k);
+                                 const double* normals, int k, const std::function<void()>& between);
 
 // Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
 // it: 3 x m, corners from 1; seeds from 0.

@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry.h"
+
 namespace crestline {
 
 namespace {
-
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-void cross(const double* a, const double* b, double* out) {
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 double distance(const double* a, const double* b) {
   double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -59,13 +53,8 @@ std::vector<int> faces_about(const Triangulation& mesh, int face, int vertex) {
 }
 
 void area_normal(const Triangulation& mesh, int face, double* normal) {
-  const double* a = corner(mesh, vertex_at(mesh, 3 * face));
-  double u[3], v[3];
-  for (int i = 0; i < 3; ++i) {
-    u[i] = corner(mesh, vertex_at(mesh, 3 * face + 1))[i] - a[i];
-    v[i] = corner(mesh, vertex_at(mesh, 3 * face + 2))[i] - a[i];
-  }
-  cross(u, v, normal);
+  auto at = [&](int c) { return corner(mesh, vertex_at(mesh, 3 * face + c)); };
+  triangle_normal(at(0), at(1), at(2), normal);
 }
 
 // Unit normal at a corner of a face: of the triangles about it, weighted by area.

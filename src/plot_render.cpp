@@ -1,5 +1,7 @@
 #include "plot_render.h"
 
+#include "interrupt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,15 +12,27 @@ namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
+// n values, in steps between which the user may end: large pictures take gigabytes.
+template <class T>
+void fill(std::vector<T>& x, std::size_t n, T value, Patience& patience) {
+  constexpr std::size_t kStep = 1 << 22;
+  x.reserve(n);
+  while (x.size() < n) {
+    x.resize(std::min(n, x.size() + kStep), value);
+    if (patience.over()) patience.finish();
+  }
+}
+
 // What each sample sees: depth and colour, row by row.
 struct Samples {
   int width, height;
   std::vector<double> depth;
   std::vector<float> rgb;
 
-  Samples(int w, int h)
-      : width(w), height(h), depth(static_cast<std::size_t>(w) * h, kNothing),
-        rgb(3 * static_cast<std::size_t>(w) * h) {}
+  Samples(int w, int h, Patience& patience) : width(w), height(h) {
+    fill(depth, static_cast<std::size_t>(w) * h, kNothing, patience);
+    fill(rgb, 3 * static_cast<std::size_t>(w) * h, 0.0f, patience);
+  }
 };
 
 int clamp_to(double x, int last) {
@@ -83,14 +97,17 @@ void average_pixel(const Samples& s, int i, int j, int samples, int width, int h
 }  // namespace
 
 Picture render_mesh(const double* xyz, const double* rgb, const int* it, int m, int width,
-                    int height, int samples) {
-  Samples s(width * samples, height * samples);
-  for (int f = 0; f < m; ++f) draw_triangle(xyz, rgb, it + 3 * f, samples, s);
+                    int height, int samples, const std::function<void()>& between) {
+  Patience patience(between);
+  Samples s(width * samples, height * samples, patience);
+  for (int f = 0; f < m && !patience.over(); ++f) draw_triangle(xyz, rgb, it + 3 * f, samples, s);
+  patience.finish();
   Picture out;
-  out.rgba.assign(4 * static_cast<std::size_t>(width) * height, 0.0);
-  out.depth.assign(static_cast<std::size_t>(width) * height, kNothing);
-  for (int i = 0; i < width; ++i)
+  fill(out.rgba, 4 * static_cast<std::size_t>(width) * height, 0.0, patience);
+  fill(out.depth, static_cast<std::size_t>(width) * height, kNothing, patience);
+  for (int i = 0; i < width && !patience.over(); ++i)
     for (int j = 0; j < height; ++j) average_pixel(s, i, j, samples, width, height, out);
+  patience.finish();
   return out;
 }
 

@@ -1,5 +1,6 @@
 // A shaded picture of a triangulation, with the depth of what is seen.
 #pragma once
+#include <functional>
 #include <vector>
 
 namespace crestline {
@@ -12,8 +13,9 @@ struct Picture {
 // xyz: 3 x n, x to the right and y down in pixels, z towards the viewer in any unit;
 // it: 3 x m corners from 0, anticlockwise where the front is seen: others are left out;
 // rgb: 3 x n in [0, 1], interpolated over triangles; samples x samples of them make a pixel.
+// `between`: as of curvature().
 // Orthographic z-buffer; a triangle that contains no sample leaves no trace.
 Picture render_mesh(const double* xyz, const double* rgb, const int* it, int m, int width,
-                    int height, int samples);
+                    int height, int samples, const std::function<void()>& between);
 
 }  // namespace crestline

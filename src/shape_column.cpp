@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry.h"
+
 namespace crestline {
 
 namespace {
@@ -24,15 +26,12 @@ ColumnEnd column_end(WalkEnd end) {
   }
 }
 
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 // The side by which a cut in a plane leaves its first triangle with the outside on its left.
 int outer_side(const Triangulation& mesh, int face, const double* axis, const double* plane) {
-  double normal[3];
+  double normal[3], left[3];
   face_normal(mesh, face, normal);
-  double cross[3] = {plane[1] * axis[2] - plane[2] * axis[1], plane[2] * axis[0] - plane[0] * axis[2],
-                     plane[0] * axis[1] - plane[1] * axis[0]};
-  return dot(cross, normal) < 0;
+  cross(plane, axis, left);
+  return dot(left, normal) < 0;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ demo_specimen <- function() {
 }
 
 # How far the found landmarks are from those placed by hand in inst/extdata/humface_landmarks.csv. The template is half made of this very
-# face: on others it is 1.5 to 2 mm (bench/README.md).
+# face: on others it is 1.5 to 2 mm (bench/hands.md).
 print_placing <- function(face) {
   placed <- read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline", mustWork = TRUE))
   placing <- face$placing[match(rownames(placed), face$placing$landmark), ]

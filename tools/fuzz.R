@@ -1,4 +1,4 @@
-# Damaged meshes and files through the whole package: each must give a value or a crestline_error.
+# Damaged meshes, files, objects and arguments through the whole package: each must give a value or a crestline_error.
 #
 #   Rscript tools/fuzz.R [cases = 2000] [first seed = 1]
 #
@@ -101,6 +101,76 @@ write_case <- function(case, kind) {
   file
 }
 
+# Files as they are in the wild: written anew by hands of their own, so that the same mesh must come out, or, where `told`,
+# a warning or a refusal.
+wild_lines <- list(
+  comments = function(x, kind) if (kind == "obj") c("# C:\\dir\\", ifelse(runif(length(x)) < 0.3, paste(x, "# 1 2 3"), x)) else x,
+  continued = function(x, kind) if (kind == "obj") ifelse(runif(length(x)) < 0.3, sub(" ([^ ]+)$", " \\\\\n\\1", x), x) else x,
+  other_lines = function(x, kind) if (kind == "obj") c("mtllib none.mtl", "o a", x, "l 1 2", "p 1", "g b") else x,
+  negative = function(x, kind) if (kind == "obj") negative_faces(x) else x,
+  capitals = function(x, kind) if (kind == "stl") toupper(x) else x,
+  names = function(x, kind) if (kind == "stl") c("solid facet vertex 1 2 3", x[-c(1, length(x))], "endsolid vertex") else x,
+  header = function(x, kind) if (kind == "ply") append(x, rep("comment end_header of old", pick(c(3, 4000))), 2) else x,
+  blanks = function(x, kind) paste0(pick(c("", " ", "\t"), length(x)), gsub(" ", pick(c("  ", "\t")), x), pick(c("", " "), length(x))),
+  empty_lines = function(x, kind) if (kind == "ply") x else as.vector(rbind(x, "")),
+  exponents = function(x, kind) gsub("([ ^])([0-9][.][0-9]+)( |$)", "\\1\\2E+00\\3", x)
+)
+
+negative_faces <- function(x) {
+  face <- startsWith(x, "f ")
+  n <- sum(startsWith(x, "v "))
+  corner <- strsplit(x[face], " ")
+  x[face] <- vapply(corner, function(w) paste("f", paste(as.integer(w[-1]) - n - 1L, collapse = " ")), "")
+  x
+}
+
+wild_bytes <- list(
+  none = function(r) r,
+  returns = function(r) { r[r == 10] <- as.raw(13); r },
+  both = function(r) charToRaw(gsub("\n", "\r\n", rawToChar(r), fixed = TRUE)),
+  mark = function(r) c(as.raw(c(0xef, 0xbb, 0xbf)), r),
+  wide = function(r) as.vector(rbind(r, as.raw(0))),
+  wide_mark = function(r) c(as.raw(c(0xfe, 0xff)), as.vector(rbind(as.raw(0), r)))
+)
+
+wild_told <- list(
+  none = function(x, kind) x,
+  commas = function(x, kind) { i <- grepl("^ *(v|vertex|[-0-9.]+) ", x); x[i] <- gsub("([0-9])[.]([0-9])", "\\1,\\2", x[i]); x },
+  half_index = function(x, kind) if (kind == "obj") sub("^f ([0-9]+) .*", "f \\1 2 3.5", x) else wild_told$commas(x, kind),
+  count = function(x, kind) if (kind == "ply") sub("element vertex .*", paste("element vertex", sample(400, 1)), x) else wild_told$commas(x, kind),
+  windows = function(x, kind) { i <- utils::tail(grep("^ *(v|vertex|[-0-9.]+) [-0-9.]+ [-0-9.]+", x), 3); x[i] <- sub(" [-0-9.e+]+", " -1.#IND00", x[i]); x }
+)
+
+# What a case of the wild did to a mesh: "" where it came out right or was told of, else what is wrong.
+wild_case <- function(tell) {
+  case <- sound_case()
+  kind <- pick(c("ply", "obj", "stl"))
+  file <- tempfile(fileext = paste0(".", kind))
+  crestline::write_mesh(case$mesh, file, ascii = TRUE)
+  true <- crestline::read_specimen(file, case$landmarks, outward = "keep", tolerance = 0.05)
+  line <- readLines(file)
+  told <- pick(names(wild_told), prob = c(4, 1, 1, 1, 1))
+  changes <- sample(names(wild_lines), sample(0:3, 1))
+  bytes <- pick(names(wild_bytes))
+  packed <- runif(1) < 0.2
+  tell(paste("wild", kind, if (told == "none") "as it was" else told))
+  for (name in changes) line <- wild_lines[[name]](line, kind)
+  raw <- wild_bytes[[bytes]](charToRaw(paste0(paste(wild_told[[told]](line, kind), collapse = "\n"), "\n")))
+  if (packed) file <- paste0(file, ".gz")
+  connection <- if (packed) gzfile(file, "wb") else file(file, "wb")
+  writeBin(raw, connection)
+  close(connection)
+  on.exit(unlink(file))
+  warned <- FALSE
+  got <- withCallingHandlers(crestline::read_specimen(file, case$landmarks, outward = "keep", tolerance = 0.05),
+                             warning = function(w) { warned <<- TRUE; invokeRestart("muffleWarning") })
+  same <- identical(dim(got$mesh$it), dim(true$mesh$it)) && isTRUE(all.equal(got$mesh$vb[, got$mesh$it], true$mesh$vb[, true$mesh$it]))
+  silent <- !warned && got$report$count[got$report$check == "non-finite co-ordinates"] == 0
+  if (!same && silent) stop(paste(c("another mesh without a word:", kind, changes, bytes, told), collapse = " "))
+  if (told == "none" && (!same || warned)) stop(paste(c("not the same mesh:", kind, changes, bytes), collapse = " "))
+  got
+}
+
 damage_file <- function(file) {
   raw <- readBin(file, "raw", file.size(file))
   change <- pick(names(byte_mutations))
@@ -110,6 +180,7 @@ damage_file <- function(file) {
 
 # A specimen from one seed; `tell` gets the words for what was done.
 make_specimen <- function(tell) {
+  if (runif(1) < 0.15) return(wild_case(tell))
   case <- sound_case()
   kind <- pick(c("memory", "memory", "memory", "ply_ascii", "ply_binary", "obj", "stl_ascii", "stl_binary", landmark_kinds),
                prob = c(rep(1, 8), rep(0.25, length(landmark_kinds))))
@@ -128,6 +199,48 @@ make_specimen <- function(tell) {
   tell(paste(kind, damage_file(file)))
   if (kind %in% landmark_kinds) return(crestline::specimen(case$mesh, crestline::read_landmarks(file), tolerance = 0.05))
   crestline::read_specimen(file, case$landmarks, tolerance = 0.05)
+}
+
+# An object of the package without a part that it needs, or with something else in its place.
+damage_object <- function(x, class) {
+  part <- pick(names(get("class_parts", asNamespace("crestline"))[[class]]))
+  x <- unclass(x)
+  x[part] <- pick(list(NULL, NA, list(), quote(a), TRUE))
+  structure(x, class = class)
+}
+
+# What is done with a whole specimen, shape, scheme or curve is done with a damaged one.
+use_damaged <- function(tell) {
+  case <- sound_case()
+  specimen <- crestline::specimen(case$mesh, case$landmarks, id = "fuzz", tolerance = 0.05)
+  scheme <- crestline::curve_scheme(data.frame(landmark = rownames(case$landmarks)),
+                                    data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 5))
+  shape <- crestline::fit_shape(specimen, scheme, progress = FALSE)
+  kind <- pick(c("specimen", "shape", "curve_scheme", "curve"))
+  tell(paste("damaged", kind))
+  switch(kind,
+    specimen = crestline::fit_shape(damage_object(specimen, kind), scheme, progress = FALSE),
+    curve_scheme = crestline::fit_shape(specimen, damage_object(scheme, kind), progress = FALSE),
+    shape = pick(list(crestline::coords, crestline::write_landmarks))[[1]](damage_object(shape, kind), "curves"),
+    curve = {
+      curve <- crestline::ridge_curve(specimen, "a", "b", "plane", n = 5)
+      crestline::plot_curves(damage_object(curve, kind), specimen, "plain", engine = "picture")
+    }
+  )
+}
+
+# Any argument of any function with a wrong value, from the table of the tests.
+use_wrong_argument <- function(tell) {
+  if (is.null(argument_table$calls)) argument_table$calls <- suppressWarnings(argument_table$argument_calls())
+  calls <- Filter(function(one) length(one$kinds) > 0, argument_table$calls)
+  fn <- pick(names(calls))
+  argument <- pick(names(calls[[fn]]$kinds))
+  wrong <- argument_table$wrong_values()
+  value <- pick(names(wrong))
+  tell(sprintf("argument %s(%s)", fn, argument))
+  args <- calls[[fn]]$args
+  args[argument] <- wrong[value]
+  utils::capture.output(do.call(getExportedValue("crestline", fn), args, quote = TRUE))
 }
 
 # All that can be done with a specimen, as far as this version of the package can.
@@ -149,7 +262,7 @@ run_case <- function(seed, tell = function(words) NULL) {
   on.exit(setTimeLimit())
   tryCatch(
     suppressWarnings({
-      use_specimen(make_specimen(tell))
+      if (runif(1) < 0.1) pick(list(use_damaged, use_wrong_argument))[[1]](tell) else use_specimen(make_specimen(tell))
       "returned"
     }),
     crestline_error = function(e) paste("refused:", e$stage, e$problem),
@@ -210,6 +323,9 @@ summarise <- function(log) {
 
 arguments <- commandArgs(TRUE)
 script <- sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))
+argument_table <- new.env()
+suppressPackageStartupMessages(attachNamespace("crestline"))
+sys.source(file.path(dirname(script), "..", "tests", "testthat", "helper-arguments.R"), argument_table)
 if (identical(arguments[1], "--child")) {
   run_cases(as.integer(arguments[2]):as.integer(arguments[3]), arguments[4])
 } else if (identical(arguments[1], "--case")) {

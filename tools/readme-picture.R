@@ -1,4 +1,5 @@
-# The picture of README.md: Rvcg's humface with its curves, over shape index, and the surface model between them.
+# The pictures of README.md: Rvcg's humface with its curves, over shape index, and the surface model between them;
+# and what the README's ten lines draw.
 # Run from the project's root, crestline being installed: Rscript tools/readme-picture.R
 
 library(crestline)
@@ -34,3 +35,16 @@ draw_readme <- function(file, radius = 7) {
 }
 
 draw_readme(file.path("man", "figures", "README-face.jpg"))
+
+# The last of the README's ten lines.
+draw_lines_of_readme <- function(file) {
+  data <- new.env()
+  utils::data("humface", package = "Rvcg", envir = data)
+  face <- find_landmarks(data$humface, id = "humface")
+  shape <- fit_shape(face, face_scheme(), progress = FALSE)
+  grDevices::jpeg(file, width = 560, height = 430, res = 66, quality = 75, type = "cairo")
+  on.exit(grDevices::dev.off())
+  plot(shape, face, engine = "picture", view = t(face$match$rotation))
+}
+
+draw_lines_of_readme(file.path("man", "figures", "README-lines.jpg"))

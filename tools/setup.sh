@@ -28,6 +28,9 @@ apt_install() {
 
 is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
 
+# An R that is not Debian's own, as on a CI service, does not see Debian's built packages.
+if command -v Rscript >/dev/null && ! is_installed r-base-core; then has_apt=no; fi
+
 install_r() {
   local lacking=()
   for package in $DEBIAN_PACKAGES; do is_installed "$package" || lacking+=("$package"); done

@@ -33,21 +33,20 @@ unit_ball <- function() Rvcg::vcgUpdateNormals(Rvcg::vcgSphere(4), silent = TRUE
 
 ball_specimen <- function() {
   poles <- rbind(east = c(1, 0, 0), front = c(0, 0, 1), west = c(-1, 0, 0))
-  structure(list(id = "ball", mesh = unit_ball(), landmarks = poles), class = "specimen")
+  specimen(unit_ball(), poles, id = "ball")
 }
 
 ball_curvature <- function(n = ncol(unit_ball()$vb)) {
-  structure(list(k1 = rep(-1, n), k2 = rep(-1, n)), class = "curvature", radius = 0.3)
+  one <- rep(-1, n)
+  axis <- matrix(1, n, 3)
+  new_curvature(list(k1 = one, k2 = one, direction1 = axis, direction2 = axis, normal = axis, sigma = -one), 0.3, "adaptive",
+                mesh_of(ball_specimen()))
 }
 
 # Points of the mesh with face and weights, at closest distance to x.
 on_ball <- function(x, mesh = unit_ball()) {
-  hit <- Rvcg::vcgClostKD(x, mesh, barycentric = TRUE, sign = FALSE)
-  xyz <- t(hit$vb[1:3, ])
-  weights <- t(hit$barycoords)
-  s <- c(0, cumsum(sqrt(rowSums(diff(xyz)^2))))
-  data.frame(s = s, x = xyz[, 1], y = xyz[, 2], z = xyz[, 3], face = hit$faceptr, w1 = weights[, 1],
-             w2 = weights[, 2], w3 = weights[, 3])
+  at <- surface_points(mesh, x)
+  cbind(s = c(0, cumsum(row_lengths(diff(as.matrix(at[1:3]))))), at)
 }
 
 # A quarter of the equator as if it were a ridge, with standard error 0.05 and strength exp(-d^2).
@@ -56,15 +55,18 @@ equator_curve <- function(type = "ridge") {
     turn <- seq(0, pi / 2, length.out = n)
     on_ball(cbind(cos(turn), 0, sin(turn)))
   }
+  of <- mesh_of(ball_specimen())
   path <- quarter(101)
+  path <- new_mesh_path(unclass(path), max(path$s), of$key, of$id)
   points <- cbind(point = 1:11, quarter(11), d = 0, se = 0.05)
   window <- expand.grid(s = seq(0, pi / 2, length.out = 40), d = seq(-0.3, 0.3, length.out = 20))
   window$inside <- TRUE
-  coordinates <- structure(data.frame(vertex = seq_len(nrow(window)), window), length = pi / 2, width = 0.3)
+  across <- data.frame(tx = 0, ty = 0, tz = rep(1, nrow(window)))
+  coordinates <- new_path_coordinates(as.list(cbind(vertex = seq_len(nrow(window)), window, across)), pi / 2, 0.3, of)
   surface <- structure(list(), class = "test_surface")
   line <- list(s = seq(0, pi / 2, length.out = 41), alpha = rep(0, 41), se = rep(0.05, 41))
-  structure(list(points = points, path = path, reference = path, coordinates = coordinates, surface = surface,
-                 line = line, strength = 1, se = 0.05, length = pi / 2, converged = TRUE, determined = TRUE, type = type,
-                 from = "east", to = "front", id = "ball"), class = "curve")
+  about <- list(id = "ball", from = "east", to = "front", type = type)
+  new_curve(points, path, path, about, list(se = 0.05, determined = TRUE, reason = NA_character_), of$key,
+            coordinates = coordinates, surface = surface, line = line, strength = 1)
 }
 registerS3method("predict", "test_surface", function(object, s, d, ...) exp(-d^2), envir = asNamespace("stats"))

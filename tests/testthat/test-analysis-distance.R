@@ -65,3 +65,8 @@ test_that("print fits a screen", {
   expect_lte(max(nchar(shown)), 80)
   expect_identical(class(as.data.frame(curve_distance(many, many))), "data.frame")
 })
+
+test_that("points of a matrix go by their numbers, not by their rows", {
+  a <- matrix(1:33 + 0, 11, dimnames = list(paste("arc", 1:11), NULL))
+  expect_equal(curve_distance(a, a[order(rownames(a)), ])$max, 0)
+})

@@ -223,3 +223,23 @@ test_that("what cannot be compared is refused", {
   expect_crestline_error(compare_quietly(data$x, data$group, components = 0), "`components`")
   expect_crestline_error(compare_quietly(data$x, data$group, permutations = diag(6)), "`permutations`")
 })
+
+test_that("groups go to specimens by name, from a vector or a table, in any order", {
+  data <- grouped_sample(c(3, 3))
+  x <- data$x
+  dimnames(x)[[3]] <- paste0("s", 1:6)
+  by_name <- setNames(as.character(data$group), dimnames(x)[[3]])
+  turned <- by_name[c(4, 6, 2, 1, 3, 5)]
+  expected <- factor(by_name)
+  group_of <- function(group) compare_quietly(x, group, n_perm = 9, tests = "size")$group
+  expect_equal(group_of(turned), expected)
+  expect_equal(group_of(setNames(turned, toupper(names(turned)))), expected)
+  expect_equal(group_of(data.frame(Specimen = paste0(names(turned), ".ply"), group = turned)),
+               expected)
+  expect_crestline_error(group_of(setNames(turned, sub("s1", "t1", names(turned)))),
+                         c("no value for s1", "s1, s2", "t1"))
+  expect_crestline_error(group_of(c(turned, s1 = "other")), "2 different values for s1")
+  expect_crestline_error(group_of(replace(by_name, 1, " A")), "differ by blanks or case only")
+  expect_crestline_error(group_of(replace(by_name, 2, " ")), "`group` is missing for s2")
+  expect_message(group_of(unname(by_name)), "in the order of the specimens")
+})

@@ -81,6 +81,31 @@ test_that("and back", {
   expect_equal(kept$size, aligned$size, tolerance = 1e-10)
   expect_false(as_aligned(list(coords = align(one$x, scale = FALSE)$coords, size = aligned$size * (1 + 1e-12)))$scale)
   expect_true(back$scale)
-  expect_crestline_error(as_aligned(list(1)), "`sample`")
+  expect_crestline_error(as_aligned(list(1)), "`x`")
   expect_crestline_error(as_aligned(aligned$coords, size = 1), "`size`")
+})
+
+test_that("a key column of another name is found, and rows without the sample's names refused", {
+  one <- covered()
+  for (name in c("ID", "Specimen", "file name")) {
+    expect_equal(as_geomorph(one$x, data = stats::setNames(one$data, c(name, "sex", "age")))$age,
+                 1:16)
+  }
+  other <- replace(one$data$id, 3, "nobody")
+  expect_crestline_error(as_geomorph(one$x, data = transform(one$data, id = other)),
+                         c("no row for n", "nobody"))
+  expect_crestline_error(as_geomorph(one$x, data = one$data[-1]),
+                         c("no column of the specimens' names", "`id`"))
+  expect_crestline_error(as_rrpp(one$x, data = rbind(one$data, transform(one$data[1, ], age = 99))),
+                         "2 different rows for p")
+  expect_warning(as_geomorph(one$x, data = transform(one$data, sex = replace(sex, 1, "f "))),
+                 "differ by blanks or case",
+                 class = "crestline_alike_groups")
+})
+
+test_that("sizes with names go to specimens by name", {
+  aligned <- align(covered()$x)
+  expect_equal(as_aligned(aligned$coords, size = rev(aligned$size))$size, aligned$size)
+  other <- stats::setNames(aligned$size, LETTERS[11:26])
+  expect_crestline_error(as_aligned(aligned$coords, size = other), "`size` has no value for a")
 })

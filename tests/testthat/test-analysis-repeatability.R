@@ -177,3 +177,16 @@ test_that("measurements that failed are left out, counted and named, with those 
   expect_warning(of_batch <- repeatability(batch, specimen), "scan5", class = "crestline_failed_measurements")
   expect_identical(of_batch$parts, whole$parts)
 })
+
+test_that("specimens and observers with names go to measurements by name", {
+  x <- array(with_seed(4, rnorm(60)), c(5, 3, 4), list(paste("p", 1:5), NULL, paste0("m", 1:4)))
+  x[, , 1:2] <- x[, , 1:2] + 5
+  expected <- suppressMessages(repeatability(x, c("A", "A", "B", "B"), match = "none"))
+  expect_equal(repeatability(x, c(m4 = "B", m1 = "A", m3 = "B", m2 = "A"), match = "none"),
+               expected)
+  expect_equal(repeatability(x, data.frame(id = c("m4", "m1", "m3", "m2"),
+                                           of = c("B", "A", "B", "A")), match = "none"), expected)
+  expect_crestline_error(repeatability(x, c(m4 = "B", m1 = "A", m3 = "B", other = "A")),
+                         c("no value for m2", "other"))
+  expect_crestline_error(repeatability(x, c("A", "a", "B", "B")), "differ by blanks or case only")
+})

@@ -25,3 +25,11 @@ test_that("specimens without landmarks are refused by name", {
   expect_crestline_error(calibrate_template(face_template(), specimen(humface_scan(), id = "bare")), "no landmarks", id = "bare")
   expect_crestline_error(calibrate_template(face_template(), list()), "specimens")
 })
+
+test_that("a landmark that the template knows by another name is said, not added in silence", {
+  template <- list(landmarks = data.frame(landmark = c("pn", "sn"), name = NA))
+  named <- function(...) list(id = "q", landmarks = xyz(1:6, name = c(...)))
+  expect_warning(warn_unused_names(named("PN", "sn"), template, "the template"),
+                 "not used: PN; near: pn", class = "crestline_unused_landmarks")
+  expect_no_warning(warn_unused_names(named("pn", "gn"), template, "the template"))
+})

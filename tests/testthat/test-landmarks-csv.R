@@ -67,3 +67,74 @@ test_that("semicolons with decimal commas, and tabs, are read as spreadsheets wr
     expect_equal(read_landmarks(csv_file(lines)), expected, ignore_attr = TRUE)
   }
 })
+
+test_that("a row with more or fewer fields is refused with its line", {
+  expect_refused(csv_file("name,x,y,z", "n,1,2,3", "pn,1,5,4,6"), "5 fields where the header has 4",
+                 line = 3)
+  expect_refused(csv_file("name,x,y,z", "n,1,2,3", "pn,1,2"), "3 fields", line = 3)
+  expect_refused(csv_file("curve,point,x,y,z", "lip,1,1,2,3", "lip,2,1,5,2,3"),
+                 "6 fields where the header has 5", line = 3)
+  expect_refused(csv_file("name,x,x,y,z", "n,1,1,2,3"), "two columns are called \"x\"", line = 1)
+  expect_refused(csv_file("n,1,2,3", "pn,4,5,6"), "no header line", line = 1)
+  expect_refused(csv_file("name;x;y;z", "n;1,500;2.25;3"), "decimal comma", line = 2)
+})
+
+test_that("NaN of Windows programs is a missing landmark, their infinity is refused", {
+  for (word in c("-1.#IND", "1.#QNAN0", "-nan(ind)", "nan(snan)", "NaN", "NA")) {
+    expect_true(all(is.na(read_landmarks(csv_file("name,x,y,z", paste0("n,1,", word, ",3"))))))
+  }
+  expect_refused(csv_file("name,x,y,z", "n,1,1.#INF,3"), "is not a number", line = 2)
+})
+
+test_that("points have names, and one place", {
+  expect_refused(csv_file("name,x,y,z", ",1,2,3"), "a point has no name", line = 2)
+  expect_refused(csv_file("name,x,y,z", "n,1,2,3", "n,1,2,4"), "the landmark n is there twice",
+                 line = 3)
+  expect_equal(rownames(read_landmarks(csv_file('"","x","y","z"', '"n",1,2,3'))), "n")
+})
+
+test_that("what spreadsheets and R leave is read as without it", {
+  for (lines in list(c("sep=;", "name;x;y;z", "n;1,5;2;3", ";;;", "pn;4;5;6"),
+                     c("# mm", "name,x,y,z,", "n,1.5,2,3,", "pn,4,5,6,", ",,,,"))) {
+    for (eol in c("\n", "\r", "\r\n")) {
+      expect_equal(read_landmarks(landmark_file("csv", lines, eol = eol)),
+                   xyz(1.5, 2, 3, 4, 5, 6, name = c("n", "pn")))
+    }
+  }
+})
+
+test_that("tables of 3D Slicer are read in the frame of their names", {
+  ras <- csv_file("label,r,a,s,defined,selected,visible,locked,description",
+                  "n,1,2,3,1,1,1,0,\"a, b\"", "gn,0,0,0,0,1,1,0,")
+  lps <- csv_file("label,l,p,s,defined", "n,-1,-2,3,1", "gn,0,0,0,0")
+  for (file in c(ras, lps)) {
+    expect_equal(read_landmarks(file), xyz(-1, -2, 3, NA, NA, NA, name = c("n", "gn")))
+    expect_equal(unname(read_landmarks(file, frame = "RAS")["n", ]), 1:3)
+  }
+  expect_equal(unname(read_landmarks(ras, frame = "file")["n", ]), 1:3)
+  expect_refused(csv_file("name,x,y,z,r,a,s", "n,1,2,3,1,2,3"), "co-ordinates twice")
+})
+
+test_that("a column of specimens makes a list of them", {
+  rows <- c("S1,n,1,2,3", "S1,pn,4,5,6", "S2,n,7,8,9", "S2,pn,NA,,")
+  for (header in c("specimen,landmark,x,y,z", "ID,name,x,y,z", "File,label,x,y,z",
+                   "name,landmark,x,y,z")) {
+    expect_equal(read_landmarks(csv_file(header, rows)),
+                 list(S1 = xyz(1:6, name = c("n", "pn")),
+                      S2 = xyz(7:9, NA, NA, NA, name = c("n", "pn"))))
+  }
+  expect_equal(rownames(read_landmarks(csv_file("id,name,x,y,z", "1,n,1,2,3", "2,pn,4,5,6"))),
+               c("n", "pn"))
+  expect_equal(rownames(read_landmarks(csv_file("specimen,name,x,y,z", "S1,n,1,2,3",
+                                                "S1,pn,4,5,6"))), c("n", "pn"))
+  expect_refused(csv_file("scan,name,x,y,z", "S1,n,1,2,3", ",pn,4,5,6"), "no specimen is named",
+                 line = 3)
+  expect_refused(csv_file("scan,name,x,y,z", "S1,n,1,2,3", "s1,pn,4,5,6"),
+                 "seem to be one specimen", line = 3)
+  expect_length(read_landmarks(shared_data("simpop", "landmarks.csv")), 23)
+})
+
+test_that("points of a curve go by their numbers, not by their rows", {
+  x <- read_landmarks(csv_file("curve,point,x,y,z", "lip,1,1,0,0", "lip,10,10,0,0", "lip,2,2,0,0"))
+  expect_equal(attr(x, "curves")$lip[, "x"], c(1, 2, 10))
+})

@@ -76,3 +76,12 @@ test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(fcsv_file(fcsv_head(), fcsv_row("a"), fcsv_row("b", "1,two,3")), '"two"', line = 5)
   expect_refused(fcsv_file("# columns = id,label", "1,2"), "no columns x, y, z")
 })
+
+test_that("a comma in a label without quotes is refused, not taken for the end of a field", {
+  expect_refused(fcsv_file(fcsv_head(), fcsv_row("a"), fcsv_row("nose, left")),
+                 "17 fields where there are 14 columns", line = 5)
+  expect_refused(fcsv_file(fcsv_head(), fcsv_row("nose, left", end = ",,")), "15 fields", line = 4)
+  expect_refused(fcsv_file(fcsv_head(), fcsv_row("a, b, c", end = ",x,")), "16 fields", line = 4)
+  # Decimal commas, in a file that names no columns
+  expect_refused(fcsv_file("1,1,5,2,5,3,5"), "7 fields where there are 14 columns", line = 1)
+})

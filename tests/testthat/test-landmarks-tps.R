@@ -69,3 +69,8 @@ test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(tps_file("LM3=1", "1 2 3", "CURVES=2", "POINTS=1", "1 2 3"), "CURVES= announces 2, 1 follow", line = 3)
   expect_refused(tps_file("LM3=1", "1 2 3", "ID=a", "4 5 6"), "ID= announces 0 points, 1 follow", line = 3)
 })
+
+test_that("decimal commas that look like more numbers are refused", {
+  expect_refused(tps_file("LM=2", "1,5 2", "3,5 4"), "both commas and blanks", line = 2)
+  expect_equal(unname(read_landmarks(tps_file("LM3=1", "1, 2, 3"))[1, ]), 1:3)
+})

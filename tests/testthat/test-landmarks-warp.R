@@ -36,11 +36,25 @@ test_that("a template bent by a known displacement is bent back to it", {
   settings <- find_settings()
   prepared <- prepared_template(own, settings, 1)
   bend <- function(xyz) xyz + cbind(3 * sin(xyz[, 2] / 40), 2 * cos(xyz[, 1] / 50), 2 * sin(xyz[, 1] / 45 + 1))
-  scan <- own$specimen
-  scan$mesh$vb[1:3, ] <- t(bend(t(scan$mesh$vb[1:3, ])))
-  cloud <- scan_cloud(specimen(scan$mesh), 1, prepared$settings, 1)
+  scan <- own$specimen$mesh
+  scan$vb[1:3, ] <- t(bend(t(scan$vb[1:3, ])))
+  cloud <- scan_cloud(specimen(scan), 1, prepared$settings, 1)
   bent <- fit_warp(prepared, cloud, prepared$settings, settings$weight)
   error <- row_lengths(bent$moved[-seq_len(ncol(prepared$xyz)), ] - bend(own$landmarks))
   expect_lt(mean(error), 0.6)
   expect_lt(mean(error), 0.25 * mean(row_lengths(bend(own$landmarks) - own$landmarks)))
+})
+
+test_that("the normal matrix of a displacement is that of its weighted equations", {
+  with_seed(3, {
+    basis <- lapply(c(5, 6, 7), function(size) matrix(rnorm(900 * size), 900))
+    used <- sort(sample(900, 700))
+    normal <- matrix(rnorm(3 * 700), 3)
+    weight <- runif(700)
+  })
+  own <- lapply(basis, function(b) b[used, ])
+  along_normal <- do.call(cbind, lapply(1:3, function(k) normal[k, ] * own[[k]]))
+  expected <- crossprod(along_normal, 0.7 * weight * along_normal) +
+    as.matrix(Matrix::bdiag(lapply(own, function(b) crossprod(b, 0.3 * weight * b))))
+  expect_equal(cpp_warp_gram(basis, used, normal, weight, 0.3, 0.7), expected, tolerance = 1e-13)
 })

@@ -65,3 +65,68 @@ test_that("random numbers are written with digits that give them back", {
   expect_identical(as.numeric(number_text(x)), x)
   expect_identical(number_text(c(1.5, -2, NA)), c("1.5", "-2", "NA"))
 })
+
+test_that("an array, a sample's list or an alignment is written specimen by specimen, by name", {
+  x <- array(with_seed(2, rnorm(60)), c(5, 3, 4),
+             list(letters[1:5], c("x", "y", "z"), paste0("s", 1:4)))
+  for (extension in c("tps", "nts", "landmarkAscii")) {
+    file <- tempfile(fileext = paste0(".", extension))
+    write_landmarks(x, file)
+    expect_identical(read_landmarks(file), lapply(stats::setNames(nm = paste0("s", 1:4)),
+                                                  function(id) x[, , id]))
+    write_landmarks(unname(x), file)
+    expect_identical(names(read_landmarks(file)), as.character(1:4))
+  }
+  file <- tempfile(fileext = ".tps")
+  write_landmarks(align(x), file)
+  expect_identical(read_landmarks(file)$s2, align(x)$coords[, , "s2"])
+  expect_crestline_error(write_landmarks(x, tempfile(fileext = ".csv")), "one specimen, not 4")
+  expect_crestline_error(write_landmarks(list(a = x[, , 1], b = NULL), file), "nothing of b")
+})
+
+test_that("pipes, devices, empty and compressed files are refused at once", {
+  skip_on_os("windows")
+  dir <- tempfile("odd")
+  dir.create(dir)
+  path <- function(name) file.path(dir, name)
+  skip_if(system2("mkfifo", c(path("pipe.csv"), path("pipe.json"), path("pipe.ply"))) != 0)
+  file.symlink("/dev/zero", path("zero.tps"))
+  file.create(path("empty.csv"))
+  time <- system.time({
+    for (name in c("pipe.csv", "pipe.json", "zero.tps", "empty.csv")) {
+      expect_crestline_error(read_landmarks(path(name)), c(name, "pipe or device"))
+    }
+    expect_crestline_error(read_specimen(path("pipe.ply")), c("pipe.ply", "pipe or device"),
+                           id = "pipe")
+    expect_crestline_error(read_landmarks(landmarks_beside(path("pipe.ply"))), "pipe")
+  })
+  expect_lt(time[["elapsed"]], 5)
+  expect_crestline_error(write_landmarks(xyz(1, 2, 3, name = "a"), path("pipe.csv")), "is a pipe")
+  expect_crestline_error(write_mesh(ball_mesh(), path("pipe.ply")), "it is a pipe")
+  write_landmarks(xyz(1, 2, 3, name = "a"), path("empty.csv"))
+  expect_equal(read_landmarks(path("empty.csv")), xyz(1, 2, 3, name = "a"))
+  for (packer in list(gzfile, bzfile, xzfile)) {
+    to <- packer(path("packed.csv"), "wb")
+    writeLines(c("name,x,y,z", "n,1,2,3"), to)
+    close(to)
+    expect_crestline_error(read_landmarks(path("packed.csv")), c("compressed by", "Unpack it"))
+  }
+  skip_if(!file.exists("/dev/full"))
+  file.symlink("/dev/full", path("full.csv"))
+  expect_crestline_error(write_landmarks(xyz(1, 2, 3, name = "a"), path("full.csv")),
+                         "was not written whole")
+})
+
+test_that("a session with decimal commas and few digits writes the same files", {
+  x <- structure(hard_landmarks(), curves = hard_curves())
+  written <- function() {
+    lapply(c("csv", "tps", "mrk.json", "nts", "landmarkAscii", "fcsv", "pp"), function(extension) {
+      file <- tempfile(fileext = paste0(".", extension))
+      write_landmarks(if (extension %in% c("csv", "tps", "mrk.json")) x else hard_landmarks(), file)
+      readLines(file)
+    })
+  }
+  usual <- written()
+  rlang::local_options(OutDec = ",", digits = 3, scipen = -9)
+  expect_identical(written(), usual)
+})

@@ -33,10 +33,10 @@ test_that("a bridge closes a hole and leaves the mesh's own numbers", {
   expect_true(all(face_normals(bridged$mesh)[, 3] > 0))
   path <- plane_path(bridged, c(0.3, 2.4, 0), c(4.6, 2.4, 0))
   expect_equal(attr(path, "length"), 4.3)
-  over <- unbridged_path(path, scan$mesh)
+  over <- unbridged_path(path, scan)
   expect_on_mesh(over, scan$mesh)
   expect_equal(over$s[over$s > 1.71 & over$s < 2.69], numeric())
-  expect_identical(unbridged_path(plane_path(scan, c(0.3, 1.4, 0), c(4.6, 1.4, 0)), scan$mesh),
+  expect_identical(unbridged_path(plane_path(scan, c(0.3, 1.4, 0), c(4.6, 1.4, 0)), scan),
                    plane_path(scan, c(0.3, 1.4, 0), c(4.6, 1.4, 0)))
 })
 

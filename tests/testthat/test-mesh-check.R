@@ -40,7 +40,8 @@ test_that("non-finite vertices go, with their faces", {
   ball$vb[2, 5] <- NaN
   ball$vb[1, 6] <- Inf
   touching <- sum(colSums(matrix(ball$it %in% 5:6, 3)) > 0)
-  s <- specimen(ball)
+  expect_warning(s <- specimen(ball), "4 % of the triangles were left out (2 non-finite", fixed = TRUE,
+                      class = "crestline_triangles_dropped")
   expect_equal(report_count(s, "non-finite co-ordinates"), 2)
   expect_equal(ncol(s$mesh$it), 320 - touching)
   expect_equal(s$mesh$vb, ball$vb[, -(5:6)])
@@ -105,6 +106,17 @@ test_that("pieces are counted, and debris goes", {
   expect_equal(report_count(s, "isolated pieces"), 2)
 })
 
+test_that("a mesh whose pieces are all debris is refused with what to do", {
+  loose <- function(n) {
+    vb <- rbind(rep(seq_len(n), each = 3) + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1)
+    structure(list(vb = vb, it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
+  }
+  kept <- function(...) ncol(suppressWarnings(specimen(...), classes = "crestline_loose_triangles")$mesh$it)
+  expect_equal(kept(loose(1000)), 1000)
+  expect_crestline_error(specimen(loose(1001), id = "loose"), c("1001 pieces", "`debris`"), "loose")
+  expect_equal(kept(loose(1001), debris = 0), 1001)
+})
+
 test_that("holes are border loops beyond the outer one", {
   grid <- grid_mesh(8)
   expect_equal(report_count(specimen(grid), "holes"), 0)
@@ -120,7 +132,7 @@ test_that("holes are border loops beyond the outer one", {
 test_that("a point cloud is triangulated and the report says so", {
   cloud <- ball_mesh(4)
   cloud$it <- NULL
-  s <- suppressWarnings(specimen(cloud))
+  expect_warning(s <- specimen(cloud, id = "c"), "c, mesh: there are points only", class = "crestline_triangulated")
   expect_equal(report_count(s, "point cloud without triangles"), ncol(cloud$vb))
   expect_gt(ncol(s$mesh$it), 0.9 * ncol(ball_mesh(4)$it))
   outward <- colSums(s$mesh$normals[1:3, ] * s$mesh$vb[1:3, ])
@@ -136,4 +148,71 @@ test_that("results do not depend on scale", {
     expect_equal(s$mesh$normals, specimen(ball)$mesh$normals)
     expect_true(all(s$report$count[s$report$check != "landmarks beside the surface"] == 0))
   }
+})
+
+test_that("a map tells which vertex became which, through merges, losses and debris", {
+  ball <- ball_mesh(3)
+  expect_equal(specimen(ball)$vertices, 1:642)
+  ball$vb[, 100] <- ball$vb[, 101]
+  ball$vb[1, 3] <- NaN
+  debris <- cbind(c(0, 0, 2, 1), c(1e-3, 0, 2, 1), c(0, 1e-3, 2, 1))
+  given <- structure(list(vb = cbind(ball$vb[, 1:50], debris, ball$vb[, 51:642]),
+                          it = cbind(ball$it + 3L * (ball$it > 50), 51:53)), class = "mesh3d")
+  s <- suppressWarnings(specimen(given))
+  expect_equal(which(is.na(s$vertices)), c(3, 51:53))
+  expect_equal(s$vertices[103], s$vertices[104])
+  kept <- !is.na(s$vertices)
+  expect_identical(s$mesh$vb[1:3, s$vertices[kept]], given$vb[1:3, kept])
+  expect_setequal(s$vertices[kept], seq_len(ncol(s$mesh$vb)))
+  soup <- structure(list(vb = ball_mesh()$vb[, ball_mesh()$it], it = matrix(1:960, 3)), class = "mesh3d")
+  s <- specimen(soup)
+  expect_identical(s$mesh$vb[, s$vertices], soup$vb)
+  cloud <- suppressWarnings(specimen(structure(list(vb = ball_mesh(4)$vb), class = "mesh3d")))
+  expect_length(cloud$vertices, 2562)
+})
+
+test_that("far and absurd vertices go with a warning, and do not blind what goes by the size", {
+  ball <- ball_mesh(4)
+  for (x in c(60, 1e6, 1e30, 1e300)) {
+    far <- ball
+    far$vb[1, 5] <- x
+    expect_warning(s <- specimen(far, id = "f"), "f, mesh: 1 vertices", class = "crestline_far_vertices")
+    expect_equal(s$mesh$vb, ball$vb[, -5])
+  }
+  many <- ball
+  many$vb[1:3, 1:200] <- 1e30
+  classes <- character()
+  withCallingHandlers(specimen(many), warning = function(w) {
+    classes <<- c(classes, class(w)[1])
+    invokeRestart("muffleWarning")
+  })
+  expect_setequal(classes, c("crestline_far_vertices", "crestline_triangles_dropped"))
+  stray <- ball
+  stray$vb <- cbind(stray$vb, c(1e9, 0, 0, 1))
+  expect_equal(expect_no_warning(specimen(stray))$mesh$vb, ball$vb)
+  zeros <- ball
+  zeros$vb[1:3, ] <- ball$vb[1:3, ] + 1000
+  zeros$vb <- cbind(zeros$vb, matrix(c(0, 0, 0, 1), 4, 4000))
+  expect_equal(ncol(expect_no_warning(specimen(zeros))$mesh$vb), 2562)
+  absurd <- ball
+  absurd$vb[1:3, ] <- 1e300
+  expect_crestline_error(specimen(absurd, id = "a"), c("a, mesh", "absurdly large"))
+  absurd$vb[1:3, ] <- 7
+  expect_crestline_error(specimen(absurd), "no triangle with an area")
+})
+
+test_that("a mesh that falls apart is refused or told of", {
+  pieces <- function(n) {
+    x <- rep(seq_len(n), each = 3)
+    structure(list(vb = rbind(x + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1), it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
+  }
+  expect_crestline_error(specimen(pieces(1001), id = "p"), c("p, mesh", "1001 pieces", "corners do not meet"))
+  expect_warning(s <- specimen(pieces(300)), "100 % of the triangles touch no other", class = "crestline_loose_triangles")
+})
+
+test_that("polygons of two corners are counted", {
+  file <- tempfile(fileext = ".obj")
+  writeLines(c("v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 3", "f 1 2"), file)
+  expect_warning(s <- read_specimen(file), "1 polygons with fewer than three corners", class = "crestline_file_warning")
+  expect_equal(report_count(s, "polygons with fewer than three corners"), 1)
 })

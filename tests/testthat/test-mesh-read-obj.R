@@ -102,3 +102,24 @@ test_that("damaged files are refused", {
   expect_crestline_error(read_specimen(obj_file("v 1 2", corners, "f 1 2 3")), "cannot be read")
   expect_crestline_error(read_specimen(obj_file("v 1 2 x", corners, "f 1 2 3")), "cannot be read")
 })
+
+test_that("lines go on behind a backslash, comments end them, weights are no colours", {
+  long <- c("# C:\\scans\\", sub(" ([^ ]+)$", " \\\\\n \\1", corners), "f 1 2 \\", " 3 4")
+  expect_equal(read_mesh(obj_file(long), "square")$it, two)
+  expect_equal(read_mesh(obj_file(long), "square")$vb[, 3], c(1, 1, 0.123456789012, 1))
+  noted <- c(paste(corners, "# a 1 2"), "f 1 2 3#4", "f 1 3 4 # 2")
+  expect_equal(read_mesh(obj_file(noted), "square")$it, two)
+  weighed <- read_mesh(obj_file(paste(corners, "1.0"), "f 1 2 3 4"), "square")
+  expect_equal(weighed$it, two)
+  expect_null(weighed$material)
+  expect_null(read_mesh(obj_file(paste(corners[1], "1 0 0"), corners[-1], "f 1 2 3 4"), "square")$material)
+  others <- c("mtllib none.mtl", "o a", "g b c", "s 1", corners, "vn 0 0 1", "vp 0.1", "l 1 2 3", "p 1 2", "f 1 2 3 4", "g")
+  expect_equal(read_mesh(obj_file(others), "square")$it, two)
+})
+
+test_that("corners that are no whole numbers, or beyond all vertices, are refused", {
+  for (face in c("f 1 2 3.9", "f 1 2 0", "f -1 -2 -5", "f 1 2 99999999999", "f 1 2 1e400", "f 1 2 nan")) {
+    expect_crestline_error(read_specimen(obj_file(corners, "f 1 2 3", face), id = "o"), c("o, mesh", "1 of 2 faces", "do not exist"))
+  }
+  expect_equal(read_mesh(obj_file(corners, "f 1 2 3.0"), "o")$it, cbind(1:3))
+})

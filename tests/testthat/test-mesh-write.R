@@ -50,6 +50,12 @@ test_that("natural colours are kept, others are as given", {
   }
 })
 
+# The elements of a PLY file, all their properties.
+ply_table <- function(file) {
+  header <- ply_header(file_bytes(file, "x"), file, "x")
+  ply_elements_read(ply_stream(header, file, "x"), header$elements)$table
+}
+
 test_that("numbers become colours of the palette, and PLY keeps them", {
   ball <- ball_mesh(1)
   value <- c(NA, -3, 1, 0, rep(7.125, ncol(ball$vb) - 4))
@@ -57,8 +63,7 @@ test_that("numbers become colours of the palette, and PLY keeps them", {
     file <- mesh_file("ply")
     write_mesh(ball, file, value, palette = c("#000000", "#FFFFFF"), limits = c(0, 2), missing = "#0000FF", ascii = ascii)
     expect_equal(read_specimen(file)$mesh$material$color[1:5], c("#0000FF", "#000000", "#7F7F7F", "#000000", "#FFFFFF"))
-    header <- ply_header(file, "ball")
-    vertex <- ply_elements_read(ply_stream(file, header), header$elements)$vertex
+    vertex <- ply_table(file)$vertex
     expect_true(is.na(vertex$quality[1]))
     expect_identical(vertex$quality[-1], value[-1])
   }
@@ -69,10 +74,7 @@ test_that("numbers become colours of the palette, and PLY keeps them", {
 test_that("the surface of a shape is written with the rows of its points", {
   shape <- quad_shape()
   file <- mesh_file("ply")
-  row_of <- function(file) {
-    header <- ply_header(file, "quad")
-    ply_elements_read(ply_stream(file, header), header$elements)$vertex$row
-  }
+  row_of <- function(file) ply_table(file)$vertex$row
   write_mesh(shape, file)
   mesh <- read_mesh(file)
   expect_identical(t(mesh$vb[1:3, ]), unname(coords(shape, "surface")[row_of(file), ]))

@@ -84,3 +84,11 @@ test_that("boxes without a test of size have no p-value in their title", {
   compared <- compare_groups(data$x, data$group, tests = "shape", n_perm = 9, progress = FALSE)
   expect_null(p_value_of(compared, names(compared$aligned), NA))
 })
+
+test_that("boxes of whole blocks show the means of the blocks", {
+  data <- grouped_sample(c(6, 6))
+  person <- rep(1:6, each = 2)
+  compared <- compare_groups(data$x, data$group, n_perm = 9, components = 2, block = person, progress = FALSE)
+  drawn <- plot(compared, components = 1)
+  expect_equal(drawn[["centroid size"]]$n, c(3, 3))
+})

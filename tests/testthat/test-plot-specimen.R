@@ -45,7 +45,7 @@ test_that("margins are put back", {
 
 test_that("a real scan is drawn within seconds", {
   mesh <- Rvcg::vcgImport(shared_data("scan_a", "surface.ply"), readcolor = FALSE, silent = TRUE)
-  scan <- structure(list(id = "scan_a", mesh = mesh, landmarks = matrix(0, 0, 3)), class = "specimen")
+  scan <- specimen(mesh, id = "scan_a")
   seconds <- system.time(scene <- draw_quietly(plot(scan, "plain", engine = "picture")))[["elapsed"]]
   expect_lt(seconds, 15)
   expect_gt(mean(is.finite(scene$depth)), 0.3)

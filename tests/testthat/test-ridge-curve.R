@@ -278,7 +278,7 @@ test_that("points on the reference path for want of a lifted ridge carry no offs
               scale = 1, coordinates = path_coordinates(u, path, 4))
   every <- seq_len(nrow(fit$coordinates))
   fit$strengths <- list(value = rep(1, length(every)), rows = every, cell = every)
-  expect_warning(curve <- new_curve(u, path, path, 5, about, fit), class = "crestline_undetermined")
+  expect_warning(curve <- assembled_curve(u, path, path, 5, about, fit), class = "crestline_undetermined")
   expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
   expect_false(curve$determined)
 })

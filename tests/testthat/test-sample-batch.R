@@ -1,35 +1,4 @@
-# Specimens of the quad's ball, each a little wider; written as PLY with their landmarks beside them.
-batch_specimens <- function(n = 3) {
-  lapply(seq_len(n), function(i) {
-    wide <- function(mesh) {
-      mesh$vb[1, ] <- (1 + i / 50) * mesh$vb[1, ]
-      mesh
-    }
-    one <- quad_specimen(wide, quad_corners() %*% diag(c(1 + i / 50, 1, 1)))
-    one$id <- paste("ball", i)
-    one
-  })
-}
-
-batch_folder <- function(specimens = batch_specimens()) {
-  dir <- tempfile("batch-")
-  dir.create(dir)
-  for (one in specimens) {
-    write_mesh(one, file.path(dir, paste0(one$id, ".ply")))
-    write_landmarks(one, file.path(dir, paste0(one$id, ".csv")))
-  }
-  dir
-}
-
-meshes_in <- function(dir) list.files(dir, "[.]ply$", full.names = TRUE)
-
-skip_without_futures <- function() {
-  for (package in c("future", "future.apply", "progressr")) testthat::skip_if_not_installed(package)
-}
-
-same_points <- function(a, b, ...) {
-  for (level in c("landmarks", "curves", "surface")) expect_equal(coords(a, level), coords(b, level), ...)
-}
+# Many specimens by one scheme: what is kept, what is told, what a fault costs.
 
 test_that("a batch has the shapes that fit_shape() gives, by name", {
   skip_without_futures()
@@ -81,13 +50,13 @@ test_that("results are kept as they come, and measured again only when something
   expect_true(all(file.exists(kept())))
   expect_identical(lengths(unclass(first), use.names = FALSE), c(0L, 0L, 0L))
   same_points(first[[3]], fit_shape(batch_specimens()[[3]], quad_scheme(), progress = FALSE), tolerance = 1e-6)
-  # A killed run: one result is missing, of another only a part was written.
+  # A killed run: one result is missing, of another only a part was written. What another run has left is not deleted.
   unlink(kept()[2])
   writeLines("half", file.path(out, "part-1.tmp"))
   Sys.setFileTime(kept()[c(1, 3)], "2001-01-01")
   again <- run()
   expect_identical(format(file.mtime(kept()), "%Y") == "2001", c(TRUE, FALSE, TRUE))
-  expect_length(list.files(out, "[.]tmp$"), 0)
+  expect_identical(list.files(out, "[.]tmp$"), "part-1.tmp")
   same_points(again[[2]], first[[2]])
   # Another landmark file, then another scheme.
   write_landmarks(batch_specimens()[[1]]$landmarks + 0.1, file.path(dir, "ball 1.csv"))
@@ -100,12 +69,15 @@ test_that("results are kept as they come, and measured again only when something
     tables
   })
   expect_false(any(format(file.mtime(kept()), "%Y") == "2001"))
-  # What cannot be read is measured again; where only the key can, it is told.
+  # A file that is not ours is left alone; one that is cut short is told, and measured again.
   writeLines("rubbish", kept()[3])
   last <- run()
   expect_s3_class(last[[3]], "shape")
+  expect_identical(readLines(kept()[3]), "rubbish")
   writeBin(readBin(kept()[2], raw(), 1000), kept()[2])
-  expect_identical(failures(run())[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
+  expect_identical(failures(last)[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
+  expect_identical(nrow(failures(run())), 0L)
+  same_points(last[[2]], first[[2]])
 })
 
 test_that("workers give what one process gives", {
@@ -138,7 +110,138 @@ test_that("arguments that serve no specimen are refused", {
   skip_without_futures()
   expect_crestline_error(fit_shapes(list(), quad_scheme()), "`x`")
   expect_crestline_error(fit_shapes(list(1), quad_scheme()), c("`x`", "specimen"))
-  expect_crestline_error(fit_shapes(c("a.ply", "b.ply"), quad_scheme(), landmarks = "a.csv"), c("1 files", "2"))
+  expect_crestline_error(fit_shapes(c("a.ply", "b.ply"), quad_scheme(), landmarks = "a.csv"), c("a.csv", "no file"))
   expect_crestline_error(fit_shapes(batch_specimens(1), quad_scheme(), dir = 1), "`dir`")
   expect_crestline_error(failures(list()), "fit_shapes()")
+})
+
+test_that("a scan that was renamed is not measured again, and two of one name never answer for each other", {
+  skip_without_futures()
+  dir <- batch_folder()
+  out <- file.path(dir, "out")
+  on.exit(unlink(dir, recursive = TRUE))
+  all <- fit_shapes(meshes_in(dir), edge_scheme(), out)
+  Sys.setFileTime(list.files(out, full.names = TRUE), "2001-01-01")
+  # The second scan under the first one's name, and the first under a new one.
+  for (end in c(".ply", ".csv")) {
+    file.rename(file.path(dir, paste0("ball 1", end)), file.path(dir, paste0("anna", end)))
+    file.rename(file.path(dir, paste0("ball 2", end)), file.path(dir, paste0("ball 1", end)))
+  }
+  renamed <- fit_shapes(meshes_in(dir), edge_scheme(), out)
+  expect_named(renamed, c("anna", "ball 1", "ball 3"))
+  expect_identical(format(file.mtime(list.files(out, full.names = TRUE)), "%Y"), rep("2001", 3))
+  expect_identical(coords(renamed$anna, "curves"), coords(all[["ball 1"]], "curves"))
+  expect_identical(coords(renamed[["ball 1"]], "curves"), coords(all[["ball 2"]], "curves"))
+  expect_identical(vapply(as.list(renamed), `[[`, "", "id"), stats::setNames(nm = names(renamed)))
+  expect_identical(renamed$anna$specimen$id, "anna")
+  # Another scan in the place of one whose result is of use still: both are kept.
+  file.copy(file.path(dir, "ball 3.ply"), file.path(dir, "anna.ply"), overwrite = TRUE)
+  file.copy(file.path(dir, "ball 3.csv"), file.path(dir, "anna.csv"), overwrite = TRUE)
+  unlink(file.path(dir, "ball 3.ply"))
+  write_landmarks(quad_corners() %*% diag(c(1.06, 1, 1)) |> `rownames<-`(letters[1:4]), file.path(dir, "anna.csv"))
+  again <- fit_shapes(meshes_in(dir), edge_scheme(), out)
+  expect_equal(coords(again$anna, "curves"), coords(all[["ball 3"]], "curves"), tolerance = 1e-6)
+  expect_identical(nrow(failures(all)), 0L)
+})
+
+test_that("a folder that two runs share has the results of both, each for its own", {
+  skip_without_futures()
+  out <- tempfile("out-")
+  on.exit(unlink(out, recursive = TRUE))
+  two <- batch_specimens(2)
+  two[[2]]$id <- two[[1]]$id
+  first <- fit_shapes(two[1], edge_scheme(), out)
+  second <- fit_shapes(two[2], edge_scheme(), out)
+  expect_length(list.files(out), 2)
+  expect_false(identical(coords(first[[1]], "curves"), coords(second[[1]], "curves")))
+  expect_equal(coords(first[[1]], "curves"), coords(fit_shape(two[[1]], edge_scheme(), progress = FALSE), "curves"))
+  # Had the other one taken its file, it would be told.
+  files <- list.files(out, full.names = TRUE)
+  file.copy(files[grepl("-", basename(files))], files[!grepl("-", basename(files))], overwrite = TRUE)
+  expect_match(failures(first)$message, "another's result")
+  expect_warning(expect_null(first[[1]]), "another's result", class = "crestline_keeping_warning")
+})
+
+test_that("what reading, finding and fitting warn of is kept and told", {
+  skip_without_futures()
+  landmarks <- paired_corners()
+  mirrored <- landmarks
+  rownames(mirrored) <- chartr("LR", "RL", rownames(landmarks))
+  rownames(mirrored)[5:6] <- rownames(landmarks)[5:6]
+  dir <- tempfile("batch-")
+  dir.create(dir)
+  on.exit(unlink(dir, recursive = TRUE))
+  for (id in c("left", "right")) write_mesh(stretched_ball(), file.path(dir, paste0(id, ".ply")))
+  write_landmarks(landmarks, file.path(dir, "left.csv"))
+  write_landmarks(mirrored, file.path(dir, "right.csv"))
+  for (out in list(NULL, file.path(dir, "out"))) {
+    for (round in 1:2) {
+      told <- character()
+      shapes <- withCallingHandlers(
+        fit_shapes(meshes_in(dir), paired_scheme(), out, settings = ridge_settings(error = FALSE),
+                   reading = list(midline = c("high", "low"))),
+        warning = function(w) told <<- c(told, conditionMessage(w))
+      )
+      expect_length(told, 0)
+      expect_true("crestline_mirrored" %in% warnings_of(shapes)$class)
+      expect_identical(unique(warnings_of(shapes)$id), "right")
+      expect_identical(attr(failures(shapes), "warnings"), warnings_of(shapes))
+      expect_output(print(shapes), "1 specimen: left and right look mirrored.*In: right")
+      expect_identical(summary(shapes)$warnings > 0, c(FALSE, TRUE))
+    }
+  }
+  expect_identical(shapes$right$warnings, warnings_of(shapes)[-1])
+  graded <- quality(shapes)
+  expect_match(graded$why[graded$level == "specimen"], "mirrored")
+  expect_identical(graded$specimen[graded$level == "specimen"], "right")
+})
+
+test_that("arguments of reading reach it, and strange ones are refused at once", {
+  skip_without_futures()
+  dir <- batch_folder(batch_specimens(1))
+  on.exit(unlink(dir, recursive = TRUE))
+  mesh <- meshes_in(dir)
+  off <- 1.05 * batch_specimens(1)[[1]]$landmarks
+  write_landmarks(off, file.path(dir, "ball 1.csv"))
+  expect_identical(failures(fit_shapes(mesh, edge_scheme()))$stage, "landmarks")
+  expect_identical(nrow(failures(fit_shapes(mesh, edge_scheme(), reading = list(tolerance = 0.05)))), 0L)
+  unlink(file.path(dir, "ball 1.csv"))
+  write_landmarks(batch_specimens(1)[[1]]$landmarks, file.path(dir, "ball 1.mrk.json"), frame = "RAS")
+  at <- lapply(c("RAS", "LPS"), function(frame) {
+    coords(fit_shapes(mesh, edge_scheme(), reading = list(frame = frame))[[1]], "landmarks")
+  })
+  expect_equal(at[[1]], batch_specimens(1)[[1]]$landmarks, tolerance = 1e-6)
+  expect_equal(at[[2]][, "x"], -at[[1]][, "x"], tolerance = 1e-6)
+  expect_crestline_error(fit_shapes(mesh, edge_scheme(), frame = "RAS"), c("frame", "reading = list(frame"))
+  expect_crestline_error(fit_shapes(mesh, edge_scheme(), no_such = 1), c("no_such", "cut_scale"))
+  expect_crestline_error(fit_shapes(mesh, edge_scheme(), reading = list(no_such = 1)), "no_such")
+  expect_crestline_error(fit_shapes(mesh, edge_scheme(), reading = "RAS"), "`reading`")
+  expect_crestline_error(fit_shapes(batch_specimens(1), edge_scheme(), reading = list(frame = "RAS")), "mesh files")
+})
+
+test_that("a result that cannot be written costs one specimen", {
+  skip_without_futures()
+  out <- tempfile("out-")
+  on.exit(unlink(out, recursive = TRUE))
+  three <- batch_specimens()
+  # Folders stand where the second result could go.
+  taken <- file.path(out, paste0("ball 2", c("", paste0("-", substr(three[[2]]$key, 1, 8))), ".shape"))
+  for (folder in taken) dir.create(folder, recursive = TRUE)
+  shapes <- fit_shapes(three, edge_scheme(), out)
+  expect_identical(failures(shapes)[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
+  expect_match(failures(shapes)$message, "cannot be written")
+  expect_setequal(list.files(out), c("ball 1.shape", "ball 3.shape", basename(taken)))
+  unlink(taken[2], recursive = TRUE)
+  expect_identical(nrow(failures(fit_shapes(three, edge_scheme(), out))), 0L)
+})
+
+test_that("a folder without the right to write costs no measuring", {
+  skip_without_futures()
+  skip_on_os("windows")
+  skip_if(identical(Sys.info()[["effective_user"]], "root"), "root may write anywhere")
+  out <- tempfile("out-")
+  dir.create(out, mode = "0555")
+  on.exit(unlink(out, recursive = TRUE))
+  shapes <- fit_shapes(batch_specimens(2), edge_scheme(), out)
+  expect_identical(failures(shapes)$stage, c("keeping", "keeping"))
 })

@@ -123,3 +123,34 @@ test_that("a mean that takes two places in turn, as with these noisy scans, come
   expect_no_warning(sample <- homologise(shapes, progress = FALSE), class = "crestline_not_converged")
   expect_lte(nrow(sample$convergence), 6)
 })
+
+test_that("a face of which half is missing is slid with the others, whatever the length of its points' names", {
+  fine <- paired_scheme(function(tables) {
+    tables$curves$n[3:6] <- 21
+    tables$patches$patch[1] <- "cheek on the left side of the ball"
+    tables$pairs$left[6] <- tables$patches$patch[1]
+    tables$patches$n[1:2] <- 21 * 17
+    tables$patches$columns[1:2] <- "1:21"
+    tables$patches$rows[1:2] <- 18
+    tables$patches$rows_kept[1:2] <- "1:17"
+    tables$patches$curve_a[1:2] <- c("floor left[1:21]", "floor right[1:21]")
+    tables$patches$curve_b[1:2] <- c("roof left[1:21]", "roof right[1:21]")
+    tables
+  })
+  corners <- paired_corners()
+  corners[c("lowL", "highL"), ] <- NA
+  half <- paired_shape(c(1.1, 1, 1), "half", fine, landmarks = corners)
+  gone <- fine$points$place[is.na(half$points$x)]
+  expect_gt(sum(nchar(gone)), 10000)
+  whole <- lapply(1:2, function(i) paired_shape(c(1, 0.95 + i / 20, 1), paste0("whole", i), fine))
+  sample <- suppressWarnings(homologise(c(whole, list(half)), settings = slide_settings(surface = "mesh"), rounds = 2,
+                                        progress = FALSE))
+  expect_identical(is.na(sample$shapes[[3]]$points$x), is.na(half$points$x))
+  slid <- slide(half, sample$template)
+  expect_true("side right" %in% slid$sliding$part && !"side left" %in% slid$sliding$part)
+  # Another half is another set of points.
+  corners <- paired_corners()
+  corners[c("lowR", "highR"), ] <- NA
+  other <- slide(paired_shape(c(1.1, 1, 1), "other half", fine, landmarks = corners), sample$template)
+  expect_true("side left" %in% other$sliding$part && !"side right" %in% other$sliding$part)
+})

@@ -51,3 +51,10 @@ test_that("print fits a screen and counts what there is", {
   expect_match(text, "2 ridge, 1 valley, 0 plane", all = FALSE)
   expect_match(text, "2 held to a side", all = FALSE)
 })
+
+test_that("a number of points that no memory holds is refused by row and column", {
+  curve <- data.frame(curve = "p", from = "a", to = "b", kind = "plane", n = 1e9)
+  error <- expect_crestline_error(curve_scheme(data.frame(landmark = c("a", "b")), curve),
+                                  c("row 1 (p), column n", "at most 1e+05"))
+  expect_s3_class(error, "crestline_scheme_error")
+})

@@ -1,7 +1,7 @@
 # The paths of curves that are fitted anew, and those of a whole fit of the same specimen.
 refitted_paths <- function(fitting, specimen) {
   found <- Filter(function(fit) !is.null(fit$path), fitting$fits)
-  lapply(found, function(fit) as.matrix(unbridged_path(fit$path, specimen$mesh)[1:4]))
+  lapply(found, function(fit) as.matrix(unbridged_path(fit$path, specimen)[1:4]))
 }
 whole_paths <- function(specimen, scheme) {
   paths <- fit_shape(specimen, scheme, quick_error(), progress = FALSE)$paths

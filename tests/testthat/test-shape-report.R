@@ -93,3 +93,18 @@ test_that("specimens are told by id, file and pictures are checked", {
   expect_length(specimens_of(list(other, quad_specimen()), list(a = list(id = "quad"), b = NULL, c = list(id = "other"))), 3)
   expect_equal(specimens_of(list(other), list(a = NULL, c = list(id = "other")))$c$id, "other")
 })
+
+test_that("ids that look like scripts leave the page's table whole", {
+  skip_if_not_installed("htmltools")
+  for (id in c("<!--<script>", "</script>", "a\u2028b", "\"'&<b>")) {
+    shape <- quad_shape()
+    shape$id <- id
+    file <- tempfile(fileext = ".html")
+    quality_report(shape, file, pictures = 0, title = id)
+    html <- paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
+    unlink(file)
+    data <- sub('(?s).*<script id="data" type="application/json">(.*?)</script>.*', "\\1", html, perl = TRUE)
+    expect_equal(unique(jsonlite::fromJSON(data)$specimen), id)
+    expect_no_match(html, "<!--<script>", fixed = TRUE)
+  }
+})

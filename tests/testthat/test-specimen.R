@@ -20,10 +20,11 @@ test_that("the report has a row for every check, also where nothing is found", {
   report <- specimen(ball_mesh())$report
   expect_named(report, c("check", "count", "action"))
   expect_setequal(report$check, c(
-    "homogeneous co-ordinates", "quads", "faces naming missing vertices", "non-finite co-ordinates",
-    "duplicate vertices", "point cloud without triangles", "degenerate faces", "duplicate faces",
-    "faces wound against their neighbours", "debris", "unreferenced vertices", "faces looking inwards",
+    "polygons with fewer than three corners", "homogeneous co-ordinates", "quads", "faces naming missing vertices", "non-finite co-ordinates",
+    "vertices far from all others", "duplicate vertices", "point cloud without triangles", "degenerate faces", "duplicate faces",
+    "vertices apart by rounding", "vertices on edges of other triangles", "faces wound against their neighbours", "debris", "unreferenced vertices", "faces looking inwards",
     "faces without area", "non-manifold edges", "isolated pieces", "holes",
+    "vertices on a border beside another", "per cent of the surface with a second skin",
     "landmarks missing", "landmarks beside the surface", "landmarks mirrored"
   ))
   expect_true(all(report$count == 0))

@@ -59,7 +59,7 @@ test_that("every combination of factors and methods is a row, with its own surfa
 })
 
 test_that("results do not depend on blocks or workers", {
-  skip_if_not_installed("future.apply")
+  skip_if_not_installed("future")
   skip_if_not_installed("progressr")
   once <- function(...) {
     study <- ridge_study(fast, n = 5, a = 0.25, b = 2, noise = 0.01, ...)
@@ -97,4 +97,45 @@ test_that("methods that are none are refused", {
   expect_error(ridge_study(settings = list(fast)), "names", class = "crestline_error")
   expect_error(ridge_study(settings = list(a = "crestline")), "function", class = "crestline_error")
   expect_error(ridge_study(fast, n = 1, dir = 3), "folder", class = "crestline_error")
+})
+
+test_that("a grid that makes no study is refused before any work", {
+  run <- function(...) ridge_study(fast, n = 1, dir = file.path(tempdir(), "no study"), ...)
+  for (value in list(Inf, NA, NaN, 0, -1, 5, 1e-9, "a", NULL, numeric(), c(0.05, Inf), list(0.05))) {
+    expect_crestline_error(run(spacing = value), "`spacing`")
+  }
+  for (name in c("a", "b", "noise", "landmark_error", "correlation", "passes", "radius", "width", "points", "jitter", "end")) {
+    for (value in list(Inf, NA, "a", -1e9, 1e300)) {
+      expect_crestline_error(do.call(run, stats::setNames(list(value), name)), paste0("`", name, "`"))
+    }
+  }
+  expect_crestline_error(run(passes = 1.5), "`passes`")
+  expect_crestline_error(run(radius = 0), "`radius`")
+  expect_crestline_error(run(strange = 1), "strange")
+  expect_crestline_error(ridge_study(fast, n = 1e8, a = 0, b = 1, noise = 0), "curves")
+  expect_crestline_error(run(spacing = 0.01, largest = 1000), "`spacing`")
+  expect_false(dir.exists(file.path(tempdir(), "no study")))
+})
+
+test_that("two methods of one text and another constant are two methods in a folder", {
+  dir <- tempfile("study")
+  on.exit(unlink(dir, recursive = TRUE))
+  beside <- function(k) function(specimen, radius, width, n) cbind(k, seq(-0.95, 0.95, length.out = n), 0)
+  run <- function(k) ridge_study(list(beside = beside(k)), n = 1, a = 0, b = 1, noise = 0, dir = dir)$distance
+  expect_equal(c(run(0.1), run(0.2), run(0.1)), c(2, 4, 2))
+  expect_length(list.files(dir), 2)
+})
+
+test_that("a study whose results cannot be written is a study still", {
+  dir <- tempfile("study")
+  on.exit(unlink(dir, recursive = TRUE))
+  run <- function() ridge_study(fast, n = 1, a = 0, b = 1, noise = 0, spacing = 0.1, dir = dir)
+  first <- run()
+  file <- list.files(dir, full.names = TRUE)
+  unlink(file)
+  dir.create(file)
+  expect_warning(again <- run(), "1 of 1 block not kept", class = "crestline_keeping_warning")
+  expect_equal(again$distance, first$distance)
+  lost <- lost_block(list(cell = list(a = 0), seeds = 1:2), list(one = 1), list(message = "gone\nfor good"))
+  expect_identical(vapply(lost, `[[`, "", "error"), rep("the worker died: gone", 2))
 })

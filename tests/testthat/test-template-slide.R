@@ -108,11 +108,11 @@ test_that("unit and pose change nothing", {
   turn <- turn * det(turn)
   template <- symmetrise(paired_shape())
   shape <- paired_shape(c(1.2, 1, 1.1))
-  moved <- shape$specimen
-  moved$mesh$vb[1:3, ] <- t(0.001 * t(moved$mesh$vb[1:3, ]) %*% turn)
+  mesh <- shape$specimen$mesh
+  mesh$vb[1:3, ] <- t(0.001 * t(mesh$vb[1:3, ]) %*% turn)
   landmarks <- 0.001 * shape$specimen$landmarks %*% turn
   rownames(landmarks) <- rownames(shape$specimen$landmarks)
-  moved <- specimen(moved$mesh, landmarks, id = "moved", outward = "keep")
+  moved <- specimen(mesh, landmarks, id = "moved", outward = "keep")
   other <- fit_shape(moved, paired_scheme(), progress = FALSE)
   small <- template
   small$points[c("x", "y", "z")] <- 0.001 * as.matrix(small$points[c("x", "y", "z")])

@@ -1,0 +1,330 @@
+# An alignment as a container of its specimens: parts of it, and several of them joined, are aligned
+# again.
+
+#' An alignment from its parts
+#'
+#' It is the list of its configurations, so that loops run over specimens; what they have in common
+#' are attributes, which `$` gives as fields, `coords` as one array.
+#'
+#' @param coords k x d x n, with names.
+#' @param mean,size,weights,scale,tangent,level,missing,moved,triangles As [align()] gives them.
+#' @param places k: points that coincide share one.
+#' @param settings The arguments that [align()] was called with, for the rest of the specimens; NULL
+#'   of [as_aligned()].
+#' @param reference k x d: where the mean is laid.
+#' @param provenance List: what came from where.
+#' @noRd
+new_aligned <- function(coords, mean, size, weights, places, scale, tangent, level,
+                        missing = no_missing_points(), moved = numeric(), triangles = NULL,
+                        settings = NULL, reference = mean, provenance = list()) {
+  each <- lapply(seq_len(dim(coords)[3]), function(i) {
+    matrix(coords[, , i], dim(coords)[1], dimnames = dimnames(coords)[1:2])
+  })
+  structure(stats::setNames(each, dimnames(coords)[[3]]), mean = mean, size = size,
+            weights = weights, places = places, scale = scale, tangent = tangent, level = level,
+            missing = missing, moved = moved, triangles = triangles, settings = settings,
+            reference = reference, provenance = provenance, class = "aligned")
+}
+
+aligned_fields <- c("coords", "mean", "size", "weights", "places", "scale", "tangent", "level",
+                    "missing", "moved", "triangles", "settings", "reference", "provenance")
+
+no_missing_points <- function() {
+  data.frame(id = character(), point = character(), action = character())
+}
+
+#' The rules of an alignment
+#' @noRd
+validate_aligned <- function(x, call = rlang::caller_env()) {
+  refuse <- function(wrong, problem) {
+    remedy <- "Make an alignment with align()."
+    if (wrong) crestline_abort(problem, remedy, stage = "align", call = call)
+  }
+  mean <- x$mean
+  k <- nrow(mean)
+  like_mean <- function(one) {
+    identical(dim(one), dim(mean)) && identical(dimnames(one), dimnames(mean))
+  }
+  ids <- names(x)
+  refuse(!all(vapply(as.list(x), like_mean, NA)),
+         "its configurations have not the points of its mean.")
+  refuse(anyDuplicated(ids) > 0,
+         sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]))
+  refuse(!identical(names(x$size), ids), "its sizes are not those of its specimens.")
+  refuse(length(x$weights) != k || length(x$places) != k,
+         "its weights or places are not those of its points.")
+  refuse(!all(x$missing$id %in% ids), "its missing points are of other specimens.")
+  refuse(!all(x$triangles %in% seq_len(k)), "its triangles name points that are not there.")
+  x
+}
+
+# Of an alignment whose fields may have been set one by one since it was made.
+#' @exportS3Method
+validate.aligned <- function(x) {
+  mean <- attr(x, "mean")
+  alike <- all(vapply(as.list(x), function(one) identical(dim(one), dim(mean)), NA))
+  if (alike && length(x$weights) == nrow(mean) && length(x$size) == length(x)) return(invisible(x))
+  crestline_abort("the fields of the alignment do not fit together.",
+                  "Set `coords`, `mean`, `size`, `weights` alike, or align() the changed sample.",
+                  stage = "align", call = NULL)
+}
+
+#' The specimens of an alignment
+#'
+#' An `aligned` is a container of its configurations: `length()` and `names()` are those of the
+#' specimens, `aligned[["id"]]` is one k x 3 matrix; `for`, `lapply()`, `split()` and `as.list()` go
+#' through them.
+#'
+#' A Procrustes mean, the space tangent to it and missing points that were estimated depend on all
+#' specimens. So `aligned[ids]`, `aligned[-3]` and `aligned[logical]` align the specimens that are
+#' left again, with the same settings: it is what [align()] gives of a sample without the others.
+#' `c()` aligns the specimens of both together. Three things stay: sizes (each specimen's own), the
+#' pose (the mean is laid onto the same reference), and points that were left out because some
+#' specimen lacked them (`missing = "drop"`), which are not brought back. All specimens in another
+#' order keep their co-ordinates to the last bit. Of [as_aligned()], where nothing is known of how
+#' it was aligned, co-ordinates stay as they are and the mean is theirs; such ones are not joined.
+#'
+#' @param x,... An `aligned`, as [align()] returns it; of `c()` several of the same points and
+#'   settings.
+#' @param i Names, numbers (negative: all but these), or a logical value for each specimen; logical
+#'   values with names are matched by these. In `[[` one name or number.
+#' @param name A field, see [align()].
+#' @param value Of `names<-`: new names. Of `$<-`: the field.
+#' @return An `aligned`; of `[[` a matrix, of `as.list()` a list of them by name, of `as.array()`
+#'   the array `coords`. `$<-` sets one field as it is given: the others are yours to set.
+#' @section Errors: of class `crestline_error`: a specimen that is not there or is asked for twice
+#'   (the error says which there are); fewer than two; in `c()` other points, templates or settings,
+#'   and names that both have.
+#' @seealso [align()]
+#' @examples
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
+#' shapes <- shapes + rnorm(120, sd = 0.05)
+#' dimnames(shapes) <- list(letters[1:4], c("x", "y", "z"), paste0("s", 1:10))
+#' aligned <- align(shapes)
+#' aligned[-3]
+#' aligned[["s2"]]
+#' vapply(aligned, function(one) one["a", "x"], 0)
+#' @name aligned
+NULL
+
+#' @rdname aligned
+#' @export
+`[.aligned` <- function(x, i, ...) {
+  if (...length()) refuse_dimensions("the alignment", "Or use the array: aligned$coords[, , i].")
+  if (missing(i)) return(x)
+  at <- chosen_members(i, names(x), "the alignment")
+  if (length(at) == length(x)) return(reordered(x, at))
+  if (length(at) < 2) {
+    crestline_abort(sprintf("%s of an alignment %s no alignment.", amount(length(at), "specimen"),
+                            if (length(at) == 1) "is" else "are"),
+                    "Choose two or more; aligned[[i]] is one configuration.", stage = "align")
+  }
+  if (is.null(x$settings)) return(kept_as_they_are(x, at))
+  given <- c(list(coords = raw_configurations(x)[, , at, drop = FALSE]), given_of(x))
+  part <- with_dropped(align_configurations(given, x$settings), x)
+  attr(part, "provenance") <- provenance_part(x$provenance, names(part))
+  part
+}
+
+#' @rdname aligned
+#' @export
+`[[.aligned` <- function(x, i, ...) {
+  if (...length()) refuse_dimensions("the alignment", "Or use the array: aligned$coords[, , i].")
+  as.list(x)[[one_member(i, names(x), "the alignment")]]
+}
+
+#' @rdname aligned
+#' @export
+`$.aligned` <- function(x, name) {
+  if (!name %in% aligned_fields) {
+    refuse_member(sprintf("an alignment has no field `%s`.", name),
+                  sprintf("Fields are %s.", paste(aligned_fields, collapse = ", ")),
+                  rlang::caller_env())
+  }
+  aligned_field(x, name)
+}
+
+aligned_field <- function(x, name) {
+  if (name == "coords") as.array(x) else attr(x, name, exact = TRUE)
+}
+
+fields_of <- function(x, names = aligned_fields) {
+  lapply(stats::setNames(nm = names), function(name) aligned_field(x, name))
+}
+
+#' @rdname aligned
+#' @export
+`$<-.aligned` <- function(x, name, value) {
+  if (!name %in% aligned_fields) {
+    refuse_member(sprintf("an alignment has no field `%s`.", name), "Make one with align().",
+                  rlang::caller_env())
+  }
+  if (name == "coords") value <- named_array(check_array(value, rlang::caller_env()))
+  fields <- fields_of(x)
+  fields[name] <- list(value)
+  do.call(new_aligned, fields)
+}
+
+#' @rdname aligned
+#' @export
+`[<-.aligned` <- function(x, i, ..., value) {
+  refuse_member("specimens of an alignment cannot be replaced.", "Align the changed sample again.",
+                rlang::caller_env())
+}
+
+#' @rdname aligned
+#' @export
+`[[<-.aligned` <- `[<-.aligned`
+
+#' @rdname aligned
+#' @export
+`names<-.aligned` <- function(x, value) {
+  value <- check_member_names(value, length(x))
+  renamed <- fields_of(x)
+  dimnames(renamed$coords)[[3]] <- value
+  names(renamed$size) <- value
+  own <- match(renamed$missing$id, names(x))
+  renamed$missing$id <- ifelse(is.na(own), renamed$missing$id, value[own])
+  if (!is.null(renamed$provenance$specimens)) renamed$provenance$specimens$id <- value
+  validate_aligned(do.call(new_aligned, renamed))
+}
+
+#' @rdname aligned
+#' @export
+as.list.aligned <- function(x, ...) {
+  attributes(x) <- list(names = names(x))
+  x
+}
+
+#' @rdname aligned
+#' @exportS3Method
+as.array.aligned <- function(x, ...) {
+  each <- as.list(x)
+  like <- if (length(each)) each[[1]] else attr(x, "mean")
+  array(as.numeric(unlist(each, use.names = FALSE)), c(dim(like), length(each)),
+        c(dimnames(like), list(names(each))))
+}
+
+#' @rdname aligned
+#' @export
+c.aligned <- function(...) {
+  each <- Filter(Negate(is.null), list(...))
+  for (one in each) check_class(one, "aligned", "...", "align()")
+  if (length(each) == 1) return(each[[1]])
+  first <- each[[1]]
+  for (one in each[-1]) check_alike_aligned(first, one)
+  twice <- unlist(lapply(each, names))
+  twice <- unique(twice[duplicated(twice)])
+  if (length(twice)) {
+    refuse_member(sprintf("more than one of the alignments has %s.", shorten(twice)),
+                  "Drop it from one, aligned[-i], or rename: names(aligned) <- ...",
+                  rlang::caller_env())
+  }
+  raw <- lapply(each, raw_configurations)
+  coords <- array(unlist(raw), c(dim(first$mean), length(unlist(lapply(each, names)))),
+                  c(dimnames(first$mean), list(unlist(lapply(each, names)))))
+  joined <- align_configurations(c(list(coords = coords), given_of(first)), first$settings)
+  joined <- do.call(with_dropped, c(list(joined), each))
+  attr(joined, "provenance") <- first$provenance
+  specimens <- lapply(each, function(one) one$provenance$specimens)
+  attr(joined, "provenance")$specimens <- do.call(rbind, specimens)
+  joined
+}
+
+#' Where an alignment came from
+#'
+#' @param settings Arguments of [align()].
+#' @noRd
+aligned_provenance <- function(sample, settings) {
+  known <- if (inherits(sample, "shape_sample")) whole_provenance(sample) else made_with()
+  known$settings$align <- settings
+  known
+}
+
+#' The same for some of its specimens
+#' @noRd
+provenance_part <- function(provenance, ids) {
+  if (!is.null(provenance$specimens)) {
+    provenance$specimens <- provenance$specimens[match(ids, provenance$specimens$id), ]
+    rownames(provenance$specimens) <- NULL
+  }
+  provenance
+}
+
+#' @rdname provenance
+#' @export
+summary.aligned <- function(object, ...) new_summary(printed_lines(object), object$provenance)
+
+#' The rest of what [configurations()] gives
+#' @noRd
+given_of <- function(x) fields_of(x, c("reference", "triangles", "places", "level"))
+
+#' All specimens in another order
+#' @noRd
+reordered <- function(x, at) {
+  fields <- fields_of(x)
+  fields$coords <- fields$coords[, , at, drop = FALSE]
+  fields$size <- fields$size[at]
+  fields$provenance <- provenance_part(fields$provenance, names(fields$size))
+  do.call(new_aligned, fields)
+}
+
+#' Some of the specimens of a foreign alignment
+#' @noRd
+kept_as_they_are <- function(x, at) {
+  fields <- fields_of(x)
+  fields$coords <- fields$coords[, , at, drop = FALSE]
+  fields$size <- fields$size[at]
+  fields$mean[] <- rowMeans(fields$coords, dims = 2)
+  fields$reference <- fields$mean
+  fields$missing <- fields$missing[fields$missing$id %in% names(fields$size), ]
+  fields$provenance <- provenance_part(fields$provenance, names(fields$size))
+  validate_aligned(do.call(new_aligned, fields))
+}
+
+#' The configurations before they were scaled and projected, in their own sizes; points that were
+#' estimated are NA
+#' @noRd
+raw_configurations <- function(x) {
+  coords <- before_projection(x)
+  if (!isFALSE(x$scale)) {
+    weight <- x$weights / sum(x$weights)
+    own <- apply(coords, 3, function(one) {
+      sqrt(sum(x$weights * sweep(one, 2, colSums(one * weight))^2))
+    })
+    coords <- coords * rep(x$size / own, each = length(x$mean))
+  }
+  estimated <- x$missing[x$missing$action == "estimated", ]
+  at <- cbind(match(estimated$point, rownames(x$mean)), match(estimated$id, names(x)))
+  for (d in seq_len(ncol(x$mean))) coords[cbind(at[, 1], rep(d, nrow(at)), at[, 2])] <- NA
+  coords
+}
+
+#' The record of points that were dropped before, for the specimens that are left
+#' @noRd
+with_dropped <- function(x, ...) {
+  dropped <- function(one) one$missing[one$missing$action == "dropped", ]
+  before <- do.call(rbind, lapply(list(...), dropped))
+  if (nrow(before)) x$missing <- rbind(before[before$id %in% names(x), ], x$missing)
+  x
+}
+
+#' Whether specimens of two alignments can be aligned together
+#' @noRd
+check_alike_aligned <- function(a, b, call = rlang::caller_env()) {
+  fail <- function(problem) {
+    crestline_abort(problem, "Join the samples or arrays instead, and align() them together.",
+                    stage = "align", call = call)
+  }
+  if (is.null(a$settings) || is.null(b$settings)) {
+    fail("how one of them was aligned is not known (as_aligned()).")
+  }
+  if (!identical(dimnames(a$mean), dimnames(b$mean))) fail("the alignments have different points.")
+  same <- c(a$level == b$level, identical(a$triangles, b$triangles),
+            identical(a$settings, b$settings))
+  differ <- c("level", "triangles", "settings")[!same]
+  if (length(differ)) fail(sprintf("the alignments differ in %s.", paste(differ, collapse = ", ")))
+  if (!identical(a$provenance$template, b$provenance$template)) {
+    fail("the alignments are of samples with different templates: their points are not homologous.")
+  }
+}

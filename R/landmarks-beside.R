@@ -1,0 +1,278 @@
+# Which landmarks belong to which mesh: the file beside it, or a set of many by the specimen's id.
+
+#' The landmark file beside a mesh
+#'
+#' Of its name without extension, in any format of [read_landmarks()] and in any case of the
+#' extension, or as MeshLab names picked points. A `.json` that holds no markups is none.
+#'
+#' @param file Path of the mesh.
+#' @return Path, "" where there is none. Refused where two files differ: landmarks, or their places
+#'   by more than the tolerance.
+#' @noRd
+landmarks_beside <- function(file) {
+  beside <- landmark_files_beside(file)
+  if (length(beside) < 2) return(c(beside, "")[1])
+  sets <- lapply(beside, read_landmarks)
+  differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+  if (length(differs)) {
+    two <- basename(beside[c(1, differs[1] + 1)])
+    refuse_landmarks(
+      sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
+      "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL
+    )
+  }
+  beside[1]
+}
+
+#' All of them; where none has the mesh's name exactly, those that differ in case and are not of
+#' another mesh
+#' @noRd
+landmark_files_beside <- function(file) {
+  stem <- sub("[.][^.]*$", "", basename(file))
+  name <- list.files(dirname(file), all.files = TRUE)
+  name <- name[startsWith(tolower(name), tolower(stem))]
+  own <- substr(name, 1, nchar(stem))
+  end <- tolower(substring(name, nchar(stem) + 1))
+  known <- c(paste0(".", tolower(names(landmark_formats()))), ".json", "_picked_points.pp")
+  meant <- if (stem %in% own[end %in% known]) stem else
+    setdiff(own, own[end %in% paste0(".", names(mesh_readers()))])
+  fits <- end %in% known & own %in% meant
+  name <- name[fits][order(match(end[fits], known))]
+  beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else
+    file.path(dirname(file), name)
+  beside[vapply(beside, is_landmark_file, NA)]
+}
+
+#' Whether a file of a format's extension holds landmarks, as far as other programs use the
+#' extension too
+#' @noRd
+is_landmark_file <- function(file) {
+  if (dir.exists(file)) return(FALSE)
+  other <- grepl("(?<![.]mrk)[.]json$", tolower(file), perl = TRUE)
+  if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
+                      error = function(e) NULL)
+  is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
+}
+
+#' Whether two sets have the same landmarks in the same places
+#'
+#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks:
+#'   formats differ in their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
+#' @noRd
+same_landmarks <- function(a, b, tolerance = 1e-4) {
+  if (is.list(a) || is.list(b)) return(identical(a, b))
+  if (!setequal(rownames(a), rownames(b))) return(FALSE)
+  b <- b[rownames(a), , drop = FALSE]
+  if (!identical(is.na(unname(a)), is.na(unname(b)))) return(FALSE)
+  extent <- max(abs(sweep(a, 2, colMeans(a, na.rm = TRUE))), 0, na.rm = TRUE)
+  max(abs(a - b), 0, na.rm = TRUE) <= tolerance * extent
+}
+
+#' Landmarks of some specimens, by their ids
+#'
+#' @param landmarks One file of several specimens (TPS, NTS, .landmarkAscii, CSV with a column of
+#'   specimens), a folder of landmark files, paths of one file each, a list of k x 3 matrices (or
+#'   data frames, or specimens) by name, a k x 3 x n array with names, or a data frame with a column
+#'   of specimens.
+#' @param ids Ids of the specimens.
+#' @param ... Further arguments of [read_landmarks()].
+#' @return List by id: a k x 3 matrix, or the path of the specimen's own file; NULL where there is
+#'   none. The attribute `problem` (character by id) says why: nothing of its name (with near
+#'   names), or two that differ; NA where all is well. Refused where no specimen has landmarks, and
+#'   where they have no names and there are several specimens.
+#' @noRd
+landmarks_for <- function(landmarks, ids, ...) {
+  source <- landmark_source(landmarks, ids, ...)
+  if (length(ids) == 1 && length(source$sets) == 1 &&
+      (is.null(names(source$sets)) || isTRUE(source$file))) {
+    return(for_ids(source$sets, ids, NA))
+  }
+  if (is.null(names(source$sets))) {
+    refuse_landmarks(
+      sprintf("%s has %s without names of specimens, for %s.", source$what,
+              amount(length(source$sets), "set"), amount(length(ids), "specimen")),
+      sprintf("Name them by the specimens: %s.", shorten(ids)), id = NULL
+    )
+  }
+  place <- id_places(ids, names(source$sets))
+  if (!is.null(source$alias) && !any(lengths(place))) place <- id_places(ids, source$alias)
+  problem <- unlist(Map(function(id, place) landmarks_problem(source, id, place), ids, place))
+  if (!any(is.na(problem))) {
+    refuse_landmarks(
+      if (length(ids) == 1) problem[[1]] else
+        sprintf("%s has no landmarks of %s.", source$what, shorten(ids)),
+      if (any(lengths(place))) "Leave one of them." else
+        sprintf("It has those of %s. Name them alike.", shorten(names(source$sets))), id = NULL
+    )
+  }
+  sets <- vector("list", length(ids))
+  fine <- is.na(problem)
+  sets[fine] <- source$sets[vapply(place[fine], `[`, 1L, 1L)]
+  for_ids(sets, ids, problem)
+}
+
+#' Why a specimen has no landmarks among some sets, NA where it has
+#' @noRd
+landmarks_problem <- function(source, id, place) {
+  if (!length(place)) {
+    return(sprintf("%s has no landmarks of %s. %s", source$what, id,
+                   near_names(id, unique(names(source$sets)))))
+  }
+  if (same_sets(source$sets[place])) return(NA_character_)
+  file <- Filter(is.character, source$sets[place])
+  from <- if (length(file)) paste0(": ", shorten(basename(unlist(file))))
+  paste0(source$what, " has different landmarks of ", id, from, ".")
+}
+
+#' Whether sets, perhaps in files, are all the same
+#' @noRd
+same_sets <- function(sets) {
+  if (length(sets) < 2) return(TRUE)
+  sets <- lapply(sets, function(one) if (is.character(one)) read_landmarks(one) else one)
+  all(vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+}
+
+#' Landmarks of one specimen, as [specimen()] takes them
+#' @noRd
+landmarks_of <- function(landmarks, id) {
+  by_id <- if (is.data.frame(landmarks)) {
+    any(is_key_column(setdiff(tolower(names(landmarks)), c("name", "landmark", "label"))))
+  } else if (is.matrix(landmarks)) {
+    FALSE
+  } else {
+    is.character(landmarks) || is.list(landmarks) || length(dim(landmarks)) == 3
+  }
+  if (!by_id) return(landmarks)
+  found <- landmarks_for(landmarks, id)[[1]]
+  if (is.character(found)) landmarks_of(read_landmarks(found), id) else found
+}
+
+for_ids <- function(sets, ids, problem) {
+  problem <- stats::setNames(rep_len(problem, length(ids)), ids)
+  structure(stats::setNames(sets, ids), problem = problem)
+}
+
+#' What landmarks there are, by name
+#' @return List: `sets` (matrices or paths; no names where the specimens have none), `what` (what it
+#'   is called), `alias` (other names or NULL), `file` (whether it is one file).
+#' @noRd
+landmark_source <- function(landmarks, ids, ...) {
+  if (is.character(landmarks) && is.null(dim(landmarks)) && length(landmarks)) {
+    if (length(unique(landmarks)) > 1) {
+      return(list(sets = paths_by_name(landmarks, ids), what = "`landmarks`"))
+    }
+    file <- unname(landmarks[1])
+    if (isTRUE(dir.exists(file))) {
+      paths <- landmark_folder(file)
+      return(list(sets = stats::setNames(as.list(paths), names(paths)), what = file))
+    }
+    found <- read_sets(file, ...)
+    sets <- if (is.matrix(found)) list(found) else found
+    if (isTRUE(attr(found, "numbered"))) names(sets) <- NULL
+    return(list(sets = sets, what = basename(file), alias = attr(found, "alias"), file = TRUE))
+  }
+  list(sets = given_sets(landmarks), what = "`landmarks`")
+}
+
+#' Several paths: by their names, else by those of the files. Where no file has a specimen's name
+#' they are taken in order, and that is said; refused where the order contradicts the names in the
+#' files'
+#' @noRd
+paths_by_name <- function(landmarks, ids) {
+  if (!is.null(names(landmarks))) return(as.list(landmarks))
+  stem <- sub(id_extension(), "", basename(landmarks), ignore.case = TRUE)
+  if (any(lengths(id_places(ids, stem)) > 0) || length(landmarks) != length(ids)) {
+    return(stats::setNames(as.list(landmarks), stem))
+  }
+  within <- lapply(sub("^.*/", "", plain_id(ids)), function(id) {
+    which(grepl(id, tolower(stem), fixed = TRUE))
+  })
+  other <- which(mapply(function(at, i) length(at) == 1 && at != i, within, seq_along(ids)))
+  if (length(other)) {
+    at <- other[1]
+    refuse_landmarks(
+      sprintf("`landmarks` has %s in the place of %s.", basename(landmarks[at]), ids[at]),
+      "Put them in the order of the specimens, or give them the specimens' names.", id = NULL
+    )
+  }
+  crestline_inform(paste0("`landmarks` are taken in the order of the specimens, ",
+                          basename(landmarks[1]), " for ", ids[1], " and so on."))
+  stats::setNames(as.list(landmarks), ids)
+}
+
+#' Sets given in R as a list of matrices by name
+#' @noRd
+given_sets <- function(x) {
+  if (is.data.frame(x)) {
+    found <- table_sets(x)
+    return(if (is.matrix(found)) list(found) else found)
+  }
+  if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
+  if (is.matrix(x) || inherits(x, "specimen")) x <- list(x)
+  if (!is.list(x) || !length(x)) {
+    crestline_abort(sprintf("`landmarks` is %s.", describe_value(x)),
+                    "Give a file, a folder, or a list of matrices or an array by name of specimen.",
+                    stage = "arguments", call = NULL)
+  }
+  specimen <- vapply(x, inherits, NA, "specimen")
+  if (is.null(names(x)) && all(specimen)) names(x) <- vapply(x, `[[`, "", "id")
+  if (!is.null(names(x)) && !all(nzchar(names(x)))) {
+    refuse_landmarks("some of the list `landmarks` have no name.", "Name each by its specimen.",
+                     id = NULL)
+  }
+  x[specimen] <- lapply(x[specimen], `[[`, "landmarks")
+  lapply(x, function(one) if (is.character(one)) one else as_landmarks(one))
+}
+
+#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have
+#' no names
+#' @noRd
+array_sets <- function(x) {
+  point <- if (is.null(dimnames(x)[[1]])) as.character(seq_len(dim(x)[1])) else dimnames(x)[[1]]
+  sets <- lapply(seq_len(dim(x)[3]), function(i) {
+    matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL))
+  })
+  stats::setNames(sets, dimnames(x)[[3]])
+}
+
+#' The landmark files of a folder, named by specimen
+#' @noRd
+landmark_folder <- function(dir) {
+  file <- list.files(dir, full.names = TRUE)
+  known <- paste0("[.](", paste(c(names(landmark_formats()), "json"), collapse = "|"), ")$")
+  file <- file[grepl(known, file, ignore.case = TRUE)]
+  file <- file[vapply(file, is_landmark_file, NA)]
+  if (!length(file)) {
+    known <- paste0(".", names(landmark_formats()), collapse = ", ")
+    refuse_landmarks(sprintf("the folder %s has no landmark files.", dir),
+                     sprintf("Known: %s.", known), id = NULL)
+  }
+  name <- sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE)
+  stats::setNames(file, sub(id_extension(), "", name, ignore.case = TRUE))
+}
+
+#' @param ... As of read_sets().
+#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of
+#'   one specimen must agree.
+#' @noRd
+read_landmark_folder <- function(dir, ...) {
+  file <- landmark_folder(dir)
+  sets <- do.call(c, unname(Map(function(path, name) {
+    found <- read_sets(path, ...)
+    if (is.matrix(found)) found <- list(found)
+    if (isTRUE(attr(found, "numbered"))) names(found) <- paste(name, seq_along(found))
+    if (length(found) == 1) names(found) <- name
+    found
+  }, file, names(file))))
+  name <- names(sets)
+  for (twice in unique(name[duplicated(name)])) {
+    if (!same_sets(sets[name == twice])) {
+      from <- basename(file[names(file) == twice])
+      from <- if (length(from) > 1) paste0(": ", shorten(from))
+      refuse_landmarks(paste0(dir, " has different landmarks of ", twice, from, "."),
+                       "Leave one of them.", id = NULL)
+    }
+  }
+  sets[!duplicated(name)]
+}

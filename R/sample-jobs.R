@@ -1,0 +1,161 @@
+# What a batch is to measure: an id of its own for each mesh, its landmarks, and how both are read.
+
+#' What is to be measured: files or specimens, by id
+#'
+#' @return Named list of jobs, each a list: `id`; `specimen`, or `mesh` (path), `landmarks` (path,
+#'   matrix, or NULL where there are none) and `reading` (list: arguments for `landmarks`, for
+#'   `specimen`); `wanting`, why there are no landmarks, as far as that is known; `refusal`, a
+#'   condition, where the landmarks cannot be had.
+#' @noRd
+batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
+  if (inherits(x, "specimen")) x <- list(x)
+  if (is.character(x) && length(x)) return(file_jobs(x, landmarks, reading, call))
+  if (!is.list(x) || !length(x)) {
+    crestline_abort(sprintf("`x` is %s.", describe_value(x)), "Give paths of meshes, or a list of specimens.",
+                    stage = "arguments", call = call)
+  }
+  for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()", call)
+  if (!is.null(landmarks) || length(reading)) {
+    crestline_abort(sprintf("`%s` goes with mesh files, but `x` holds specimens.",
+                            if (is.null(landmarks)) "reading" else "landmarks"),
+                    "Give the specimens their landmarks first, or give the paths of the meshes.", stage = "arguments",
+                    call = call)
+  }
+  ids <- specimen_ids(x)
+  stats::setNames(Map(function(one, id) {
+    one$id <- id
+    list(id = id, specimen = one)
+  }, unname(x), ids), ids)
+}
+
+#' Ids of specimens; of those that share one, the names of the list where these are each another,
+#' else numbered
+#' @noRd
+specimen_ids <- function(x) {
+  ids <- vapply(x, `[[`, "", "id", USE.NAMES = FALSE)
+  given <- names(x)
+  if (anyDuplicated(ids) && !is.null(given) && all(nzchar(given)) && !anyDuplicated(given)) return(given)
+  make.unique(ifelse(nzchar(ids), ids, "unnamed"), sep = " ")
+}
+
+#' @noRd
+file_jobs <- function(files, landmarks, reading, call) {
+  if (anyNA(files)) {
+    crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(is.na(files)))), "Give paths of meshes.",
+                    stage = "arguments", call = call)
+  }
+  reading <- check_reading(reading, call)
+  ids <- file_ids(files)
+  own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else given_landmarks(landmarks, ids, reading$landmarks)
+  stats::setNames(Map(function(mesh, id, at, wanting) {
+    failed <- inherits(at, "condition")
+    list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading, refusal = if (failed) at,
+         wanting = if (!is.na(wanting)) wanting)
+  }, files, ids, own, c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)], USE.NAMES = FALSE), ids)
+}
+
+#' Ids of files: their names without extension; where these are the same, with as many folders as
+#' tell them apart, else with the extension
+#' @noRd
+file_ids <- function(files) {
+  parts <- strsplit(normalizePath(files, winslash = "/", mustWork = FALSE), "/", fixed = TRUE)
+  ids <- sub("(.)[.][^.]*$", "\\1", basename(files))
+  for (depth in seq_len(max(lengths(parts)))) {
+    twins <- ids %in% ids[duplicated(ids)]
+    if (!any(twins)) break
+    ids[twins] <- vapply(parts[twins], function(part) {
+      above <- utils::tail(utils::head(part, -1), depth)
+      paste(c(above, sub("(.)[.][^.]*$", "\\1", part[length(part)])), collapse = "/")
+    }, "")
+  }
+  twins <- ids %in% ids[duplicated(ids)]
+  ids[twins] <- basename(files[twins])
+  make.unique(ids, sep = " ")
+}
+
+#' The landmark file beside a mesh, NULL where there is none, or the condition by which it is
+#' refused
+#' @noRd
+landmarks_or_refusal <- function(file) {
+  tryCatch({
+    beside <- landmarks_beside(file)
+    if (nzchar(beside)) beside
+  }, crestline_error = identity)
+}
+
+#' Landmarks as [landmarks_for()] has them, none for meshes whose path is NA
+#' @noRd
+given_landmarks <- function(landmarks, ids, options) {
+  none <- if (is.character(landmarks) && length(landmarks) == length(ids)) is.na(landmarks) | !nzchar(landmarks) else FALSE
+  if (!any(none)) return(do.call(landmarks_for, c(list(landmarks, ids), options)))
+  own <- stats::setNames(vector("list", length(ids)), ids)
+  if (all(none)) return(own)
+  some <- do.call(landmarks_for, c(list(landmarks[!none], ids[!none]), options))
+  own[!none] <- some
+  problem <- rep(NA_character_, length(ids))
+  problem[!none] <- attr(some, "problem")
+  structure(own, problem = problem)
+}
+
+#' Arguments of reading, each for the function that takes it
+#' @noRd
+check_reading <- function(reading, call) {
+  takes <- reading_arguments()
+  wrong <- !is.list(reading) || length(reading) && (is.null(names(reading)) || any(!nzchar(names(reading))))
+  strange <- if (!wrong) setdiff(names(reading), unlist(takes))
+  if (wrong || length(strange)) {
+    crestline_abort(if (wrong) sprintf("`reading` is %s, not a list with names.", describe_value(reading)) else
+      sprintf("`reading` has arguments that reading does not take: %s.", shorten(strange)),
+      sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments", call = call)
+  }
+  lapply(takes, function(names) reading[names(reading) %in% names])
+}
+
+#' Which arguments reading takes, of landmark files and of the specimen
+#' @noRd
+reading_arguments <- function() {
+  landmarks <- setdiff(names(formals(read_landmarks)), c("file", "..."))
+  specimen <- unique(c(names(formals(read_specimen)), names(formals(specimen))))
+  list(landmarks = landmarks,
+       specimen = setdiff(specimen, c("file", "mesh", "landmarks", "id", "...", landmarks)))
+}
+
+#' The specimen of a job, read from its files or as it was given
+#' @noRd
+job_specimen <- function(job) {
+  if (!is.null(job$refusal)) {
+    # A mesh that cannot be read either is told first: landmarks would not help.
+    if (!is.null(job$mesh)) read_mesh(job$mesh, job$id)
+    rlang::cnd_signal(job$refusal)
+  }
+  if (!is.null(job$specimen)) return(job$specimen)
+  at <- job$landmarks
+  if (!is.character(at)) return(do.call(read_specimen, c(list(job$mesh, at, job$id), job$reading$specimen)))
+  points <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
+  from_files(do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen)), job$mesh, at)
+}
+
+#' What the answers of a job depend on: its content, not the names of its files
+#'
+#' @return List: `mesh`, `key`, hashes; NA and "" where a file cannot be read.
+#' @noRd
+job_content <- function(job, scheme, settings) {
+  named <- sort(setdiff(as.character(names(settings)), c("threads", "progress")))
+  settings <- list(named, lapply(unname(settings[named]), unclass))
+  tryCatch({
+    mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key
+    input <- if (is.null(job$specimen)) {
+      list(if (is.character(job$landmarks)) rlang::hash_file(job$landmarks) else job$landmarks, file_format(job), job$reading)
+    } else {
+      c(unclass(job$specimen)[c("landmarks", "placing", "match")], job$specimen$mesh["material"])
+    }
+    about <- list(mesh, input, unclass(scheme), settings, job$finder$key, answers_version)
+    list(mesh = mesh, key = content_hash(about))
+  }, error = function(e) list(mesh = NA_character_, key = NA_character_))
+}
+
+#' The formats of a job's files, which say how their bytes are read
+#' @noRd
+file_format <- function(job) {
+  tolower(sub("^.*[.]", "", basename(c(job$mesh, if (is.character(job$landmarks)) job$landmarks))))
+}

@@ -1,0 +1,187 @@
+# Results in files: a name that any disk takes, a first line that tells what is in it, and a
+# checksum that is compared before anything is unserialised.
+
+# Raised when the same input gives other answers than before: what was kept by the former version is
+# then measured again.
+answers_version <- 1L
+
+kept_layout <- "crestline-result 2"
+
+#' Hash of a value's content
+#'
+#' Of its serialisation in version 2, which has no compact forms: `1:3` and `c(1L, 2L, 3L)` are the
+#' same. The first 14 bytes name the version of R.
+#' @noRd
+content_hash <- function(x) rlang::hash(serialize(x, NULL, version = 2)[-(1:14)])
+
+#' The folder for results, made where it is not there
+#' @noRd
+results_folder <- function(dir, call = rlang::caller_env()) {
+  if (!is.character(dir) || length(dir) != 1 || is.na(dir)) {
+    crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.", stage = "arguments",
+                    call = call)
+  }
+  dir.create(dir, recursive = TRUE, showWarnings = FALSE)
+  if (!dir.exists(dir)) {
+    crestline_abort(sprintf("the folder %s cannot be made.", dir), "Choose another, or check who may write there.",
+                    stage = "arguments", call = call)
+  }
+  normalizePath(dir)
+}
+
+#' Why nothing can be written into a folder, as a condition; NULL where it can
+#' @noRd
+unwritable <- function(dir) {
+  probe <- tempfile(part_prefix(), dir, ".tmp")
+  on.exit(unlink(probe))
+  if (suppressWarnings(file.create(probe))) return(NULL)
+  tryCatch(refuse_keeping(dir, "nothing may be written there"), crestline_keeping_error = identity)
+}
+
+#' What names of unfinished files begin with: the host and the process that write them
+#' @noRd
+part_prefix <- function() {
+  host <- gsub("[^[:alnum:]]", "", substr(Sys.info()[["nodename"]], 1, 20))
+  sprintf("part-%s-%d-", host, Sys.getpid())
+}
+
+#' Names of files for ids, which any disk takes
+#'
+#' Bytes other than letters, digits, "_", "-", inner dots and blanks are "%" and two hexadecimal
+#' digits, as in addresses: `utils::URLdecode()` gives the id. So is the first letter of a name that
+#' Windows keeps for devices, and so are capitals where two ids differ in nothing else. A name that
+#' is too long ends in "~" and a hash; its file has the id too.
+#'
+#' @param longest Number of characters, of the 255 bytes that a disk allows.
+#' @noRd
+file_stems <- function(ids, longest = 160) {
+  stems <- vapply(ids, file_stem, "", FALSE, longest, USE.NAMES = FALSE)
+  twins <- tolower(stems) %in% tolower(stems[duplicated(tolower(stems))])
+  stems[twins] <- vapply(ids[twins], file_stem, "", TRUE, longest, USE.NAMES = FALSE)
+  stems
+}
+
+file_stem <- function(id, capitals, longest) {
+  bytes <- charToRaw(enc2utf8(id))
+  letters <- rawToChar(bytes, multiple = TRUE)
+  n <- length(letters)
+  odd <- !letters %in% c(base::letters, if (!capitals) LETTERS, 0:9, " ", ".", "_", "-")
+  odd[c(1, n)] <- odd[c(1, n)] | letters[c(1, n)] %in% c(" ", ".")
+  device <- grepl("^(con|prn|aux|nul|com[0-9]|lpt[0-9]) *([.].*)?$", tolower(enc2utf8(id)), useBytes = TRUE)
+  odd[1] <- odd[1] || device
+  stem <- paste(ifelse(odd, sprintf("%%%02X", as.integer(bytes)), letters), collapse = "")
+  if (nchar(stem) <= longest) return(stem)
+  hash <- rlang::hash(bytes)
+  paste0(substr(stem, 1, longest - nchar(hash) - 1), "~", hash)
+}
+
+#' Write a value with what it is of; under another name until all of it is there
+#'
+#' @param about List: `key` and `mesh`, strings without a blank, and what else is to be known
+#'   without reading the value.
+#' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five
+#'   times as long.
+#' @return Nothing; an error of class `crestline_keeping_error` where it cannot be written.
+#' @noRd
+keep <- function(value, about, file, compression = 1) {
+  part <- tempfile(part_prefix(), dirname(file), ".tmp")
+  on.exit(unlink(part))
+  refuse <- function(e) refuse_keeping(file, conditionMessage(e))
+  tryCatch({
+    write_whole(kept_bytes(value, about, compression), part)
+    if (!file.rename(part, file)) stop("it cannot be given its name")
+  }, error = refuse, warning = refuse)
+}
+
+refuse_keeping <- function(file, reason) {
+  reason <- sub("[.]$", "", iconv(reason, "", "UTF-8", sub = "byte"))
+  crestline_abort(sprintf("its result cannot be written to %s: %s.", file, reason),
+                  "Make room on the disk or check who may write there; then run it again: what is kept stays.",
+                  stage = "keeping", class = "crestline_keeping_error", call = NULL)
+}
+
+write_whole <- function(bytes, file) {
+  to <- file(file, "wb")
+  tryCatch(writeBin(bytes, to), finally = close(to))
+  if (!identical(as.numeric(file.size(file)), as.numeric(length(bytes)))) stop("the disk is full")
+}
+
+#' A value's file: two lines of text, a line of JSON, and the value, serialised and compressed
+#' @noRd
+kept_bytes <- function(value, about, compression) {
+  first <- charToRaw(paste(kept_layout, about$key, about$mesh))
+  about <- charToRaw(enc2utf8(jsonlite::toJSON(about, auto_unbox = TRUE, null = "null", na = "null")))
+  packed <- packed_bytes(value, compression)
+  line <- as.raw(10L)
+  c(first, line, charToRaw(checksum(first, about, packed)), line, about, line, packed)
+}
+
+checksum <- function(first, about, packed) rlang::hash(list(first, about, packed))
+
+#' By way of a file, since R compresses at a chosen level only there; its last bytes are the length
+#' of what went in
+#' @noRd
+packed_bytes <- function(value, compression) {
+  bytes <- serialize(value, NULL)
+  file <- tempfile("packed-")
+  on.exit(unlink(file))
+  to <- gzfile(file, "wb", compression = compression)
+  tryCatch(writeBin(bytes, to), finally = close(to))
+  packed <- readBin(file, "raw", file.size(file))
+  length <- sum(as.integer(utils::tail(packed, 4)) * 256^(0:3))
+  if (length(packed) < 18 || length != length(bytes) %% 2^32) stop("the folder for temporary files is full")
+  packed
+}
+
+#' What a result's file says of itself in its first line, unproven
+#' @return List: `key`, `mesh`, NA where it has none; `own`: whether the file is one of ours,
+#'   perhaps cut short.
+#' @noRd
+peek_kept <- function(file, most = 200) {
+  none <- list(key = NA_character_, mesh = NA_character_, own = FALSE)
+  start <- tryCatch(readBin(file, "raw", most), error = function(e) NULL, warning = function(w) NULL)
+  if (is.null(start)) return(none)
+  layout <- charToRaw(kept_layout)
+  known <- min(length(start), length(layout))
+  none$own <- identical(start[seq_len(known)], layout[seq_len(known)]) || is_former(start)
+  end <- match(as.raw(10L), start)
+  if (known < length(layout) || !none$own || is_former(start) || is.na(end)) return(none)
+  line <- start[seq_len(end - 1)]
+  if (!all(line >= as.raw(0x20) & line < as.raw(0x7f))) return(none)
+  words <- strsplit(rawToChar(line), " ", fixed = TRUE)[[1]]
+  list(key = words[3], mesh = words[4], own = TRUE)
+}
+
+#' The former layout: two values, serialised and compressed
+#' @noRd
+is_former <- function(bytes) identical(bytes[1:2], as.raw(c(0x1f, 0x8b)))
+
+#' A result's file, its checksum compared
+#'
+#' A file of the former layout is not read: nothing in it tells whether it is whole, and R may end
+#' over one that is not.
+#'
+#' @return List: `state`, "whole", "absent", "damaged" or "former" (of the former layout); of a
+#'   whole one `about`, and `packed` (raw).
+#' @noRd
+open_kept <- function(file) {
+  if (!file.exists(file)) return(list(state = "absent"))
+  damaged <- function(e) list(state = "damaged")
+  tryCatch({
+    bytes <- readBin(file, "raw", file.size(file))
+    if (is_former(bytes)) return(list(state = "former"))
+    end <- integer(3)
+    for (i in 1:3) end[i] <- grepRaw(as.raw(10L), bytes, c(0, end)[i] + 1, fixed = TRUE)
+    line <- function(i) bytes[(c(0, end)[i] + 1):(end[i] - 1)]
+    packed <- bytes[(end[3] + 1):length(bytes)]
+    sound <- identical(rawToChar(line(2)), checksum(line(1), line(3), packed))
+    if (!sound || !startsWith(rawToChar(line(1)), kept_layout)) return(damaged())
+    about <- rawToChar(line(3))
+    Encoding(about) <- "UTF-8"
+    list(state = "whole", about = jsonlite::fromJSON(about), packed = packed)
+  }, error = damaged, warning = damaged)
+}
+
+#' The value of a whole file that was opened
+#' @noRd
+kept_value <- function(opened) unserialize(memDecompress(opened$packed, "gzip"))

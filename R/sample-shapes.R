@@ -1,0 +1,287 @@
+# A batch of shapes as a list: some in memory, some in files, some that failed.
+
+#' A batch from its parts
+#'
+#' @param shapes Named list: a `shape` or `kept_shape` each, NULL where it failed.
+#' @param failed Named list of `shape_failure`s, for those that are NULL.
+#' @param scheme List: `name`, `key` (hash) of the scheme that all were measured by; NULL where it
+#'   is not known.
+#' @noRd
+new_shape_batch <- function(shapes, failed = list(), scheme = NULL) {
+  structure(shapes, failed = failed, scheme = scheme, class = "shape_batch")
+}
+
+validate_shape_batch <- function(x, call = rlang::caller_env()) {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "batch", call = call)
+  elements <- unclass(x)
+  ids <- names(elements)
+  if (is.null(ids) && length(elements) || anyNA(ids) || any(!nzchar(ids))) {
+    fail("a specimen of the batch has no id.", "Name the elements by the ids of their specimens.")
+  }
+  if (anyDuplicated(ids)) {
+    fail(sprintf("the specimen %s is in the batch twice.", shorten(unique(ids[duplicated(ids)]))),
+         "Leave out one of the two, or measure it with another id.")
+  }
+  none <- vapply(elements, is.null, NA)
+  wrong <- ids[!none & !vapply(elements, inherits, NA, "shape")]
+  if (length(wrong)) {
+    fail(sprintf("%s of the batch is no shape.", shorten(wrong)), "Put only shapes into it, as of fit_shape().")
+  }
+  if (!all(ids[none] %in% names(attr(x, "failed")))) {
+    fail(sprintf("nothing tells why %s is not there.", shorten(setdiff(ids[none], names(attr(x, "failed"))))),
+         "Leave specimens out with x[-i] or x[ids], not by assigning NULL to them.")
+  }
+  x
+}
+
+#' A batch of results: shapes, and failures by themselves
+#' @noRd
+batch_of <- function(results, scheme) {
+  failed <- vapply(results, inherits, NA, "shape_failure")
+  shapes <- results
+  shapes[failed] <- list(NULL)
+  about <- list(name = scheme$name, key = content_hash(unclass(scheme)))
+  validate_shape_batch(new_shape_batch(shapes, results[failed], about))
+}
+
+#' A batch as former versions made it: results in files are an attribute there, failures stand among
+#' the shapes
+#' @noRd
+renewed_batch <- function(x) {
+  files <- attr(x, "files")
+  if (is.null(files)) return(x)
+  results <- unclass(x)
+  attributes(results) <- list(names = names(results))
+  kept <- !vapply(files, is.null, NA)
+  results[kept] <- Map(function(file, id) {
+    kept_shape(list(key = NA_character_, file = file, name = id), list())
+  }, files[kept], names(results)[kept])
+  failed <- vapply(results, inherits, NA, "shape_failure")
+  shapes <- results
+  shapes[failed] <- list(NULL)
+  new_shape_batch(shapes, lapply(results[failed], function(one) utils::modifyList(new_failure("", "", ""), one)))
+}
+
+#' A shape that is in a file, and is read when one of its fields is asked for
+#'
+#' @param task List: `file`, `key` that it must have, `name` (id).
+#' @param about Of the file: `warnings`, and what [told_of()] gives.
+#' @noRd
+kept_shape <- function(task, about) {
+  warnings <- if (NROW(about$warnings)) as.data.frame(about$warnings) else no_warnings()
+  lacking <- if (length(about$lacking)) as.integer(about$lacking) else c(0L, NA)
+  structure(list(), file = task$file, key = task$key, id = task$name, warnings = warnings, found = isTRUE(about$found),
+            lacking = lacking, class = c("kept_shape", "shape"))
+}
+
+#' What a batch tells of a shape without reading it: `found`, whether its landmarks were; `lacking`,
+#' how many of the scheme's landmarks are missing, and of how many
+#' @noRd
+told_of <- function(shape) {
+  if (is.null(shape)) return(list(found = FALSE, lacking = c(0L, NA)))
+  if (inherits(shape, "kept_shape")) return(attributes(shape)[c("found", "lacking")])
+  landmarks <- shape$status$ok[shape$status$level == "landmarks"]
+  list(found = has_found(shape), lacking = c(sum(!landmarks), length(landmarks)))
+}
+
+#' What keeps a shape from being read from its file: a failure, or NULL
+#' @noRd
+kept_fault <- function(x, opened = open_kept(attr(x, "file"))) {
+  file <- attr(x, "file")
+  if (opened$state == "whole" && identical(opened$about$key, attr(x, "key"))) return(NULL)
+  problem <- switch(opened$state, absent = "its file %s is not there.", damaged = "its file %s is damaged or cut short.",
+                    former = "its file %s is of a former version, and nothing in it tells whether it is whole.",
+                    whole = "its file %s has another's result now: another mesh, scheme or settings.")
+  remedy <- if (opened$state == "whole") {
+    "Run fit_shapes() again, with a `dir` of its own where two runs use one id for two specimens."
+  } else "Run fit_shapes() again: it is measured again."
+  new_failure("keeping", sprintf(problem, file), remedy, attr(x, "warnings"))
+}
+
+#' A kept shape as a shape; the last one that was read is in memory still
+#' @return The `shape`, or a `shape_failure`.
+#' @noRd
+read_shape <- function(x) {
+  about <- file.info(attr(x, "file"), extra_cols = FALSE)
+  now <- list(attr(x, "file"), attr(x, "key"), attr(x, "id"), about$size, about$mtime)
+  if (!is.na(about$size) && identical(now, last_read$what)) return(last_read$shape)
+  opened <- open_kept(attr(x, "file"))
+  fault <- kept_fault(x, opened)
+  if (!is.null(fault)) return(fault)
+  shape <- kept_value(opened)
+  if (!identical(shape$id, attr(x, "id"))) shape <- renamed_shape(shape, attr(x, "id"))
+  last_read$what <- now
+  last_read$shape <- shape
+  shape
+}
+
+last_read <- new.env(parent = emptyenv())
+
+#' A shape whose mesh had another name when it was measured
+#' @noRd
+renamed_shape <- function(shape, id) {
+  shape$id <- id
+  shape$specimen$id <- id
+  shape
+}
+
+#' A kept shape as a shape, or an error
+#' @noRd
+unkept <- function(x) {
+  shape <- read_shape(x)
+  if (inherits(shape, "shape")) return(shape)
+  crestline_abort(shape$message, shape$remedy, shape$stage, attr(x, "id"), class = "crestline_keeping_error", call = NULL)
+}
+
+#' @export
+`$.kept_shape` <- function(x, name) unkept(x)[[name]]
+
+#' @export
+`[[.kept_shape` <- function(x, i, ...) unkept(x)[[i, ...]]
+
+#' @export
+`[.kept_shape` <- function(x, ...) unclass(unkept(x))[...]
+
+#' @export
+`$<-.kept_shape` <- function(x, name, value) {
+  x <- unkept(x)
+  x[[name]] <- value
+  x
+}
+
+#' @export
+`[[<-.kept_shape` <- function(x, i, value) {
+  x <- unkept(x)
+  x[[i]] <- value
+  x
+}
+
+#' @export
+names.kept_shape <- function(x) names(unkept(x))
+
+#' @export
+print.kept_shape <- function(x, ...) {
+  print(unkept(x), ...)
+  invisible(x)
+}
+
+#' The place of one specimen, by id or number, or an error with near ids
+#' @noRd
+batch_place <- function(x, i, call = rlang::caller_env()) {
+  ids <- names(x)
+  one <- length(i) == 1 && !is.na(i)
+  if (one && is.character(i) && i %in% ids) return(match(i, ids))
+  if (one && is.numeric(i) && i %in% seq_along(ids)) return(as.integer(i))
+  refuse_place(i, ids, call)
+}
+
+refuse_place <- function(i, ids, call) {
+  words <- is.character(i) && length(i) && !all(i %in% ids)
+  wrong <- if (words) shorten(paste0("\"", setdiff(i, ids), "\"")) else describe_value(i)
+  near <- if (words && length(ids)) {
+    sprintf("Near ids: %s.", shorten(ids[order(utils::adist(setdiff(i, ids)[1], ids, ignore.case = TRUE))]))
+  } else sprintf("It has %s: names(x).", amount(length(ids), "specimen"))
+  crestline_abort(sprintf("the batch has no specimen %s.", wrong), near, stage = "batch", call = call)
+}
+
+#' @export
+`[[.shape_batch` <- function(x, i, ...) {
+  x <- renewed_batch(x)
+  i <- batch_place(x, i)
+  shape <- unclass(x)[[i]]
+  if (!inherits(shape, "kept_shape")) return(shape)
+  shape <- read_shape(shape)
+  if (inherits(shape, "shape")) return(shape)
+  crestline_warn(shape$message, shape$remedy, shape$stage, names(x)[i], class = "crestline_keeping_warning")
+  NULL
+}
+
+#' @export
+`$.shape_batch` <- function(x, name) x[[name]]
+
+#' @export
+`[.shape_batch` <- function(x, i, ...) {
+  x <- renewed_batch(x)
+  if (missing(i)) return(x)
+  ids <- names(x)
+  if (is.factor(i)) i <- as.character(i)
+  if (!(is.character(i) || is.numeric(i) || is.logical(i)) || anyNA(i)) refuse_place(i, ids, rlang::caller_env())
+  at <- suppressWarnings(stats::setNames(seq_along(ids), ids)[i])
+  if (anyNA(at)) refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids, rlang::caller_env())
+  shapes <- unclass(x)[at]
+  validate_shape_batch(new_shape_batch(shapes, attr(x, "failed")[intersect(names(shapes), names(attr(x, "failed")))],
+                                       attr(x, "scheme")))
+}
+
+#' @export
+c.shape_batch <- function(...) {
+  given <- list(...)
+  for (one in given) check_class(one, "shape_batch", "...", "fit_shapes()")
+  given <- lapply(unname(given), renewed_batch)
+  schemes <- Filter(Negate(is.null), lapply(given, attr, "scheme"))
+  other <- which(vapply(schemes, `[[`, "", "key") != schemes[[1]]$key)
+  if (length(other)) {
+    crestline_abort(sprintf("the batches were measured by different schemes: %s, and another %s.", schemes[[1]]$name,
+                            schemes[[other[1]]]$name),
+                    "Measure all by one scheme: fit_shapes(..., scheme = ).", stage = "batch")
+  }
+  validate_shape_batch(new_shape_batch(do.call(c, lapply(given, plain_list)), do.call(c, lapply(given, attr, "failed")),
+                                       schemes[[1]]))
+}
+
+#' The elements of a batch as they are, without what makes it one
+#' @noRd
+plain_list <- function(x) {
+  attributes(x) <- list(names = names(x))
+  x
+}
+
+#' @export
+as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x)), function(i) x[[i]]), names(x))
+
+#' @export
+summary.shape_batch <- function(object, ...) {
+  x <- renewed_batch(object)
+  failed <- failures(x)
+  at <- match(names(x), failed$id)
+  told <- lapply(plain_list(x), told_of)
+  landmarks <- ifelse(vapply(told, `[[`, NA, "found"), "found", "placed")
+  lacking <- vapply(told, function(one) as.integer(one$lacking[1]), 0L)
+  count <- as.vector(table(factor(warnings_of(x)$id, names(x))))
+  data.frame(specimen = names(x), measured = is.na(at), landmarks = unname(ifelse(is.na(at), landmarks, NA)),
+             lacking = unname(ifelse(is.na(at), lacking, NA)), warnings = count, message = failed$message[at])
+}
+
+#' @export
+print.shape_batch <- function(x, most = 8, ...) {
+  x <- renewed_batch(x)
+  failed <- failures(x)
+  files <- unlist(lapply(plain_list(x), attr, "file"))
+  cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed), " measured, ", nrow(failed),
+      " failed", if (length(files)) paste0(", in ", shorten(unique(dirname(files)), 2)), "\n", sep = "")
+  told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
+  print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]), warning_lines(attr(failed, "warnings"))),
+              most, "in warnings_of()")
+  print_items(told, most, "in failures()")
+  invisible(x)
+}
+
+#' Lines that tell of which shapes landmarks were found, and of which some are missing
+#' @noRd
+landmark_lines <- function(shapes) {
+  told <- lapply(shapes, told_of)
+  found <- names(shapes)[vapply(told, `[[`, NA, "found")]
+  lacking <- Filter(function(one) one$lacking[1] > 0, told)
+  counts <- vapply(lacking, function(one) paste(one$lacking, collapse = " of "), "")
+  c(
+    if (length(found)) sprintf("%s: landmarks found by the template, not placed by hand: %s.",
+                               amount(length(found), "specimen"), shorten(found, 12)),
+    if (length(lacking)) sprintf("%s: landmarks of the scheme are missing: %s.", amount(length(lacking), "specimen"),
+                                 shorten(sprintf("%s (%s)", names(lacking), counts), 12))
+  )
+}
+
+print_items <- function(lines, most, where) {
+  for (line in utils::head(lines, most)) cat(strwrap(paste0("- ", line), width = 80, exdent = 4), sep = "\n")
+  if (length(lines) > most) cat("- and", length(lines) - most, "more", where, "\n")
+}

@@ -1,0 +1,79 @@
+# What was warned of while a specimen was measured: kept with its shape, told by kind.
+
+#' What to hear warnings with: an environment whose `heard` is a data frame as `warnings` of a shape
+#' @noRd
+new_ear <- function() rlang::env(heard = no_warnings())
+
+#' Run code; what it warns of goes into the ear and no further
+#' @param stage Of warnings that are not the package's own.
+#' @noRd
+hear <- function(code, stage, ear) {
+  withCallingHandlers(code, warning = function(w) {
+    own <- inherits(w, "crestline_warning")
+    row <- data.frame(stage = if (own) w$stage else stage, class = class(w)[1],
+                      problem = if (own) w$problem else conditionMessage(w), remedy = if (own) w$remedy else "")
+    ear$heard <- rbind(ear$heard, row)
+    tryInvokeRestart("muffleWarning")
+  })
+}
+
+#' Warnings of measured specimens
+#'
+#' What reading, finding and fitting warned of, for each specimen: a batch goes on over a warning,
+#' so it is kept with the shape (`shape$warnings`) and not lost among those of a thousand others.
+#'
+#' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
+#' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
+#'   as `"crestline_mirrored"`; `problem` (what); `remedy` (what to do about it, "" where another
+#'   package warned). Those of failed specimens of a batch are in it.
+#' @section Errors: of class `crestline_error`, when `x` holds no shapes.
+#' @seealso [failures()], [quality()]
+#' @examples
+#' corners <- rbind(aL = c(1, -1, 2), aR = c(-1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
+#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners / sqrt(rowSums(corners^2)), id =
+#' "ball")) curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
+#' scheme <- curve_scheme(data.frame(landmark = rownames(corners)), curve, name = "across")
+#' warnings_of(fit_shape(ball, scheme, progress = FALSE))
+#' @export
+warnings_of <- function(x) {
+  if (inherits(x, "shape_batch")) return(batch_warnings(renewed_batch(x)))
+  shapes <- named_shapes(x)
+  bind_warnings(lapply(shapes, function(shape) shape$warnings))
+}
+
+batch_warnings <- function(x) {
+  failed <- attr(x, "failed")
+  elements <- unclass(x)
+  bind_warnings(stats::setNames(lapply(names(x), function(name) {
+    one <- elements[[name]]
+    if (is.null(one)) failed[[name]]$warnings else
+      if (inherits(one, "kept_shape")) attr(one, "warnings") else one$warnings
+  }), names(x)))
+}
+
+bind_warnings <- function(each) {
+  rows <- Map(function(id, one) cbind(id = rep(id, NROW(one)), one), names(each), each)
+  rows <- do.call(rbind, c(list(cbind(id = character(), no_warnings())), unname(rows[lengths(each) > 0])))
+  rownames(rows) <- NULL
+  rows
+}
+
+#' Lines that tell warnings, one a kind with the ids
+#'
+#' Warnings are of one kind where they are of one class; those without a class of their own where
+#' their texts differ in nothing but numbers and the specimen's id.
+#' @noRd
+warning_lines <- function(warnings) {
+  if (!nrow(warnings)) return(character())
+  plain <- warnings$class %in% c("crestline_warning", "simpleWarning", "warning", "rlang_warning")
+  own <- paste0("\\b\\Q", warnings$id, "\\E\\b")
+  text <- mapply(function(own, problem) gsub(own, "", problem, perl = TRUE), own, warnings$problem)
+  kind <- ifelse(plain, gsub("[0-9.]+", "", text), warnings$class)
+  lines <- lapply(split(warnings, factor(kind, unique(kind))), function(rows) {
+    ids <- unique(rows$id)
+    others <- if (length(unique(rows$problem)) > 1) sprintf(" (%s)", ids[1]) else ""
+    trimws(sprintf("%s: %s%s %s In: %s.", amount(length(ids), "specimen"), rows$problem[1], others, rows$remedy[1],
+                   shorten(ids, 12)))
+  })
+  unlist(lines, use.names = FALSE)
+}

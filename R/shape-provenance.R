@@ -1,0 +1,68 @@
+# Where a shape, and what is made of shapes, came from.
+
+#' Provenance of a measured shape
+#'
+#' @param scheme As it was given, before its lengths were brought to the unit of the mesh.
+#' @param unit Factor that its lengths were divided by.
+#' @param settings List of `ridge` and `fit`: arguments of [fit_shape()].
+#' @noRd
+shape_provenance <- function(specimen, scheme, unit, settings) {
+  origin <- origin_of(specimen)
+  c(made_with(), list(
+    scheme = c(scheme_provenance(scheme), unit = unit), mesh = mesh_provenance(specimen),
+    landmarks = origin[origin$landmark %in% scheme$landmarks$landmark, ], settings = settings
+  ))
+}
+
+scheme_provenance <- function(scheme) list(name = scheme$name, hash = scheme_hash(scheme))
+
+#' Hash of a template's places
+#' @noRd
+template_provenance <- function(id, xyz) list(id = id, hash = rlang::hash(unname(xyz)))
+
+#' What several shapes have in common, and a row for each; of one its own
+#' @noRd
+shapes_provenance <- function(shapes) {
+  each <- lapply(Filter(Negate(is.null), unname(shapes)), `[[`, "provenance")
+  if (!length(each)) return(made_with())
+  if (length(each) == 1 && length(each[[1]])) return(each[[1]])
+  fields <- stats::setNames(nm = c("scheme", "template"))
+  common <- lapply(fields, function(field) common_value(each, field))
+  common$settings <- common_settings(each)
+  c(made_with(), Filter(Negate(is.null), common), list(specimens = specimens_provenance(shapes)))
+}
+
+#' Settings by stage; of a stage in which they differ, that they do
+#' @noRd
+common_settings <- function(each) {
+  settings <- lapply(each, `[[`, "settings")
+  stages <- unique(unlist(lapply(settings, names)))
+  lapply(stats::setNames(nm = stages), function(stage) {
+    values <- unique(lapply(settings, `[[`, stage))
+    if (length(values) == 1) values[[1]] else list(differs = "between specimens")
+  })
+}
+
+common_value <- function(each, field) {
+  values <- unique(lapply(each, `[[`, field))
+  if (length(values) == 1) values[[1]]
+}
+
+#' A row a specimen: `id`, `file`, `key`, `landmarks` (in words)
+#' @noRd
+specimens_provenance <- function(shapes) {
+  shapes <- unname(Filter(Negate(is.null), shapes))
+  text <- function(f) {
+    vapply(shapes, function(shape) c(as.character(f(shape)), NA_character_)[1], "")
+  }
+  data.frame(id = text(function(shape) shape$id),
+             file = text(function(shape) shape$provenance$mesh$file),
+             key = text(function(shape) shape$provenance$mesh$key),
+             landmarks = text(function(shape) origin_words(shape$provenance$landmarks)))
+}
+
+#' @rdname provenance
+#' @export
+summary.shape <- function(object, ...) {
+  new_summary(printed_lines(object, most = 4), object$provenance)
+}

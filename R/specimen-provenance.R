@@ -1,0 +1,192 @@
+# Where a value came from, as a list that it carries and as lines of text.
+
+#' Package and R that something was made with
+#' @noRd
+made_with <- function() {
+  list(package = as.character(utils::packageVersion("crestline")),
+       r = paste(R.version$major, R.version$minor, sep = "."))
+}
+
+#' @noRd
+specimen_provenance <- function(specimen) {
+  c(made_with(), list(mesh = mesh_provenance(specimen), landmarks = origin_of(specimen)))
+}
+
+mesh_provenance <- function(specimen) {
+  list(id = specimen$id, key = specimen_key(specimen), file = c(specimen$file, NA_character_)[1])
+}
+
+#' Provenance in lines of text
+#'
+#' @param x A provenance: list of `package`, `r`, and what there is of `scheme` (`name`, `hash`,
+#'   `unit`), `mesh` (`id`, `key`, `file`), `landmarks` (as of [new_origin()]), `specimens` (data
+#'   frame `id`, `file`, `key`, `landmarks`), `template` (`id`, `hash`), `settings` (list of lists
+#'   of arguments).
+#' @return Text without line breaks, a line a matter, begun by what it is about.
+#' @noRd
+provenance_lines <- function(x) {
+  if (!length(x)) return("not recorded: made by an older version")
+  lines <- c(
+    if (!is.null(x$package)) sprintf("made with: crestline %s, R %s", x$package, x$r),
+    scheme_line(x$scheme), if (!is.null(x$mesh)) mesh_line(x$mesh),
+    if (!is.null(x$landmarks)) paste("landmarks:", origin_words(x$landmarks)),
+    specimens_lines(x$specimens),
+    if (!is.null(x$template)) sprintf("template: %s, hash %s", x$template$id, x$template$hash),
+    settings_lines(x$settings)
+  )
+  gsub("[[:cntrl:]]+", " ", lines)
+}
+
+scheme_line <- function(scheme) {
+  if (is.null(scheme)) return(NULL)
+  text <- sprintf("scheme: %s, hash %s", scheme$name, scheme$hash)
+  if (is.null(scheme$unit) || scheme$unit == 1) return(text)
+  sprintf("%s, its lengths divided by %g", text, scheme$unit)
+}
+
+mesh_line <- function(mesh) {
+  from <- if (is.na(mesh$file)) "not from a file" else paste("from", basename(mesh$file))
+  sprintf("mesh: key %s, %s", mesh$key, from)
+}
+
+specimens_lines <- function(specimens, most = 3) {
+  if (!NROW(specimens)) return(NULL)
+  files <- basename(specimens$file[!is.na(specimens$file)])
+  from <- if (length(files)) sprintf("%d from files (%s)", length(files), shorten(files, most))
+  ways <- sort(table(specimens$landmarks), decreasing = TRUE)
+  told <- names(utils::head(ways, most))
+  each <- vapply(told, function(way) {
+    own <- specimens$id[specimens$landmarks == way]
+    who <- if (length(own) > 4) amount(length(own), "specimen") else paste(own, collapse = ", ")
+    sprintf("%s of %s", way, who)
+  }, "")
+  more <- if (length(ways) > most) amount(sum(ways) - sum(ways[told]), "more specimen")
+  c(sprintf("meshes: %s, %s", amount(length(unique(specimens$key)), "mesh", "meshes"),
+            if (is.null(from)) "not from files" else from),
+    paste("landmarks:", paste(c(each, more), collapse = "; ")))
+}
+
+settings_lines <- function(settings) {
+  settings <- Filter(length, settings)
+  if (!length(settings)) return(NULL)
+  each <- vapply(names(settings), function(stage) {
+    paste(stage, changed_words(settings[[stage]], default_settings(stage)))
+  }, "")
+  paste("settings:", paste(each, collapse = "; "))
+}
+
+#' Defaults of what is set in a stage
+#' @noRd
+default_settings <- function(name) {
+  of <- function(f, ...) lapply(as.list(formals(f))[c(...)], eval, envir = environment(f))
+  switch(name,
+         ridge = unclass(ridge_settings()), slide = unclass(slide_settings()),
+         fit = c(of(fit_shape, "passes", "cut_scale", "bridge", "column_angle", "column_angles",
+                    "column_reach"),
+                 list(given = character())),
+         homologise = of(homologise, "tolerance", "rounds"),
+         align = utils::modifyList(of(align, "scale", "tangent", "tolerance", "rounds"),
+                                   list(missing = "estimate")),
+         pca = of(shape_pca, "tolerance"),
+         compare = of(compare_groups, "n_perm", "components", "tests"),
+         list())
+}
+
+#' Settings that are not as by default
+#' @noRd
+changed_words <- function(values, defaults) {
+  same <- vapply(names(values), function(name) {
+    isTRUE(all.equal(values[[name]], defaults[[name]], check.attributes = FALSE))
+  }, NA)
+  if (all(same)) return("as by default")
+  changed <- values[!same]
+  paste(names(changed), "=", vapply(changed, setting_word, ""), collapse = ", ")
+}
+
+setting_word <- function(value, most = 4) {
+  if (is.null(value)) return("NULL")
+  if (!is.atomic(value)) return(class(value)[1])
+  if (length(value) > most) return(amount(length(value), "value"))
+  paste(if (is.numeric(value)) signif(value, 6) else value, collapse = ", ")
+}
+
+#' The same as comments of a file: what every program reads, and no name of a file that would end a
+#' line or go on in the next
+#' @noRd
+comment_lines <- function(provenance) {
+  if (length(provenance)) comment_text(provenance_lines(provenance))
+}
+
+comment_text <- function(text) {
+  gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
+}
+
+#' The same as a part of a page that opens on a click
+#' @noRd
+provenance_block <- function(provenance) {
+  tags <- htmltools::tags
+  tags$details(class = "provenance", tags$summary("Where this came from"),
+               tags$pre(style = "white-space:pre-wrap",
+                        paste(provenance_lines(provenance), collapse = "\n")))
+}
+
+#' What is known of anything that is written to a file; NULL of bare meshes and matrices
+#' @noRd
+provenance_of <- function(x) {
+  if (inherits(x, "specimen")) return(specimen_provenance(x))
+  if (inherits(x, "shape")) x$provenance
+}
+
+#' A summary: what print() says, and where it came from
+#'
+#' @param lines Text.
+#' @noRd
+new_summary <- function(lines, provenance, ...) {
+  structure(list(lines = lines, provenance = provenance, ...), class = "crestline_summary")
+}
+
+#' @export
+print.crestline_summary <- function(x, ...) {
+  cat(x$lines, sep = "\n")
+  print_provenance(x$provenance)
+  invisible(x)
+}
+
+print_provenance <- function(provenance, width = 80) {
+  cat("provenance\n")
+  for (line in provenance_lines(provenance)) {
+    cat(strwrap(line, width, indent = 2, exdent = 4), sep = "\n")
+  }
+}
+
+printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
+
+#' Summaries, with provenance
+#'
+#' What `print()` says of an object, and where it came from: the version of the package and of R,
+#' the scheme with the hash of its tables, key and file of the mesh, how each landmark came (from
+#' which file, given, found, predicted, placed or moved by hand and when, moved by its definition),
+#' the template that points were slid against, and the settings that are not as by default. Shapes,
+#' samples and results carry it as `provenance`, and files that we write have it where their format
+#' has a place for comments, see [write_mesh()] and [write_landmarks()].
+#'
+#' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
+#'   `repeatability`.
+#' @param ... Ignored.
+#' @return Object of class `crestline_summary`, a list: `lines` (text), `provenance` (list:
+#'   `package`, `r`; of what there is: `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`,
+#'   `file`), `landmarks` (data frame `landmark`, `how`, `file`, `time`), `template` (`id`, `hash`),
+#'   `specimens` (data frame `id`, `file`, `key`, `landmarks`), `settings`). Of a `shape_pca` that
+#'   of `prcomp` with `provenance`.
+#' @seealso [summary.group_comparison()]
+#' @examples
+#' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
+#' ball$landmarks["top", ] <- c(0, 0.6, 0.8)
+#' summary(ball)
+#' summary(ball)$provenance$landmarks
+#' @name provenance
+#' @aliases summary.specimen
+#' @export
+summary.specimen <- function(object, ...) {
+  new_summary(printed_lines(object), specimen_provenance(object))
+}

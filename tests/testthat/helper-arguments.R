@@ -1,0 +1,371 @@
+# Every exported function with a wrong value for every argument: the calls, the values, what may come of them.
+
+# Values that are wrong for most arguments.
+wrong_values <- function() {
+  list(
+    null = NULL, na = NA, na_character = NA_character_, na_real = NA_real_, true = TRUE, zero = 0, minus_one = -1, half = 0.5,
+    inf = Inf, minus_inf = -Inf, nan = NaN, big = 1e10, beyond_integer = 2^31, huge = 1e300, tiny = 1e-300, no_numbers = numeric(),
+    two_numbers = c(1, 2), number_and_na = c(1, NA), string = "zzz", no_strings = character(), two_strings = c("a", "b"),
+    empty = "", long = strrep("x", 20000), empty_list = list(), list = list(1), list_of_na = list(a = NA),
+    table = data.frame(x = 1), empty_table = data.frame(), fun = mean, matrix = matrix(1:4, 2), array = array(1, c(2, 2, 2)),
+    factor = factor("a"), complex = 1i, date = as.Date("2020-02-20"), environment = new.env(), formula = y ~ x,
+    call = quote(f(x)), raw = as.raw(1), damaged_mesh = structure(list(), class = "mesh3d"),
+    damaged_specimen = structure(list(), class = "specimen"), damaged_shape = structure(list(), class = "shape"),
+    shapeless = structure(list(points = 1, status = 1, id = "a", scheme = 1), class = "shape")
+  )
+}
+
+# The values that an argument of each kind may take: they are refused or not, but never by an error of R's own.
+lawful_values <- function() {
+  numbers <- c("zero", "minus_one", "half", "big", "beyond_integer", "huge", "tiny")
+  list(
+    object = character(), choice = character(), flag = "true", count = "zero",
+    number = numbers, reach = c(numbers, "inf"), numbers = c(numbers, "two_numbers", "no_numbers"),
+    text = c("string", "empty", "long"), id = c("string", "empty", "long", names(wrong_values())),
+    names = c("string", "two_strings", "no_strings", "empty", "long"),
+    colour = c("zero", "half", "tiny", "two_numbers", "big", "beyond_integer"), any = names(wrong_values())
+  )
+}
+
+# A small ball with landmarks, and what is measured on it: cheap, so that thousands of calls are.
+argument_objects <- function() {
+  ball <- Rvcg::vcgSphere(3)
+  ball <- structure(list(vb = rbind(50 * ball$vb[1:3, ], 1), it = ball$it), class = "mesh3d")
+  corners <- rbind(aL = c(1, 1, 2), aR = c(-1, 1, 2), bL = c(1, -1, 2), bR = c(-1, -1, 2), n = c(0, 1.2, 2), sn = c(0, -1.2, 2))
+  corners <- 50 * corners / sqrt(rowSums(corners^2))
+  scheme <- curve_scheme(
+    data.frame(landmark = rownames(corners)),
+    data.frame(curve = c("top", "bottom", "side L", "side R"), from = c("aL", "bL", "aL", "aR"), to = c("aR", "bR", "bL", "bR"),
+               kind = "plane", n = c(7, 7, 5, 5)),
+    patches = data.frame(patch = "mid", curve_a = "top[1:7]", curve_b = "bottom[1:7]", columns = "1:7", rows = 5,
+                         rows_kept = "1:5", n = 35, outward = "columns"),
+    pairs = data.frame(level = c("landmarks", "landmarks", "curves"), left = c("aL", "bL", "side L"),
+                       right = c("aR", "bR", "side R")),
+    name = "quad"
+  )
+  one <- function(i) {
+    mesh <- ball
+    mesh$vb[3, ] <- mesh$vb[3, ] * (1 + 0.02 * i)
+    mesh$vb[1, ] <- mesh$vb[1, ] * (1 + 0.01 * i^2)
+    specimen(mesh, corners * rep(c(1 + 0.01 * i^2, 1, 1 + 0.02 * i), each = 6), id = paste0("s", i), tolerance = 0.05)
+  }
+  specimens <- lapply(0:6, one)
+  names(specimens) <- vapply(specimens, `[[`, "", "id")
+  shapes <- lapply(specimens, fit_shape, scheme, progress = FALSE)
+  list(ball = ball, corners = corners, scheme = scheme, specimens = specimens, shapes = shapes)
+}
+
+# Arguments of a call that works, and the kind of each, by function. Kinds: names of lawful_values(); with "?": NULL too.
+argument_calls <- function(made = argument_objects(), folder = tempfile()) {
+  dir.create(folder)
+  path <- function(name) file.path(folder, name)
+  one <- made$specimens[[1]]
+  shape <- made$shapes[[1]]
+  curved <- curvature(one, 20)
+  curve <- suppressWarnings(ridge_curve(one, "aL", "aR", "ridge", 20, 20, 7, curvature = curved))
+  path_on <- plane_path(one, "aL", "aR")
+  at <- path_coordinates(one, path_on, 15)
+  surface <- curvature_surface(at, cos(at$d / 10))
+  sample <- homologise(made$shapes, specimens = made$specimens, rounds = 1, progress = FALSE)
+  aligned <- align(sample, "curves")
+  template <- landmark_template(one)
+  grDevices::pdf(NULL)
+  scene <- draw_surface(one$mesh, engine = "picture", resolution = 5, samples = 1)
+  write_mesh(one, path("s.ply"))
+  write_landmarks(one$landmarks, path("s.csv"))
+  line <- coords(shape, "curves")[1:7, ]
+  faces <- NULL
+  fitted <- list(column_angle = pi / 4, column_angles = 5, column_reach = 1)
+  fitted_kinds <- c(column_angle = "number", column_angles = "count", column_reach = "number")
+  given <- function(...) list(...)
+  entry <- function(.args, ...) list(args = .args, kinds = c(...))
+  list(
+    align = entry(given(sample = sample, level = "curves", scale = TRUE, weights = NULL, missing = "drop", tangent = TRUE,
+                        triangles = NULL, tolerance = 1e-6, rounds = 5),
+                  sample = "object", level = "choice", scale = "flag", weights = "object?", missing = "choice", tangent = "flag",
+                  triangles = "object?", tolerance = "number", rounds = "count"),
+    as_aligned = entry(given(x = aligned$coords, size = NULL, level = "points", triangles = NULL),
+                       x = "object", size = "numbers?", level = "text", triangles = "object?"),
+    as_geomorph = entry(given(sample = sample, level = "curves", data = NULL), sample = "object", level = "choice", data = "any"),
+    as_morpho = entry(given(sample = sample, level = "curves"), sample = "object", level = "choice"),
+    as_rrpp = entry(given(sample = sample, level = "curves", data = NULL), sample = "object", level = "choice", data = "any"),
+    asymmetry = entry(given(shape = shape, by = "part", off_middle = 0.5), shape = "object", by = "choice", off_middle = "number"),
+    bending_energy = entry(given(template = sample$template, nugget = 0, level = "curves", tolerance = 1e-6),
+                           template = "object", nugget = "numbers", level = "choice", tolerance = "number"),
+    calibrate_template = entry(given(template = template, specimens = made$specimens[1], rounds = 1, settings = find_settings(),
+                                     threads = 1L),
+                               template = "object", specimens = "object", rounds = "count", settings = "object", threads = "count"),
+    check_placing = entry(given(specimen = one, least = 0.5, doubtful = 0, picture = NULL),
+                          specimen = "object", least = "number", doubtful = "number", picture = "any"),
+    compare_groups = entry(given(sample = sample, group = rep(c("A", "B"), c(3, 4)), level = "curves", n_perm = 5, components = 2,
+                                 seed = 1, tests = "size", exact = 5, permutations = NULL, scale = TRUE, weights = NULL,
+                                 missing = "drop", progress = FALSE),
+                           sample = "object", group = "object", level = "choice", n_perm = "count", components = "number",
+                           seed = "number?", tests = "choice", exact = "number", permutations = "object?", scale = "flag",
+                           weights = "object?", missing = "choice", progress = "flag"),
+    coords = entry(given(x = shape, level = "curves"), x = "object", level = "choice"),
+    curvature = entry(given(mesh = one, radius = 20, order = "adaptive", threads = 1L, vertices = 1:5, shrinkage = 6,
+                            points_per_term = 1.5, one_sided = 0.2, widen = 2.25),
+                      mesh = "object", radius = "number", order = "choice", threads = "count",
+                      vertices = c("numbers?"), shrinkage = "number", points_per_term = "number", one_sided = "number",
+                      widen = "number"),
+    curvature_surface = entry(given(coordinates = at, strength = cos(at$d / 10), settings = ridge_settings()),
+                              coordinates = "object", strength = "object", settings = "object"),
+    curve_distance = entry(given(a = list(x = line), b = list(x = line + 1), match = "none", between = "points",
+                                 level = "curves", scale = FALSE),
+                           a = "object", b = "object", match = "choice", between = "choice", level = "choice", scale = "flag"),
+    curve_scheme = entry(given(landmarks = made$scheme$landmarks,
+                               curves = as.data.frame(made$scheme)[, c("curve", "from", "to", "kind", "n")], patches = NULL,
+                               pairs = NULL, strips = NULL, name = "n", definitions = NULL),
+                         landmarks = "object", curves = "object", patches = "object?", pairs = "object?", strips = "object?",
+                         name = "text", definitions = "object?"),
+    curvedness = entry(given(x = curved, k2 = NULL), x = "any", k2 = "any"),
+    draw_band = entry(given(scene = scene, left = line[1:5, ], right = line[2:6, ], colour = "black", opacity = 0.4),
+                      scene = "object", left = "object", right = "object", colour = "colour", opacity = "number"),
+    draw_lines = entry(given(scene = scene, x = line, colour = "black", width = 2, halo = NA),
+                       scene = "object", x = "object", colour = "colour", width = "number", halo = "halo"),
+    draw_points = entry(given(scene = scene, x = line, colour = "black", size = 1, halo = NA, labels = NULL),
+                        scene = "object", x = "object", colour = "colour", size = "number", halo = "halo", labels = "any"),
+    draw_surface = entry(given(mesh = one$mesh, colour = "#D8C3B0", view = "front", engine = "picture"),
+                         mesh = "object", colour = "colour", view = "numbers", engine = "choice"),
+    face_effect = entry(given()), face_scheme = entry(given()), face_template = entry(given()),
+    failures = entry(given(x = batch_of(made)), x = "object"),
+    find_landmarks = entry(given(mesh = one, template = template, id = NULL, settings = find_settings(), unit = NULL, threads = 1L),
+                           mesh = "object", template = "object", id = "id?", settings = "object", unit = "number?",
+                           threads = "count"),
+    find_settings = entry(given()),
+    fit_shape = entry(c(given(specimen = one, scheme = made$scheme, settings = ridge_settings(), passes = 1, curves = NULL,
+                              cut_scale = 1, bridge = 0.2), fitted, given(unit = NULL, threads = 1L, progress = FALSE)),
+                      specimen = "object", scheme = "object", settings = "object", passes = "count", curves = "any",
+                      cut_scale = "number", bridge = "number", fitted_kinds, unit = "number?", threads = "count",
+                      progress = "flag"),
+    fit_shapes = entry(given(x = made$specimens[1:2], scheme = made$scheme, dir = NULL, landmarks = NULL, template = NULL,
+                             doubtful = 0, chunk = NULL, progress = FALSE),
+                       x = "names", scheme = "object", dir = "any", landmarks = "any", template = "object?",
+                       doubtful = "number", chunk = "count?", progress = "flag"),
+    frechet_mean = entry(given(mesh = one, points = made$corners, weights = NULL, rings = 1),
+                         mesh = "object", points = "object", weights = "any", rings = "count"),
+    homologise = entry(given(shapes = made$shapes[1:2], template = NULL, settings = slide_settings(),
+                             specimens = made$specimens, tolerance = 1e-2, rounds = 1, progress = FALSE),
+                       shapes = "object", template = "object?", settings = "object", specimens = "any", tolerance = "number",
+                       rounds = "count", progress = "flag"),
+    keep_away = entry(given(from = "aL", to = "aR", radius = 0.7, extension = 0.2),
+                      from = "name", to = "name", radius = "number", extension = "number"),
+    keep_side = entry(given(from = "aL", to = "aR", towards = "n"), from = "name", to = "name", towards = "name"),
+    landmark_template = entry(given(specimen = one, predicted = character(), unit = 1, mirror = NA),
+                              specimen = "object", predicted = "any", unit = "number", mirror = "any"),
+    lift = entry(given(specimen = one, coordinates = at, path = path_on, s = c(5, 10), alpha = c(0, 0)),
+                 specimen = "object", coordinates = "object", path = "object", s = "numbers", alpha = "numbers"),
+    patch_mesh = entry(c(given(x = shape, specimen = one, patch = "mid", columns = NULL, rows = NULL, block = NULL), fitted),
+                       x = "object", specimen = "object", patch = "choice", columns = "count?", rows = "count?", block = "any",
+                       fitted_kinds),
+    path_coordinates = entry(given(specimen = one, path = path_on, width = 10, margin = 10),
+                             specimen = "object", path = "object", width = "number", margin = "number"),
+    picture_settings = entry(given(light = c(0, 0, 1), ambient = 0.3, wrap = 0.4, gloss = 0.1, sharpness = 20, resolution = 10,
+                                   samples = 1, margin = 0.02, around = NULL, tolerance = 0.005, inside = NA),
+                             light = "object", ambient = "number", wrap = "number", gloss = "number", sharpness = "number",
+                             resolution = "number", samples = "count", margin = "number", around = "object?",
+                             tolerance = "number", inside = "halo"),
+    place_landmarks = entry(given(mesh = one, scheme = made$scheme, id = "x", no_such_argument = 1), mesh = "object", scheme = "object", id = "id?"),
+    plane_path = entry(given(mesh = one, from = "aL", to = "aR", angle = 0, side = 0, reach = Inf),
+                       mesh = "object", from = "object", to = "object", angle = "number", side = "number", reach = "reach"),
+    plot_curves = entry(given(curves = list(curve), specimen = one, surface = "plain", colour = NULL, band = TRUE, points = TRUE,
+                              width = 2.5, landmarks = FALSE, engine = "picture", legend = TRUE, resolution = 5, samples = 1),
+                        curves = "list", specimen = "object", surface = "choice", colour = "colour?", band = "flag",
+                        points = "flag", width = "number", landmarks = "flag", engine = "choice", legend = "flag",
+                        resolution = "number", samples = "count"),
+    plot_cuts = entry(given(specimen = one, from = "aL", to = "aR", angles = c(-0.5, 0), surface = "plain", colour = "red",
+                            width = 2.5, engine = "picture", resolution = 5, samples = 1),
+                      specimen = "object", from = "object", to = "object", angles = "numbers", surface = "choice",
+                      colour = "colour", width = "number", engine = "choice", resolution = "number", samples = "count"),
+    plot_panel = entry(given(x = curve, points = TRUE, grid = c(30, 20), palette = c("red", "blue"), contours = 8,
+                             colour = "#16218C", main = NULL),
+                       x = "object", points = "flag", grid = "numbers", palette = "colour", contours = "count",
+                       colour = "colour", main = "any"),
+    plot_placing = entry(given(specimen = one, least = 0.5, views = 0), specimen = "object", least = "number", views = "numbers"),
+    plot_refinement = entry(given(specimen = one, view = "front", labels = TRUE, main = NULL),
+                            specimen = "object", view = "any", labels = "any", main = "any"),
+    plot_shape_scale = entry(given(curvedness = 0.45, spacing = 3, turn = 0.35, tilt = 0.85, resolution = 5, samples = 1),
+                             curvedness = "number", spacing = "number", turn = "number", tilt = "number", resolution = "number",
+                             samples = "count"),
+    quality = entry(given(x = shape, limits = quality_limits(), others = NULL), x = "list", limits = "object", others = "any"),
+    quality_limits = entry(given(undetermined = "amber", guessed = "amber", others = 10, spread = 0.01),
+                           undetermined = "choice", guessed = "choice", others = "number", spread = "number"),
+    quality_report = entry(given(x = made$shapes[1:2], file = path("q.html"), specimens = NULL, limits = quality_limits(),
+                                 others = NULL, title = "t", pictures = 0, size = c(300, 200)),
+                           x = "list", file = "object", specimens = "any", limits = "object", others = "any", title = "text",
+                           pictures = "count", size = "size"),
+    read_curves = entry(given(file = system.file("extdata", "demo_curves.csv", package = "crestline"), curves = NULL),
+                        file = "object", curves = "any"),
+    read_landmarks = entry(given(file = path("s.csv"), frame = "LPS", missing = 9999, scale = TRUE),
+                           file = "object", frame = "choice", missing = "any", scale = "flag"),
+    read_scheme = entry(given(dir = system.file("extdata", "skull_scheme", package = "crestline"), name = "n"),
+                        dir = "object", name = "text"),
+    read_specimen = entry(given(file = path("s.ply"), landmarks = path("s.csv"), id = "x"),
+                          file = "object", landmarks = "any", id = "id?"),
+    reference_path = entry(given(specimen = one, from = "aL", to = "aR", type = "ridge", radius = 20, keep_away = NULL,
+                                 curvature = curved, reach = 0.5, longest = 1.25, spacing = 0.25, angles = 5, refined = 3,
+                                 tie = 0.002, rival = 0.05, distinct = 0.05, order = "adaptive", threads = 1L),
+                           specimen = "object", from = "object", to = "object", type = "choice", radius = "number",
+                           keep_away = "list?", curvature = "object?", reach = "reach", longest = "reach",
+                           spacing = "number", angles = "count", refined = "count", tie = "number", rival = "number",
+                           distinct = "number", order = "choice", threads = "count"),
+    refine_landmarks = entry(given(specimen = one, scheme = made$scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05,
+                                   share = 0.5, order = "adaptive cubic", tolerance = 0.001, rounds = 2, curvature = NULL,
+                                   unit = NULL, threads = 1L),
+                             specimen = "object", scheme = "object", move = "any", window = "number", apart = "number",
+                             faint = "number", share = "number", order = "choice", tolerance = "number", rounds = "count",
+                             curvature = "any", unit = "number?", threads = "count"),
+    repeatability = entry(given(shapes = made$shapes[1:4], specimen = c("a", "a", "b", "b"), observer = NULL, level = "curves",
+                                match = "specimen"),
+                          shapes = "object", specimen = "object", observer = "object?", level = "choice", match = "choice"),
+    # No page is opened: the argument that is checked last is wrong already.
+    review_landmarks = entry(given(specimen = one, scheme = made$scheme, surface = "plain", least = 0.5,
+                                   settings = ridge_settings(), view = NULL, radius = 1, faces = 100, unit = NULL, bridge = 0.2,
+                                   threads = 1L, no_such_argument = 1),
+                             specimen = "object", scheme = "object?", surface = "choice", least = "number", settings = "object",
+                             view = "numbers?", radius = "number", faces = "count", unit = "number?", bridge = "number",
+                             threads = "count"),
+    ridge_curve = entry(given(specimen = one, from = "aL", to = "aR", type = "ridge", radius = 20, width = 20, n = 7,
+                              keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = curved, reach = 0.5,
+                              threads = 1L, trust = c(0, 1)),
+                        specimen = "object", from = "object", to = "object", type = "choice", radius = "number",
+                        width = "number", n = "count", keep_away = "list?", settings = "object", passes = "count",
+                        curvature = "object?", reach = "reach", threads = "count", trust = "size"),
+    ridge_line = entry(given(surface = surface, scale = 1, radius = 20, settings = ridge_settings()),
+                       surface = "object", scale = "number", radius = "number", settings = "object"),
+    ridge_settings = entry(given(preset = "crestline"), preset = "choice"),
+    ridge_study = entry(given(settings = ridge_settings(error = FALSE), n = 1, a = 0, b = 1, noise = 0, landmark_error = 0,
+                              passes = 1, radius = 0.25, width = 0.4, spacing = 0.1, correlation = 0, points = 5, dir = NULL,
+                              block = 50, progress = FALSE, largest = 2e6),
+                        largest = "number", settings = "any", n = "count", a = "numbers", b = "numbers", noise = "numbers",
+                        landmark_error = "number", passes = "count", radius = "number", width = "number", spacing = "number",
+                        correlation = "number", points = "count", dir = "any", block = "count", progress = "flag"),
+    scan_settings = entry(given(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05, rounds = 1, crease = 30,
+                                holes = 0, hole_radius = 5, landmark_error = 0, turn = 0, shift = 0),
+                          noise = "number", noise_range = "number", remesh = "flag", edge = "number?", edge_sd = "number",
+                          rounds = "count", crease = "number", holes = "count", hole_radius = "numbers",
+                          landmark_error = "number", turn = "number", shift = "number"),
+    shape_at = entry(given(pca = shape_pca(aligned), component = 1, sd = 2, as = "matrix", size = 1),
+                     pca = "object", component = "some", sd = "number", as = "choice", size = "number"),
+    shape_category = entry(given(index = c(0, 0.5)), index = "index"),
+    shape_colours = entry(given(index = c(0, 0.5), missing = "#BEBEBE"), index = "index", missing = "colour"),
+    shape_index = entry(given(x = 1, k2 = 0.5), x = "any", k2 = "any"),
+    shape_mesh = entry(c(given(x = shape, parts = "model", specimen = one, dense = 1), fitted),
+                       x = "object", parts = "choice", specimen = "object?", dense = "count", fitted_kinds),
+    shape_pca = entry(given(aligned = aligned, weights = aligned$weights, tolerance = 1e-14),
+                      aligned = "object", weights = "any", tolerance = "number"),
+    simulate_faces = entry(given(n = 2, effect = 2, size_effect = 0.03, groups = c("f", "m"), size_sd = 0.03, waves = 5,
+                                 template = one, places = data.frame(part = "brow", x = 0, y = 0, z = 50, radius = 10, share = 1),
+                                 variation = data.frame(range = 60, sd = 1.5), scan = NULL, seed = 1, progress = FALSE),
+                           n = "count", effect = "number", size_effect = "number", groups = "two_names", size_sd = "number",
+                           waves = "count", template = "object?", places = "any", variation = "object", scan = "object?",
+                           seed = "number?", progress = "flag"),
+    simulate_ridge = entry(given(a = 0.25, b = 0.5, spacing = 0.1, noise = 0, seed = NULL, jitter = 0, correlation = 0,
+                                 landmark_error = 0, end = 0.95),
+                           a = "number", b = "number", spacing = "number", noise = "number", seed = "number?",
+                           jitter = "number", correlation = "number", landmark_error = "number", end = "number"),
+    slide = entry(given(shape = shape, template = sample$template, settings = slide_settings(), specimen = one),
+                  shape = "object", template = "object", settings = "object", specimen = "object"),
+    slide_settings = entry(given(preset = "crestline"), preset = "choice"),
+    specimen = entry(given(mesh = made$ball, landmarks = made$corners, id = "x", outward = "detect", tolerance = 0.05,
+                           debris = 0.001, midline = c("n", "sn")),
+                     mesh = "object", landmarks = "any", id = "id?", outward = "choice", tolerance = "number",
+                     debris = "number", midline = "names?"),
+    surface_faults = entry(given(x = shape, specimen = one, parts = "model"), x = "object", specimen = "object", parts = "choice"),
+    symmetrise = entry(given(shape = shape, off_middle = 0.5), shape = "object", off_middle = "number"),
+    true_effect = entry(given(x = NULL, at = NULL), x = "object", at = "any"),
+    true_points = entry(given(x = NULL, at = NULL), x = "object", at = "any"),
+    visible_points = entry(given(scene = scene, x = line), scene = "object", x = "object"),
+    write_landmarks = entry(given(x = made$corners, file = path("o.csv"), curves = NULL, frame = "LPS", missing = 9999),
+                            x = "list", file = "object", curves = "any", frame = "choice", missing = "any"),
+    write_mesh = entry(given(x = one$mesh, file = path("o.ply"), colour = NULL, parts = "model", palette = c("red", "blue"),
+                             limits = NULL, missing = "#BEBEBE", ascii = FALSE),
+                       x = "object", file = "object", colour = "any", parts = "any", palette = "colour", limits = "size?",
+                       missing = "colour", ascii = "flag"),
+    write_page = entry(given(file = path("p.html"), specimen = one, curves = list(curve), table = NULL, title = "t",
+                             caption = NULL, surface = "plain", colour = NULL, width = 4, selfcontained = FALSE,
+                             size = c(90, 80)),
+                       file = "object", specimen = "object", curves = "list", table = "table?", title = "text",
+                       caption = "text?", surface = "choice", colour = "colour?", width = "number", selfcontained = "flag",
+                       size = "size"),
+    write_pca_page = entry(given(file = path("z.html"), pca = flat_pca(made), component = 1, sd = 3, colour = "#E3CDB8",
+                                 title = "t", size = c(42, 46), view = "front", selfcontained = FALSE),
+                           file = "object", pca = "object", component = "some", sd = "number", colour = "colour",
+                           title = "text", size = "size", view = "numbers", selfcontained = "flag")
+  )
+}
+
+batch_of <- function(made) {
+  if (!rlang::is_installed(c("future", "future.apply", "progressr"))) return(NULL)
+  fit_shapes(made$specimens[1:2], made$scheme, progress = FALSE)
+}
+
+# Principal components of a surface, for a page.
+flat_pca <- function(made) {
+  xyz <- simplify2array(lapply(made$specimens, function(one) t(one$mesh$vb[1:3, ])))
+  shape_pca(align(xyz, "ball", triangles = made$ball$it, rounds = 3, tolerance = 1e-3))
+}
+
+# What a call gives: "returned", "refused", "refused without its name" (of the argument), or the message of an error of R's.
+outcome_of <- function(fn, args, argument = NULL, seconds = 20) {
+  setTimeLimit(elapsed = seconds, transient = TRUE)
+  # Some values are paths: what is made of them goes where it is deleted.
+  old <- setwd(tempdir())
+  on.exit({
+    setTimeLimit()
+    setwd(old)
+  })
+  named <- function(text) is.null(argument) || grepl(paste0("\\b", argument, "\\b"), text)
+  tryCatch({
+    utils::capture.output(suppressMessages(suppressWarnings(do.call(getExportedValue("crestline", fn), args, quote = TRUE))))
+    "returned"
+  }, crestline_error = function(e) if (named(conditionMessage(e))) "refused" else paste("refused without its name:", conditionMessage(e)),
+  error = function(e) conditionMessage(e))
+}
+
+# The names of the wrong values that an argument of a kind must refuse.
+unlawful_values <- function(kind) {
+  plain <- sub("?", "", kind, fixed = TRUE)
+  lawful <- lawful_values()
+  lawful$halo <- c(lawful$colour, "na", "na_character", "na_real")
+  lawful$list <- "empty_list"
+  lawful$name <- c(lawful$names, lawful$numbers)
+  lawful$size <- "two_numbers"
+  lawful$some <- c("two_numbers", "matrix", "array")
+  lawful$two_names <- "two_strings"
+  lawful$index <- c("zero", "half", "minus_one", "tiny", "na", "na_real", "number_and_na", "no_numbers", "nan", "true")
+  lawful$table <- c("table", "empty_table")
+  setdiff(names(wrong_values()), c(lawful[[plain]], if (plain != kind) "null"))
+}
+
+# One row a call: function, argument, value, outcome, and whether the value must be refused. What is refused as the call
+# without a wrong value is (some objects are too small for their function) counts as returned.
+try_arguments <- function(calls, functions = names(calls), values = function(fn, argument, kind) names(wrong_values())) {
+  wrong <- wrong_values()
+  functions <- Filter(function(fn) length(calls[[fn]]$kinds) > 0, functions)
+  rows <- lapply(functions, function(fn) {
+    args <- calls[[fn]]$args
+    plain <- outcome_of(fn, args, "the name of nothing")
+    lapply(names(calls[[fn]]$kinds), function(argument) {
+      kind <- calls[[fn]]$kinds[[argument]]
+      tried <- values(fn, argument, kind)
+      outcome <- vapply(tried, function(value) {
+        args[argument] <- wrong[value]
+        outcome <- outcome_of(fn, args, argument)
+        if (outcome == plain) "returned" else outcome
+      }, "")
+      data.frame(fn = rep(fn, length(tried)), argument = rep(argument, length(tried)), value = tried, outcome = outcome,
+                 must = tried %in% unlawful_values(kind), row.names = NULL)
+    })
+  })
+  do.call(rbind, unlist(rows, recursive = FALSE))
+}
+
+# The rows that are wrong: an error of R's own; for a value that no call may take no refusal, or one that does not name the
+# argument.
+leaks_of <- function(tried) {
+  silent <- tried$outcome == "returned" & tried$must
+  unnamed <- startsWith(tried$outcome, "refused without")
+  tried[silent | (unnamed & tried$must) | !(unnamed | tried$outcome %in% c("returned", "refused")), ]
+}

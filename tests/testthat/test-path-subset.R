@@ -1,0 +1,117 @@
+quarter <- function() plane_path(Rvcg::vcgSphere(4), c(1, 0, 0), c(0, 1, 0))
+
+steps <- function(path) sqrt(rowSums(diff(as.matrix(as.data.frame(path)[c("x", "y", "z")]))^2))
+
+test_that("a part of a path has its own length, arc lengths from 0, and nothing that was true of the whole", {
+  path <- quarter()
+  part <- path[5:20, ]
+  expect_s3_class(part, "mesh_path")
+  expect_equal(attr(part, "length"), sum(steps(part)))
+  expect_equal(part$s, path$s[5:20] - path$s[5])
+  expect_equal(attr(part, "length"), path$s[20] - path$s[5])
+  expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns],
+               ignore_attr = TRUE)
+  expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
+  expect_output(print(part), "Path of 16 points")
+  expect_no_match(paste(capture.output(print(part)), collapse = " "), "angle")
+})
+
+test_that("what a reference path knows of its criterion does not go with its parts", {
+  path <- reference_path(Rvcg::vcgSphere(4), c(1, 0, 0), c(0, 1, 0), "plane")
+  expect_true(all(c("optima", "criterion", "competing", "angle",
+                    "type") %in% names(attributes(path))))
+  for (part in list(path[-1, ], head(path, 4), subset(path, z > -1 & s > 0.2), path[path$s > 0.2, ],
+                    rbind(path, path[0, ])[-1, ])) {
+    expect_s3_class(part, "mesh_path")
+    expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
+    expect_equal(part$s[1], 0)
+    expect_equal(attr(part, "length"), tail(part$s, 1))
+  }
+})
+
+test_that("straight steps count where points are left out; one point and none have no length", {
+  path <- quarter()
+  ends <- path[c(1, nrow(path)), ]
+  expect_equal(attr(ends, "length"), sqrt(2))
+  expect_equal(attr(path[3, ], "length"), 0)
+  expect_equal(path[3, "s"], path$s[3])
+  none <- path[0, ]
+  expect_s3_class(none, "mesh_path")
+  expect_equal(attr(none, "length"), 0)
+  expect_output(print(none), "Path of 0 points")
+  expect_crestline_error(path[nrow(path) + 1, ], "no such rows")
+})
+
+test_that("the whole path stays what it is, and a path without one of its columns is a plain data frame", {
+  path <- quarter()
+  expect_identical(attributes(path[]), attributes(path))
+  expect_identical(path[seq_len(nrow(path)), ], path)
+  for (plain in list(path[c("x", "y", "z")], path[, c("s", "z")], path[2:4, -1], path["s"])) {
+    expect_identical(class(plain), "data.frame")
+    expect_setequal(names(attributes(plain)), c("names", "row.names", "class"))
+  }
+  expect_identical(path[, "x"], path$x)
+  expect_identical(path[["x"]], path$x)
+  path$depth <- path$z
+  expect_identical(path[3:5, ]$depth, path$z[3:5])
+})
+
+test_that("a path whose columns are set stays one as long as it has them all", {
+  path <- quarter()
+  doubled <- path
+  for (axis in c("x", "y", "z")) doubled[[axis]] <- 2 * path[[axis]]
+  expect_equal(attr(doubled, "length"), 2 * attr(path, "length"))
+  expect_equal(doubled$s, 2 * path$s)
+  expect_null(attr(doubled, "angle"))
+  noted <- path
+  noted$note <- "here"
+  expect_identical(attributes(noted)[c("length", "angle", "key")],
+                   attributes(path)[c("length", "angle", "key")])
+  without <- path
+  without$face <- NULL
+  expect_identical(class(without), "data.frame")
+  expect_null(attr(without, "length"))
+})
+
+test_that("the key and the id of the mesh stay with a part", {
+  ball <- specimen(Rvcg::vcgSphere(4), id = "ball")
+  path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
+  part <- path[3:8, ]
+  expect_identical(attr(part, "key"), ball$key)
+  expect_identical(attr(part, "id"), "ball")
+  expect_identical(attr(rbind(part, path[8:9, ]), "key"), ball$key)
+  # It is a path of its mesh still.
+  expect_s3_class(path_coordinates(ball, path[seq(1, nrow(path), 2), ], 0.2), "path_coordinates")
+})
+
+test_that("parts put together again are the path; the common point is there once", {
+  path <- quarter()
+  n <- nrow(path)
+  joined <- rbind(path[1:9, ], path[9:n, ])
+  expect_s3_class(joined, "mesh_path")
+  expect_equal(as.data.frame(joined), as.data.frame(path), ignore_attr = TRUE)
+  expect_equal(attr(joined, "length"), attr(path, "length"))
+  expect_equal(rbind(path[1:9, ], path[10:n, ])$s, path$s)
+  expect_equal(rbind(path[1:9, ], NULL, path[9:20, ], path[20:n, ])$s, path$s)
+  expect_null(attr(joined, "angle"))
+})
+
+test_that("paths of different meshes, and what is no path, are not joined", {
+  path <- plane_path(specimen(Rvcg::vcgSphere(4), id = "ball"), c(1, 0, 0), c(0, 1, 0))
+  other <- plane_path(specimen(Rvcg::vcgSphere(3), id = "other"), c(1, 0, 0), c(0, 1, 0))
+  expect_crestline_error(rbind(path, other), c("2 meshes", "ball", "other"))
+  expect_crestline_error(rbind(path, as.data.frame(path)), "joined with")
+})
+
+test_that("a path over a bridged hole keeps the arc lengths that it was measured along", {
+  mesh <- grid_mesh(9)
+  middle <- which(colSums(mesh$it == 41) > 0)
+  mesh$it <- mesh$it[, -middle]
+  flat <- specimen(mesh, outward = "keep")
+  bridged <- bridge_holes(flat, 0.5)
+  path <- plane_path(bridged, c(1, 4.3, 0), c(7, 4.3, 0))
+  clear <- unbridged_path(path, flat)
+  expect_lt(nrow(clear), nrow(path))
+  expect_equal(attr(clear, "length"), attr(path, "length"))
+  expect_true(all(clear$face <= ncol(flat$mesh$it)))
+})

@@ -1,0 +1,87 @@
+one <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
+
+test_that("a summary tells of package, mesh and landmarks, on one screen", {
+  one <- from_files(one, "/scans/ball.ply", "/scans/ball.csv")
+  said <- summary(one)
+  expect_s3_class(said, "crestline_summary")
+  expect_identical(said$provenance$mesh, list(id = "ball", key = one$key, file = "/scans/ball.ply"))
+  expect_identical(said$provenance$landmarks, one$origin)
+  expect_identical(said$provenance$package, as.character(packageVersion("crestline")))
+  text <- capture.output(print(said))
+  expect_lte(length(text), 24)
+  expect_lte(max(nchar(text)), 80)
+  for (word in c(R.version$major, one$key, "from ball.ply",
+                 "2 from a file (ball.csv)")) expect_match(paste(text, collapse = " "), word,
+                                                           fixed = TRUE)
+})
+
+test_that("only settings that are not as by default are told, in every stage", {
+  lines <- settings_lines(list(ridge = utils::modifyList(unclass(ridge_settings()),
+                                                         list(error = FALSE)),
+                               fit = list(passes = 1,
+                                          cut_scale = 0.8), slide = unclass(slide_settings("paper")), align = list()))
+  expect_match(lines, "ridge error = FALSE; fit cut_scale = 0.8; slide energy = own, nugget = 0",
+               fixed = TRUE)
+  expect_match(settings_lines(list(fit = list(passes = 1L))), "fit as by default", fixed = TRUE)
+  expect_null(settings_lines(list()))
+  defaults <- lapply(stats::setNames(nm = c("ridge", "slide", "fit", "homologise", "align", "pca",
+                                            "compare")), default_settings)
+  expect_true(all(lengths(defaults) > 0))
+  for (stage in names(defaults)) expect_identical(changed_words(defaults[[stage]],
+                                                                defaults[[stage]]), "as by default")
+})
+
+test_that("comments of files are single lines of ASCII", {
+  odd <- from_files(one, "/a/na\u00efve\nface\\")
+  lines <- comment_lines(specimen_provenance(odd))
+  expect_false(any(grepl("[^ -~]", lines)))
+  expect_false(any(grepl("\\", lines, fixed = TRUE)))
+  expect_length(grep("face/$", lines), 1)
+})
+
+test_that("files of meshes and landmarks carry it, and our readers read them as ever", {
+  for (extension in c("ply", "obj", "stl")) {
+    for (ascii in c(TRUE, FALSE)) {
+      file <- tempfile(fileext = paste0(".", extension))
+      write_mesh(one, file, ascii = ascii)
+      text <- readBin(file, "raw", 5000)
+      found <- grepl(one$key, rawToChar(text[text != 0]), fixed = TRUE, useBytes = TRUE)
+      expect_identical(found, extension != "stl")
+      expect_equal(ncol(read_specimen(file)$mesh$it), ncol(one$mesh$it))
+    }
+  }
+  odd <- with_fields(one, file = "odd: LM=3 ID=x CURVES=2 end_header\\\n'.ply")
+  for (extension in c("tps", "nts", "dta", "mrk.json", "csv", "pts", "fcsv", "landmarkAscii")) {
+    file <- tempfile(fileext = paste0(".", extension))
+    write_landmarks(odd, file)
+    expect_identical(any(grepl(one$key, readLines(file), fixed = TRUE)),
+                     extension %in% c("tps", "nts", "dta", "mrk.json"))
+    expect_equal(unclass(read_landmarks(file)), one$landmarks, ignore_attr = "curves")
+  }
+  for (extension in c("ply", "obj")) {
+    file <- tempfile(fileext = paste0(".", extension))
+    write_mesh(odd, file)
+    expect_equal(read_specimen(file)$mesh$vb, one$mesh$vb)
+  }
+  # Of matrices and bare meshes nothing is known.
+  file <- tempfile(fileext = ".tps")
+  write_landmarks(one$landmarks, file)
+  expect_no_match(readLines(file), "provenance")
+})
+
+test_that("of several specimens in one file each has its own", {
+  two <- list(one, with_fields(one, id = "b", file = "b.ply"))
+  for (extension in c("tps", "nts")) {
+    file <- tempfile(fileext = paste0(".", extension))
+    write_landmarks(two, file)
+    expect_length(grep("from b.ply", readLines(file)), 1)
+    expect_identical(names(read_landmarks(file)), c("ball", "b"))
+  }
+})
+
+test_that("pages have it in a block that opens", {
+  skip_if_not_installed("htmltools")
+  block <- as.character(provenance_block(specimen_provenance(from_files(one, "<b>.ply"))))
+  expect_match(block, one$key, fixed = TRUE)
+  expect_match(block, "&lt;b&gt;.ply", fixed = TRUE)
+})
