@@ -161,7 +161,11 @@ read_face_template <- function() {
   folder <- system.file("extdata", "face_template", package = "crestline", mustWork = TRUE)
   at <- read_landmarks(file.path(folder, "landmarks.csv"))
   ears <- c("tL", "tR", "oiL", "oiR")
-  face <- read_specimen(file.path(folder, "mesh.ply"), at[!rownames(at) %in% ears, ], id = "face")
+  # Its lips and lids are slits, borders beside one another.
+  face <- suppressWarnings(
+    read_specimen(file.path(folder, "mesh.ply"), at[!rownames(at) %in% ears, ], id = "face"),
+    classes = "crestline_seam"
+  )
   face$landmarks <- at
   landmark_template(face, ears, unit = 1)
 }

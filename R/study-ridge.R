@@ -52,8 +52,6 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
   structure(out, truth_curvature = ridge_crest(a, b, end))
 }
 
-#' The surface without its locus of greatest curvature, which takes as long as the surface
-#' @noRd
 #' Between 1e-3, four million vertices, and a quarter of the side
 #' @noRd
 check_spacing <- function(spacing, call = rlang::caller_env()) {
@@ -62,6 +60,8 @@ check_spacing <- function(spacing, call = rlang::caller_env()) {
   spacing
 }
 
+#' The surface without its locus of greatest curvature, which takes as long as the surface
+#' @noRd
 simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, landmark_error, end) {
   ridge <- function(y) cbind(x = a * y^3, y = y, z = 0)
   with_seed(seed, {
