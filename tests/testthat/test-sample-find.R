@@ -39,7 +39,7 @@ test_that("a batch and its quality tell of which specimens landmarks were found"
   shapes <- lapply(batch_specimens(), fit_shape, edge_scheme(), progress = FALSE)
   shapes[[2]]$placing <- data.frame(landmark = "a", state = "found")
   shapes[[3]]$placing <- data.frame(landmark = "a", state = "placed")
-  batch <- batch_of(stats::setNames(shapes, paste("ball", 1:3)), edge_scheme())
+  batch <- new_shape_batch(stats::setNames(shapes, paste("ball", 1:3)))
   expect_output(print(batch),
                 "1 specimen: landmarks found by the template, not placed by hand: ball 2")
   expect_identical(summary(batch)$landmarks, c("placed", "found", "placed"))

@@ -112,7 +112,7 @@ test_that("a grid that makes no study is refused before any work", {
   expect_crestline_error(run(passes = 1.5), "`passes`")
   expect_crestline_error(run(radius = 0), "`radius`")
   expect_crestline_error(run(strange = 1), "strange")
-  expect_crestline_error(ridge_study(fast, n = 1e8, a = 0, b = 1, noise = 0), "curves")
+  expect_crestline_error(ridge_study(fast, n = 1e6, a = 1:3 / 10, b = 1, noise = 0), "curves")
   expect_crestline_error(run(spacing = 0.01, largest = 1000), "`spacing`")
   expect_false(dir.exists(file.path(tempdir(), "no study")))
 })
