@@ -83,7 +83,7 @@ read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   check_given()
-  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
+  if (is.null(x) && is.null(curves)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   format <- landmark_format(file)
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
@@ -116,7 +116,7 @@ written_sets <- function(x, curves, file) {
     return(stats::setNames(list(written_set(x, curves)), id))
   }
   if (!length(x) || !is.null(curves) && length(x) > 1) {
-    refuse_landmark_file(file, "`x` holds no specimen, or several for one set of `curves`",
+    refuse_landmark_file(file, "`x`: curves go with one specimen, and there must be one",
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
