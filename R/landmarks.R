@@ -154,7 +154,7 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf("`curves`: %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
+    refuse_landmarks(sprintf("`curves`: curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
