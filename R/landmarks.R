@@ -116,7 +116,7 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   check_given()
-  if (is.null(x)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
+  if (is.null(x) && is.null(curves)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
   format <- landmark_format(file)
   if (is.null(format$write)) {
     refuse_landmark_file(file, "this format is read, not written",
@@ -158,7 +158,7 @@ written_sets <- function(x, curves, file) {
     return(stats::setNames(list(written_set(x, curves)), id))
   }
   if (!length(x) || !is.null(curves) && length(x) > 1) {
-    refuse_landmark_file(file, "`x` holds no specimen, or several for one set of `curves`",
+    refuse_landmark_file(file, "`x`: curves go with one specimen, and there must be one",
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
@@ -213,7 +213,7 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf("`curves`: %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
+    refuse_landmarks(sprintf("`curves`: curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
