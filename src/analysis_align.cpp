@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "landmarks_rotation.h"
+#include "geometry_rotation.h"
 
 namespace crestline {
 

@@ -1,9 +1,9 @@
-#include "landmarks_rigid.h"
+#include "placing_rigid.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "landmarks_rotation.h"
+#include "geometry_rotation.h"
 
 namespace crestline {
 

@@ -1,4 +1,4 @@
-#include "plot_render.h"
+#include "draw_render.h"
 
 #include "interrupt.h"
 

@@ -1,4 +1,4 @@
-#include "landmarks_warp.h"
+#include "placing_warp.h"
 
 #include <algorithm>
 #include <cmath>

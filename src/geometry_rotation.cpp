@@ -1,4 +1,4 @@
-#include "landmarks_rotation.h"
+#include "geometry_rotation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "landmarks_match.h"
+#include "placing_match.h"
 
 namespace crestline {
 

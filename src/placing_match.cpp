@@ -1,4 +1,4 @@
-#include "landmarks_match.h"
+#include "placing_match.h"
 
 #include <algorithm>
 #include <cmath>
