@@ -154,3 +154,5 @@ as.data.frame.curve_distance <- function(x, row.names = NULL, optional = FALSE, 
   class(x) <- "data.frame"
   x
 }
+
+known_rows <- function(x) x[!is.na(x[, 1]), , drop = FALSE]

@@ -85,12 +85,6 @@ print.summary_shape_pca <- function(x, ...) {
   invisible(x)
 }
 
-as_whole <- function(aligned) {
-  k <- nrow(aligned$mean)
-  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = aligned$places, given = k,
-       kept = seq_len(k))
-}
-
 sign_of_greatest <- function(v) {
   greatest <- apply(abs(v), 2, which.max)
   sign(v[cbind(greatest, seq_len(ncol(v)))])

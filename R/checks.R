@@ -122,7 +122,7 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   make <- sprintf("Make one with %s.", maker)
   if (!inherits(x, class)) refuse_argument(name, x, make, call, sprintf("%s, not of class \"%s\"", describe_value(x), class))
   parts <- class_parts[[class]]
-  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(unclass(x)[[part]], parts[[part]]), NA)]
+  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(x[[part]], parts[[part]]), NA)]
   if (length(lacks)) {
     refuse_argument(name, x, make, call, sprintf("a damaged \"%s\": it has no proper %s", class, paste0("`", lacks, "`", collapse = ", ")))
   }
@@ -169,7 +169,8 @@ check_ends <- function(..., call = rlang::caller_env()) {
     x <- ends[[name]]
     has <- function(...) all(c(...) %in% names(x))
     placed <- is.data.frame(x) && nrow(x) == 1 && (has("x", "y", "z") || has("face", "w1", "w2", "w3"))
-    position <- placed || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
+    located <- is.numeric(x) && identical(names(x), mesh_columns)
+    position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
     if (!position && !is_path(x)) refuse_argument(name, x, "Give the name of a landmark, or three finite co-ordinates.", call)
   }
 }
@@ -192,7 +193,7 @@ check_regions <- function(x, name = "keep_away", call = rlang::caller_env()) {
 
 # The parts without which no function can use an object of the class, and what they are.
 class_parts <- list(
-  specimen = c(id = "id", mesh = "mesh3d", landmarks = "numbers"), mesh3d = c(vb = "numbers"),
+  specimen = c(id = "id", mesh = "mesh3d", landmarks = "numbers"),
   shape = c(id = "id", points = "table", status = "table", scheme = "curve_scheme"), curve = c(path = "table", points = "table"),
   curve_scheme = c(landmarks = "table", curves = "table", points = "table"),
   shape_pca = c(x = "numbers", sdev = "numbers", mean = "numbers"),
@@ -272,8 +273,6 @@ check_path_to_write <- function(x, name, endings = NULL, stage = "arguments", ca
   x
 }
 
-is_path <- function(x) is.character(x) && length(x) == 1 && !is.na(x) && nzchar(x)
-
 #' Whether all arguments without a default were given
 #'
 #' The first line of an exported function: R's own message would come from deep inside.
@@ -321,21 +320,4 @@ check_method_dots <- function(..., known = character(), call = rlang::caller_env
 #' @noRd
 check_most <- function(most, call = rlang::caller_env()) {
   if (!identical(most, Inf)) check_count(most, "most", lower = 0, call = call)
-}
-
-describe_value <- function(x) {
-  if (is.null(x)) return("NULL")
-  if (!is.atomic(x)) return(paste0("of class ", class(x)[1]))
-  if (is.array(x)) return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array", paste(dim(x), collapse = " x ")))
-  shown <- paste(shorten_text(utils::head(format(x), 3)), collapse = ", ")
-  if (length(x) > 3) return(paste0(shown, ", ... (", length(x), " values)"))
-  if (!length(x)) "empty" else if (identical(shown, "")) "an empty string" else shown
-}
-
-shorten_text <- function(x, most = 60) ifelse(nchar(x) > most, paste0(substr(x, 1, most - 3), "..."), x)
-
-describe_range <- function(lower, upper, open) {
-  words <- if (open) c("above", "below") else c("of at least", "of at most")
-  bounds <- c(lower, upper)
-  paste(paste(words, bounds)[is.finite(bounds)], collapse = " and ")
 }

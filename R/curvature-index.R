@@ -100,11 +100,3 @@ check_index <- function(index, call = rlang::caller_env()) {
                     "Compute it with shape_index().", stage = "curvature", call = call)
   }
 }
-
-# Colours at shares x of the way through `anchors`.
-ramp_colours <- function(x, anchors, missing) {
-  out <- rep(missing, length(x))
-  known <- !is.na(x)
-  out[known] <- grDevices::rgb(grDevices::colorRamp(anchors)(x[known]), maxColorValue = 255)
-  out
-}

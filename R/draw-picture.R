@@ -168,3 +168,12 @@ runs_of <- function(x) {
   at <- which(x)
   unname(split(at, cumsum(c(TRUE, diff(at) > 1))[seq_along(at)]))
 }
+
+# n x 3 co-ordinates from a matrix or from columns x, y, z.
+point_matrix <- function(x, call = rlang::caller_env(), name = "x") {
+  if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
+  if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
+    refuse_argument(name, x, "Give points: a matrix with three columns or a data frame with x, y and z.", call)
+  }
+  x
+}

@@ -125,24 +125,6 @@ check_rotation <- function(view, call) {
   unname(view)
 }
 
-check_colours <- function(colour, n, call = rlang::caller_env()) {
-  check_colour(colour, "colour", call = call)
-  if (!length(colour) %in% c(1L, n)) {
-    crestline_abort(sprintf("`colour` has %d values for %d vertices.", length(colour), n),
-                    "Give one colour, or one for each vertex.", stage = "picture", call = call)
-  }
-  rep_len(colour, n)
-}
-
-# n x 3 co-ordinates from a matrix or from columns x, y, z.
-point_matrix <- function(x, call = rlang::caller_env(), name = "x") {
-  if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
-  if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
-    refuse_argument(name, x, "Give points: a matrix with three columns or a data frame with x, y and z.", call)
-  }
-  x
-}
-
 with_normals <- function(mesh) {
   if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
 }

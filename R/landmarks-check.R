@@ -32,15 +32,6 @@ landmarks_of_table <- function(x) {
   matrix
 }
 
-describe_shape <- function(x) {
-  if (is.null(dim(x))) describe_value(x) else sprintf("%s %s", paste(dim(x), collapse = " x "), typeof(x))
-}
-
-shorten <- function(x, most = 5) {
-  more <- if (length(x) > most) sprintf(" and %d more", length(x) - most)
-  paste0(paste(utils::head(x, most), collapse = ", "), more)
-}
-
 refuse_landmarks <- function(problem, remedy, id) {
   crestline_abort(problem, remedy, stage = "landmarks", id = id, class = "crestline_landmark_error", call = NULL)
 }
@@ -172,4 +163,10 @@ surface_misfit <- function(change, given, mesh, tolerance) {
   if (away <= min(tolerance, spread / 2)) away / spread else Inf
 }
 
-mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)
+#' Names that end in L and R, as partners
+#' @noRd
+side_pairs <- function(names) {
+  left <- names[endsWith(names, "L")]
+  right <- sub("L$", "R", left)
+  data.frame(left = left, right = right)[right %in% names, ]
+}

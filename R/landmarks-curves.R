@@ -59,24 +59,3 @@ shape_curves <- function(x) {
     landmark_curve(as.matrix(points[points$part == name, c("x", "y", "z")]))
   })
 }
-
-has_shape <- function(x) inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
-
-#' Sets whose curves are landmarks named "curve point", as in [coords()]
-#' @noRd
-curves_as_points <- function(sets, file) {
-  curves <- lapply(sets, attr, "curves")
-  if (!any(lengths(curves) > 0)) return(sets)
-  crestline_warn(
-    sprintf("%s: the format has no curves: their points are written as landmarks, \"%s 1\" and so on.", basename(file),
-            unlist(lapply(curves, names))[1]),
-    "read_curves() gives them back; curves = list() leaves them out.", stage = "landmarks",
-    class = "crestline_format_warning"
-  )
-  Map(function(set, curves) {
-    names <- paste(rep(names(curves), vapply(curves, nrow, 0L)), unlist(lapply(curves, function(x) seq_len(nrow(x)))))
-    points <- do.call(rbind, c(list(set), unname(curves)))
-    rownames(points) <- c(rownames(set), names)
-    structure(as_landmarks(points), comments = attr(set, "comments"))
-  }, sets, curves)
-}

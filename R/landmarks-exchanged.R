@@ -299,3 +299,11 @@ mean_front <- function(mesh, located) {
   front <- rowSums(mesh$normals[1:3, mesh$it[, face], drop = FALSE])
   if (length(face) && sum(front^2) > 0) unit_vector(front)
 }
+
+#' Partners of names at one level; what is in no pair is its own
+#' @noRd
+partner_of <- function(name, pairs, level) {
+  pairs <- pairs[pairs$level == level, ]
+  partner <- c(pairs$right, pairs$left)[match(name, c(pairs$left, pairs$right))]
+  ifelse(is.na(partner), name, partner)
+}

@@ -85,22 +85,6 @@ check_separators <- function(text, file, line) {
   }
 }
 
-# 15 digits where they give the number back, else the 17 that always do.
-number_text <- function(x, missing = "NA") {
-  text <- rep(missing, length(x))
-  given <- which(!is.na(x))
-  text[given] <- sprintf("%.15g", x[given])
-  longer <- given[as.numeric(text[given]) != x[given]]
-  text[longer] <- sprintf("%.17g", x[longer])
-  text
-}
-
-# One string a row.
-row_text <- function(x, missing = "NA", sep = " ") {
-  text <- matrix(number_text(x, missing), nrow(x))
-  do.call(paste, c(lapply(seq_len(ncol(text)), function(i) text[, i]), sep = sep))
-}
-
 # Names between double quotes, a quote in a name doubled, commas between; and back.
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')

@@ -188,15 +188,21 @@ specimen_names <- function(x) {
 }
 
 written_set <- function(x, curves) {
-  if (inherits(x, "shape")) check_class(x, "shape", "x", "fit_shape()")
-  if (is.null(curves)) curves <- if (inherits(x, "shape")) shape_curves(x) else attr(x, "curves")
-  comments <- comment_lines(provenance_of(x))
-  if (inherits(x, "specimen")) x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")$landmarks
-  if (inherits(x, "shape")) x <- coords(x, "landmarks")
-  x <- as_landmarks(x)
+  own <- written_landmarks(x)
+  if (is.null(curves)) curves <- own$curves
+  comments <- comment_lines(x)
+  x <- as_landmarks(own$landmarks)
   curves <- as_curves(curves)
   structure(x, curves = if (length(curves)) curves, comments = if (length(comments)) paste("provenance,", comments))
 }
+
+#' The landmarks and curves of what is written
+#' @return List: `landmarks`, `curves` (NULL: none).
+#' @noRd
+written_landmarks <- function(x) UseMethod("written_landmarks")
+
+#' @exportS3Method
+written_landmarks.default <- function(x) list(landmarks = x, curves = attr(x, "curves"))
 
 # A named list of n x 3 matrices, each with attribute `closed`.
 as_curves <- function(x) {
@@ -255,60 +261,23 @@ landmark_format <- function(file) {
   formats[[format]]
 }
 
-file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
+has_shape <- function(x) inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
 
-check_file <- function(file, stage, name = "file") {
-  if (!is_path(file)) refuse_no_path(file, stage)
-  if (!file.exists(file) || dir.exists(file)) {
-    crestline_abort(sprintf("`%s`: there is no file %s.", name, file),
-                    sprintf("Check the path; the working directory is %s.", getwd()),
-                    stage = stage, call = NULL)
-  }
-}
-
-#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and
-#' devices, which might keep R waiting for ever, have no size
-#'
-#' @param id Name of the specimen, where there is one.
-#' @param unpacks Kinds of packed files that the caller reads.
+#' Sets whose curves are landmarks named "curve point", as in [coords()]
 #' @noRd
-check_stored <- function(file, stage, id = NULL, unpacks = character()) {
-  refuse <- function(problem, remedy) {
-    crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
-                    call = NULL)
-  }
-  if (!isTRUE(file.size(file) > 0)) {
-    refuse(": it is empty, or no file on disk but a pipe or device",
-           "If it is empty, export or copy it again; save what comes through a pipe first.")
-  }
-  if (file.access(file, 4) != 0) refuse("", "Check the right to read it.")
-  packed <- packed_by(readBin(file, "raw", 10))
-  if (!is.na(packed) && !packed %in% unpacks) {
-    refuse(sprintf(": it is compressed by %s, whatever its name", packed),
-           "Unpack it first; of a spreadsheet save the sheet as CSV.")
-  }
-}
-
-#' Whether a path is a pipe, which would keep R waiting for a reader. R cannot tell, the shell can
-#' @noRd
-is_pipe <- function(file) {
-  if (.Platform$OS.type != "unix" || !isTRUE(file.size(file) == 0)) return(FALSE)
-  system2("test", c("-p", shQuote(path.expand(file)))) == 0
-}
-
-#' The program that a file's first bytes are of, NA for none
-#' @noRd
-packed_by <- function(bytes) {
-  start <- list(gzip = c(0x1f, 0x8b, 0x08), zip = c(0x50, 0x4b, 0x03, 0x04),
-                bzip2 = c(0x42, 0x5a, 0x68, NA, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59),
-                xz = c(0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00))
-  is_of <- vapply(start, function(mark) {
-    length(bytes) >= length(mark) &&
-      all(as.integer(bytes)[seq_along(mark)] == mark, na.rm = TRUE)
-  }, NA)
-  c(names(start)[is_of], NA)[1]
-}
-
-refuse_no_path <- function(file, stage) {
-  crestline_abort(sprintf("`file` is %s.", describe_value(file)), "Give the path of one file.", stage = stage, call = NULL)
+curves_as_points <- function(sets, file) {
+  curves <- lapply(sets, attr, "curves")
+  if (!any(lengths(curves) > 0)) return(sets)
+  crestline_warn(
+    sprintf("%s: the format has no curves: their points are written as landmarks, \"%s 1\" and so on.", basename(file),
+            unlist(lapply(curves, names))[1]),
+    "read_curves() gives them back; curves = list() leaves them out.", stage = "landmarks",
+    class = "crestline_format_warning"
+  )
+  Map(function(set, curves) {
+    names <- paste(rep(names(curves), vapply(curves, nrow, 0L)), unlist(lapply(curves, function(x) seq_len(nrow(x)))))
+    points <- do.call(rbind, c(list(set), unname(curves)))
+    rownames(points) <- c(rownames(set), names)
+    structure(as_landmarks(points), comments = attr(set, "comments"))
+  }, sets, curves)
 }

@@ -37,18 +37,6 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   list(mesh = mesh, topology = topology, report = do.call(rbind, report), vertices = vertices)
 }
 
-# What a step hands on: the mesh and its row of the report ("none" where nothing was found).
-mended <- function(mesh, check, count, action) list(mesh = mesh, row = report_row(check, count, action))
-
-report_row <- function(check, count, action) {
-  data.frame(check = check, count = as.integer(count), action = if (count > 0) action else "none")
-}
-
-refuse_mesh <- function(problem, remedy, id) {
-  crestline_abort(problem, remedy, stage = "mesh", id = id, class = "crestline_mesh_error",
-                  call = NULL)
-}
-
 as_plain_mesh <- function(mesh, id) {
   if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
     refuse_mesh(sprintf("the mesh is %s, not a mesh3d.", describe_value(mesh)),
@@ -162,13 +150,6 @@ merge_duplicate_vertices <- function(mesh, id) {
   mended(merge_vertices(mesh, stands_for), "duplicate vertices", sum(same), "merged")
 }
 
-merge_vertices <- function(mesh, stands_for) {
-  mesh$it[] <- stands_for[mesh$it]
-  mesh$given <- stands_for[mesh$given]
-  mesh$topology <- NULL
-  keep_vertices(mesh, stands_for == seq_along(stands_for))
-}
-
 triangulate_cloud <- function(mesh, id) {
   if (ncol(mesh$it) > 0) return(mended(mesh, "point cloud without triangles", 0))
   n <- ncol(mesh$vb)
@@ -196,32 +177,9 @@ ball_pivoting <- function(mesh) {
   matrix(as.integer(pivoted$it), 3)
 }
 
-drop_degenerate_faces <- function(mesh, id) {
-  it <- mesh$it
-  bad <- it[1, ] == it[2, ] | it[2, ] == it[3, ] | it[3, ] == it[1, ]
-  mended(keep_faces(mesh, !bad), "degenerate faces", sum(bad), "left out")
-}
-
-drop_duplicate_faces <- function(mesh, id) {
-  it <- mesh$it
-  low <- pmin(it[1, ], it[2, ], it[3, ])
-  high <- pmax(it[1, ], it[2, ], it[3, ])
-  mid <- as.integer(colSums(it) - low - high)
-  sorted <- order(low, mid, high, method = "radix")
-  before <- sorted[-length(sorted)]
-  after <- sorted[-1]
-  bad <- after[low[before] == low[after] & mid[before] == mid[after] & high[before] == high[after]]
-  mended(keep_faces(mesh, !seq_along(low) %in% bad), "duplicate faces", length(bad), "left out")
-}
-
 refuse_empty <- function(mesh, id) {
   if (ncol(mesh$it) == 0) refuse_flat(id)
   list(mesh = mesh, row = NULL)
-}
-
-refuse_flat <- function(id) {
-  refuse_mesh("no triangle with an area is left.",
-              "Look at the mesh: it may be a line, a single point, or damaged.", id)
 }
 
 drop_debris <- function(mesh, id, debris) {
@@ -286,9 +244,6 @@ count_holes <- function(mesh, topology) {
   length(unique(loop)) - length(unique(topology$piece[(side - 1) %/% 3 + 1]))
 }
 
-# Half edge h runs from corner h of `it` to the next corner of the same face.
-next_side <- function(h) ifelse(h %% 3 == 0, h - 2, h + 1)
-
 # The smallest member of each cycle of a permutation, by doubling the stride.
 cycle_labels <- function(following) {
   label <- seq_along(following)
@@ -297,32 +252,4 @@ cycle_labels <- function(following) {
     following <- following[following]
   }
   label
-}
-
-# The topology is kept with the mesh as long as the faces stay as they are.
-with_topology <- function(mesh) {
-  if (is.null(mesh$topology)) mesh$topology <- mesh_topology(mesh)
-  mesh
-}
-
-keep_faces <- function(mesh, keep) {
-  if (all(keep)) return(mesh)
-  mesh$it <- mesh$it[, keep, drop = FALSE]
-  mesh$topology <- NULL
-  mesh
-}
-
-# Faces with a vertex that goes, go too.
-keep_vertices <- function(mesh, keep) {
-  if (all(keep)) return(mesh)
-  number <- cumsum(keep)
-  number[!keep] <- NA
-  it <- mesh$it
-  it[] <- number[it]
-  mesh$it <- it[, !is.na(colSums(it)), drop = FALSE]
-  mesh$vb <- mesh$vb[, keep, drop = FALSE]
-  if (!is.null(mesh$given)) mesh$given <- number[mesh$given]
-  mesh$topology <- NULL
-  if (!is.null(mesh$material$color)) mesh$material$color <- mesh$material$color[keep]
-  mesh
 }

@@ -114,3 +114,6 @@ refuse_indices <- function(it, n, id) {
 }
 
 fits_vertices <- function(x, n) is.numeric(x) && is.matrix(x) && nrow(x) %in% 3:4 && ncol(x) == n
+
+#' @exportS3Method
+mesh_of.mesh3d <- function(x) list(key = passed_mesh(x, NULL)$key)

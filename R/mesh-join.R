@@ -52,8 +52,6 @@ of_second_skin <- function(mesh, pair) {
   double[pair[1, ]] & double[pair[2, ]]
 }
 
-border_sides <- function(topology) which(topology$twin == 0)
-
 # Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which moves nothing, if one
 # of its parts is an edge of the other side. Each round divides one edge of a triangle.
 split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {

@@ -20,13 +20,10 @@ as_integers <- function(x) if (is.integer(x)) x else structure(as.integer(x), di
 #' @param x A specimen, shape or curve (fields), or a path, its co-ordinates or a curvature (attributes).
 #' @return List: `key` (NULL where it is not known), `id` (NULL where it has none).
 #' @noRd
-mesh_of <- function(x) {
-  if (inherits(x, "specimen")) return(list(key = specimen_key(x), id = x$id))
-  if (inherits(x, "shape")) return(list(key = shape_key(x), id = x$id))
-  if (inherits(x, "mesh3d")) return(list(key = passed_mesh(x, NULL)$key))
-  if (inherits(x, "curve")) return(list(key = x$key, id = x$id))
-  list(key = attr(x, "key"), id = attr(x, "id"))
-}
+mesh_of <- function(x) UseMethod("mesh_of")
+
+#' @exportS3Method
+mesh_of.default <- function(x) list(key = attr(x, "key"), id = attr(x, "id"))
 
 #' Refuse what was made on another mesh
 #'
@@ -107,3 +104,6 @@ place_on_faces_of <- function(mesh, face, weight) {
   corner <- function(i) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
   weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
 }
+
+# The columns of a point on a mesh.
+mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")

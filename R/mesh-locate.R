@@ -1,8 +1,5 @@
 # Points on a mesh: the exactly closest place, as face and barycentric weights.
 
-# The columns of a point on a mesh.
-mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
-
 # Columns of a data frame as a matrix, and columns as a data frame: without the checks of
 # as.matrix() and data.frame(), which cost more than what is done with them.
 columns_of <- function(x, names = mesh_columns) do.call(cbind, unclass(x)[names])

@@ -103,9 +103,8 @@ face_corners <- function(mesh) {
 # m x 3, twice the area long.
 face_normals <- function(mesh) cpp_face_normals(mesh$vb, mesh$it)
 
-row_products <- function(a, b) a[, 1] * b[, 1] + a[, 2] * b[, 2] + a[, 3] * b[, 3]
-row_lengths <- function(a) sqrt(row_products(a, a))
-
 # 4 x n unit normals of the vertices, area-weighted means of their faces' (as Rvcg's, in double
 # precision); 0 where all faces are without area.
 vertex_normals <- function(mesh) cpp_vertex_normals(mesh$vb, mesh$it)
+
+face_centres <- function(mesh) Reduce(`+`, face_corners(mesh)) / 3

@@ -14,3 +14,8 @@ border_vertices <- function(it, twin) {
   side <- which(twin == 0)
   unique(c(it[side], it[next_side(side)]))
 }
+
+# Half edge h runs from corner h of `it` to the next corner of the same face.
+next_side <- function(h) ifelse(h %% 3 == 0, h - 2, h + 1)
+
+border_sides <- function(topology) which(topology$twin == 0)

@@ -26,10 +26,3 @@ ply_head <- function(mesh, format) {
     if (!is.null(mesh$value)) "property double quality", if (!is.null(mesh$row)) "property int row",
     paste("element face", nrow(mesh$it)), "property list uchar int vertex_indices", "end_header")
 }
-
-# The rows of a matrix (or elements of a vector) as columns of little-endian bytes, each number of `size`.
-bytes_of <- function(x, size) {
-  x <- t(as.matrix(x))
-  if (size == 1L) storage.mode(x) <- "integer"
-  matrix(writeBin(as.vector(x), raw(), size = size, endian = "little"), size * nrow(x))
-}

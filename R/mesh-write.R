@@ -58,9 +58,9 @@ write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevi
   if (!is.null(limits)) limits <- check_numbers(limits, "limits", 2)
   write <- mesh_writer(file)
   shape <- if (inherits(x, "shape")) x
-  mesh <- if (is.null(shape)) written_mesh(x) else shape_mesh(shape, parts)
+  mesh <- written_mesh(x, parts)
   painted <- painted_mesh(mesh, colour, shape, palette, limits, missing)
-  painted$comments <- c("written by crestline", comment_lines(provenance_of(x)))
+  painted$comments <- c("written by crestline", comment_lines(x))
   write(painted, file, ascii)
   if (!is.null(colour) && identical(file_extension(file), "stl")) {
     crestline_warn(sprintf("%s: .stl has no colours: they are left out.", basename(file)), "Write a .ply or .obj file.",
@@ -81,14 +81,12 @@ mesh_writer <- function(file) {
   writer
 }
 
-refuse_writing <- function(file, reason, remedy) {
-  crestline_abort(sprintf("`file`: %s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
-                  class = "crestline_mesh_error", call = NULL)
-}
-
 #' A mesh of triangles, each corner a vertex that is there, with the attributes of [shape_mesh()]
 #' @noRd
-written_mesh <- function(x) {
+written_mesh <- function(x, parts) UseMethod("written_mesh")
+
+#' @exportS3Method
+written_mesh.default <- function(x, parts) {
   if (inherits(x, "specimen")) return(as_mesh(x))
   check_class(x, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
   mesh <- as_mesh(split_quads(as_plain_mesh(x, NULL)$mesh, NULL)$mesh)
@@ -127,14 +125,4 @@ shape_errors <- function(shape) {
                     call = NULL)
   }
   as.numeric(shape$points$se[shape$points$level == "surface"])
-}
-
-# Bytes, or lines of text.
-write_content <- function(content, file) {
-  if (is_pipe(file)) refuse_writing(file, "it is a pipe, no file on disk", "Write to a file.")
-  connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
-    refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
-  })
-  on.exit(close(connection))
-  if (is.raw(content)) writeBin(content, connection) else writeLines(content, connection, useBytes = TRUE)
 }

@@ -85,51 +85,6 @@ path_ends <- function(mesh, surface, from, to, inside = 1e-6) {
   list(from = moved(exact[1, ]), to = moved(exact[2, ]), exact = exact, names = names)
 }
 
-#' An end of a path as one row of its columns
-#' @noRd
-end_vector <- function(mesh, surface, at, name) {
-  if (is.numeric(at) && identical(names(at), mesh_columns)) {
-    check_places(t(at), surface, sprintf("`%s`", name), surface$id)
-    return(at)
-  }
-  unlist(unclass(end_point(mesh, at, name))[mesh_columns])
-}
-
-end_point <- function(mesh, at, name) {
-  if (is.character(at) && inherits(mesh, "specimen")) {
-    known <- rownames(mesh$landmarks)
-    if (!all(at %in% known)) {
-      refuse_landmarks(sprintf("there is no landmark %s (`%s`).", describe_value(at), name), near_names(at, known), mesh$id)
-    }
-    return(landmark_point(mesh, at))
-  }
-  if (is.data.frame(at) && all(mesh_columns %in% names(at)) && nrow(at) == 1) return(checked_point(mesh, at, name))
-  if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
-    crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
-                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
-                    stage = "path", class = "crestline_path_error", call = NULL)
-  }
-  surface_points(as_mesh(mesh), matrix(at, 1))
-}
-
-#' One row of a point on a mesh, after a check that it lies on this one
-#' @noRd
-checked_point <- function(mesh, at, name) {
-  name <- sprintf("`%s`", name)
-  if (!is.null(attr(at, "key"))) check_same_mesh(at, mesh, name)
-  if (anyNA(at$face)) {
-    crestline_abort(sprintf("%s is missing (NA).", name), "Choose a point that is there.", stage = "path",
-                    id = mesh_of(mesh)$id, class = "crestline_path_error", call = NULL)
-  }
-  check_places(at, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
-  at[mesh_columns]
-}
-
-end_name <- function(at) {
-  if (is.character(at)) return(at)
-  sprintf("(%s)", paste(signif(unlist(at[1:3]), 4), collapse = ", "))
-}
-
 #' Axis between the ends (moved inside their triangles), and the plane normal at angle 0
 #' @return List: `axis` and `across` (unit vectors), `span` (length).
 #' @noRd
@@ -149,10 +104,6 @@ cut_axis <- function(surface, ends) {
 plane_normal <- function(axis, angle) {
   turned <- cross_product(axis$axis, axis$across)
   outer(axis$across, cos(angle)) + outer(turned, sin(angle))
-}
-
-cross_product <- function(a, b) {
-  c(a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1])
 }
 
 #' A path from the crossings of a walk

@@ -41,33 +41,6 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
                   id = specimen$id, class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
 }
 
-#' Which found landmarks have little confidence
-#'
-#' @param placing Of a specimen.
-#' @param low Least confidence of a landmark that is not doubted.
-#' @return List: `names`, `confidence` (of the doubted ones), `of` (number of landmarks found or placed), `share` (1 where
-#'   there is none).
-#' @noRd
-placing_doubt <- function(placing, low = find_settings()$low) {
-  doubted <- which(placing$state == "found" & placing$confidence < low)
-  of <- sum(placing$state %in% c("found", "placed"))
-  list(names = placing$landmark[doubted], confidence = placing$confidence[doubted], of = of,
-       share = if (of) length(doubted) / of else 1)
-}
-
-#' The table of how landmarks were placed; those that were moved since, by `specimen$landmarks[...] <-`, are placed ones
-#' @param tolerance As a share of the object's size.
-#' @return NULL where the landmarks were given.
-#' @noRd
-current_placing <- function(specimen, tolerance = 1e-6) {
-  placing <- specimen$placing
-  if (is.null(placing)) return(NULL)
-  now <- specimen$landmarks[match(placing$landmark, rownames(specimen$landmarks)), , drop = FALSE]
-  off <- row_lengths(now - as.matrix(placing[c("x", "y", "z")]))
-  for (i in which(off > tolerance * specimen_size(specimen))) placing <- moved_placing(placing, placing$landmark[i], now[i, ])
-  placing
-}
-
 #' @noRd
 warn_doubtful <- function(doubt, specimen) {
   said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence", length(doubt$names), doubt$of) else
@@ -78,20 +51,6 @@ warn_doubtful <- function(doubt, specimen) {
           "or calibrate the template (calibrate_template())."),
     stage = "landmarks", id = specimen$id, class = "crestline_doubtful_placing"
   )
-}
-
-#' What print() says of landmarks that were found
-#' @param wrong As in [find_settings()].
-#' @noRd
-print_placing <- function(placing, wrong = find_settings()$wrong) {
-  if (is.null(placing)) return(invisible())
-  states <- table(factor(placing$state, unique(placing$state)))
-  line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 4), sep = "\n")
-  line("landmarks by machine: ", paste(states, names(states), collapse = ", "))
-  doubt <- placing_doubt(placing)
-  if (!length(doubt$names) && doubt$of) return(invisible())
-  if (doubt$share > wrong) line("- the template lies badly on it: nothing that follows from these landmarks is sure")
-  line("- little confidence: ", shorten(paste0(doubt$names, " (", round(doubt$confidence, 2), ")"), 20))
 }
 
 placing_of <- function(specimen, call = rlang::caller_env()) {

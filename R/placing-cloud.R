@@ -96,8 +96,6 @@ strongest_points <- function(xyz, size, kind, settings) {
   data.frame(point = chosen, kind = rep(kind, length(chosen)), size = size[chosen])
 }
 
-cross_product <- function(a, b) a[c(2, 3, 1)] * b[c(3, 1, 2)] - a[c(3, 1, 2)] * b[c(2, 3, 1)]
-
 #' A cloud turned inside out
 #' @noRd
 inverted_cloud <- function(cloud) {

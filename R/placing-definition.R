@@ -89,10 +89,6 @@ definition_plane <- function(specimen, definition, pairs) {
   list(origin = unname(ends$exact[1, 1:3]), normal = cut_axis(surface, ends)$across)
 }
 
-#' The left landmarks that a cell of `mirror` names
-#' @noRd
-mirror_names <- function(cell) strsplit(trimws(cell), " +")[[1]]
-
 #' The mirror that takes points nearest to their partners
 #' @noRd
 landmark_mirror <- function(left, right) {

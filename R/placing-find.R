@@ -191,14 +191,3 @@ from_frame <- function(xyz, laid) {
 into_frame <- function(xyz, laid) {
   t(crossprod(matrix(laid$pose[1:9], 3), t(xyz) * laid$unit - laid$pose[10:12])) / laid$pose[13]
 }
-
-#' A cloud in the frame of the template
-#' @noRd
-cloud_in_frame <- function(cloud, pose) {
-  rotation <- matrix(pose[1:9], 3)
-  cloud$xyz <- crossprod(rotation, cloud$xyz - pose[10:12]) / pose[13]
-  cloud$normal <- crossprod(rotation, cloud$normal)
-  cloud[c("k1", "k2")] <- lapply(cloud[c("k1", "k2")], `*`, pose[13])
-  cloud$spacing <- cloud$spacing / pose[13]
-  cloud
-}

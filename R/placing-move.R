@@ -36,23 +36,6 @@ with_landmark_at <- function(specimen, name, point) {
 
 with_named_row <- function(x, values, name) with_row(x, match(name, rownames(x), nrow(x) + 1), values, name)
 
-#' The table of how landmarks were placed, with one placed by hand or taken away
-#'
-#' The place of one that is taken away stays: where it would be.
-#' @noRd
-moved_placing <- function(placing, name, at) {
-  row <- match(name, placing$landmark, nrow(placing) + 1)
-  placing[row, "landmark"] <- name
-  placing[row, c("confidence", "moved", "sd", "residual", "lost")] <- NA_real_
-  if (anyNA(at)) {
-    placing[row, "state"] <- "absent"
-  } else {
-    placing[row, "state"] <- "placed"
-    placing[row, c("x", "y", "z")] <- as.list(at)
-  }
-  placing
-}
-
 #' The same table with the place of a landmark that a definition moved; its confidence stays
 #' @noRd
 placing_at <- function(placing, name, at) {

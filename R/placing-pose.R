@@ -116,3 +116,14 @@ settled_pose <- function(template, cloud, settings) {
   }
   best
 }
+
+#' A cloud in the frame of the template
+#' @noRd
+cloud_in_frame <- function(cloud, pose) {
+  rotation <- matrix(pose[1:9], 3)
+  cloud$xyz <- crossprod(rotation, cloud$xyz - pose[10:12]) / pose[13]
+  cloud$normal <- crossprod(rotation, cloud$normal)
+  cloud[c("k1", "k2")] <- lapply(cloud[c("k1", "k2")], `*`, pose[13])
+  cloud$spacing <- cloud$spacing / pose[13]
+  cloud
+}

@@ -68,14 +68,6 @@ print.landmark_template <- function(x, ...) {
   invisible(x)
 }
 
-#' Names that end in L and R, as partners
-#' @noRd
-side_pairs <- function(names) {
-  left <- names[endsWith(names, "L")]
-  right <- sub("L$", "R", left)
-  data.frame(left = left, right = right)[right %in% names, ]
-}
-
 #' A specimen turned so that its landmarks' mirror is x = 0 and left is positive
 #' @noRd
 turned_specimen <- function(specimen, at, pairs) {

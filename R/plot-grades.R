@@ -1,7 +1,5 @@
 # A shape coloured by how its parts are graded.
 
-grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
-
 #' Draw a shape with the colours of its grades, from several sides, beside each other on the current device
 #'
 #' Curves are lines, points of patches dots; without the specimen the shape's own surface. Curves that are not green

@@ -70,11 +70,6 @@ level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
   if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
 }
 
-p_value_of <- function(x, level, test) {
-  own <- x$tests$p_value[which(x$tests$level == level & x$tests$test == test)]
-  if (length(own)) sprintf("p = %s", format.pval(own, digits = 2, eps = 1e-4))
-}
-
 plot_boxes <- function(x, level, colour, components, main, ...) {
   compared <- in_design(x$aligned[[level]], x$design)
   pca <- x$pca[[level]]

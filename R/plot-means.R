@@ -69,3 +69,8 @@ rgl_overlay <- function(meshes, colour, opacity, view, ...) {
                           alpha = opacity, specular = "#202020")
   add_ids(scene, ids)
 }
+
+p_value_of <- function(x, level, test) {
+  own <- x$tests$p_value[which(x$tests$level == level & x$tests$test == test)]
+  if (length(own)) sprintf("p = %s", format.pval(own, digits = 2, eps = 1e-4))
+}

@@ -197,11 +197,6 @@ core_strength <- function(coordinates, strength, distance, trusted = NULL) {
   if (length(value)) mean(value) else NA_real_
 }
 
-cross_rows <- function(a, b) {
-  cbind(a[, 2] * b[, 3] - a[, 3] * b[, 2], a[, 3] * b[, 1] - a[, 1] * b[, 3],
-        a[, 1] * b[, 2] - a[, 2] * b[, 1])
-}
-
 #' The one place where a curve comes together
 #'
 #' @param fit As of [fit_passes()]; NULL for plane curves.
@@ -331,3 +326,6 @@ print.curve <- function(x, ...) {
               if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
   invisible(x)
 }
+
+#' @exportS3Method
+mesh_of.curve <- function(x) list(key = x$key, id = x$id)

@@ -221,12 +221,6 @@ failure_of <- function(e, heard = no_warnings(), fault = FALSE) {
               heard, fault)
 }
 
-new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault = FALSE) {
-  structure(list(stage = stage, message = message, remedy = remedy, warnings = warnings,
-                 fault = fault),
-            class = "shape_failure")
-}
-
 lost_failure <- function(lost) {
   new_failure("worker",
               sprintf("the worker that measured it died, and again when it measured it alone: %s.",
@@ -240,37 +234,4 @@ lost_failure <- function(lost) {
 first_line <- function(text, most = 200) {
   line <- strsplit(text[1], "\n", fixed = TRUE)[[1]][1]
   if (nchar(line) > most) paste0(substr(line, 1, most), "...") else line
-}
-
-#' What went wrong with the specimens of a batch
-#'
-#' @param x A `shape_batch`, as [fit_shapes()] returns it.
-#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),
-#'   `remedy` (what to do about it). Its attribute `warnings` is the data frame of [warnings_of()].
-#'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
-#'   now.
-#' @section Errors: of class `crestline_error`, when `x` is no batch.
-#' @seealso [warnings_of()] for what those that were measured were warned of.
-#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
-#' bad <- tempfile(fileext = ".ply")
-#' writeLines("no mesh", bad)
-#' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
-#' scheme <- curve_scheme(data.frame(landmark = c("a", "b")), curve, name = "one line")
-#' failures(fit_shapes(bad, scheme))
-#' @export
-failures <- function(x) {
-  check_given()
-  check_class(x, "shape_batch", "x", "fit_shapes()")
-  x <- renewed_batch(x)
-  elements <- unclass(x)
-  failed <- attr(x, "failed")
-  rows <- lapply(names(x), function(name) {
-    one <- elements[[name]]
-    lost <- if (is.null(one)) failed[[name]] else if (inherits(one, "kept_shape")) kept_fault(one)
-    if (!is.null(lost)) data.frame(id = name, stage = lost$stage, message = lost$message,
-                                   remedy = lost$remedy)
-  })
-  empty <- data.frame(id = character(), stage = character(), message = character(),
-                      remedy = character())
-  structure(do.call(rbind, c(list(empty), rows)), warnings = warnings_of(x))
 }

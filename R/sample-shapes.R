@@ -308,3 +308,66 @@ print_items <- function(lines, most, where) {
                                              sep = "\n")
   if (length(lines) > most) cat("- and", length(lines) - most, "more", where, "\n")
 }
+
+new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault = FALSE) {
+  structure(list(stage = stage, message = message, remedy = remedy, warnings = warnings,
+                 fault = fault),
+            class = "shape_failure")
+}
+
+#' What went wrong with the specimens of a batch
+#'
+#' @param x A `shape_batch`, as [fit_shapes()] returns it.
+#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),
+#'   `remedy` (what to do about it). Its attribute `warnings` is the data frame of [warnings_of()].
+#'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
+#'   now.
+#' @section Errors: of class `crestline_error`, when `x` is no batch.
+#' @seealso [warnings_of()] for what those that were measured were warned of.
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' bad <- tempfile(fileext = ".ply")
+#' writeLines("no mesh", bad)
+#' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b")), curve, name = "one line")
+#' failures(fit_shapes(bad, scheme))
+#' @export
+failures <- function(x) {
+  check_given()
+  check_class(x, "shape_batch", "x", "fit_shapes()")
+  x <- renewed_batch(x)
+  elements <- unclass(x)
+  failed <- attr(x, "failed")
+  rows <- lapply(names(x), function(name) {
+    one <- elements[[name]]
+    lost <- if (is.null(one)) failed[[name]] else if (inherits(one, "kept_shape")) kept_fault(one)
+    if (!is.null(lost)) data.frame(id = name, stage = lost$stage, message = lost$message,
+                                   remedy = lost$remedy)
+  })
+  empty <- data.frame(id = character(), stage = character(), message = character(),
+                      remedy = character())
+  structure(do.call(rbind, c(list(empty), rows)), warnings = warnings_of(x))
+}
+
+#' Warnings of measured specimens
+#'
+#' What reading, finding and fitting warned of, for each specimen: a batch goes on over a warning,
+#' so it is kept with the shape (`shape$warnings`) and not lost among those of a thousand others.
+#'
+#' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
+#' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
+#'   as `"crestline_mirrored"`; `problem` (what); `remedy` (what to do about it, "" where another
+#'   package warned). Those of failed specimens of a batch are in it.
+#' @section Errors: of class `crestline_error`, when `x` holds no shapes.
+#' @seealso [failures()], [quality()]
+#' @examples
+#' corners <- rbind(aL = c(1, -1, 2), aR = c(-1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
+#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners / sqrt(rowSums(corners^2)), id =
+#' "ball")) curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
+#' scheme <- curve_scheme(data.frame(landmark = rownames(corners)), curve, name = "across")
+#' warnings_of(fit_shape(ball, scheme, progress = FALSE))
+#' @export
+warnings_of <- function(x) {
+  if (inherits(x, "shape_batch")) return(batch_warnings(renewed_batch(x)))
+  shapes <- named_shapes(x)
+  bind_warnings(lapply(shapes, function(shape) shape$warnings))
+}

@@ -18,30 +18,6 @@ hear <- function(code, stage, ear) {
   })
 }
 
-#' Warnings of measured specimens
-#'
-#' What reading, finding and fitting warned of, for each specimen: a batch goes on over a warning,
-#' so it is kept with the shape (`shape$warnings`) and not lost among those of a thousand others.
-#'
-#' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
-#' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
-#'   as `"crestline_mirrored"`; `problem` (what); `remedy` (what to do about it, "" where another
-#'   package warned). Those of failed specimens of a batch are in it.
-#' @section Errors: of class `crestline_error`, when `x` holds no shapes.
-#' @seealso [failures()], [quality()]
-#' @examples
-#' corners <- rbind(aL = c(1, -1, 2), aR = c(-1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
-#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners / sqrt(rowSums(corners^2)), id =
-#' "ball")) curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
-#' scheme <- curve_scheme(data.frame(landmark = rownames(corners)), curve, name = "across")
-#' warnings_of(fit_shape(ball, scheme, progress = FALSE))
-#' @export
-warnings_of <- function(x) {
-  if (inherits(x, "shape_batch")) return(batch_warnings(renewed_batch(x)))
-  shapes <- named_shapes(x)
-  bind_warnings(lapply(shapes, function(shape) shape$warnings))
-}
-
 batch_warnings <- function(x) {
   failed <- attr(x, "failed")
   elements <- unclass(x)

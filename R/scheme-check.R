@@ -164,13 +164,6 @@ named_once <- function(x, column) {
   problem(twice, column, sprintf("\"%s\" is named twice, before in row %d", x[twice], match(x[twice], x)))
 }
 
-unknown_names <- function(x, known, column, what) {
-  wrong <- which(!is.na(x) & !x %in% known)
-  nearest <- function(name) if (length(known)) known[which.min(utils::adist(name, known, ignore.case = TRUE))] else "none"
-  near <- vapply(x[wrong], nearest, "")
-  problem(wrong, column, sprintf("there is no %s \"%s\" (nearest: %s)", what, x[wrong], near))
-}
-
 # Columns that are filled all together or not at all.
 whole_group <- function(table, columns) {
   filled <- !is.na(table[columns])

@@ -137,3 +137,14 @@ refuse_table <- function(problems, label, names, most = 8) {
     stage = "scheme", class = "crestline_scheme_error", call = NULL
   )
 }
+
+unknown_names <- function(x, known, column, what) {
+  wrong <- which(!is.na(x) & !x %in% known)
+  nearest <- function(name) if (length(known)) known[which.min(utils::adist(name, known, ignore.case = TRUE))] else "none"
+  near <- vapply(x[wrong], nearest, "")
+  problem(wrong, column, sprintf("there is no %s \"%s\" (nearest: %s)", what, x[wrong], near))
+}
+
+#' The left landmarks that a cell of `mirror` names
+#' @noRd
+mirror_names <- function(cell) strsplit(trimws(cell), " +")[[1]]

@@ -1,13 +1,5 @@
 # Left and right: partners of landmarks, curves and patches, and whether what belongs together is alike.
 
-#' Partners of names at one level; what is in no pair is its own
-#' @noRd
-partner_of <- function(name, pairs, level) {
-  pairs <- pairs[pairs$level == level, ]
-  partner <- c(pairs$right, pairs$left)[match(name, c(pairs$left, pairs$right))]
-  ifelse(is.na(partner), name, partner)
-}
-
 check_scheme_pairs <- function(pairs, scheme) {
   sides <- data.frame(row = rep(seq_len(nrow(pairs)), 2), side = rep(c("left", "right"), each = nrow(pairs)),
                       level = rep(pairs$level, 2), name = c(pairs$left, pairs$right))

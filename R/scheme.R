@@ -231,10 +231,6 @@ surface_line <- function(x) {
          amount(sum(model), "triangle"), " and ", sum(!model), " on request")
 }
 
-amount <- function(n, one, many = paste0(one, "s")) {
-  paste(format(n, big.mark = ",", trim = TRUE), if (n == 1) one else many)
-}
-
 #' A scheme with its lengths in the unit of a specimen's mesh
 #'
 #' @param unit As in [fit_shape()].

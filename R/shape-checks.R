@@ -110,8 +110,6 @@ local_mesh <- function(places, mesh, bend) {
   data.frame(roughness = mean_of(bend[face]), edge = mean_of(edge))
 }
 
-face_centres <- function(mesh) Reduce(`+`, face_corners(mesh)) / 3
-
 #' The vertices of the mesh's borders, and of edges that act as such: n x 3
 #' @noRd
 border_places <- function(surface) {

@@ -122,9 +122,6 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
        competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined, reason = curve$reason)
 }
 
-#' @noRd
-largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
-
 #' A ridge or valley with the constraints of its row
 #' @noRd
 fit_curved <- function(row, specimen, curvature, fits, settings, passes) {

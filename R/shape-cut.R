@@ -206,4 +206,5 @@ cut_curve <- function(mesh, fit, length, n) {
   add_note(fit, if (placed < n) ended)
 }
 
-unit_vector <- function(x) x / sqrt(sum(x^2))
+#' @noRd
+largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)

@@ -167,34 +167,6 @@ edges_on_curves <- function(paths, at, ends, tolerance) {
   found
 }
 
-#' Arc lengths of the points that lie on a path, NA for the others
-#' @noRd
-arc_lengths_on <- function(path, xyz, tolerance) {
-  track <- as.matrix(path[c("x", "y", "z")])
-  low <- apply(track, 2, min) - tolerance
-  high <- apply(track, 2, max) + tolerance
-  near <- which(colSums(t(xyz) < low | t(xyz) > high) == 0)
-  s <- rep(NA_real_, nrow(xyz))
-  a <- track[-nrow(track), , drop = FALSE]
-  b <- track[-1, , drop = FALSE]
-  for (i in near) {
-    p <- matrix(xyz[i, ], nrow(a), 3, byrow = TRUE)
-    share <- closest_on_segments(p, a, b)
-    away <- row_lengths(p - a - share * (b - a))
-    best <- which.min(away)
-    if (away[best] <= tolerance) s[i] <- path$s[best] + share[best] * (path$s[best + 1] - path$s[best])
-  }
-  s
-}
-
-#' Row by row: the share of the way along a segment at which it is closest to a point
-#' @noRd
-closest_on_segments <- function(p, a, b) {
-  along <- row_products(p - a, b - a) / row_products(b - a, b - a)
-  along[!is.finite(along)] <- 0
-  pmin(pmax(along, 0), 1)
-}
-
 #' The points inside quads, on cuts between those opposite sides that are bowed more
 #' @return `points`, filled.
 #' @noRd

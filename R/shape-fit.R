@@ -146,12 +146,6 @@ measured_with <- function(settings, passes, cut_scale, column, curves) {
                   column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
 }
 
-check_column <- function(column_angle, column_angles, column_reach) {
-  list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-       angles = check_count(column_angles, "column_angles", upper = 10000),
-       reach = check_number(column_reach, "column_reach", 0, open = TRUE))
-}
-
 progress_ticks <- function(progress, n, id) {
   if (!progress) return(function() NULL)
   bar <- cli::cli_progress_bar(paste("Measuring", id), total = n, .envir = parent.frame())
@@ -189,14 +183,6 @@ place_store <- function(scheme, landmarks, fits) {
   place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part %in% names(found)]
   first <- !duplicated(place)
   fill_store(store, place[first], values[first, , drop = FALSE])
-}
-
-#' Fill those of the places that are still empty
-#' @noRd
-fill_store <- function(store, place, values) {
-  empty <- is.na(store[place, "x"])
-  store[place[empty], colnames(values)] <- values[empty, ]
-  store
 }
 
 shape_points <- function(points, store) {

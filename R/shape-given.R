@@ -54,12 +54,6 @@ given_fit <- function(row, xyz, specimen, surface, column, tolerance = 0.01) {
        se_max = NA_real_, competing = NA_real_, determined = NA, reason = said)
 }
 
-#' A landmark on the mesh, NULL where it is missing
-#' @noRd
-known_point <- function(specimen, name) {
-  tryCatch(landmark_point(specimen, name)[mesh_columns], crestline_error = function(e) NULL)
-}
-
 #' Whether the ends of points lie nearer to their landmarks when run backwards
 #' @noRd
 runs_backwards <- function(xyz, ends) {

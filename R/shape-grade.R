@@ -109,10 +109,6 @@ judge_ends <- function(check, parts, scheme) {
   list(level = level, text = text)
 }
 
-per_cent <- function(share, least = 0.1) {
-  ifelse(100 * share < least, sprintf("under %g %%", least), sprintf("%.1f %%", 100 * share))
-}
-
 #' 0, or 1 and 2 beyond the first and second limit; 0 where NA
 #' @noRd
 level_beyond <- function(value, limit, falling) {
@@ -141,3 +137,9 @@ bounding_curves <- function(patch, scheme) {
   sides <- unlist(scheme$patches[scheme$patches$patch == patch, c("curve_a", "curve_b", "first_column")])
   unique(unlist(lapply(stats::na.omit(sides), function(side) curve_parts(side)$curve)))
 }
+
+grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
+
+quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se", "competing", "z",
+                     "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse", "border", "spike", "grade",
+                     "why")

@@ -183,3 +183,11 @@ cut_between <- function(from, to, specimen, surface, column) {
   ends <- path_ends(specimen, surface, from[mesh_columns], to[mesh_columns])
   limited_cut(surface, ends, column$angle, column$angles, column$reach)
 }
+
+#' Fill those of the places that are still empty
+#' @noRd
+fill_store <- function(store, place, values) {
+  empty <- is.na(store[place, "x"])
+  store[place[empty], colnames(values)] <- values[empty, ]
+  store
+}

@@ -19,3 +19,14 @@ limited_cut <- function(surface, ends, limit, angles, reach, rate = function(axi
   cut_path(surface, ends, axis, best$angle, 0, reach)
 }
 
+check_column <- function(column_angle, column_angles, column_reach) {
+  list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
+       angles = check_count(column_angles, "column_angles", upper = 10000),
+       reach = check_number(column_reach, "column_reach", 0, open = TRUE))
+}
+
+#' A landmark on the mesh, NULL where it is missing
+#' @noRd
+known_point <- function(specimen, name) {
+  tryCatch(landmark_point(specimen, name)[mesh_columns], crestline_error = function(e) NULL)
+}

@@ -66,3 +66,9 @@ specimens_provenance <- function(shapes) {
 summary.shape <- function(object, ...) {
   new_summary(printed_lines(object, most = 4), object$provenance)
 }
+
+#' @exportS3Method
+provenance_of.shape <- function(x) x$provenance
+
+#' @exportS3Method
+comment_lines.shape <- function(x) provenance_comments(provenance_of(x))

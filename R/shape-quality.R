@@ -150,10 +150,6 @@ specimen_row <- function(name, grade, why) {
   as.data.frame(empty)
 }
 
-quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se", "competing", "z",
-                     "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse", "border", "spike", "grade",
-                     "why")
-
 #' @export
 as.data.frame.shape_quality <- function(x, ...) {
   check_method_dots(...)

@@ -66,16 +66,6 @@ refuse_geometry <- function(id) refuse_specimen("its `geometry` is not that of i
 #' @noRd
 specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key else x$key
 
-#' An object with some fields at other values, without the checks of `$<-`
-#' @noRd
-with_fields <- function(x, ...) {
-  fields <- unclass(x)
-  new <- list(...)
-  fields[names(new)] <- new
-  class(fields) <- oldClass(x)
-  fields
-}
-
 #' Change a field of a specimen
 #'
 #' `specimen$landmarks["tL", ] <- c(x, y, z)` moves or adds a landmark: it is put on the surface where it is used.
@@ -153,3 +143,6 @@ with_other_mesh <- function(x, mesh) {
   with_fields(x, mesh = made$mesh, landmarks = made$landmarks, report = made$report, key = made$key,
               geometry = made$geometry, vertices = made$vertices, file = made$file)
 }
+
+#' @exportS3Method
+mesh_of.specimen <- function(x) list(key = specimen_key(x), id = x$id)

@@ -1,22 +1,5 @@
 # How each landmark of a specimen came to its place, and its mesh from which file.
 
-#' The record of where landmarks came from
-#'
-#' @param landmarks k x 3 matrix with row names; of a missing one nothing is recorded (NA).
-#' @param how "file", "given", "found", "predicted", "placed", "moved" (both by hand), "defined"
-#'   (moved by its definition).
-#' @param file,time NA where there is none; time of what was done by hand, see [time_stamp()].
-#' @return Data frame `landmark`, `how`, `file`, `time`.
-#' @noRd
-new_origin <- function(landmarks, how, file = NA_character_, time = NA_character_) {
-  n <- nrow(landmarks)
-  origin <- data.frame(landmark = as.character(rownames(landmarks)), how = rep_len(how, n),
-                       file = rep_len(file, n),
-                       time = rep_len(time, n))
-  origin[is.na(landmarks[, 1]), c("how", "file", "time")] <- NA_character_
-  origin
-}
-
 #' The time by the clock of the world
 #' @noRd
 time_stamp <- function(time = Sys.time()) format(time, "%Y-%m-%dT%H:%M:%SZ", tz = "UTC")

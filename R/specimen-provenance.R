@@ -78,17 +78,22 @@ settings_lines <- function(settings) {
 #' Defaults of what is set in a stage
 #' @noRd
 default_settings <- function(name) {
-  of <- function(f, ...) lapply(as.list(formals(f))[c(...)], eval, envir = environment(f))
+  of <- function(f, ...) {
+    f <- match.fun(f)
+    lapply(as.list(formals(f))[c(...)], eval, envir = environment(f))
+  }
   switch(name,
-         ridge = unclass(ridge_settings()), slide = unclass(slide_settings()),
-         fit = c(of(fit_shape, "passes", "cut_scale", "bridge", "column_angle", "column_angles",
+         ridge = unclass(match.fun("ridge_settings")()),
+         slide = unclass(match.fun("slide_settings")()),
+         fit = c(of("fit_shape", "passes", "cut_scale", "bridge", "column_angle", "column_angles",
                     "column_reach"),
                  list(given = character())),
-         homologise = of(homologise, "tolerance", "rounds"),
-         align = utils::modifyList(of(align, "scale", "tangent", "tolerance", "rounds"),
+         homologise = of("homologise", "tolerance", "rounds"),
+         align = utils::modifyList(of("align", "scale", "tangent", "tolerance", "rounds"),
                                    list(missing = "estimate")),
-         pca = of(shape_pca, "tolerance"),
-         compare = of(compare_groups, "n_perm", "components", "tests"),
+         pca = of("shape_pca", "tolerance"),
+         compare = c(of("compare_groups", "n_perm", "components", "tests", "equal_spread"),
+                     list(exchange = "free")),
          list())
 }
 
@@ -110,17 +115,6 @@ setting_word <- function(value, most = 4) {
   paste(if (is.numeric(value)) signif(value, 6) else value, collapse = ", ")
 }
 
-#' The same as comments of a file: what every program reads, and no name of a file that would end a
-#' line or go on in the next
-#' @noRd
-comment_lines <- function(provenance) {
-  if (length(provenance)) comment_text(provenance_lines(provenance))
-}
-
-comment_text <- function(text) {
-  gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
-}
-
 #' The same as a part of a page that opens on a click
 #' @noRd
 provenance_block <- function(provenance) {
@@ -132,9 +126,13 @@ provenance_block <- function(provenance) {
 
 #' What is known of anything that is written to a file; NULL of bare meshes and matrices
 #' @noRd
-provenance_of <- function(x) {
-  if (inherits(x, "specimen")) return(specimen_provenance(x))
-  if (inherits(x, "shape")) x$provenance
+#' @exportS3Method
+provenance_of.specimen <- function(x) specimen_provenance(x)
+
+#' Lines of a provenance as plain ASCII, for comments in files
+#' @noRd
+provenance_comments <- function(provenance) {
+  if (length(provenance)) comment_text(provenance_lines(provenance))
 }
 
 #' A summary: what print() says, and where it came from
@@ -189,4 +187,13 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #' @export
 summary.specimen <- function(object, ...) {
   new_summary(printed_lines(object), specimen_provenance(object))
+}
+
+#' @exportS3Method
+comment_lines.specimen <- function(x) provenance_comments(provenance_of(x))
+
+#' @exportS3Method
+written_landmarks.specimen <- function(x) {
+  x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")
+  list(landmarks = x$landmarks, curves = attr(x, "curves"))
 }

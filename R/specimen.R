@@ -126,33 +126,6 @@ print.specimen <- function(x, ...) {
   invisible(x)
 }
 
-#' One landmark as a point on the specimen's mesh
-#'
-#' @param specimen A specimen.
-#' @param name Name of the landmark.
-#' @param tolerance As in [specimen()], for landmarks changed since.
-#' @return One-row data frame `x, y, z, face, w1, w2, w3`.
-#' @noRd
-landmark_point <- function(specimen, name, tolerance = 0.01) {
-  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  id <- specimen$id
-  known <- rownames(specimen$landmarks)
-  if (!is.character(name) || length(name) != 1 || is.na(name) || !name %in% known) {
-    refuse_landmarks(sprintf("there is no landmark %s.", describe_value(name)), near_names(name, known), id)
-  }
-  at <- specimen$landmarks[name, ]
-  if (anyNA(at)) {
-    refuse_landmarks(sprintf("landmark %s is missing (NA) on this specimen.", name),
-                     "Place it, or choose curves that do without it.", id)
-  }
-  before <- match(name, rownames(specimen$geometry$landmarks))
-  if (!is.na(before) && identical(unname(at), unname(specimen$geometry$landmarks[before, ]))) {
-    return(specimen$geometry$located[before, ])
-  }
-  landmarks <- as_landmarks(specimen$landmarks[name, , drop = FALSE], id)
-  check_landmarks(landmarks, specimen$mesh, id, tolerance, character(), size = specimen_size(specimen))$located
-}
-
 #' A specimen whose landmarks that were changed since are located once, for many uses
 #'
 #' Those that cannot be (missing, off the surface) are left for [landmark_point()] to tell of.
@@ -185,12 +158,29 @@ with_row <- function(x, row, values, name) {
   x
 }
 
-near_names <- function(name, known) {
-  if (!length(known)) return("The specimen has no landmarks: give them to specimen() or read_specimen().")
-  near <- if (is.character(name) && length(name) == 1 && !is.na(name)) {
-    known[order(utils::adist(name, known, ignore.case = TRUE))]
-  } else {
-    known
-  }
-  sprintf("Near names: %s.", shorten(near))
+#' An object with some fields at other values, without the checks of `$<-`
+#' @noRd
+with_fields <- function(x, ...) {
+  fields <- unclass(x)
+  new <- list(...)
+  fields[names(new)] <- new
+  class(fields) <- oldClass(x)
+  fields
+}
+
+#' The record of where landmarks came from
+#'
+#' @param landmarks k x 3 matrix with row names; of a missing one nothing is recorded (NA).
+#' @param how "file", "given", "found", "predicted", "placed", "moved" (both by hand), "defined"
+#'   (moved by its definition).
+#' @param file,time NA where there is none; time of what was done by hand, see [time_stamp()].
+#' @return Data frame `landmark`, `how`, `file`, `time`.
+#' @noRd
+new_origin <- function(landmarks, how, file = NA_character_, time = NA_character_) {
+  n <- nrow(landmarks)
+  origin <- data.frame(landmark = as.character(rownames(landmarks)), how = rep_len(how, n),
+                       file = rep_len(file, n),
+                       time = rep_len(time, n))
+  origin[is.na(landmarks[, 1]), c("how", "file", "time")] <- NA_character_
+  origin
 }

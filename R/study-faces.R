@@ -133,8 +133,6 @@ scan_face <- function(template, map, scan, id) {
   list(specimen = made, vertices = places[match(key(made$mesh$vb), key(mesh$vb)), , drop = FALSE])
 }
 
-known_rows <- function(x) x[!is.na(x[, 1]), , drop = FALSE]
-
 humface_specimen <- function() {
   found <- new.env()
   utils::data("humface", package = "Rvcg", envir = found)

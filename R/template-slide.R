@@ -162,25 +162,6 @@ curve_state <- function(track, place, settings) {
   list(place = place, n = n, s = track$s, path = path, track = nodes, kept = track$kept, rows = rows)
 }
 
-#' Sliders of one path, as the kernel takes them
-#'
-#' @param s Arc lengths of its points in order, NA where missing.
-#' @param slides Which of them slide.
-#' @param spacing Spacing at rest between neighbours.
-#' @return Matrix with a row a slider; `point`: its number on the path.
-#' @noRd
-slider_rows <- function(s, slides, spacing, length, settings) {
-  there <- which(!is.na(s))
-  at <- which(slides & !is.na(s))
-  before <- c(NA, there)[match(at, there)]
-  after <- c(there, NA)[match(at, there) + 1]
-  number <- function(point) match(point, at, nomatch = 0)
-  cbind(point = at, track = rep(1, length(at)), s = s[at], before = number(before), after = number(after),
-        low = ifelse(is.na(before), 0, s[before]), high = ifelse(is.na(after), length, s[after]),
-        rest_before = (at - before) * spacing, rest_after = (after - at) * spacing,
-        gap = rep(settings$gap * spacing, length(at)), tolerance = rep(settings$tolerance * spacing, length(at)))
-}
-
 #' Slide all curves of a specimen
 #'
 #' @return List: `s` (list by curve), `x` (matrix of all places, those of curves slid), `sliding`, `trace` as in [slide()].
@@ -211,32 +192,6 @@ slide_set <- function(set, state, plan) {
   own <- split(slid$s, factor(rows[, "track"], seq_along(curves)))
   s <- Map(function(curve, own) replace(curve$s, curve$rows[, "point"], own), curves, own)
   list(s = s, x = slid$x, trace = c(slid$trace, points = nrow(rows)))
-}
-
-#' Sliders of several paths, their neighbours and tracks counted through
-#' @noRd
-stack_rows <- function(rows) {
-  offset <- cumsum(c(0, vapply(rows, nrow, 0L)))[seq_along(rows)]
-  do.call(rbind, unname(Map(function(rows, offset, track) {
-    rows[, "track"] <- track
-    for (side in c("before", "after")) rows[, side] <- ifelse(rows[, side] == 0, 0, rows[, side] + offset)
-    rows
-  }, rows, offset, seq_along(rows))))
-}
-
-trace_table <- function(trace) {
-  data.frame(sweep = seq_along(trace$energy) - 1, energy = trace$energy, strain = trace$strain, longest = trace$longest)
-}
-
-#' @param longest Of every part, named; of several parts in one set the largest.
-#' @noRd
-sliding_table <- function(trace, level, longest) {
-  of <- function(f, type) vapply(trace, f, type, USE.NAMES = FALSE)
-  part <- names(trace)
-  data.frame(part = as.character(part), level = rep(level, length(part)), points = of(function(x) x$points, 0L),
-             sweeps = of(function(x) length(x$energy) - 1, 0), converged = of(function(x) x$converged, NA),
-             energy_before = of(function(x) x$energy[1], 0), energy_after = of(function(x) x$energy[length(x$energy)], 0),
-             longest = ifelse(part %in% names(longest), longest[part], max(longest, 0)))
 }
 
 #' The store of places with those of the curves at new arc lengths, on the mesh

@@ -81,8 +81,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
   entry <- function(.args, ...) list(args = .args, kinds = c(...))
   list(
     align = entry(given(sample = sample, level = "curves", scale = TRUE, weights = NULL, missing = "drop", tangent = TRUE,
-                        triangles = NULL, tolerance = 1e-6, rounds = 5),
-                  sample = "object", level = "choice", scale = "flag", weights = "object?", missing = "choice", tangent = "flag",
+                        triangles = NULL, tolerance = 1e-6, rounds = 5, limits = sample_limits()),
+                  limits = "object", sample = "object", level = "choice", scale = "flag", weights = "object?", missing = "choice", tangent = "flag",
                   triangles = "object?", tolerance = "number", rounds = "count"),
     as_aligned = entry(given(x = aligned$coords, size = NULL, level = "points", triangles = NULL),
                        x = "object", size = "numbers?", level = "text", triangles = "object?"),
@@ -99,8 +99,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                           specimen = "object", least = "number", doubtful = "number", picture = "any"),
     compare_groups = entry(given(sample = sample, group = rep(c("A", "B"), c(3, 4)), level = "curves", n_perm = 5, components = 2,
                                  seed = 1, tests = "size", exact = 5, permutations = NULL, scale = TRUE, weights = NULL,
-                                 missing = "drop", progress = FALSE),
-                           sample = "object", group = "object", level = "choice", n_perm = "count", components = "number",
+                                 missing = "drop", progress = FALSE, block = NULL, equal_spread = TRUE),
+                           block = "any", equal_spread = "flag", sample = "object", group = "object", level = "choice", n_perm = "count", components = "number",
                            seed = "number?", tests = "choice", exact = "number", permutations = "object?", scale = "flag",
                            weights = "object?", missing = "choice", progress = "flag"),
     coords = entry(given(x = shape, level = "curves"), x = "object", level = "choice"),
@@ -129,7 +129,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     draw_surface = entry(given(mesh = one$mesh, colour = "#D8C3B0", view = "front", engine = "picture"),
                          mesh = "object", colour = "colour", view = "numbers", engine = "choice"),
     face_effect = entry(given()), face_scheme = entry(given()), face_template = entry(given()),
-    failures = entry(given(x = batch_of(made)), x = "object"),
+    failures = entry(given(x = made_batch(made)), x = "object"),
     find_landmarks = entry(given(mesh = one, template = template, id = NULL, settings = find_settings(), unit = NULL, threads = 1L),
                            mesh = "object", template = "object", id = "id?", settings = "object", unit = "number?",
                            threads = "count"),
@@ -140,11 +140,15 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                       cut_scale = "number", bridge = "number", fitted_kinds, unit = "number?", threads = "count",
                       progress = "flag"),
     fit_shapes = entry(given(x = made$specimens[1:2], scheme = made$scheme, dir = NULL, landmarks = NULL, template = NULL,
-                             doubtful = 0, chunk = NULL, progress = FALSE),
-                       x = "names", scheme = "object", dir = "any", landmarks = "any", template = "object?",
+                             doubtful = 0, found = NULL, reading = list(), chunk = NULL, progress = FALSE),
+                       found = "flag?", reading = "any", x = "names", scheme = "object", dir = "any", landmarks = "any", template = "object?",
                        doubtful = "number", chunk = "count?", progress = "flag"),
     frechet_mean = entry(given(mesh = one, points = made$corners, weights = NULL, rings = 1),
                          mesh = "object", points = "object", weights = "any", rings = "count"),
+    locate = entry(given(mesh = one, xyz = made$corners), mesh = "object", xyz = "object"),
+    sample_limits = entry(given(far = 8, point = 8, size = 5, estimated = 0.3, beyond = 0.5, fewest = 6), far = "reach",
+                          point = "reach", size = "reach", estimated = "reach", beyond = "reach", fewest = "count"),
+    warnings_of = entry(given(x = made_batch(made)), x = "object"),
     homologise = entry(given(shapes = made$shapes[1:2], template = NULL, settings = slide_settings(),
                              specimens = made$specimens, tolerance = 1e-2, rounds = 1, progress = FALSE),
                        shapes = "object", template = "object?", settings = "object", specimens = "any", tolerance = "number",
@@ -189,7 +193,9 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                              curvedness = "number", spacing = "number", turn = "number", tilt = "number", resolution = "number",
                              samples = "count"),
     quality = entry(given(x = shape, limits = quality_limits(), others = NULL), x = "list", limits = "object", others = "any"),
-    quality_limits = entry(given(undetermined = "amber", guessed = "amber", others = 10, spread = 0.01),
+    quality_limits = entry(given(undetermined = "amber", guessed = "amber", predicted = "amber", exchanged = "red", others = 10,
+                                 spread = 0.01),
+                           predicted = "choice", exchanged = "choice",
                            undetermined = "choice", guessed = "choice", others = "number", spread = "number"),
     quality_report = entry(given(x = made$shapes[1:2], file = path("q.html"), specimens = NULL, limits = quality_limits(),
                                  others = NULL, title = "t", pictures = 0, size = c(300, 200)),
@@ -296,7 +302,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
   )
 }
 
-batch_of <- function(made) {
+made_batch <- function(made) {
   if (!rlang::is_installed(c("future", "future.apply", "progressr"))) return(NULL)
   fit_shapes(made$specimens[1:2], made$scheme, progress = FALSE)
 }

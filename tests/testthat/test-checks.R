@@ -67,8 +67,8 @@ test_that("numbers, colours, points and paths are checked as wholes", {
 test_that("an object without its parts is told of", {
   expect_crestline_error(check_class(structure(list(id = "a"), class = "specimen"), "specimen", "x", "specimen()"),
                          c("damaged \"specimen\"", "`mesh`", "`landmarks`"))
-  expect_crestline_error(check_surface(structure(list(), class = "mesh3d"), "x"), c("`x`", "`vb`"))
-  expect_length(check_list(structure(list(path = data.frame(), points = data.frame()), class = "curve"), "curve", "x", "y"), 1)
+  expect_crestline_error(check_list(structure(list(path = data.frame(), points = data.frame()), class = "curve"), "curve", "x",
+                                    "ridge_curve()"), "the curve lacks its path")
   expect_crestline_error(check_list(data.frame(a = 1), "curve", "x", "ridge_curve()"), "`x`")
 })
 

@@ -1,12 +1,25 @@
 # A file calls only floors above its own, and no files call each other round in a circle.
 
 # The floors, first to last. A file's floor is the first word of its name.
-floors <- c("conditions", "checks", "text", "files", "geometry", "random", "session", "colours", "settings",
+floors <- c("conditions", "text", "files", "checks", "geometry", "random", "session", "colours", "settings", "provenance",
             "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme", "shape", "placing",
             "template", "sample", "analysis", "study", "plot", "report", "crestline")
 
 # Circles of files that stay, each with its reason.
-circles <- list()
+circles <- list(
+  # A part of an alignment is an alignment anew; what is missing is estimated by aligning.
+  c("analysis-align.R", "analysis-aligned.R", "analysis-arrays.R", "analysis-missing.R"),
+  # read_landmarks() of a folder reads its files by read_landmarks().
+  c("landmarks-beside.R", "landmarks.R"),
+  # A denser surface is straightened where its triangles are flipped, which is looked for on the surface.
+  c("shape-check.R", "shape-dense.R", "shape-mesh.R")
+)
+
+# Calls to a later floor that stay, each with its reason.
+exceptions <- c(
+  # The review shows curves in the colours that plot() documents.
+  "placing-review-scene.R:review_colours -> plot-shape.R:plot.shape"
+)
 
 graph <- function() {
   dir <- testthat::test_path("..", "..", "R")
@@ -26,7 +39,9 @@ test_that("a file calls only its own floor and those above", {
   unknown <- unique(c(calls$from_file[is.na(floor(calls$from_file))], calls$to_file[is.na(floor(calls$to_file))]))
   expect_equal(unknown, character())
   up <- calls[which(floor(calls$from_file) < floor(calls$to_file)), ]
-  expect_equal(sprintf("%s:%s -> %s:%s", up$from_file, up$from, up$to_file, up$to), character())
+  found <- sprintf("%s:%s -> %s:%s", up$from_file, up$from, up$to_file, up$to)
+  expect_equal(setdiff(found, exceptions), character())
+  expect_equal(setdiff(exceptions, found), character())
 })
 
 test_that("no files call each other round in a circle, but for those that are listed", {

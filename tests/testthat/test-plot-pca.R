@@ -30,6 +30,6 @@ test_that("the page has a slider a component, which holds the shapes at its ends
   if (is.list(values)) values <- values[[1]]
   first <- as.vector(t(shape_at(pca, 1, -2, "mesh")$vb[1:3, ]))
   expect_equal(as.vector(values[1, seq_along(first)]), first, tolerance = 1e-5)
-  expect_crestline_error(write_pca_page("x.txt", pca), "HTML")
+  expect_crestline_error(write_pca_page("x.txt", pca), "ends in .html")
   expect_crestline_error(write_pca_page(file, shape_pca(align(posed_sample()))), "triangles")
 })

@@ -41,10 +41,6 @@ simple_loops <- function(loop) {
   c(found, list(loop))
 }
 
-#' Diagonal of the bounding box of points, 3 x n
-#' @noRd
-box_diagonal <- function(xyz) cpp_box_diagonal(xyz)
-
 #' A path without its parts on bridges: straight from rim to rim
 #' @noRd
 unbridged_path <- function(path, specimen) {

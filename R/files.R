@@ -1,0 +1,91 @@
+# Paths of files: what is there, and its extension.
+
+file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file)))
+
+check_file <- function(file, stage, name = "file") {
+  if (!is_path(file)) refuse_no_path(file, stage)
+  if (!file.exists(file) || dir.exists(file)) {
+    crestline_abort(sprintf("`%s`: there is no file %s.", name, file),
+                    sprintf("Check the path; the working directory is %s.", getwd()),
+                    stage = stage, call = NULL)
+  }
+}
+
+refuse_no_path <- function(file, stage) {
+  crestline_abort(sprintf("`file` is %s.", describe_value(file)), "Give the path of one file.", stage = stage, call = NULL)
+}
+
+refuse_file <- function(file, reason, id, remedy = "The file is damaged or cut short: export or copy it again.") {
+  crestline_abort(sprintf("%s cannot be read: %s.", basename(file), reason), remedy,
+                  stage = "reading", id = id, class = "crestline_mesh_error", call = NULL)
+}
+
+is_path <- function(x) is.character(x) && length(x) == 1 && !is.na(x) && nzchar(x)
+
+#' The program that a file's first bytes are of, NA for none
+#' @noRd
+packed_by <- function(bytes) {
+  start <- list(gzip = c(0x1f, 0x8b, 0x08), zip = c(0x50, 0x4b, 0x03, 0x04),
+                bzip2 = c(0x42, 0x5a, 0x68, NA, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59),
+                xz = c(0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00))
+  is_of <- vapply(start, function(mark) {
+    length(bytes) >= length(mark) &&
+      all(as.integer(bytes)[seq_along(mark)] == mark, na.rm = TRUE)
+  }, NA)
+  c(names(start)[is_of], NA)[1]
+}
+
+#' That a file can be read, and is what its name says: to be called before it is opened. Pipes and
+#' devices, which might keep R waiting for ever, have no size
+#'
+#' @param id Name of the specimen, where there is one.
+#' @param unpacks Kinds of packed files that the caller reads.
+#' @noRd
+check_stored <- function(file, stage, id = NULL, unpacks = character()) {
+  refuse <- function(problem, remedy) {
+    crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
+                    call = NULL)
+  }
+  if (!isTRUE(file.size(file) > 0)) {
+    refuse(": it is empty, or no file on disk but a pipe or device",
+           "If it is empty, export or copy it again; save what comes through a pipe first.")
+  }
+  if (file.access(file, 4) != 0) refuse("", "Check the right to read it.")
+  packed <- packed_by(readBin(file, "raw", 10))
+  if (!is.na(packed) && !packed %in% unpacks) {
+    refuse(sprintf(": it is compressed by %s, whatever its name", packed),
+           "Unpack it first; of a spreadsheet save the sheet as CSV.")
+  }
+}
+
+#' Whether a path is a pipe, which would keep R waiting for a reader. R cannot tell, the shell can
+#' @noRd
+is_pipe <- function(file) {
+  if (.Platform$OS.type != "unix" || !isTRUE(file.size(file) == 0)) return(FALSE)
+  system2("test", c("-p", shQuote(path.expand(file)))) == 0
+}
+
+# The name of a file without folder and without ".gz".
+unpacked_name <- function(file) sub("[.]gz$", "", basename(file), ignore.case = TRUE)
+
+# Bytes, or lines of text.
+write_content <- function(content, file) {
+  if (is_pipe(file)) refuse_writing(file, "it is a pipe, no file on disk", "Write to a file.")
+  connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
+    refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
+  })
+  on.exit(close(connection))
+  if (is.raw(content)) writeBin(content, connection) else writeLines(content, connection, useBytes = TRUE)
+}
+
+# The rows of a matrix (or elements of a vector) as columns of little-endian bytes, each number of `size`.
+bytes_of <- function(x, size) {
+  x <- t(as.matrix(x))
+  if (size == 1L) storage.mode(x) <- "integer"
+  matrix(writeBin(as.vector(x), raw(), size = size, endian = "little"), size * nrow(x))
+}
+
+refuse_writing <- function(file, reason, remedy) {
+  crestline_abort(sprintf("`file`: %s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
+                  class = "crestline_mesh_error", call = NULL)
+}
