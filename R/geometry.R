@@ -30,3 +30,6 @@ nearest_rotation <- function(x, y) {
 }
 
 mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)
+
+# The columns of a point on a mesh.
+mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")

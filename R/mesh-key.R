@@ -104,6 +104,3 @@ place_on_faces_of <- function(mesh, face, weight) {
   corner <- function(i) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
   weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
 }
-
-# The columns of a point on a mesh.
-mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")

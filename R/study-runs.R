@@ -62,6 +62,7 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
                         noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25, width = 0.4,
                         spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
                         progress = interactive(), largest = 2e6, ...) {
+  check_flags(progress)
   methods <- study_methods(settings)
   check_count(n, "n")
   check_number(points, "points", 3, 1e5)
@@ -92,7 +93,7 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
                 landmark_error = c(0, 2), noise = c(0, 2), b = c(0, 1e4), a = c(-100, 100))
   open <- c("radius", "b")
   for (name in names(grid)) {
-    if (!is.numeric(grid[[name]]) || !length(grid[[name]])) {
+    if (!is.numeric(grid[[name]]) || !length(grid[[name]]) || !is.null(dim(grid[[name]]))) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])), "Give one number or several.",
                       stage = "arguments", call = call)
     }
