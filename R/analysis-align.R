@@ -48,7 +48,7 @@
 #'   estimated far from what is there).
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
 #'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
-#'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
+#'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, sections 4 and 5.3.
 #' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()], [as_geomorph()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))

@@ -2,9 +2,13 @@
 
 #' Compare groups of specimens
 #'
-#' The tests of the paper's section 6, for landmarks, curves and surface side by side: does size differ between the groups,
-#' does the mean shape, do the first principal components together (Hotelling's T2) and one by one, and where. All p-values
-#' come from the same permutations of the groups; where there are few regroupings, from all of them.
+#' Tests whether groups differ in size, in mean shape, in the first principal components together (Hotelling's T2) and one
+#' by one, and at which points. Landmarks, curves and surface are tested side by side. All p-values come from the same
+#' permutations of the groups. Where there are few regroupings, all of them are used.
+#'
+#' The paper's section 6 tests size (t), the first ten principal components together (Hotelling's T2) and one by one, by
+#' 1,000 permutations, for landmarks, curves and surface. Added here are a test of the distance between the mean shapes,
+#' p-values adjusted for the number of components, a test at every point, and a test of dispersion.
 #'
 #' | test | statistic (two groups; more) | null hypothesis: equal | `p_parametric` |
 #' |---|---|---|---|

@@ -33,7 +33,7 @@
 #' @section Warnings: of class `crestline_doubtful_placing`, where most landmarks have little confidence (settings `low`,
 #'   `wrong`): most likely the scan is not the object, or not whole enough. [quality()] then grades nothing green. A single
 #'   landmark with little confidence is told by `print()`, and graded amber with the curves that end there.
-#' @references The paper, section 7.
+#' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{

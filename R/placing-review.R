@@ -35,7 +35,7 @@
 #'   of class `crestline_mirrored` tells where left and right look mirrored, one of class `crestline_exchanged` which landmarks
 #'   look exchanged.
 #' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
-#' @references The paper, section 7.
+#' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)
 #' data(humface, package = "Rvcg")

@@ -6,8 +6,8 @@
 #'
 #' @inheritParams reference_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
-#' @param radius Radius of the curvature estimates, in the unit of the mesh (faces: 10 mm for broad
-#'   features, 5 mm for lips, nose and eyes); not needed for `"plane"`.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for `"plane"`.
+#'   On faces, 10 mm for broad features (the paper: 10 mm) and 5 mm for lips, nose and eyes (our choice).
 #' @param width How far the curve may wander from the reference path, in the unit
 #'   of the mesh; the window is no wider than `settings$window` radii. Not needed for `"plane"`.
 #' @param n Number of points, both ends counted, at equal chords.

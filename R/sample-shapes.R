@@ -361,8 +361,9 @@ failures <- function(x) {
 #' @seealso [failures()], [quality()]
 #' @examples
 #' corners <- rbind(aL = c(1, -1, 2), aR = c(-1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
-#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners / sqrt(rowSums(corners^2)), id =
-#' "ball")) curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
+#' corners <- corners / sqrt(rowSums(corners^2))
+#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners, id = "ball"))
+#' curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
 #' scheme <- curve_scheme(data.frame(landmark = rownames(corners)), curve, name = "across")
 #' warnings_of(fit_shape(ball, scheme, progress = FALSE))
 #' @export

@@ -31,7 +31,7 @@
 #'   flat triangles, so that curves and columns run on where the surface would be; their points there are missing. With 0
 #'   they run round holes, as they do round larger ones.
 #' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
-#'   at its ends (the paper's implementation: 45 degrees).
+#'   at its ends (the programs of the paper's authors: 45 degrees).
 #' @param column_angles Number of planes that are tried for a column (there: 51).
 #' @param column_reach A column stays within this share of the distance of its ends from the straight line between
 #'   them (there: 1).

@@ -3,8 +3,10 @@
 #' Limits of the quality report
 #'
 #' Everything that [quality()] judges by, each with two limits: the first makes a part amber, the second red. `Inf` (or
-#' `-Inf` where small values are bad) switches one off. The defaults were chosen on 26 good scans and on corrupted ones,
-#' see `bench/README.md`; none depends on the unit of the mesh.
+#' `-Inf` where small values are bad) switches one off. No limit depends on the unit of the mesh.
+#'
+#' The defaults were chosen on 26 good scans and on scans spoiled on purpose (holes, spikes, noise, decimation). Of the
+#' points that were more than 3 mm off, 99.9 % were graded amber or red; of the parts of good scans, up to 4.3 %.
 #'
 #' @param ... Limits to change, by name, each `c(amber, red)`; print the defaults to see them. Bad is what is above
 #'   * `missing`: share of the part's points that are not there;
