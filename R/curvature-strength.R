@@ -63,9 +63,9 @@ print.keep_away <- function(x, ...) {
 
 #' A side to keep to
 #'
-#' Of two features that lie on both sides of a line between two landmarks, such as the ridges of the lower and of the
-#' upper eyelid, one is meant: strength counts as 0 on the other side. The border is the plane through both landmarks that is
-#' square to the plane of all three.
+#' Use this when two similar features run on either side of a line between two landmarks and you want only one, such as
+#' the ridge of the lower or of the upper eyelid. Curvature on the other side is ignored. The dividing plane contains the
+#' two landmarks and is perpendicular to the plane through all three.
 #'
 #' @param from,to Names of landmarks, or positions, that the line joins.
 #' @param towards Name of a landmark, or a position, on the side that counts.

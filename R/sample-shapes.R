@@ -323,7 +323,7 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 #'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
 #'   now.
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
-#' @seealso [warnings_of()] for what those that were measured were warned of.
+#' @seealso [warnings_of()] for the warnings of specimens that were measured.
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
@@ -350,8 +350,8 @@ failures <- function(x) {
 
 #' Warnings of measured specimens
 #'
-#' What reading, finding and fitting warned of, for each specimen: a batch goes on over a warning,
-#' so it is kept with the shape (`shape$warnings`) and not lost among those of a thousand others.
+#' The warnings of reading, finding and fitting, for each specimen. A warning does not stop a batch.
+#' It is kept with the shape (`shape$warnings`), so that it is not lost among those of many specimens.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
 #' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
