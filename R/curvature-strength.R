@@ -31,11 +31,11 @@ normal_curvature <- function(curved, at, direction) {
   (curved$k1[at] * along1^2 + curved$k2[at] * along2^2) / (along1^2 + along2^2)
 }
 
-#' A region where strength does not count
+#' A region where curvature is ignored
 #'
-#' Features near the sought one may be sharper: the rim of the orbit beside the
-#' brow. A region about the axis between two landmarks is kept away from: strength
-#' counts as 0 inside the cylinder about the axis.
+#' A feature near the one you want may be sharper, such as the rim of the orbit
+#' beside the brow. Curvature is ignored inside a cylinder whose axis joins two
+#' landmarks.
 #'
 #' @param from,to Names of landmarks, or positions.
 #' @param radius Radius of the cylinder, as a share of the distance between them.

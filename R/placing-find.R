@@ -17,8 +17,8 @@
 #'   to each other, which is wrong where the scan is three times as large as the object, or a third of it.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
-#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the
-#'     surface tells nothing: placed by the others, perhaps off the mesh) or "absent" (the scan has no surface there);
+#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (so marked in
+#'     the template: placed by the positions of the others, perhaps off the mesh) or "absent" (the scan has no surface there);
 #'     `confidence`, from 0 to 1, doubtful below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with
 #'     a, b and c the settings `moved`, `off` and `vague`, times (1 - score) / (1 - `poor`) where the score is poor;
 #'     `moved`, distance between the answers with and without curvature; `sd`, standard deviation that is added by what

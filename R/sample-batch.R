@@ -62,7 +62,7 @@
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
 #'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all
 #'     in memory at once;
-#'   * `print(x)` counts and tells failures and warnings, `summary(x)` is a data frame, a row a
+#'   * `print(x)` counts and lists failures and warnings, `summary(x)` is a data frame, a row a
 #'     specimen: `specimen`, `measured`, `landmarks` ("placed", "found"), `lacking` (number of the
 #'     scheme's landmarks that are missing), `warnings` (their number), `message` (why it failed).
 #' @section Errors: of class `crestline_error`, for arguments that are wrong for every specimen.
