@@ -2,9 +2,10 @@
 
 #' Distance between two sets of curves
 #'
-#' Measures curve by curve how far two sets are apart: one specimen measured twice, by two people or programs, or an
-#' estimate and its truth. The sets are compared as they lie, or after the second is laid onto the first by rotation and
-#' shift (Procrustes, all points of all curves together; sizes are kept unless `scale = TRUE`).
+#' Measures curve by curve how far two sets are apart: one specimen measured twice, by two people or
+#' programs, or an estimate and its truth. The sets are compared as they lie, or after the second is
+#' laid onto the first by rotation and shift (Procrustes, all points of all curves together; sizes
+#' are kept unless `scale = TRUE`).
 #'
 #' The paper matches each pair of curves by Procrustes, which can also mean each curve by itself.
 #'

@@ -1,9 +1,9 @@
 #' crestline: ridge and valley curves of surfaces
 #'
-#' crestline finds ridge and valley curves (crest lines) of a triangulated surface between landmarks.
-#' The curves become semilandmarks on the scan. Sliding semilandmarks and generalised Procrustes
-#' analysis make a sample of them. Start with [read_specimen()] or [specimen()], look at it with
-#' `plot()`, then [ridge_curve()]; [fit_shape()] measures a whole specimen.
+#' crestline finds ridge and valley curves (crest lines) of a triangulated surface between
+#' landmarks. The curves become semilandmarks on the scan. Sliding semilandmarks and generalised
+#' Procrustes analysis make a sample of them. Start with [read_specimen()] or [specimen()], look at
+#' it with `plot()`, then [ridge_curve()]; [fit_shape()] measures a whole specimen.
 #'
 #' # Options
 #' * `crestline.threads`: number of threads of the loops over vertices, 1 unless set.
@@ -36,9 +36,10 @@
 #'   [as_rrpp()], [as_morpho()], [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
 #' * *Pictures and pages*: `plot()` of most objects, [plot_panel()], [plot_cuts()],
-#'   [plot_placing()], [plot_refinement()], [write_page()], [write_pca_page()], [plot_shape_scale()], [shape_colours()]; a
-#'   picture step by step: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
-#'   [plot_curves()], [visible_points()], [picture_settings()].
+#'   [plot_placing()], [plot_refinement()], [write_page()], [write_pca_page()],
+#'   [plot_shape_scale()], [shape_colours()]; a picture step by step: [draw_surface()],
+#'   [draw_lines()], [draw_points()], [draw_band()], [plot_curves()], [visible_points()],
+#'   [picture_settings()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]
 #'   and [scan_settings()], [true_points()], [true_effect()].
 #'
@@ -76,11 +77,12 @@
 #' * **definition**: a rule by curvature for where a landmark lies: a cap, a cup, an extreme of a
 #'   profile, a turn or end of a curve, or a crossing ([refine_landmarks()]).
 #'
-#' * **exchanged**: two landmarks each of which lies where the other belongs, such as left and right.
+#' * **exchanged**: two landmarks each of which lies where the other belongs, such as left and
+#'   right.
 #' * **origin**: how each landmark came: from a file, given, found, predicted, placed or moved
 #'   ([provenance]).
-#' * **key**: a hash of a mesh's vertices and triangles. What was measured on a mesh carries its key,
-#'   and is refused with any other mesh.
+#' * **key**: a hash of a mesh's vertices and triangles. What was measured on a mesh carries its
+#'   key, and is refused with any other mesh.
 #'
 #' *Curvature*
 #'

@@ -63,9 +63,10 @@ print.keep_away <- function(x, ...) {
 
 #' A side to keep to
 #'
-#' Use this when two similar features run on either side of a line between two landmarks and you want only one, such as
-#' the ridge of the lower or of the upper eyelid. Curvature on the other side is ignored. The dividing plane contains the
-#' two landmarks and is perpendicular to the plane through all three.
+#' Use this when two similar features run on either side of a line between two landmarks and you
+#' want only one, such as the ridge of the lower or of the upper eyelid. Curvature on the other side
+#' is ignored. The dividing plane contains the two landmarks and is perpendicular to the plane
+#' through all three.
 #'
 #' @param from,to Names of landmarks, or positions, that the line joins.
 #' @param towards Name of a landmark, or a position, on the side that counts.

@@ -42,8 +42,9 @@
 #'   * `neighbours`: integer n, vertices in the ball;
 #'   * `reason`: character n, `NA` where fitted, else why not.
 #'
-#'   At vertices that are not in `vertices` all are `NA`, and `reason` says so. Attributes are `radius`, `order`, and the
-#'   `key` and `id` of the mesh. Functions that take a curvature refuse that of another mesh.
+#'   At vertices that are not in `vertices` all are `NA`, and `reason` says so. Attributes are
+#'   `radius`, `order`, and the `key` and `id` of the mesh. Functions that take a curvature refuse
+#'   that of another mesh.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
 #'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 2.

@@ -2,9 +2,9 @@
 
 #' Read and write landmarks and curves of points
 #'
-#' The file's extension, in upper or lower case, gives the format. Files are read as UTF-8 or UTF-16,
-#' else as Latin 1. They are written in UTF-8, with all digits of a number. Landmarks that are written
-#' are read back identically, except where the list below says otherwise.
+#' The file's extension, in upper or lower case, gives the format. Files are read as UTF-8 or
+#' UTF-16, else as Latin 1. They are written in UTF-8, with all digits of a number. Landmarks that
+#' are written are read back identically, except where the list below says otherwise.
 #'
 #' | extension | from | specimens in a file | curves |
 #' |---|---|---|---|
@@ -19,45 +19,48 @@
 #' | `.ckpt` | Checkpoint | one, read only | no |
 #'
 #' * `.csv`: fields are separated by commas, tabs or semicolons; with semicolons, decimals may be
-#'   points or commas. There is a header line. The name is in a column `name`, `landmark` or `label`,
-#'   otherwise in the first column that is not a number. The co-ordinates are in `x`, `y`, `z`, in any
-#'   order; or in `r`, `a`, `s` or `l`, `p`, `s`, as 3D Slicer exports its lists (`defined` 0:
-#'   missing). A row with a name in a column `curve` is a point of that curve. A column `point` gives
-#'   the order of the points; a curve is closed where a column `closed` is TRUE. A column of
-#'   specimens (`specimen`, `subject`, `file`, `scan`, ...; `id` where landmarks repeat) makes a list
-#'   of them. Other columns are ignored. A missing landmark has NA or an empty field. A row with more
-#'   or fewer fields than the header is refused. Leftovers of spreadsheets are ignored: a line
-#'   `sep=;`, comments (#) above the header, empty rows and columns, a separator at the end of all
-#'   rows.
+#'   points or commas. There is a header line. The name is in a column `name`, `landmark` or
+#'   `label`, otherwise in the first column that is not a number. The co-ordinates are in `x`, `y`,
+#'   `z`, in any order; or in `r`, `a`, `s` or `l`, `p`, `s`, as 3D Slicer exports its lists
+#'   (`defined` 0: missing). A row with a name in a column `curve` is a point of that curve. A
+#'   column `point` gives the order of the points; a curve is closed where a column `closed` is
+#'   TRUE. A column of specimens (`specimen`, `subject`, `file`, `scan`, ...; `id` where landmarks
+#'   repeat) makes a list of them. Other columns are ignored. A missing landmark has NA or an empty
+#'   field. A row with more or fewer fields than the header is refused. Leftovers of spreadsheets
+#'   are ignored: a line `sep=;`, comments (#) above the header, empty rows and columns, a separator
+#'   at the end of all rows.
 #' * `.pts`: names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get
 #'   numbers, and closed ones are opened, with a warning.
-#' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. The format has no names of landmarks and curves, so
-#'   they are stored in `COMMENT=` lines. Specimens are named by `ID=`, else by `IMAGE=`, else
-#'   numbered. Negative co-ordinates are numbers, not missing.
+#' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. The format has no names of landmarks and
+#'   curves, so they are stored in `COMMENT=` lines. Specimens are named by `ID=`, else by `IMAGE=`,
+#'   else numbered. Negative co-ordinates are numbers, not missing.
 #' * `.nts`, `.dta`: the header's code for missing values counts where the header announces missing
 #'   values, or where a point has the code in all its co-ordinates. Names of landmarks are stored in
 #'   a comment.
-#' * `.landmarkAscii`: sets of co-ordinates are specimens. Names are stored among the parameters, and
-#'   missing landmarks are NaN. Not every program reads these.
-#' * `.fcsv`: points in another state than "defined" are missing. Names are the labels, else the ids.
-#' * `.mrk.json`: all lists of the file are read. Fiducial lists are landmarks; where two lists share
-#'   labels, the list's name comes before the label. Curve, ClosedCurve, Line and Angle are curves of
-#'   control points. Lists of other types are left out with a warning. Numbers stay in the file's unit.
+#' * `.landmarkAscii`: sets of co-ordinates are specimens. Names are stored among the parameters,
+#'   and missing landmarks are NaN. Not every program reads these.
+#' * `.fcsv`: points in another state than "defined" are missing. Names are the labels, else the
+#'   ids.
+#' * `.mrk.json`: all lists of the file are read. Fiducial lists are landmarks; where two lists
+#'   share labels, the list's name comes before the label. Curve, ClosedCurve, Line and Angle are
+#'   curves of control points. Lists of other types are left out with a warning. Numbers stay in the
+#'   file's unit.
 #' * `.pp`: a point that is not active is missing.
 #' * `.ckpt`: single points are read, in the file's unit. Points of curves and patches are left out
 #'   with a warning.
 #'
-#' The provenance of a specimen or shape (see [summary.specimen()]) is written too, where other programs
-#' ignore it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a field `provenance`
-#' of `.mrk.json`. It is left out of `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and `.pp`, where it
-#' would disturb some programs.
+#' The provenance of a specimen or shape (see [summary.specimen()]) is written too, where other
+#' programs ignore it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a field
+#' `provenance` of `.mrk.json`. It is left out of `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and
+#' `.pp`, where it would disturb some programs.
 #'
 #' Of a folder all landmark files are read, and named by their names. Two files of one specimen must
 #' agree. Empty and compressed files, pipes and devices are refused before they are opened.
 #'
-#' Of a `shape` the landmarks and curves are written, their missing points as missing. Where the format
-#' has no curves, their points are written as landmarks, named "curve point" as in [coords()], with a
-#' warning (`curves = list()` leaves them out). [read_curves()] reads curves by name from either.
+#' Of a `shape` the landmarks and curves are written, their missing points as missing. Where the
+#' format has no curves, their points are written as landmarks, named "curve point" as in
+#' [coords()], with a warning (`curves = list()` leaves them out). [read_curves()] reads curves by
+#' name from either.
 #'
 #' @param file Path of the file; for reading also of a folder of landmark files.
 #' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the

@@ -14,7 +14,8 @@
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh; that of `curvature` where it is given; not
 #'   needed for `"plane"`.
-#' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where curvature is ignored: one, or a list.
+#' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where curvature is
+#'   ignored: one, or a list.
 #' @param curvature A `curvature` of the mesh at this radius, where it is already
 #'   known; otherwise it is estimated where the cuts may pass.
 #' @param reach Cuts stay within this share of the distance between the landmarks

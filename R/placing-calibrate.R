@@ -2,8 +2,9 @@
 
 #' Calibrate a template by a few scans with landmarks
 #'
-#' Adapts the template to your own landmark definitions, from a few scans that you have marked. Most of the error of
-#' [find_landmarks()] is a difference of definition. Three scans remove most of it. Landmarks that the template does not have are added;
+#' Adapts the template to your own landmark definitions, from a few scans that you have marked. Most
+#' of the error of [find_landmarks()] is a difference of definition. Three scans remove most of it.
+#' Landmarks that the template does not have are added;
 #' those of a symmetric template stay symmetric.
 #'
 #' @param template A [landmark_template()], or a [specimen()] with landmarks.

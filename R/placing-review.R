@@ -2,15 +2,16 @@
 
 #' Review landmarks, or place them, by hand
 #'
-#' Opens a page in the browser (package shiny). It shows the turning specimen, its landmarks, and the curves of the scheme
-#' between them. Choose a landmark in the list or by a click on its ball. A click on the surface puts it there, exactly on
-#' the mesh. The curves that end on it are fitted again at once. Drag to turn, use the wheel to zoom, and the right button
-#' to shift.
+#' Opens a page in the browser (package shiny). It shows the turning specimen, its landmarks, and
+#' the curves of the scheme between them. Choose a landmark in the list or by a click on its ball. A
+#' click on the surface puts it there, exactly on the mesh. The curves that end on it are fitted
+#' again at once. Drag to turn, use the wheel to zoom, and the right button to shift.
 #'
-#' `review_landmarks()` begins with the landmarks of the specimen. Those in which [find_landmarks()] has little confidence
-#' are red, and are chosen one after the other: move each, confirm it, or mark it as not on this scan. Found landmarks are
-#' green, predicted ones blue, placed ones violet, and the chosen one is yellow. `place_landmarks()` begins without any, and
-#' names and describes the next landmark of the scheme. Names that end in L belong to the subject's own left. Use
+#' `review_landmarks()` begins with the landmarks of the specimen. Those in which [find_landmarks()]
+#' has little confidence are red, and are chosen one after the other: move each, confirm it, or mark
+#' it as not on this scan. Found landmarks are green, predicted ones blue, placed ones violet, and
+#' the chosen one is yellow. `place_landmarks()` begins without any, and names and describes the
+#' next landmark of the scheme. Names that end in L belong to the subject's own left. Use
 #' `review_landmarks()` to continue with a specimen that has some landmarks.
 #'
 #' @param specimen A [specimen()], with landmarks that were found or given.

@@ -46,9 +46,9 @@
 #' @param doubtful Greatest share of found landmarks with little confidence that are used
 #'   nevertheless (and graded amber).
 #' @param ... Further arguments of [fit_shape()], the same for all.
-#' @param found Whether landmarks are found where a mesh has none. `NULL`: only if none of the meshes
-#'   has any. A mesh without landmarks among others that have some is then a failure, so that found
-#'   and placed landmarks are not mixed by accident.
+#' @param found Whether landmarks are found where a mesh has none. `NULL`: only if none of the
+#'   meshes has any. A mesh without landmarks among others that have some is then a failure, so that
+#'   found and placed landmarks are not mixed by accident.
 #' @param reading With mesh files: named list of further arguments of [read_specimen()],
 #'   [specimen()] and [read_landmarks()], such as `list(frame = "RAS", tolerance = 0.02)`.
 #' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two

@@ -351,7 +351,8 @@ failures <- function(x) {
 #' Warnings of measured specimens
 #'
 #' The warnings of reading, finding and fitting, for each specimen. A warning does not stop a batch.
-#' It is kept with the shape (`shape$warnings`), so that it is not lost among those of many specimens.
+#' It is kept with the shape (`shape$warnings`), so that it is not lost among those of many
+#' specimens.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
 #' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such

@@ -15,8 +15,8 @@
 #' its authors do (`authors_kind`), `note` says why.
 #'
 #' @return A [curve_scheme()].
-#' @references The paper: 23 landmarks and 467 curve points (Fig. 1), 922 surface points (Fig. 6). It does not list its
-#'   curves and patches; they were read from its authors' data.
+#' @references The paper: 23 landmarks and 467 curve points (Fig. 1), 922 surface points (Fig. 6).
+#'   It does not list its curves and patches; they were read from its authors' data.
 #' @examples
 #' face_scheme()
 #' @export

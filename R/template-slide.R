@@ -2,14 +2,15 @@
 
 #' Slide the points of a shape until they are homologous to a template's
 #'
-#' Points of curves slide along their own curve, then points of patches over the surface. Each goes to where the bending
-#' energy from the template (plus a strain of the spacings) is least. Landmarks do not move, nor do the ends of curves at
-#' landmarks. An end at which the scheme cuts a curve off slides along the whole curve too. Points are taken in turn, each
-#' to its exact minimiser, until none moves. So the energy never rises. Points keep their order and a gap, and never leave
-#' the mesh. [crestline-package] has a glossary.
+#' Points of curves slide along their own curve, then points of patches over the surface. Each goes
+#' to where the bending energy from the template (plus a strain of the spacings) is least. Landmarks
+#' do not move, nor do the ends of curves at landmarks. An end at which the scheme cuts a curve off
+#' slides along the whole curve too. Points are taken in turn, each to its exact minimiser, until
+#' none moves. So the energy never rises. Points keep their order and a gap, and never leave the
+#' mesh. [crestline-package] has a glossary.
 #'
-#' Points that only the template has, or only the shape, are left out of the energy. Missing points stay NA. Points that
-#' coincide by construction still do.
+#' Points that only the template has, or only the shape, are left out of the energy. Missing points
+#' stay NA. Points that coincide by construction still do.
 #'
 #' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of patches that lie on
 #' curves without being points of theirs go along: at the same share of the way between their neighbours.
