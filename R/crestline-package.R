@@ -72,8 +72,8 @@
 #'   disagrees.
 #' * **doubtful**: a found landmark with a confidence below 0.5, or a match whose score is poor
 #'   ([check_placing()]).
-#' * **predicted**: a landmark that is placed by the positions of the others, since the surface says
-#'   nothing about it.
+#' * **predicted**: a landmark that is placed by the positions of the others, since the surface has
+#'   no evidence for it.
 #' * **definition**: a rule by curvature for where a landmark lies: a cap, a cup, an extreme of a
 #'   profile, a turn or end of a curve, or a crossing ([refine_landmarks()]).
 #'
@@ -130,7 +130,7 @@
 #' * **semilandmark**: a point that is one of a fixed number on a curve or patch; its place along
 #'   the curve or on the patch is not a measurement but a choice, which sliding makes comparable.
 #' * **share**: a length as a fraction of another one, without unit: of a path, of a radius, of the
-#'   distance between two landmarks; `cut_share` says how much of a curve that is cut off is kept.
+#'   distance between two landmarks; `cut_share` is what is kept of a curve that is cut off.
 #' * **track**: the whole curve on the mesh, with the arc length of each of its points, along which
 #'   they can slide.
 #' * **patch**: a piece of surface between curves, filled with semilandmarks.
@@ -138,7 +138,7 @@
 #'   points are the rows.
 #' * **strip**: triangles that join two patches which do not share a curve.
 #' * **bridged**: led over a hole of the mesh by flat triangles; points there are missing.
-#' * **grade**: green (nothing to say), amber (look at it) or red (do not use it as it is)
+#' * **grade**: green (no doubt), amber (look at it) or red (do not use it as it is)
 #'   ([quality()]).
 #'
 #' *A sample*
@@ -151,8 +151,8 @@
 #'   ([landmark_template()]).
 #' * **bending energy**: how much the thin-plate spline from the template to a specimen bends
 #'   ([bending_energy()]).
-#' * **nugget**: how far the spline may miss a point, so that an error across a curve is not bought
-#'   off by moving along it.
+#' * **nugget**: how far the spline may miss a point. It keeps a point from moving along its curve
+#'   only to make up for an error across it.
 #' * **strain**: a penalty on uneven spacing along a curve.
 #' * **sample**: the shapes of many specimens with homologous points ([homologise()]).
 #' * **aligned**: a sample after generalised Procrustes analysis: centred, scaled and turned onto
