@@ -315,7 +315,9 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
             class = "shape_failure")
 }
 
-#' What went wrong with the specimens of a batch
+#' Failed specimens of a batch
+#'
+#' Lists the specimens that could not be measured, why, and what to do.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
 #' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),

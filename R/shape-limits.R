@@ -2,12 +2,13 @@
 
 #' Limits of the quality report
 #'
-#' Everything that [quality()] judges by, each with two limits: the first makes a part amber, the second red. `Inf` (or
-#' `-Inf` where small values are bad) switches one off. No limit depends on the unit of the mesh.
+#' All limits of [quality()]. Each has two values: the first makes a part amber, the second red.
+#' `Inf` (or `-Inf` where small values are bad) switches one off. No limit depends on the unit of
+#' the mesh.
 #'
 #' The defaults were chosen on 26 good scans and on scans spoiled on purpose (holes, spikes, noise,
 #' decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber or red; of the
-#' parts of good scans, up to 4.3 %.
+#' parts of good whole faces, up to 4.3 %.
 #'
 #' @param ... Limits to change, by name, each `c(amber, red)`; print the defaults to see them. Bad is what is above
 #'   * `missing`: share of the part's points that are not there;
