@@ -352,9 +352,10 @@ failures <- function(x) {
 
 #' Warnings of measured specimens
 #'
-#' The warnings of reading, finding and fitting, for each specimen. A warning does not stop a batch.
-#' It is kept with the shape (`shape$warnings`), so that it is not lost among those of many
-#' specimens.
+#' The warnings of reading, finding and fitting, for each specimen of a batch. A warning does not stop
+#' [fit_shapes()]. It is kept with the shape (`shape$warnings`), so that it is not lost among those of
+#' many specimens. A single call of [specimen()] or [fit_shape()] gives its warnings at once, and keeps
+#' none.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
 #' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
@@ -362,13 +363,18 @@ failures <- function(x) {
 #'   package warned). Those of failed specimens of a batch are in it.
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
 #' @seealso [failures()], [quality()]
-#' @examples
-#' corners <- rbind(aL = c(1, -1, 2), aR = c(-1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' # Left and right are mirrored.
+#' corners <- rbind(aL = c(-1, -1, 2), aR = c(1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
 #' corners <- corners / sqrt(rowSums(corners^2))
-#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners, id = "ball"))
+#' file <- file.path(tempfile(), "ball.ply")
+#' dir.create(dirname(file))
+#' Rvcg::vcgPlyWrite(Rvcg::vcgSphere(4), file)
 #' curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
 #' scheme <- curve_scheme(data.frame(landmark = rownames(corners)), curve, name = "across")
-#' warnings_of(fit_shape(ball, scheme, progress = FALSE))
+#' shapes <- fit_shapes(file, scheme, landmarks = list(ball = corners),
+#'                      reading = list(midline = c("top", "low")))
+#' warnings_of(shapes)
 #' @export
 warnings_of <- function(x) {
   if (inherits(x, "shape_batch")) return(batch_warnings(renewed_batch(x)))
