@@ -3,8 +3,8 @@
 #' Write a page with the turning specimen and its curves
 #'
 #' Writes one HTML file that needs no other, or a file and a folder. The page has the surface
-#' coloured by shape index, the curves with their bands, the colour scale and a table; of a shape also
-#' the triangles of its surface. Buttons hide each layer of the scene.
+#' coloured by shape index, the curves with their bands, the colour scale and a table; of a shape
+#' also the triangles of its surface. Buttons hide each layer of the scene.
 #'
 #' @param file Where to write, ending in ".html".
 #' @param specimen A `specimen`.

@@ -352,10 +352,10 @@ failures <- function(x) {
 
 #' Warnings of measured specimens
 #'
-#' The warnings of reading, finding and fitting, for each specimen of a batch. A warning does not stop
-#' [fit_shapes()]. It is kept with the shape (`shape$warnings`), so that it is not lost among those of
-#' many specimens. A single call of [specimen()] or [fit_shape()] gives its warnings at once, and keeps
-#' none.
+#' The warnings of reading, finding and fitting, for each specimen of a batch. A warning does not
+#' stop [fit_shapes()]. It is kept with the shape (`shape$warnings`), so that it is not lost among
+#' those of many specimens. A single call of [specimen()] or [fit_shape()] gives its warnings at
+#' once, and keeps none.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
 #' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
