@@ -54,8 +54,9 @@
 #' `provenance` of `.mrk.json`. It is left out of `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and
 #' `.pp`, where it would disturb some programs.
 #'
-#' Of a folder all landmark files are read, and named by their names. Two files of one specimen must
-#' agree. Empty and compressed files, pipes and devices are refused before they are opened.
+#' All landmark files of a folder are read. A specimen has the name of its file, or the name in the
+#' file where that has several specimens. Two files of one specimen must agree. Empty and compressed
+#' files, pipes and devices are refused before they are opened.
 #'
 #' Of a `shape` the landmarks and curves are written, their missing points as missing. Where the
 #' format has no curves, their points are written as landmarks, named "curve point" as in
