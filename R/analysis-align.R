@@ -2,13 +2,15 @@
 
 #' Align a sample
 #'
-#' Generalised Procrustes alignment: every configuration is centred, scaled and turned so that the sum of squared distances
-#' from their mean is least. Where all are complete, mean and sizes are those of `geomorph::gpagen()` (`scale = TRUE`) and
-#' of `Morpho::procSym()` (`scale = "full"` is its default), taken to convergence.
+#' Generalised Procrustes analysis centres, scales and turns every configuration so that the sum of
+#' squared distances from their mean is least. If all configurations are complete, mean and sizes
+#' equal those of `geomorph::gpagen()` (`scale = TRUE`) and of `Morpho::procSym()` (`scale = "full"`
+#' is its default), taken to convergence. [crestline-package] has a glossary.
 #'
-#' Missing points take no part in a first alignment. Then they are put where the thin-plate spline from its mean onto the
-#' points that the specimen has takes them (`missing = "estimate"`, of least bending energy), or are left out of all
-#' specimens (`"drop"`).
+#' A first alignment leaves missing points out. Then `missing = "estimate"` estimates them: a
+#' thin-plate spline takes the mean of the first alignment onto the points that the specimen has,
+#' and takes the missing points along (least bending energy). `"drop"` leaves these points out of
+#' all specimens.
 #'
 #' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array (k x 2 x n for flat
 #'   configurations) of homologous points, NA where missing.
@@ -23,7 +25,7 @@
 #' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for pictures and areas.
 #' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its centroid size.
 #' @param rounds Most rounds.
-#' @param limits Of [sample_limits()]: from what on specimens are told of.
+#' @param limits Of [sample_limits()]: the limits above which [align()] warns.
 #' @return Object of class `aligned`, a list:
 #'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of unit size where scaled;
 #'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete configuration);
@@ -33,8 +35,8 @@
 #'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated", "dropped");
 #'   * `moved`: the greatest move of the mean by round;
 #'   * `triangles`: 3 x m, rows of `mean`, or `NULL`;
-#'   * `settings`, `reference`, `provenance`: how it was aligned, what `mean` was laid onto, and where
-#'     all came from, see [summary.aligned()].
+#'   * `settings`, `reference`, `provenance`: the arguments, the configuration that `mean` was laid
+#'     onto, and where all came from, see [summary.aligned()].
 #'
 #'   It is a container of its configurations: `aligned[ids]` aligns these again, see [aligned].
 #'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from the mean, in the unit of
@@ -42,13 +44,15 @@
 #' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a
 #'   specimen with too few points to fit, missing points with `missing = "stop"`.
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
-#'   `crestline_sample_doubt`, where the sample does not look like one, by [sample_limits()]: `crestline_far` (a specimen far
+#'   `crestline_sample_doubt`, when a specimen or point exceeds one of the [sample_limits()]:
+#'   `crestline_far` (a specimen far
 #'   from the others), `crestline_point` (points of one far from those of the others), `crestline_size` (sizes that differ as units
 #'   do), `crestline_estimated` (points estimated for too many specimens, or too many of one), `crestline_beyond` (points
 #'   estimated far from what is there).
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
 #'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
-#'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the paper, section 6.
+#'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the
+#'   paper, sections 4 and 5.3.
 #' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()], [as_geomorph()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))

@@ -75,14 +75,14 @@ validate.aligned <- function(x) {
 #' specimens, `aligned[["id"]]` is one k x 3 matrix; `for`, `lapply()`, `split()` and `as.list()` go
 #' through them.
 #'
-#' A Procrustes mean, the space tangent to it and missing points that were estimated depend on all
-#' specimens. So `aligned[ids]`, `aligned[-3]` and `aligned[logical]` align the specimens that are
-#' left again, with the same settings: it is what [align()] gives of a sample without the others.
-#' `c()` aligns the specimens of both together. Three things stay: sizes (each specimen's own), the
-#' pose (the mean is laid onto the same reference), and points that were left out because some
-#' specimen lacked them (`missing = "drop"`), which are not brought back. All specimens in another
-#' order keep their co-ordinates to the last bit. Of [as_aligned()], where nothing is known of how
-#' it was aligned, co-ordinates stay as they are and the mean is theirs; such ones are not joined.
+#' The Procrustes mean, the space tangent to it and estimated points depend on all specimens. So
+#' `aligned[ids]`, `aligned[-3]` and `aligned[logical]` align these specimens again, with the same
+#' settings. The result is that of [align()] for a sample without the others. `c()` aligns the
+#' specimens of both together. Three things do not change: each specimen's size, the pose (the mean
+#' is laid onto the same reference), and the set of points. Points that some specimen lacked
+#' (`missing = "drop"`) are not brought back. If only the order changes, co-ordinates stay the same
+#' to the last bit. The value of [as_aligned()] does not say how it was aligned. Its co-ordinates
+#' stay as they are, the mean is taken of them, and `c()` does not join it.
 #'
 #' @param x,... An `aligned`, as [align()] returns it; of `c()` several of the same points and
 #'   settings.

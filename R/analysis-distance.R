@@ -2,9 +2,12 @@
 
 #' Distance between two sets of curves
 #'
-#' Curve by curve: the same specimen measured twice, by two people or programs, or an estimate and its truth. Either as
-#' they lie, or once the second set is laid onto the first by rotation and shift (Procrustes, all points of all curves
-#' together; sizes are kept unless `scale = TRUE`).
+#' Measures curve by curve how far two sets are apart: one specimen measured twice, by two people or
+#' programs, or an estimate and its truth. The sets are compared as they lie, or after the second is
+#' laid onto the first by rotation and shift (Procrustes, all points of all curves together; sizes
+#' are kept unless `scale = TRUE`).
+#'
+#' The paper matches each pair of curves by Procrustes, which can also mean each curve by itself.
 #'
 #' @param a,b Sets of curves: `shape`s, as of [fit_shape()]; named lists of k x 3 matrices, one a curve, as of
 #'   [read_curves()]; or k x 3 matrices with row names "curve point", as of [coords()].

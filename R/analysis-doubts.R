@@ -1,10 +1,10 @@
 # The sample as a sample: what an alignment shows of single specimens that no specimen shows of
 # itself.
 
-#' Limits from which on an alignment is doubted
+#' Limits above which an alignment is doubted
 #'
-#' Everything that [align()] warns of, each with its limit; `Inf` switches one off. No limit depends
-#' on the unit.
+#' [align()] warns of a specimen or point that exceeds one of these limits. `Inf` switches one off.
+#' No limit depends on the unit.
 #'
 #' @param far Robust z-score of a specimen's distance from the median shape: how many spreads
 #'   (1.4826 MAD, at least 0.15 times the median distance) it is above the median distance. On 23

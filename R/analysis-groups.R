@@ -2,9 +2,15 @@
 
 #' Compare groups of specimens
 #'
-#' The tests of the paper's section 6, for landmarks, curves and surface side by side: does size differ between the groups,
-#' does the mean shape, do the first principal components together (Hotelling's T2) and one by one, and where. All p-values
-#' come from the same permutations of the groups; where there are few regroupings, from all of them.
+#' Tests whether groups differ in size, in mean shape, in the first principal components together
+#' (Hotelling's T2) and one by one, and at which points. Landmarks, curves and surface are tested
+#' side by side. All p-values come from the same permutations of the groups. Where there are few
+#' regroupings, all of them are used.
+#'
+#' The paper's section 6 tests size (t), the first ten principal components together (Hotelling's
+#' T2) and one by one, by 1,000 permutations, for landmarks, curves and surface. Added here are a
+#' test of the distance between the mean shapes, p-values adjusted for the number of components, a
+#' test at every point, and a test of dispersion.
 #'
 #' | test | statistic (two groups; more) | null hypothesis: equal | `p_parametric` |
 #' |---|---|---|---|
@@ -15,51 +21,54 @@
 #' | points | on a surface t of the displacement along the mean's normal (F), elsewhere Goodall's F of the point | mean places | none |
 #' | "dispersion" | greatest over least spread (root mean square distance to the own mean) | mean distances | none |
 #'
-#' **Unequal spread.** Pooled statistics test whether the groups have one distribution, spread included. Where a small
-#' group varies more than a large one they reject although the means are equal: with 24 and 6 specimens and a threefold
-#' spread in up to 9 of 10 samples. A warning says so where it can happen. With `equal_spread = FALSE` every group has a
-#' spread of its own, and only the means are compared. The permutation test of such statistics is exact where the groups
-#' have one distribution, and right in large samples where only their means agree (Janssen 1997). t is then Welch's, F
+#' **Unequal spread.** Pooled statistics test whether the groups have one distribution, spread
+#' included. If a small group varies more than a large one, they reject although the means are
+#' equal: with 24 and 6 specimens and a threefold spread in up to 9 of 10 samples. The function
+#' warns where this can happen. With `equal_spread = FALSE` every group has a spread of its own, and
+#' only the means are compared. The permutation test of such statistics is exact if the groups have
+#' one distribution. If only their means agree, it is right in large samples (Janssen 1997). t is
+#' then Welch's, F
 #' that of Brown and Forsythe (the squares between groups over the sum of (1 - n_g / n) times the variance of group g),
 #' and T2 has separate covariances, on at most half as many components as the smallest group has degrees of freedom.
 #'
-#' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent: name them by `block`. Where
-#' blocks hold specimens of several groups (before and after; sites with patients and controls) specimens are exchanged
-#' within their block only, and what the blocks differ by is taken out. Where each block lies in one group (repeated scans
-#' of persons) the means of the blocks are compared, and whole blocks exchanged.
+#' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent: name them
+#' by `block`. Some blocks hold specimens of several groups (before and after; sites with patients
+#' and controls). Specimens are then exchanged within their block only, and differences between
+#' blocks are removed. If each block lies in one group (repeated scans of persons), the means of the
+#' blocks are compared, and whole blocks are exchanged.
 #'
 #' For covariates and interactions give the sample to RRPP or geomorph: [as_geomorph()].
+#' [crestline-package] has a glossary.
 #'
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same specimens, named by level;
 #'   or an `aligned`.
-#' @param group Factor of n, or what makes one. With names it is matched by the specimens' names, as
-#'   is a data frame of one column of groups and one of the specimens (`id`, `specimen`, `file` and
-#'   the like, or row names); case, blanks and a file's extension aside. Without names it is taken
-#'   in the order of the specimens, with a message.
+#' @param group Factor of n, or a vector that can become one. Values with names are matched to the
+#'   specimens by name. So is a data frame of one column of groups and one of the specimens (`id`,
+#'   `specimen`, `file` and the like, or row names). Case, blanks and a file's extension are
+#'   ignored. Values without names are taken in the order of the specimens, with a message.
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
-#' @param components How many principal components: a whole number, or a share of the variance below 1. Never more than
-#'   n - groups - 1.
+#' @param components Number of principal components: a whole number, or a share of the variance
+#'   below 1. At most n - groups - 1 are used.
 #' @param seed Number that starts the random stream; the stream of the session is then left untouched. `NULL`: the
 #'   session's stream.
 #' @param tests Which: "size", "shape", "T2", "components", "points", "dispersion" (not with exchange within blocks).
 #' @param exact Most regroupings that are enumerated instead of drawn at random.
-#' @param permutations Orders to use in place of random ones: n x B matrix or list (as of `RRPP:::perm.index()`), each
-#'   an order
-#'   of the specimens that takes the place of the observed one.
-#' @param block Factor of n, or what makes one: specimens of one block are not independent of each other. With names,
-#'   matched by the specimens' names. `NULL`: all are.
+#' @param permutations Orders to use in place of random ones: n x B matrix or list (as of
+#'   `RRPP:::perm.index()`), each an order of the specimens that replaces the observed one.
+#' @param block Factor of n, or a vector that can become one: specimens of one block are not
+#'   independent of each other. Values with names are matched to the specimens by name. `NULL`: all
+#'   specimens are independent.
 #' @param equal_spread Whether the groups are taken to be equally spread, and their variances pooled.
 #' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none. Not used
 #'   with an `aligned`, which is aligned already.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `group_comparison`, a list:
 #'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of regroupings, the
-#'     observed one
-#'     among them, whose statistic is at least as great), `p_adjusted` (for the components of a level: by the greatest
-#'     statistic over them, which controls the family-wise error; else as `p_value`), `p_parametric` (under normality),
-#'     `share`
-#'     (of variance: between groups for "mean shape", of the components used for the rest);
+#'     observed one among them, whose statistic is at least as great), `p_adjusted` (for the
+#'     components of a level: by the greatest statistic over them, which controls the family-wise
+#'     error; else as `p_value`), `p_parametric` (under normality), `share` (of variance: between
+#'     groups for "mean shape", of the components used for the rest);
 #'   * `points`: data frame, a row a level and point: `level`, `point`, `x`, `y`, `z` (the mean, of mean size), `distance`
 #'     (second mean less first along the normal, outward positive; NA without triangles), `displacement` (between the
 #'     means), in the unit of the meshes; `statistic`, `p_value`, `p_adjusted` (by the greatest statistic over all points of

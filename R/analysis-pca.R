@@ -2,6 +2,8 @@
 
 #' Principal components of shape
 #'
+#' Finds the directions in which aligned shapes vary most, with the scores of the specimens on them.
+#'
 #' @param aligned An `aligned`, as [align()] returns it.
 #' @param weights Weights of points, as in [align()]: by default those of the alignment. With "area" variance is that per
 #'   area of the surface, whether its points are dense or sparse.

@@ -2,17 +2,19 @@
 
 #' Repeatability of measurements, curve by curve
 #'
-#' From specimens that were measured more than once, perhaps by several observers: the variance between specimens, between
-#' observers, of how observers differ from specimen to specimen, and of the rest, by curve and by point; and the intra-class
-#' correlation, the share of the variance that is due to the specimens.
+#' Needs specimens that were measured more than once, perhaps by several observers. Estimates, by
+#' curve and by point, the variance between specimens, between observers, of their interaction (how
+#' observers differ from specimen to specimen), and of the rest. The intra-class correlation is the
+#' share of the variance that is due to the specimens.
 #'
 #' The variances are those of the random-effects model point = specimen + observer + specimen:observer + residual, in each
 #' co-ordinate by itself, then summed over the three co-ordinates and averaged over the points of a curve. They are
 #' estimated from the sequential sums of squares (Henderson's method 3, also where numbers of repeats differ; where they
-#' are equal, those of the analysis of variance); an estimate below 0 counts as 0. The interaction is in the model
-#' where some observer measured some specimen twice, else it is part of the residual. Each observer's own places count
-#' as error: the correlation is that of agreement, ICC(1) without and ICC(2, 1) with observers. Of one specimen that was
-#' measured several times there is the error only: what concerns the specimens is NA.
+#' are equal, those of the analysis of variance). An estimate below 0 counts as 0. The interaction
+#' is in the model if some observer measured some specimen twice, else it is part of the residual.
+#' Differences between observers count as error: the correlation is that of agreement, ICC(1)
+#' without and ICC(2, 1) with observers. One specimen that was measured several times gives the
+#' error only; the variance of specimens and the correlation are NA.
 #'
 #' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
 #'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".

@@ -2,10 +2,10 @@
 
 #' Shape index and curvedness
 #'
-#' The shape index says what kind of shape a place has, whatever its size, on a scale from
+#' The shape index is the kind of shape of a place, whatever its size, on a scale from
 #' -1 (a cup) over -0.5 (a rut, or valley), 0 (a symmetric saddle) and 0.5 (a ridge) to 1 (a cap):
 #' \deqn{S = \frac{2}{\pi} \arctan \frac{k_1 + k_2}{k_2 - k_1}, \quad k_1 \ge k_2.}{S = (2/pi) atan((k1 + k2)/(k2 - k1)), k1 >= k2.}
-#' The curvedness \eqn{\sqrt{(k_1^2 + k_2^2)/2}}{sqrt((k1^2 + k2^2)/2)} says how much of it there is.
+#' The curvedness \eqn{\sqrt{(k_1^2 + k_2^2)/2}}{sqrt((k1^2 + k2^2)/2)} is the amount of curvature.
 #'
 #' The formula as printed in the paper (see [crestline-package]) runs over \[0, 1\], where its text has cups
 #' at -1 and caps at 1; this is the text's.

@@ -31,11 +31,11 @@ normal_curvature <- function(curved, at, direction) {
   (curved$k1[at] * along1^2 + curved$k2[at] * along2^2) / (along1^2 + along2^2)
 }
 
-#' A region where strength does not count
+#' A region where curvature is ignored
 #'
-#' Features near the sought one may be sharper: the rim of the orbit beside the
-#' brow. A region about the axis between two landmarks is kept away from: strength
-#' counts as 0 inside the cylinder about the axis.
+#' A feature near the one you want may be sharper, such as the rim of the orbit
+#' beside the brow. Curvature is ignored inside a cylinder whose axis joins two
+#' landmarks.
 #'
 #' @param from,to Names of landmarks, or positions.
 #' @param radius Radius of the cylinder, as a share of the distance between them.
@@ -63,9 +63,10 @@ print.keep_away <- function(x, ...) {
 
 #' A side to keep to
 #'
-#' Of two features that lie on both sides of a line between two landmarks, such as the ridges of the lower and of the
-#' upper eyelid, one is meant: strength counts as 0 on the other side. The border is the plane through both landmarks that is
-#' square to the plane of all three.
+#' Use this when two similar features run on either side of a line between two landmarks and you
+#' want only one, such as the ridge of the lower or of the upper eyelid. Curvature on the other side
+#' is ignored. The dividing plane contains the two landmarks and is perpendicular to the plane
+#' through all three.
 #'
 #' @param from,to Names of landmarks, or positions, that the line joins.
 #' @param towards Name of a landmark, or a position, on the side that counts.

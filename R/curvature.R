@@ -14,8 +14,8 @@
 #' where \eqn{\sigma^2 V} is the covariance of a fit's Hessian.
 #'
 #' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
-#' @param radius Radius of the ball, in the unit of the mesh; 10 mm for broad
-#'   features of a face, 5 mm for lips, nose and eyes.
+#' @param radius Radius of the ball, in the unit of the mesh. On faces, 10 mm for broad
+#'   features (the paper: 10 mm) and 5 mm for lips, nose and eyes (our choice).
 #' @param order `"adaptive"` (nested fits up to order 4: most accurate), `"adaptive cubic"` (up to order 3:
 #'   smoother, the default of [ridge_curve()]), or a plain polynomial: `"quadratic"`, `"cubic"`,
 #'   `"quartic"`; or `"forced"`, the paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2}
@@ -23,7 +23,8 @@
 #' @param threads Number of threads.
 #' @param vertices Vertices to work at (indices or logical); all when `NULL`.
 #' @param shrinkage The factor c above, without unit; chosen on seven closed-form
-#'   surfaces with noise (bench/README.md has the figures for 2 to 6).
+#'   surfaces with 0.1 mm of noise. For values from 3 to 6 the error of k1 is 1.94 to 1.99 % of the
+#'   root mean square curvedness; on clean surfaces it is 0.023 to 0.025 %.
 #' @param points_per_term Fewest neighbours for each coefficient of a fit: with
 #'   fewer, the order steps down.
 #' @param one_sided A neighbourhood whose centroid lies further from the vertex
@@ -41,8 +42,9 @@
 #'   * `neighbours`: integer n, vertices in the ball;
 #'   * `reason`: character n, `NA` where fitted, else why not.
 #'
-#'   At vertices that were not asked for all are `NA`, and `reason` says so. Attributes `radius`, `order`, `key` and `id` (of
-#'   the mesh): what takes a curvature refuses that of another mesh.
+#'   At vertices that are not in `vertices` all are `NA`, and `reason` says so. Attributes are
+#'   `radius`, `order`, and the `key` and `id` of the mesh. Functions that take a curvature refuse
+#'   that of another mesh.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
 #'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 2.

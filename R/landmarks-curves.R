@@ -2,8 +2,9 @@
 
 #' Read curves from a landmark file, by name
 #'
-#' The curves of a file that [write_landmarks()] or other programs wrote. Where the format has no curves, points named
-#' "curve 1", "curve 2", ... are those of a curve, as `write_landmarks()` writes a shape's.
+#' Reads the curves of a file that [write_landmarks()] or another program wrote. `write_landmarks()`
+#' stores a shape's curves as points where the format has no curves. There, points named "curve 1",
+#' "curve 2", ... make up a curve.
 #'
 #' @param file Path of the file, see [read_landmarks()].
 #' @param curves Names of the curves that are wanted, in this order; NULL for all.

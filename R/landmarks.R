@@ -2,9 +2,9 @@
 
 #' Read and write landmarks and curves of points
 #'
-#' The format goes by the file's extension, in any case. Files are taken for UTF-8 or UTF-16, else
-#' Latin 1, and written in UTF-8, numbers with as many digits as give them back to the last bit.
-#' What is written is read back identically, except where the list below says otherwise.
+#' The file's extension, in upper or lower case, gives the format. Files are read as UTF-8 or
+#' UTF-16, else as Latin 1. They are written in UTF-8, with all digits of a number. Landmarks that
+#' are written are read back identically, except where the list below says otherwise.
 #'
 #' | extension | from | specimens in a file | curves |
 #' |---|---|---|---|
@@ -18,49 +18,56 @@
 #' | `.pp` | MeshLab | one | no; a shape's as points |
 #' | `.ckpt` | Checkpoint | one, read only | no |
 #'
-#' * `.csv`: commas, tabs, or semicolons (then with decimal points or commas) between; a header line; the name in a column `name`, `landmark` or `label` (otherwise the first column
-#'   that is not a number), the co-ordinates in `x`, `y`, `z`, in any order; or in `r`, `a`, `s` or
-#'   `l`, `p`, `s`, as 3D Slicer exports its lists (`defined` 0: missing). Rows with something in a
-#'   column `curve` are points of that curve, in the order of a column `point`, closed where a
-#'   column `closed` says TRUE. A column of specimens (`specimen`, `subject`, `file`, `scan`, ...;
-#'   `id` where landmarks repeat) makes a list of them. Other columns are ignored; a missing
-#'   landmark has NA or nothing. Fields are counted: a row with more or fewer than the header is
-#'   refused. What spreadsheets leave is taken off: a line `sep=;`, comments (#) above the header,
-#'   empty rows and columns, a separator at the end of all rows.
+#' * `.csv`: fields are separated by commas, tabs or semicolons; with semicolons, decimals may be
+#'   points or commas. There is a header line. The name is in a column `name`, `landmark` or
+#'   `label`, otherwise in the first column that is not a number. The co-ordinates are in `x`, `y`,
+#'   `z`, in any order; or in `r`, `a`, `s` or `l`, `p`, `s`, as 3D Slicer exports its lists
+#'   (`defined` 0: missing). A row with a name in a column `curve` is a point of that curve. A
+#'   column `point` gives the order of the points; a curve is closed where a column `closed` is
+#'   TRUE. A column of specimens (`specimen`, `subject`, `file`, `scan`, ...; `id` where landmarks
+#'   repeat) makes a list of them. Other columns are ignored. A missing landmark has NA or an empty
+#'   field. A row with more or fewer fields than the header is refused. Leftovers of spreadsheets
+#'   are ignored: a line `sep=;`, comments (#) above the header, empty rows and columns, a separator
+#'   at the end of all rows.
 #' * `.pts`: names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get
 #'   numbers, and closed ones are opened, with a warning.
-#' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. Names of landmarks and curves, which the format has
-#'   not, stand in `COMMENT=`. Specimens are named by `ID=`, else by `IMAGE=`, else numbered. Negative
-#'   co-ordinates are numbers, not missing.
-#' * `.nts`, `.dta`: the header's code is missing where the header says so, or where a point has it in
-#'   all its co-ordinates. Names of landmarks stand in a comment.
-#' * `.landmarkAscii`: sets of co-ordinates are specimens. Names stand among the parameters, missing
-#'   landmarks are NaN: not every program reads these.
-#' * `.fcsv`: points in another state than "defined" are missing; names are the labels, else the ids.
-#' * `.mrk.json`: all lists of the file, Fiducial as landmarks (the list's name before the label where two
-#'   lists share labels), Curve, ClosedCurve, Line and Angle as curves of control points. Lists of other
-#'   types are left out with a warning. Numbers stay in the file's unit.
+#' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. The format has no names of landmarks and
+#'   curves, so they are stored in `COMMENT=` lines. Specimens are named by `ID=`, else by `IMAGE=`,
+#'   else numbered. Negative co-ordinates are numbers, not missing.
+#' * `.nts`, `.dta`: the header's code for missing values counts where the header announces missing
+#'   values, or where a point has the code in all its co-ordinates. Names of landmarks are stored in
+#'   a comment.
+#' * `.landmarkAscii`: sets of co-ordinates are specimens. Names are stored among the parameters,
+#'   and missing landmarks are NaN. Not every program reads these.
+#' * `.fcsv`: points in another state than "defined" are missing. Names are the labels, else the
+#'   ids.
+#' * `.mrk.json`: all lists of the file are read. Fiducial lists are landmarks; where two lists
+#'   share labels, the list's name comes before the label. Curve, ClosedCurve, Line and Angle are
+#'   curves of control points. Lists of other types are left out with a warning. Numbers stay in the
+#'   file's unit.
 #' * `.pp`: a point that is not active is missing.
-#' * `.ckpt`: single points, in the file's unit; points of curves and patches are left out with a
-#'   warning.
+#' * `.ckpt`: single points are read, in the file's unit. Points of curves and patches are left out
+#'   with a warning.
 #'
-#' Of a specimen or shape the provenance (see [summary.specimen()]) is written too, where readers of
-#' other programs pass over it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a
-#' field `provenance` of `.mrk.json`. In `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and `.pp` it would
-#' disturb some, and is left out.
+#' The provenance of a specimen or shape (see [summary.specimen()]) is written too, where other
+#' programs ignore it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a field
+#' `provenance` of `.mrk.json`. It is left out of `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and
+#' `.pp`, where it would disturb some programs.
 #'
-#' A folder is read as the landmark files in it, by their names. Two files of one specimen must
-#' agree. Empty and compressed files, pipes and devices are refused before they are opened.
+#' All landmark files of a folder are read. A specimen has the name of its file, or the name in the
+#' file where that has several specimens. Two files of one specimen must agree. Empty and compressed
+#' files, pipes and devices are refused before they are opened.
 #'
-#' Of a `shape` landmarks and curves are written, with what is missing of them as missing points. Where the format
-#' has no curves their points are landmarks, named "curve point" as in [coords()], with a warning (`curves = list()` leaves
-#' them out). [read_curves()] gives curves back by name from either.
+#' Of a `shape` the landmarks and curves are written, their missing points as missing. Where the
+#' format has no curves, their points are written as landmarks, named "curve point" as in
+#' [coords()], with a warning (`curves = list()` leaves them out). [read_curves()] reads curves by
+#' name from either.
 #'
 #' @param file Path of the file; for reading also of a folder of landmark files.
 #' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the
-#'   frame in which the co-ordinates are wanted. "LPS" (left, posterior, superior) is that of the
-#'   meshes Slicer saves unless told otherwise, "RAS" that of its scene, "file" leaves the numbers as
-#'   they stand. `write_landmarks()`: the frame that `x` is in, which the file will name.
+#'   frame that you want the co-ordinates in. By default Slicer saves meshes in "LPS" (left,
+#'   posterior, superior). Its scene is in "RAS". "file" leaves the numbers as they are.
+#'   `write_landmarks()`: the frame that `x` is in, which the file will name.
 #' @param missing Number that stands for a missing co-ordinate in `.pts`: a point that has it three
 #'   times is missing.
 #' @param scale Whether the co-ordinates of a `.tps` file are multiplied by `SCALE=`. A file in which

@@ -6,7 +6,7 @@
 #' The diagonal of the bounding box is that of all that was scanned: one vertex far away, a platform
 #' or a stand make every share of it too large. This is the distance from the middle within which
 #' half of the surface lies, of the pieces that carry the landmarks, times `diagonal`, but no more
-#' than the diagonal of their box. On 43 face scans (`bench/doubt.md`) it is the diagonal of the
+#' than the diagonal of their box. On 43 face scans it is the diagonal of the
 #' bounding box to within 10 per cent.
 #'
 #' @param mesh A checked mesh.

@@ -2,8 +2,9 @@
 
 #' Write a mesh, or the surface of a shape
 #'
-#' A PLY, OBJ or STL file that other programs open and [read_specimen()] reads back: the same vertices in the same order,
-#' to the last bit, the same triangles and colours. STL is the exception, see below.
+#' Writes a PLY, OBJ or STL file for other programs. [read_specimen()] reads it back with the same
+#' vertices in the same order, to the last bit, and the same triangles and colours. STL is the
+#' exception, see below.
 #'
 #' | extension | numbers | colours of vertices | values of vertices |
 #' |---|---|---|---|
@@ -16,7 +17,6 @@
 #'   points between them, since the format has no names of points: `rownames(coords(shape, "surface"))[row]` are these.
 #' * `.obj`: text, colours as numbers from 0 to 1.
 #' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the triangles.
-#'
 #' * `.ply` and `.obj` of a specimen or a shape have its provenance (see [summary.specimen()]) in comment lines; `.stl` has no
 #'   place for it.
 #'

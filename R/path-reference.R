@@ -1,20 +1,22 @@
 #' Reference path: the plane cut that gathers most curvature
 #'
-#' Of all plane cuts between two points, at every angle and both ways round, the
-#' one with the greatest length-weighted mean strength of the sought curvature,
-#' among those not much longer than the shortest; or, for `type = "plane"`, the
-#' shortest cut. A coarse grid of angles is followed by a finer one about each
-#' local optimum.
+#' Finds a path between two points along which the sought curvature is strong. It is
+#' chosen from all plane cuts, at every angle and both ways round, that are not much
+#' longer than the shortest. The cut with the greatest length-weighted mean strength
+#' is taken; for `type = "plane"`, the shortest cut. A coarse grid of angles is tried
+#' first, then a finer one about each local optimum.
 #'
-#' The strength here is that of the principal curvature: a valley's positive
-#' `k1` where the shape index is negative, a ridge's `-k2` where it is positive, 0 elsewhere.
+#' The strength is that of the principal curvature. For a valley it is `k1` where k1 is
+#' positive and the shape index negative. For a ridge it is `-k2` where k2 is negative and
+#' the shape index positive. Elsewhere it is 0.
 #'
 #' @param specimen A [specimen()] (or a `mesh3d` with positions for `from` and `to`).
 #' @inheritParams plane_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh; that of `curvature` where it is given; not
 #'   needed for `"plane"`.
-#' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where strength counts as 0: one, or a list.
+#' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where curvature is
+#'   ignored: one, or a list.
 #' @param curvature A `curvature` of the mesh at this radius, where it is already
 #'   known; otherwise it is estimated where the cuts may pass.
 #' @param reach Cuts stay within this share of the distance between the landmarks

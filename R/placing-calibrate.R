@@ -2,8 +2,9 @@
 
 #' Calibrate a template by a few scans with landmarks
 #'
-#' Carries the user's own placing on a few scans back to the template: most of the error of [find_landmarks()] is where
-#' the template's maker puts a point. Three scans do most of it. Landmarks that the template does not have are added;
+#' Adapts the template to your own landmark definitions, from a few scans that you have marked. Most
+#' of the error of [find_landmarks()] is a difference of definition. Three scans remove most of it.
+#' Landmarks that the template does not have are added;
 #' those of a symmetric template stay symmetric.
 #'
 #' @param template A [landmark_template()], or a [specimen()] with landmarks.
@@ -14,7 +15,7 @@
 #'   have it), `moved` (how far on the template), `spread` (RMS of what is left, over the specimens), in the template's
 #'   unit.
 #' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the template.
-#' @references The paper, section 7.
+#' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [find_landmarks()]
 #' @section Warnings: of class `crestline_unused_landmarks`, as [fit_shape()].
 #' @examples

@@ -2,8 +2,9 @@
 
 #' Check found landmarks, or refuse the specimen
 #'
-#' Whatever is measured from doubtful landmarks looks as sound as the rest, so that they are better refused: by the
-#' specimen's name, with a picture of where they were put. [fit_shapes()] does so with meshes that come without landmarks.
+#' Measurements from wrong landmarks look normal. This function stops with an error that names the
+#' specimen, and saves a picture of its landmarks if `picture` asks for one. [fit_shapes()] calls it
+#' for meshes that come without landmarks.
 #' `plot_placing()` draws the picture: found and placed landmarks in green, doubtful ones in red, predicted ones, where they lie on
 #' the scan, in blue.
 #'

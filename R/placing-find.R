@@ -2,10 +2,12 @@
 
 #' Find the landmarks of a raw scan
 #'
-#' The scan is brought to the template's unit (a power of ten), the template is laid on it from its strongest caps and
-#' cups in many turns and then bent onto it, by nearest points in place and curvature; its landmarks go along, each to the
-#' closest point of the mesh. The answer does not depend on the scan's pose, nor on which way its triangles face, and
-#' there may be more on it than the object, or parts of that missing.
+#' Places the landmarks of a template on a scan. The scan is brought to the template's unit (a power
+#' of ten). The template is laid on the scan by its strongest caps and cups, in many turns. Then it
+#' is bent onto the scan, by nearest points in place and curvature. Its landmarks go along, each to
+#' the closest point of the mesh. The result does not depend on the scan's pose, nor on which way
+#' its triangles face. The scan may show more than the object, or lack parts of it.
+#' [crestline-package] has a glossary.
 #'
 #' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
 #' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by default that of the
@@ -16,8 +18,9 @@
 #'   to each other, which is wrong where the scan is three times as large as the object, or a third of it.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
-#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (the template says that the
-#'     surface tells nothing: placed by the others, perhaps off the mesh) or "absent" (the scan has no surface there);
+#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (so marked
+#'     in the template: placed by the positions of the others, perhaps off the mesh) or "absent"
+#'     (the scan has no surface there);
 #'     `confidence`, from 0 to 1, doubtful below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with
 #'     a, b and c the settings `moved`, `off` and `vague`, times (1 - score) / (1 - `poor`) where the score is poor;
 #'     `moved`, distance between the answers with and without curvature; `sd`, standard deviation that is added by what
@@ -31,9 +34,10 @@
 #' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score
 #'   above the setting `refuse`).
 #' @section Warnings: of class `crestline_doubtful_placing`, where most landmarks have little confidence (settings `low`,
-#'   `wrong`): most likely the scan is not the object, or not whole enough. [quality()] then grades nothing green. A single
-#'   landmark with little confidence is told by `print()`, and graded amber with the curves that end there.
-#' @references The paper, section 7.
+#'   `wrong`): most likely the scan is not the object, or not whole enough. [quality()] then grades
+#'   nothing green. `print()` names a single landmark with little confidence. [quality()] grades it,
+#'   and the curves that end there, amber.
+#' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{

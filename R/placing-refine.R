@@ -2,16 +2,18 @@
 
 #' Landmarks beside the places that their definitions say
 #'
-#' Curves inform landmarks, too: a landmark may be where two curves cross, where one turns most or ends, or the
-#' strongest cap or cup. Where the scheme has such a definition, the place that it says near the landmark is found, and
-#' how far the landmark would move; on request it is moved there. A definition takes nothing from the landmark but
-#' where the search begins, so that two people who put it a little apart are brought to the same place.
+#' Compares each landmark with the position that its definition by curvature gives. A definition is
+#' the crossing of two curves, the place where a curve turns most or ends, the strongest cap or cup,
+#' or an extreme of a profile. The search begins at the landmark and takes nothing else from it. So
+#' two people who put it a little apart get the same place. The value has how far each landmark
+#' would move. With `move` it is moved there.
 #'
-#' It is a choice, and off by default: where people put a landmark is often not where curvature has its extreme. On
-#' faces, most definitions of [face_scheme()] lie 0.2 to 3 mm from where people put the points (`bench/README.md`); a
-#' landmark that was placed with care is moved away from where it was meant to be, the same way in every specimen. As a
-#' flag it serves both: a landmark much farther from its defined place than those of other specimens was probably
-#' misplaced.
+#' Moving is a choice, and off by default. People often put a landmark where curvature has no
+#' extreme. On faces, most definitions of [face_scheme()] lie 0.2 to 3 mm from where people put the
+#' points: `vignette("without-landmarks", "crestline")` has the figures. Moving takes a landmark
+#' that was placed with care away from where it was meant to be, the same way in every specimen. The
+#' distance also serves as a flag: a landmark much farther from its defined place than those of
+#' other specimens was probably misplaced.
 #'
 #' Landmarks whose definitions build on others (the mirror plane of pairs, the ends of a curve) are found from the
 #' defined places of these, until none changes.
@@ -40,7 +42,8 @@
 #'   `landmarks` are moved, and their places in `placing`, where it has that: what was doubted before still is.
 #' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any of their
 #'   landmarks, `move` that names others.
-#' @references The paper, section 7.
+#' @references The paper, sections 1 and 7, proposes crossings of curves and places of extreme
+#'   geodesic curvature. Ends of curves, caps, cups and extremes of a profile are added here.
 #' @seealso [curve_scheme()], [find_landmarks()]
 #' @examples
 #' data(humface, package = "Rvcg")

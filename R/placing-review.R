@@ -2,15 +2,17 @@
 
 #' Review landmarks, or place them, by hand
 #'
-#' Opens a page in the browser (package shiny): the specimen that turns, its landmarks and the curves of the scheme between
-#' them. Choose a landmark, in the list or by a click on its ball; a click on the surface puts it there, exactly on the mesh,
-#' and the curves that hang on it are fitted anew at once. Drag turns, the wheel comes nearer, the right button shifts.
+#' Opens a page in the browser (package shiny). It shows the turning specimen, its landmarks, and
+#' the curves of the scheme between them. Choose a landmark in the list or by a click on its ball. A
+#' click on the surface puts it there, exactly on the mesh. The curves that end on it are fitted
+#' again at once. Drag to turn, use the wheel to zoom, and the right button to shift.
 #'
-#' `review_landmarks()` begins with the landmarks of the specimen. Those that [find_landmarks()] is not sure of are
-#' red, and chosen one after the other: move each, say that it is right, or that it is not on this scan. Green are
-#' found, blue predicted, violet placed ones, yellow is the chosen one. `place_landmarks()` begins without any, and
-#' names and describes the next one of the scheme; names that end in L belong to the subject's own left. A specimen
-#' that has some of them is gone on with by `review_landmarks()`.
+#' `review_landmarks()` begins with the landmarks of the specimen. Those in which [find_landmarks()]
+#' has little confidence are red, and are chosen one after the other: move each, confirm it, or mark
+#' it as not on this scan. Found landmarks are green, predicted ones blue, placed ones violet, and
+#' the chosen one is yellow. `place_landmarks()` begins without any, and names and describes the
+#' next landmark of the scheme. Names that end in L belong to the subject's own left. Use
+#' `review_landmarks()` to continue with a specimen that has some landmarks.
 #'
 #' @param specimen A [specimen()], with landmarks that were found or given.
 #' @param scheme A [curve_scheme()]: its landmarks, with their words `name` and `where`, and its curves; NULL: the landmarks
@@ -35,7 +37,7 @@
 #'   of class `crestline_mirrored` tells where left and right look mirrored, one of class `crestline_exchanged` which landmarks
 #'   look exchanged.
 #' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
-#' @references The paper, section 7.
+#' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)
 #' data(humface, package = "Rvcg")

@@ -5,11 +5,12 @@
 #' `landmark_template()` makes one of any specimen with landmarks; `face_template()` is the package's own, for faces.
 #'
 #' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and `humface` (S. Schlager,
-#' GPL), made symmetric; `data-raw/face-template.R` makes it, and says how its landmarks were placed.
+#' GPL), made symmetric; `data-raw/face-template.R` of the sources makes it, and describes how its
+#' landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
-#' @param predicted Names of landmarks that the surface says nothing about, such as those at ears that most scans lack:
-#'   they are not found, but placed by the others.
+#' @param predicted Names of landmarks for which the surface has no evidence, such as those at ears
+#'   that most scans lack. They are not searched for, but placed by the positions of the others.
 #' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of a face, are multiplied
 #'   by; the default makes a template's diagonal 280 of them, as that of a face is.
 #' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are partners, and the

@@ -2,9 +2,9 @@
 
 #' Write a page with the turning specimen and its curves
 #'
-#' One HTML file that needs no other, or a file and a folder: the surface coloured by shape index, the
-#' curves with their bands, of a shape also the triangles of its surface, buttons that hide each of these, the colour
-#' scale, and a table.
+#' Writes one HTML file that needs no other, or a file and a folder. The page has the surface
+#' coloured by shape index, the curves with their bands, the colour scale and a table; of a shape
+#' also the triangles of its surface. Buttons hide each layer of the scene.
 #'
 #' @param file Where to write, ending in ".html".
 #' @param specimen A `specimen`.

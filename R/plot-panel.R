@@ -2,9 +2,10 @@
 
 #' Plot the plane in which a curve was found
 #'
-#' The smoothed strength over arc length s along the reference path and signed distance d from it,
-#' with contours, the vertices it was smoothed from, the reference path (d = 0, dashed) and the
-#' ridge found (solid), with a band of two standard errors: Fig. 3 of the paper.
+#' Draws the smoothed strength over arc length s along the reference path and signed distance d from
+#' it, with contours. It also shows the vertices from which it was smoothed, the reference path (d =
+#' 0, dashed), and the ridge found (solid) with a band of two standard errors: the right panel of
+#' Fig. 3 of the paper, which has no band.
 #'
 #' @param x A `curve`, as [ridge_curve()] returns it.
 #' @param points Whether to draw the vertices of the window.

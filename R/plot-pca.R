@@ -2,7 +2,7 @@
 
 #' Plot principal components of shape
 #'
-#' The scores of the specimens on two components, or the shapes at both ends of one.
+#' Draws the scores of the specimens on two components, or the shapes at both ends of one.
 #'
 #' @param x A `shape_pca`.
 #' @param what "scores" or "shapes": the surfaces at `-sd` and `sd` standard deviations, side by side ("picture").
@@ -54,8 +54,8 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 
 #' Write a page with a slider for every principal component
 #'
-#' One HTML file that needs no other: for each component the mean surface, which turns, and a slider that moves it along
-#' the component.
+#' Writes one HTML file that needs no other. For each component it shows the turning mean surface,
+#' and a slider that moves it along the component.
 #'
 #' @param file Where to write, ending in ".html".
 #' @param pca A `shape_pca` of a level with a surface.

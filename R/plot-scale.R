@@ -2,8 +2,9 @@
 
 #' Plot the scale of the shape index
 #'
-#' Nine little surfaces, one for each of Koenderink and van Doorn's categories, above the continuous
-#' scale of colours with their names: Fig. 1 of the paper. The surfaces are of equal curvedness, seen from outside.
+#' Draws nine little surfaces, one for each of Koenderink and van Doorn's categories, above the
+#' continuous scale of colours with their names: the upper part of Fig. 1 of the paper. The surfaces
+#' are of equal curvedness, seen from outside.
 #'
 #' @param curvedness Curvedness of the little surfaces times half their side: how bent they are.
 #' @param spacing Distance between the surfaces' centres, in halves of their side.

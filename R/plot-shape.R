@@ -2,8 +2,8 @@
 
 #' Plot a shape
 #'
-#' The curves and landmarks of a shape on its specimen, with bands of two standard errors at their points, or the points
-#' of its patches as a surface with the edges of its triangles.
+#' Draws the curves and landmarks of a shape on its specimen, with bands of two standard errors at
+#' their points. Or draws the points of its patches as a surface with the edges of its triangles.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.

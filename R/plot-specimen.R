@@ -2,7 +2,8 @@
 
 #' Plot a specimen
 #'
-#' The surface in its natural colours, plain, or coloured by shape index or curvature, with its landmarks.
+#' Draws the surface in its natural colours, plain, or coloured by shape index or curvature, with
+#' its landmarks.
 #'
 #' @param x A `specimen`.
 #' @param colour What the colours show: "natural" (the colours of the scan, plain where it has none), "shape index" (see

@@ -2,14 +2,15 @@
 
 #' Write a page with the quality of measured specimens
 #'
-#' One HTML file that needs no other and no network: how many parts are green, amber and red in each specimen; for several
-#' specimens a matrix of them by their curves (patches, landmarks); pictures of the specimens with curves and points in
-#' the colours of their grades; and the table of [quality()], to be sorted and filtered, with the reasons.
+#' Writes one HTML file that needs no other file and no network. It has the numbers of green, amber
+#' and red parts of each specimen; for several specimens a matrix of specimens by curves (patches,
+#' landmarks); pictures of the specimens, with curves and points in the colours of their grades; and
+#' the table of [quality()], to sort and filter, with the reasons.
 #'
 #' @inheritParams quality
 #' @param file Where to write, ending in ".html".
 #' @param specimens The `specimen`s that the shapes were measured on, for the pictures: one, or a list in any order
-#'   (they are told by their `id`). Shapes without one are drawn as their own surface.
+#'   (matched by their `id`). Shapes without one are drawn as their own surface.
 #' @param title Heading of the page.
 #' @param pictures How many specimens are drawn: the worst first.
 #' @param size Width and height of a specimen's picture in pixels.

@@ -1,43 +1,53 @@
 #' Ridge or valley curve between two landmarks
 #'
-#' Reference path, (s, d) co-ordinates, curvature surface, ridge line and lift in
-#' one: see [reference_path()], [path_coordinates()], [curvature_surface()],
-#' [ridge_line()] and [lift()] for the stages, which are all kept in the value.
+#' Finds the curve of strongest curvature between two landmarks, beside a first path that joins
+#' them. It has five stages: the reference path ([reference_path()]), co-ordinates (s, d) along and
+#' across it ([path_coordinates()]), a smooth surface of curvature over them
+#' ([curvature_surface()]), its ridge line ([ridge_line()]), and the way back to the mesh
+#' ([lift()]). The value keeps the result of each stage. [crestline-package] has a glossary.
 #'
 #' @inheritParams reference_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
-#' @param radius Radius of the curvature estimates, in the unit of the mesh (faces: 10 mm for broad
-#'   features, 5 mm for lips, nose and eyes); not needed for `"plane"`.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for
+#'   `"plane"`. On faces, 10 mm for broad features (the paper: 10 mm) and 5 mm for lips, nose and
+#'   eyes (our choice).
 #' @param width How far the curve may wander from the reference path, in the unit
 #'   of the mesh; the window is no wider than `settings$window` radii. Not needed for `"plane"`.
 #' @param n Number of points, both ends counted, at equal chords.
 #' @param settings [ridge_settings()].
-#' @param passes With 2, the curve serves as reference path of a second fit: better on
-#'   clean data, no better on noisy data.
-#' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), where it is
-#'   known; otherwise it is estimated where the curve may lie.
-#' @param trust Where the reference path and curvature are believed: from and to which share of the path's length. From there to
-#'   the landmarks the path is the shortest cut, and strength counts as 0: for a feature that fades, or a crumpled
-#'   mesh, near a landmark. Of ridges and valleys.
+#' @param passes With 2, the curve serves as reference path of a second fit. That is better on clean
+#'   data, and no better on noisy data.
+#' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), if you
+#'   have it. `NULL`: curvature is estimated where the curve may lie.
+#' @param trust Two shares of the path's length, between which the reference path and curvature are
+#'   believed. From there to the landmarks the path is the shortest cut, and curvature is ignored.
+#'   Use it where a feature fades, or the mesh is crumpled, near a landmark. For ridges and valleys
+#'   only.
 #' @return Object of class `curve`, a list:
-#'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance from the reference path; NA where no ridge was found and the points lie on the reference path),
-#'     `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`; lengths in the unit of the mesh; `as.data.frame()` gives it;
+#'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d`
+#'     (signed distance from the reference path; NA where no ridge was found and the points lie on
+#'     the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`;
+#'     lengths in the unit of the mesh; `as.data.frame()` gives it;
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
 #'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane curve but the first);
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
-#'   * `determined`: whether curvature determines the curve: `FALSE` when the median
-#'     standard error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, the curvature is fainter than `settings$faint`, the line cannot be lifted onto the mesh, or there is no such curvature by the path (`reason` says why); then the
-#'     plane path (`reference`, or `type = "plane"`) is the safer choice; `NA` for plane curves and without standard errors;
+#'   * `determined`: whether curvature determines the curve. It is `FALSE` when the median standard
+#'     error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, the
+#'     curvature is fainter than `settings$faint`, the line cannot be lifted onto the mesh, or there
+#'     is no such curvature by the path; `reason` gives the cause. The plane path (`reference`, or
+#'     `type = "plane"`) is then the safer choice. `NA` for plane curves and without standard
+#'     errors;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: of the mesh, so that what draws it refuses another.
 #' @section Standard error: the standard deviation of the curve's position across
 #'   itself if the mesh had been scanned again with independent noise at each
-#'   vertex. On simulated ridges with such noise and a radius of five spacings, at most the feature's own radius of curvature, the
-#'   crest lies within two standard errors at 94 % of the places (91 to 98 % by noise and sharpness). A wider radius leaves
-#'   a bias that the standard error does not know of (radius of seven and ten spacings: 75 to 94 %), and noise
-#'   that is smooth along the mesh makes it far too small (over one to three spacings: 50 to 63 %). Neither can be seen
-#'   from one mesh. `vignette("how-good", "crestline")` has the tables.
+#'   vertex. The figures are of simulated ridges with such noise. With a radius of five spacings, at
+#'   most the feature's own radius of curvature, the crest lies within two standard errors at 94 %
+#'   of the places (91 to 98 % by noise and sharpness). A wider radius leaves a bias that the
+#'   standard error does not include (radius of seven and ten spacings: 75 to 94 %). Noise that is
+#'   smooth along the mesh makes the standard error far too small (over one to three spacings: 50 to
+#'   63 %). Neither can be seen from one mesh. `vignette("how-good", "crestline")` has the tables.
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
 #'   determined by curvature; and that of [reference_path()].

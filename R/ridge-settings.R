@@ -31,7 +31,7 @@
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]),
-#'   sections 3.2, 3.3 and 5.2 (12 degrees of freedom, lambda = 0.5).
+#'   section 3.2 (12 degrees of freedom, lambda = 0.5).
 #' @examples
 #' ridge_settings(df = 25)
 #' ridge_settings("paper")

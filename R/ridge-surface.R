@@ -1,8 +1,8 @@
 #' Smooth surface of curvature strength over arc length and distance
 #'
-#' A tensor product of cubic B-splines with second-order difference penalties,
-#' fitted to the strength at the vertices of a window, with a fixed number of
-#' equivalent degrees of freedom.
+#' Fits a smooth surface to the strength at the vertices of a window. It is a tensor
+#' product of cubic B-splines with second-order difference penalties and a fixed
+#' number of equivalent degrees of freedom.
 #'
 #' @param coordinates [path_coordinates()] of the window.
 #' @param strength Strength at each of its rows (1 / unit), `NA` to leave a vertex out.

@@ -3,54 +3,56 @@
 
 #' Measure many specimens
 #'
-#' [fit_shape()] for every specimen, over the package future: the plan is yours,
-#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, a queue
-#' through future.batchtools; without one they are measured one after the other. What goes wrong
-#' with one specimen costs only that one, see [failures()]; what its reading, finding and fitting
-#' warn of is kept with its shape, see [warnings_of()], and printed.
+#' Calls [fit_shape()] for every specimen, in parallel by the package future. You choose the plan:
+#' `future::plan("multisession", workers = 4)` on one machine, `"cluster"` on several, or a queue
+#' through future.batchtools. Without a plan, specimens are measured one after the other. A specimen
+#' that fails does not stop the others, see [failures()]. Warnings are kept with each shape, see
+#' [warnings_of()], and printed. [crestline-package] has a glossary.
 #'
-#' With `dir` every result is written there as it comes, whole or not at all, and read only when
-#' asked for, so that memory does not grow with the number of specimens. A run that was cut short
-#' goes on where it was: a specimen is not measured again as long as `dir` has a result of the same
-#' mesh, landmarks, scheme, settings, template and `reading`, and the package gives the same answers
-#' as then. The names of files do not count: a scan that was renamed is not measured again, and two
-#' scans of one name in different folders never answer for each other. Failures are tried again.
+#' With `dir` every result is written there as soon as it is ready, and read only when it is asked
+#' for. So memory does not grow with the number of specimens. A result is written whole or not at
+#' all. A run that was interrupted continues where it stopped. A specimen is not measured again if
+#' `dir` has a result of the same mesh, landmarks, scheme, settings, template and `reading`, made by
+#' a version of the package that gives the same answers. File names do not matter: a scan that was
+#' renamed is not measured again, and two scans of one name in different folders are never taken for
+#' each other. Failures are tried again.
 #'
-#' A result's file has a checksum, which is compared before it is read: what is damaged or cut short
-#' is measured again. Several runs may share a folder. A run deletes no file but its own unfinished
-#' ones; those of a run that was killed (`part-*.tmp`) stay, never count, and may be deleted.
+#' The file of a result has a checksum, which is compared before the file is read. A damaged or
+#' truncated result is measured again. Several runs may share a folder. A run deletes only its own
+#' unfinished files. Those of a run that was killed (`part-*.tmp`) stay, are never read, and may be
+#' deleted.
 #'
-#' A result that cannot be written, as on a full disk, or a worker that dies costs what it held:
-#' these specimens are tried once more, each alone, and are failures if it happens again.
+#' If a result cannot be written (a full disk) or a worker dies, its specimens are tried once more,
+#' each alone. They are failures if it happens again.
 #'
-#' Where no mesh comes with landmarks they are found by `template`, see [find_landmarks()]. A
-#' landmark with little confidence is left out: it costs the curves that end there, not the
-#' specimen. Where most of them have little confidence the specimen is refused, see
-#' [check_placing()], with a picture of them: in `dir`, or in R's temporary folder. `print()` and
-#' `summary()` tell of which specimens landmarks were found.
+#' If no mesh comes with landmarks, they are found by `template`, see [find_landmarks()]. A landmark
+#' with little confidence is left out, and with it the curves that end there. If most landmarks have
+#' little confidence, the specimen is refused, see [check_placing()], and a picture of them is saved
+#' in `dir`, or in R's temporary folder. `print()` and `summary()` show of which specimens landmarks
+#' were found.
 #'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file
 #'   is its name without the extension; where files share it, with as many folders as tell them
 #'   apart: "visit 1/anna", "visit 2/anna".
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
-#' @param landmarks With mesh files: `NULL`: the file beside each mesh with its name and an
-#'   extension of [read_landmarks()], in any case, where there is one; two that differ are a
-#'   failure. Or, told by the ids of the specimens: a landmark file for each, one file for all
-#'   (.tps, .nts, .csv with a column of specimens), a folder of landmark files, a list of k x 3
-#'   matrices by name, a k x 3 x n array with names.
+#' @param landmarks With mesh files: `NULL` takes the file beside each mesh that has its name and an
+#'   extension of [read_landmarks()], in upper or lower case, if there is one. Two such files that
+#'   differ are a failure. Otherwise one of these, matched by the ids of the specimens: a landmark
+#'   file for each, one file for all (.tps, .nts, .csv with a column of specimens), a folder of
+#'   landmark files, a list of k x 3 matrices by name, a k x 3 x n array with names.
 #' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()]
 #'   where the scheme's landmarks are those of the face, else none.
 #' @param doubtful Greatest share of found landmarks with little confidence that are used
 #'   nevertheless (and graded amber).
 #' @param ... Further arguments of [fit_shape()], the same for all.
-#' @param found Whether landmarks are found where a mesh has none. `NULL`: only where none of the
-#'   meshes has any, so that found landmarks are never mixed with placed ones unasked: a mesh
-#'   without them among others that have some is a failure.
+#' @param found Whether landmarks are found where a mesh has none. `NULL`: only if none of the
+#'   meshes has any. A mesh without landmarks among others that have some is then a failure, so that
+#'   found and placed landmarks are not mixed by accident.
 #' @param reading With mesh files: named list of further arguments of [read_specimen()],
 #'   [specimen()] and [read_landmarks()], such as `list(frame = "RAS", tolerance = 0.02)`.
-#' @param chunk Specimens a future: the number that one worker takes at a time; `NULL`: so many that
-#'   each worker is given two lots. Small lots cost more starts, large ones more waiting at the end.
+#' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
+#'   lots. Small lots cost more starts, large ones more waiting at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
 #' @return Object of class `shape_batch`: a list of shapes by id, `NULL` where a specimen failed.
 #'   With `dir`, a shape is read when it is asked for.
@@ -60,13 +62,13 @@
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
 #'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all
 #'     in memory at once;
-#'   * `print(x)` counts and tells failures and warnings, `summary(x)` is a data frame, a row a
+#'   * `print(x)` counts and lists failures and warnings, `summary(x)` is a data frame, a row a
 #'     specimen: `specimen`, `measured`, `landmarks` ("placed", "found"), `lacking` (number of the
 #'     scheme's landmarks that are missing), `warnings` (their number), `message` (why it failed).
-#' @section Errors: of class `crestline_error`: for arguments that serve no specimen. Those of
-#'   single specimens are kept, see [failures()].
-#' @section Warnings: of class `crestline_keeping_warning`, when a result's file that is asked for
-#'   is damaged, is gone, or has another result now: it is `NULL` then.
+#' @section Errors: of class `crestline_error`, for arguments that are wrong for every specimen.
+#'   Errors of single specimens are kept, see [failures()].
+#' @section Warnings: of class `crestline_keeping_warning`, when the file of a result is damaged, is
+#'   gone, or has another result now. The value is then `NULL`.
 #' @seealso [failures()], [warnings_of()], [homologise()]
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(4)

@@ -20,7 +20,8 @@
 #'   least sum, one of them.
 #' @section Errors: of class `crestline_error`: points that are no k x 3 matrix of numbers or lie on separate pieces of
 #'   the mesh; weights that are negative, all 0, or of another number.
-#' @references The paper, section 3. Novotni and Klein (2002) Computing geodesic distances on triangular meshes,
+#' @references The paper, section 3, names it as an example; neither its curves nor ours use it.
+#'   Novotni and Klein (2002) Computing geodesic distances on triangular meshes,
 #'   *Journal of WSCG* 10, 341-347.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)

@@ -2,26 +2,31 @@
 
 #' Make the shapes of a sample homologous
 #'
-#' Slides all shapes against a template, takes their Procrustes mean as the next template, and repeats until the mean
-#' stands still; then the patches. So the answer does not depend on the specimen it began with.
+#' Slides the curve points of all shapes against a template, and takes the shapes' Procrustes mean
+#' as the next template. This is repeated until the mean no longer moves. Then the points of the
+#' patches are slid. The result therefore does not depend on the first template. [crestline-package]
+#' has a glossary.
 #'
-#' Sliding all points of a curve the same way in every specimen changes next to nothing in the energies, so the mean
-#' would wander along its curves for ever. The gauge is therefore fixed: for the mean, every curve is re-parametrised
-#' such that, over the sample, its points stand at equal shares of arc length. Points of patches have the mean of the
-#' cuts between the slid curves as their template.
+#' Sliding all points of a curve the same way in every specimen hardly changes the bending energies.
+#' Without a constraint the mean could drift along its curves. In every round we therefore space the
+#' points of the mean curves at equal shares of arc length, averaged over the sample. The template
+#' of a patch's points is the mean of the cuts between the slid curves.
 #'
-#' The template is made symmetric in every round ([symmetrise()]) where the scheme has left-right pairs.
+#' Where the scheme has left-right pairs, the template is made symmetric in every round
+#' ([symmetrise()]).
 #'
 #' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s, or a `shape_batch`
-#'   of [fit_shapes()]: what failed is left out, and of one in files a single scan at a time is in memory. Cut ends are
-#'   homologous only if all were measured with the same `cut_scale`.
+#'   of [fit_shapes()]. Failed specimens are left out. Of a batch in files one scan at a time is in
+#'   memory. Ends of curves that are cut off are homologous only if all shapes were measured with
+#'   the same `cut_scale`.
 #' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
 #'   symmetrised.
 #' @param settings [slide_settings()].
 #' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
 #'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
 #'   only one at a time is in memory).
-#' @param tolerance The mean stands still when no point moves further than this share of its RMS radius (2e-4: about
+#' @param tolerance The rounds end when no point of the mean moves further than this share of its
+#'   RMS radius (2e-4: about
 #'   0.01 mm on a face).
 #' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
 #' @param progress Whether to show a progress bar.
@@ -34,12 +39,14 @@
 #'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`;
 #'   * `provenance`: what it came from, see [summary.shape_sample()].
 #'
-#'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample]. `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
+#'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample].
+#'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
 #'   not there, or has another mesh than the shape was measured on.
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
 #'   `crestline_cut_scale`, when curves were cut off at different shares (`cut_scale`), with the one to measure all by.
-#' @references The paper, section 4; departures: [slide_settings()], and the gauge.
+#' @references The paper, section 4; departures: [slide_settings()], and the spacing of the mean
+#'   curves.
 #' @examples
 #' \donttest{
 #' mesh <- Rvcg::vcgSphere(4)

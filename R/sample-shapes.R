@@ -315,7 +315,9 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
             class = "shape_failure")
 }
 
-#' What went wrong with the specimens of a batch
+#' Failed specimens of a batch
+#'
+#' Lists the specimens that could not be measured, why, and what to do.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
 #' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),
@@ -323,7 +325,7 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 #'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
 #'   now.
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
-#' @seealso [warnings_of()] for what those that were measured were warned of.
+#' @seealso [warnings_of()] for the warnings of specimens that were measured.
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
@@ -350,8 +352,10 @@ failures <- function(x) {
 
 #' Warnings of measured specimens
 #'
-#' What reading, finding and fitting warned of, for each specimen: a batch goes on over a warning,
-#' so it is kept with the shape (`shape$warnings`) and not lost among those of a thousand others.
+#' The warnings of reading, finding and fitting, for each specimen of a batch. A warning does not
+#' stop [fit_shapes()]. It is kept with the shape (`shape$warnings`), so that it is not lost among
+#' those of many specimens. A single call of [specimen()] or [fit_shape()] gives its warnings at
+#' once, and keeps none.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
 #' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
@@ -359,12 +363,18 @@ failures <- function(x) {
 #'   package warned). Those of failed specimens of a batch are in it.
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
 #' @seealso [failures()], [quality()]
-#' @examples
-#' corners <- rbind(aL = c(1, -1, 2), aR = c(-1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
-#' ball <- suppressWarnings(specimen(Rvcg::vcgSphere(4), corners / sqrt(rowSums(corners^2)), id =
-#' "ball")) curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
+#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' # Left and right are mirrored.
+#' corners <- rbind(aL = c(-1, -1, 2), aR = c(1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
+#' corners <- corners / sqrt(rowSums(corners^2))
+#' file <- file.path(tempfile(), "ball.ply")
+#' dir.create(dirname(file))
+#' Rvcg::vcgPlyWrite(Rvcg::vcgSphere(4), file)
+#' curve <- data.frame(curve = "across", from = "aL", to = "aR", kind = "plane", n = 7)
 #' scheme <- curve_scheme(data.frame(landmark = rownames(corners)), curve, name = "across")
-#' warnings_of(fit_shape(ball, scheme, progress = FALSE))
+#' shapes <- fit_shapes(file, scheme, landmarks = list(ball = corners),
+#'                      reading = list(midline = c("top", "low")))
+#' warnings_of(shapes)
 #' @export
 warnings_of <- function(x) {
   if (inherits(x, "shape_batch")) return(batch_warnings(renewed_batch(x)))

@@ -2,8 +2,9 @@
 
 #' A scheme: landmarks, curves, patches and pairs of one kind of object
 #'
-#' What is measured on one kind of object (a face, a skull, a tooth) is data, in tables: [face_scheme()] is
-#' one. The tables are checked as a whole; a mistake is named by table, row and column.
+#' A scheme lists in tables what is measured on one kind of object (a face, a skull, a tooth).
+#' [face_scheme()] is one. The tables are checked as a whole. An error names the table, row and
+#' column of each mistake.
 #'
 #' @param landmarks Data frame, a row a landmark: `landmark` (its name); if wanted `name` and `where` (words for the
 #'   reader), and `x`, `y`, `z`: where it lies on a typical object, in the scheme's unit, in any pose. By them [fit_shape()]
@@ -16,10 +17,12 @@
 #'   * `cut_share`, `cut_from`, `cut_to`: only the part next to the end `to` is kept, as long as this share of the
 #'     distance between two landmarks (arc length; empty: the whole curve);
 #'   * `keep_away_from`, `keep_away_to`, `keep_away_radius` (0.7), `keep_away_extension` (0.2): a region where
-#'     strength counts as 0, see [keep_away()];
-#'   * `keep_side_from`, `keep_side_to`, `keep_side_towards`: strength counts as 0 beyond the line between two landmarks,
+#'     curvature is ignored, see [keep_away()];
+#'   * `keep_side_from`, `keep_side_to`, `keep_side_towards`: curvature is ignored beyond the line
+#'     between two landmarks,
 #'     away from the third, see [keep_side()];
-#'   * `side_of`, `side`: strength counts as 0 unless it lies to the "left" or "right" of another curve (walked from
+#'   * `side_of`, `side`: curvature is ignored unless it lies to the "left" or "right" of another
+#'     curve (walked from
 #'     its `from` to its `to`, seen from outside);
 #'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length, where it and curvature are
 #'     believed; from there to the landmarks the path is the shortest cut;

@@ -32,7 +32,7 @@
 #'     units of `cluster`, from which on a match is none;
 #'   * `low`: confidence below which a found landmark is doubted; `wrong`: share of the found landmarks that are doubted
 #'     from which on the answer as a whole is. On 42 faces that are found right it is at most 0.47, on two that are found
-#'     wrong and on objects that are no face at least 0.68 (`bench/doubt.md`);
+#'     wrong and on objects that are no face at least 0.68;
 #'   * `fewest`: matches without which the template is not bent.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not numeric.

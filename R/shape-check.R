@@ -2,7 +2,8 @@
 
 #' Faults of a shape's surface
 #'
-#' Triangles that look into the specimen, that are there twice, or that pass through one another.
+#' Lists the triangles that face into the specimen, that are there twice, or that pass through one
+#' another.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on.

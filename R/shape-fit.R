@@ -2,36 +2,44 @@
 
 #' Measure a specimen by a scheme
 #'
-#' Finds every curve of the scheme, cuts off and spaces them, then puts the points of the patches between
-#' them. What is missing costs only itself, with the reason in `status`: see below.
+#' Finds every curve of the scheme, trims the curves that the scheme cuts off, and spaces the points
+#' of all. Then it puts the points of the patches between the curves. If a landmark or curve is
+#' missing, only the points that depend on it are NA. `status` gives the reason, see below.
+#' [crestline-package] has a glossary.
 #'
-#' Curvature is estimated once for all curves of one radius. A ridge or valley that curvature does not determine (see
-#' [ridge_curve()]) keeps its estimate, and `reason` says so; one that cannot be estimated at all (a window with too few
-#' vertices) is the shortest plane cut, and says so. Where a curve that the scheme cuts off is shorter
-#' than its share, all cut curves are cut at the same smaller multiple of their shares, and say so.
+#' Curvature is estimated once for all curves of one radius. Some ridges and valleys are not
+#' determined by curvature, see [ridge_curve()]: they keep their estimate. A window with too few
+#' vertices gives no estimate: the curve is then the shortest plane cut. If a trimmed curve is
+#' shorter than its share, all trimmed curves are cut at the same smaller multiple of their shares.
+#' `reason` names each of these cases.
 #'
-#' A column of a patch is the shortest plane cut between two points of its bounding curves, among planes near
-#' the surface's normal, divided at equal chords. Where the normals at its ends say nothing, as on a sharp rim, the
-#' order of the patch's corners (`outward`) says where outside is, and the cut runs over the outer wall. All points lie on
-#' the mesh; points that coincide by construction are stored once and agree exactly. Triangles of the model that are flipped or cross are named in the `reason`
-#' of a patch that they begin at, see [surface_faults()].
+#' A column of a patch is the shortest plane cut between two points of its bounding curves. Only
+#' planes near the surface's normal are tried. The points of a column have equal chords. On a sharp
+#' rim the surface normals at the two ends are unreliable. There the patch's `outward` setting (the
+#' order of its corners) tells which side is outside, and the cut follows that side. All points lie
+#' on the mesh. Points that coincide by construction are stored once and agree exactly. Flipped or
+#' crossing triangles of the model are named in the `reason` of the patch at which they begin, see
+#' [surface_faults()].
 #'
 #' @param specimen A [specimen()].
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard errors.
 #' @param passes As in [ridge_curve()].
-#' @param curves Curves that are there already, drawn by hand or found by other software: named list (names of the
-#'   scheme's curves) of n x 3 matrices, data frames with columns x, y, z, or values of [ridge_curve()], such as the
-#'   attribute `curves` of [read_landmarks()]. They are put on the mesh (nearest points, joined by cuts) and neither searched
-#'   for nor cut off; either way round. Ends are moved to their landmarks. A curve of as many points as the scheme has for it keeps
-#'   them, another gets points at equal chords. The other curves are found as ever.
-#' @param cut_scale Factor on the shares at which curves are cut off (no unit): to give several specimens the same smaller
-#'   one. Lowered where a curve is too short for it.
+#' @param curves Curves drawn by hand or found by other software: a named list (names of the
+#'   scheme's curves) of n x 3 matrices, data frames with columns x, y, z, or values of
+#'   [ridge_curve()], such as the attribute `curves` of [read_landmarks()]. They may run either way
+#'   round. They are put on the mesh (nearest points, joined by cuts), and are neither searched for
+#'   nor cut off. Their ends are moved to their landmarks. A curve with as many points as the scheme
+#'   asks for keeps them. Any other gets points at equal chords. Curves that are not in the list are
+#'   searched for.
+#' @param cut_scale Multiplies the length at which trimmed curves are cut (no unit). Use one value
+#'   below 1 for all specimens if some scans are too short. It is lowered where a curve is too short
+#'   for it.
 #' @param bridge Holes up to this size (diagonal of the bounding box, as a share of the object's size) are bridged by
-#'   flat triangles, so that curves and columns run on where the surface would be; their points there are missing. With 0
-#'   they run round holes, as they do round larger ones.
+#'   flat triangles, so that curves and columns run on where the surface would be. Their points
+#'   there are missing. Curves and columns run round larger holes, and with 0 round all.
 #' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
-#'   at its ends (the paper's implementation: 45 degrees).
+#'   at its ends (the programs of the paper's authors: 45 degrees).
 #' @param column_angles Number of planes that are tried for a column (there: 51).
 #' @param column_reach A column stays within this share of the distance of its ends from the straight line between
 #'   them (there: 1).
@@ -53,7 +61,8 @@
 #'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`, `level`, `missing`
 #'     (share of the points); of curves `determined` (by curvature, see [ridge_curve()]; NA where there is no point but
 #'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `guessed`
-#'     (of these: whether its way or its length had to do without a landmark on the mesh, see below), `bridged`
+#'     (TRUE if a trimmed curve had to be directed or measured without one of its landmarks, see
+#'     below), `bridged`
 #'     (share of its length that lies over holes); of patches `faults` (number of them, see [surface_faults()]); of both
 #'     `size` (a curve's length; of a patch the diameter of a disc with points as far from their centroid), `roughness`
 #'     (mean angle in degrees between the normals of its triangles and those at their corners), `edge` (mean edge of its
@@ -70,18 +79,23 @@
 #'     shape small).
 #'
 #'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and [plot.shape()].
-#' @section What is missing: costs only its own points, which are NA; `status` says why.
-#'   * A landmark that is absent or NA costs the curves that end there and the columns that begin on them.
-#'   * A curve that is cut off (`cut_share`) keeps only the part next to its end `to`, and needs no more of the mesh. Where
-#'     its other landmark is not on the mesh (an ear outside the scan) the way towards it is followed as far as the mesh
-#'     goes: towards the landmark's own co-ordinates where it has any (`specimen$landmarks["tL", ] <- ...` after
-#'     [specimen()] lets it lie off the mesh), else towards the mirror image of its pair. The points keep the
-#'     places that they would have on the whole curve; those beyond the mesh are missing. With a smaller `cut_scale` all have a place.
-#'   * Where one landmark of the pair that shares are measured between is missing (half a face), twice the distance of the other
-#'     from the mirror plane is taken: the plane across the directions between left and right, or, without a whole
-#'     pair, that through the landmarks of the middle.
-#'   * A hole costs the points inside it, see `bridge`. Triangles that are not to be trusted, such as long ones over
-#'     unseen parts, are best taken out of the mesh beforehand: then they are a hole.
+#' @section Missing parts: If a landmark or curve is missing, only the points that depend on it are
+#'   NA. `status` gives the reason.
+#'   * Where a landmark is absent or NA, the curves that end there and the columns that begin on
+#'     them are missing.
+#'   * A curve that is cut off (`cut_share`) keeps only the part next to its end `to`, and needs no
+#'     more of the mesh. Its other landmark may lie outside the scan (an ear). The curve then runs
+#'     towards it as far as the mesh goes: towards the landmark's own co-ordinates where it has any
+#'     (`specimen$landmarks["tL", ] <- ...` after [specimen()] lets it lie off the mesh), else
+#'     towards the mirror image of its pair. The points keep the places that they would have on the
+#'     whole curve. Points beyond the mesh are missing. A smaller `cut_scale` gives all of them a
+#'     place.
+#'   * Shares are measured between the two landmarks of a pair. On half a face one of them is
+#'     missing. Twice the distance of the other from the mirror plane is then taken. The mirror
+#'     plane is square to the directions between left and right. Without a whole pair, it runs
+#'     through the landmarks of the middle.
+#'   * The points inside a hole are missing, see `bridge`. Take triangles that you do not trust out
+#'     of the mesh beforehand, such as long ones over unseen parts: then they are a hole.
 #' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
 #'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
 #' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left

@@ -2,23 +2,31 @@
 
 #' Quality of measured specimens
 #'
-#' Grades every landmark, curve and patch: green (nothing to say), amber (look at it), red (do not use it as it is). It
-#' judges by what the fit says of itself (curvature does not determine the curve, another path is as good, points are
-#' missing), by the mesh about the part (noise, spikes, holes, coarse triangles: see `checks` of [fit_shape()]), by the
-#' mirror image of its partner where the scheme has pairs, and, of several specimens, by the lengths of the others. A
-#' patch is at least amber where a curve that bounds it is not green: its points hang on that curve. So is a curve that ends on
-#' a landmark that was found with little confidence or predicted; on one that looks exchanged with another it is red. Where
-#' most found landmarks have little confidence nothing is green.
+#' Grades every landmark, curve and patch: green (no doubt), amber (look at it), red (do not use it
+#' as it is). The grade has four sources:
 #'
-#' What it cannot see: a landmark placed by hand that is in the wrong place, unless lengths, symmetry or the order of
-#' landmarks tell; a smooth error
-#' of the scan; a feature that is not the one meant.
+#' * the fit: curvature does not determine the curve, another path is as good, or points are
+#'   missing;
+#' * the mesh about the part: noise, spikes, holes, coarse triangles (see `checks` of
+#'   [fit_shape()]);
+#' * the mirror image of the part's partner, where the scheme has pairs;
+#' * the lengths in the other specimens, where there are several.
+#'
+#' Grades are passed on. The points of a patch depend on the curves that bound it. The patch is at
+#' least amber if one of these is not green. A curve is at least amber if it ends on a landmark that
+#' is predicted or was found with little confidence. It is red if it ends on a landmark that looks
+#' exchanged with another. If most found landmarks have little confidence, nothing is green.
+#' [crestline-package] has a glossary.
+#'
+#' `quality()` does not see a wrong landmark that was placed by hand, unless lengths, symmetry or
+#' the order of landmarks show it. It does not see a smooth error of the scan, nor a curve along
+#' another feature than the one meant.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it has any, name the
 #'   specimens. `NULL` in the list is a specimen that could not be measured.
 #' @param limits [quality_limits()].
-#' @param others Further shapes of the same scheme, only to compare lengths with: what a single new specimen is judged
-#'   against.
+#' @param others Further shapes of the same scheme, only to compare lengths with, such as those of
+#'   an old sample when `x` is one new specimen.
 #' @return Data frame of class `shape_quality`, a row for each specimen and part:
 #'   * `specimen`, `part`, `level` ("landmarks", "curves", "surface"), `kind`, `length`, `strength`, `contrast`, `se`,
 #'     `competing`: as in `status` of [fit_shape()];
@@ -30,10 +38,10 @@
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate; `border`, `spike`:
 #'     distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
-#'   * `why`: text, NA where there is nothing to say.
+#'   * `why`: text, NA where the part is green.
 #'
-#'   A specimen that could not be measured is one row with level "specimen", red; one that was warned of while it was
-#'   measured (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the
+#'   A specimen that could not be measured is one row with level "specimen", red. A specimen with
+#'   warnings (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the
 #'   worst parts, and the specimens whose landmarks were found and not placed by hand; `summary()` a data frame with a row for each
 #'   specimen: `specimen`, the number of parts that are `green`, `amber`, `red`, and `landmarks` ("found" or "placed"; NA
 #'   where it could not be measured).

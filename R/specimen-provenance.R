@@ -161,12 +161,13 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 
 #' Summaries, with provenance
 #'
-#' What `print()` says of an object, and where it came from: the version of the package and of R,
-#' the scheme with the hash of its tables, key and file of the mesh, how each landmark came (from
-#' which file, given, found, predicted, placed or moved by hand and when, moved by its definition),
-#' the template that points were slid against, and the settings that are not as by default. Shapes,
-#' samples and results carry it as `provenance`, and files that we write have it where their format
-#' has a place for comments, see [write_mesh()] and [write_landmarks()].
+#' A summary has the lines of `print()`, and the provenance of the object. That is the version of
+#' the package and of R, the scheme with the hash of its tables, the key and file of the mesh, where
+#' each landmark came from (which file, given, found, predicted, placed or moved by hand and when,
+#' moved by its definition), the template that points were slid against, and the settings that are
+#' not the default. Shapes, samples and results keep it as `provenance`. Files that the package
+#' writes have it where their format has a place for comments, see [write_mesh()] and
+#' [write_landmarks()].
 #'
 #' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
 #'   `repeatability`.

@@ -2,23 +2,26 @@
 
 #' Read a specimen from mesh and landmark files
 #'
-#' PLY (ascii and binary of both byte orders; any numeric types, polygons, colours of the vertices), OBJ
-#' (polygons, negative indices, colours of the vertices, and the texture images that its `.mtl` file names, jpg or
-#' png, sampled at the vertices) and STL (ascii and binary; equal vertices merged). Co-ordinates are read in
-#' double precision.
+#' Reads a mesh file, reads its landmarks, and gives both to [specimen()], which checks them.
+#' Co-ordinates are read in double precision. The formats are:
 #'
-#' Files may have lines that end in LF, CR or both, a byte-order mark or two bytes a sign, and any
-#' system's spelling of NaN. OBJ lines may go on behind a backslash and end in a comment. PLY headers
-#' may be long, and triangle strips are read. Decimal commas are refused.
+#' * PLY: ascii and binary of both byte orders, with any numeric types, polygons, triangle strips,
+#'   colours of the vertices and long headers;
+#' * OBJ: polygons, negative indices, colours of the vertices, continued lines and comments. Texture
+#'   images that the `.mtl` file names (jpg or png) are sampled at the vertices;
+#' * STL: ascii and binary. Equal vertices are merged.
 #'
-#' A warning of class `crestline_file_warning` names a file whose header disagrees with its content or
-#' that seems cut short.
+#' Lines may end in LF, CR or both. Text files may have a byte-order mark or be UTF-16, and may
+#' spell NaN as any system does. Decimal commas are refused.
+#'
+#' A warning of class `crestline_file_warning` names a file whose header disagrees with its content,
+#' or that seems cut short.
 #'
 #' @param file Path of a `.ply`, `.obj` or `.stl` file, also packed by gzip (`.ply.gz`).
 #' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for
-#'   [specimen()]. Of a file or folder of several specimens, a list of matrices or a k x 3 x n array
-#'   those of the name `id` are taken.
-#' @param id Name of the specimen; the file's name without extension (and `.gz`) unless given.
+#'   [specimen()]. A file or folder of several specimens, a list of matrices and a k x 3 x n array
+#'   are searched for the specimen `id`.
+#' @param id Name of the specimen. Unless given, the file's name without extension (and `.gz`).
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to do.
 #' @examples

@@ -2,9 +2,9 @@
 
 #' A specimen: a surface and its landmarks
 #'
-#' Checks mesh and landmarks at the door: what can be mended without harm is mended and listed in
-#' `report`; what cannot is refused with an error that names specimen, landmark and remedy. Vertices and
-#' faces keep their order; only what has to go leaves.
+#' Checks a mesh and its landmarks. Faults that can be mended without harm are mended, and listed in
+#' `report`. Any other fault is an error that names the specimen, the landmark and the remedy.
+#' Vertices and faces that are kept stay in their order. [crestline-package] has a glossary.
 #'
 #' @param mesh A `mesh3d` (as of `Rvcg::vcgImport()` or rgl): `vb` 4 x n, `it` 3 x m; quads (`ib`) are cut
 #'   in two, a point cloud without faces is triangulated by `Rvcg::vcgBallPivoting()`.
@@ -12,17 +12,18 @@
 #'   `label`), `x`, `y`, `z`; in the mesh's unit; NA: missing on this specimen.
 #' @param id Name of the specimen, one string.
 #' @param outward Ridges and valleys swap when triangles face inwards. "detect" turns a piece round, with a
-#'   warning, when its triangles clearly look towards the middle of the mesh (the area-weighted mean cosine
-#'   between normal and direction away from the centroid is below -0.4; face scans have 0.55 to 0.85);
-#'   "keep" leaves the sense as it is (a small or hollow surface), "flip" turns all.
+#'   warning, when its triangles clearly face the middle of the mesh (the area-weighted mean cosine
+#'   between normal and direction away from the centroid is below -0.4; face scans have 0.55 to
+#'   0.85). "keep" leaves all pieces as they are (a small or hollow surface). "flip" turns all.
 #' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's size (0.01 is 3 to 4 mm
-#'   on a face). Nearer landmarks are put on the surface; farther ones are an error. The size is that of the pieces that
-#'   carry the landmarks, by where most of their surface lies: about the diagonal of the bounding box on a face, and
-#'   neither a platform nor a stray vertex changes it.
+#'   on a face). Nearer landmarks are put on the surface. Farther ones are an error. The size is
+#'   taken from where most of the surface lies, of the pieces that carry the landmarks. On a face it
+#'   is about the diagonal of the bounding box. A platform or a stray vertex does not change it.
 #' @param debris Pieces with less than this share of the mesh's faces are left out.
-#' @param midline Names of midline landmarks from top to bottom; with names that end in L and R they
-#'   tell whether left and right are mirrored (a warning of class `crestline_mirrored`), or two landmarks exchanged (of
-#'   class `crestline_exchanged`): left for right, two of the midline, or two of one side.
+#' @param midline Names of midline landmarks from top to bottom. Together with landmarks whose names
+#'   end in L and R they show whether left and right are mirrored (a warning of class
+#'   `crestline_mirrored`), and whether two landmarks are exchanged (of class
+#'   `crestline_exchanged`): left for right, two of the midline, or two of one side.
 #' @return An object of class `specimen`, a list:
 #'   * `id` (character);
 #'   * `mesh` (`mesh3d`; `vb` with fourth row 1, `it`, outward unit `normals` 4 x n, and `material$color`, one
@@ -31,10 +32,11 @@
 #'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing was found);
 #'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out: `values[!is.na(vertices)]`
 #'     belong to `vertices[!is.na(vertices)]`);
-#'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`, `file`, `time`: how each
-#'     landmark came, see [summary.specimen()]);
-#'   * `key` (hash of the vertices and triangles, in their order): what is measured on the mesh carries it, and is refused with
-#'     any other (errors of class `crestline_wrong_mesh`);
+#'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`,
+#'     `file`, `time`: where each landmark came from, see [summary.specimen()]);
+#'   * `key` (hash of the vertices and triangles, in their order): curves, shapes and curvatures of
+#'     the mesh carry it. They are refused with any other mesh (errors of class
+#'     `crestline_wrong_mesh`);
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #'
 #'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].

@@ -6,6 +6,11 @@
 #' `a = 0`, sharper for larger `b` (curvature `-2 b` across it). Vertices lie on a square grid, each square is cut
 #' along one of its diagonals at random, and independent (or smooth) normal noise is added to the heights.
 #'
+#' The surfaces follow the paper's section 5.2. Its ridge is x = (y / a)^(1/3), as printed on
+#' \eqn{[0, 10]^2}: there the surface is infinitely steep at y = 0, and a = 0 has no value. Here the
+#' ridge is x = a y^3 on \eqn{[-1, 1]^2}. On it the paper's distances between vertices (0.05 to 0.1)
+#' give 41 and 21 lines.
+#'
 #' The ridge is the crest in height. The locus of greatest curvature, which estimates aim at, is where the principal
 #' curvature is least along its own direction. It is the same line for `a = 0` and lies beside it otherwise, the more so
 #' the smaller `b` is: for `a = 0.5` 0.2, 0.8 and up to 7 spacings of 0.05 at `b` = 2, 1, 0.5. Blunt ridges have none
@@ -14,7 +19,8 @@
 #' @param a Bend of the ridge, in 1 / unit^2.
 #' @param b Sharpness of the ridge, in 1 / unit.
 #' @param spacing Side of the grid's squares; the side of the surface is 2.
-#' @param noise Standard deviation of the noise in the heights, in the unit of the mesh.
+#' @param noise Standard deviation of the noise in the heights, in the unit of the mesh. The noise
+#'   is normal; the paper's is uniform.
 #' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is left as it was.
 #' @param jitter Vertices move by up to this share of the spacing along x and y; 0: a regular grid, as in the paper.
 #' @param correlation Standard deviation, in grid steps, of the Gaussian kernel that white noise is

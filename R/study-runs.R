@@ -9,7 +9,10 @@
 #'
 #' Each curve is compared at `points` points along it and as many along the truth: the mean of the
 #' distances from the first to the true line and from the second to the curve, seen along z, since
-#' the noise moves points up and down only. There are two truths, the crest in height and the locus
+#' the noise moves points up and down only. The paper takes the mean Euclidean distance between 21
+#' equally spaced points of both. Its ranges are 0 to 0.5 for `a` and `b`, 0 to 0.1 for the error of
+#' landmarks, 0.05 to 0.1 for the distance between vertices and 0 to 0.05 for noise, with 500
+#' simulations each. There are two truths, the crest in height and the locus
 #' of greatest curvature, see [simulate_ridge()].
 #'
 #' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future and

@@ -23,7 +23,8 @@
 #'   of affine functions).
 #' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two points at one place without
 #'   a nugget; a configuration of other points.
-#' @references The paper, section 4. Bookstein (1989) Principal warps, *IEEE Transactions on Pattern Analysis and Machine
+#' @references Up to a constant factor, the integral of the paper, section 4. Bookstein (1989)
+#'   Principal warps, *IEEE Transactions on Pattern Analysis and Machine
 #'   Intelligence* 11, 567-585; Gunz, Mitteroecker and Bookstein (2005) Semilandmarks in three dimensions.
 #' @seealso [slide()]
 #' @examples

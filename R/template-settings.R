@@ -1,32 +1,38 @@
 #' Settings of sliding
 #'
-#' All tuning constants of [slide()] in one place. The preset `"crestline"` is what makes points of many specimens
-#' homologous by measurement; `"paper"` reproduces the choices of the paper.
+#' All tuning constants of [slide()] in one place. The preset `"crestline"` makes points of many
+#' specimens most nearly homologous, as measured below. `"paper"` reproduces the choices of the
+#' paper.
 #'
-#' The constants of `"crestline"` were chosen by how far each point, carried to the shared topology of 23 simulated
-#' faces in dense correspondence, spreads along its curve (`bench/README.md`, "Sliding"); optima are flat. The bending
-#' energy that is reached tells nothing about it: with the paper's energies it is lowest, and the spread larger than
-#' without sliding.
+#' We chose the constants of `"crestline"` on 23 simulated faces whose true point-to-point
+#' correspondence is known, by minimising the scatter of each point along its curve. Nearby values
+#' do almost as well. A lower bending energy does not mean better correspondence: with the paper's
+#' energies it is lowest, and the scatter larger than without sliding.
+#' `vignette("homology", "crestline")` has the table.
 #'
 #' @param preset `"crestline"` or `"paper"`.
 #' @param ... Settings to change, by name; print a preset to see its values. A radius is the root mean square distance
 #'   of the template's landmarks and curve points from their centre, so nothing depends on the unit.
 #'   * `energy`: which points share a bending energy: a curve and all `"landmarks"`, which stay where they are; each
-#'     curve's `"own"` points (the paper); or `"all"` landmarks and curves;
-#'   * `nugget`: of curve points, in radii (20 mm on a face; landmarks have none), see [bending_energy()]: so that an
-#'     error across a curve is not bought off by moving along it;
+#'     curve's `"own"` points (the paper, which describes it for one curve); or `"all"` landmarks
+#'     and curves;
+#'   * `nugget`: of curve points, in radii (20 mm on a face; landmarks have none), see
+#'     [bending_energy()]: it keeps a point from moving along its curve only to make up for an error
+#'     across it;
 #'   * `nugget_by`: `"length"`, the same for all; `"error"`, this times the square of a point's standard error over the
 #'     median square, where the template has any (that of [homologise()] has: the sample's root mean square);
 #'   * `strain`: weight of the squared excess of spacings along a curve over equal ones, in means of the diagonal of the
 #'     energy's matrix;
 #'   * `cut_ends`: where the scheme cuts a curve off there is no landmark; such an end `"slide"`s too, or must `"stay"`
-#'     (the paper);
+#'     (the paper, where the end points of every curve stay);
 #'   * `gap`: neighbours on a curve keep this share of equal spacing between them;
 #'   * `tolerance`: done when no point slides further than this share of its spacing; `sweeps`: most sweeps over the
 #'     points;
 #'   * `surface`: the points inside patches slide freely on the `"mesh"`, along their `"transect"` (the paper), or not
 #'     at all and stay `"between"` the slid curves;
-#'   * `surface_energy`: of `"all"` points (curves and landmarks held), or of each `"patch"` (the paper);
+#'   * `surface_energy`: of `"all"` points (curves and landmarks held), or of each `"patch"` (our
+#'     reading of the paper, which slides each transect as a curve and does not say which points
+#'     share its energy);
 #'   * `surface_nugget`: of curve and surface points there, in radii (300 mm on a face);
 #'   * `surface_tolerance` (radii) and `surface_sweeps`, as those of curves;
 #'   * `rank`: `tolerance` of [bending_energy()].

@@ -2,13 +2,14 @@
 
 #' Slide the points of a shape until they are homologous to a template's
 #'
-#' Points of curves slide along their own curve, then points of patches over the surface, each to where the bending
-#' energy from the template (and a strain of the spacings) is least; landmarks stay, and the ends of curves with them.
-#' Where the scheme cuts a curve off there is no landmark: that end slides along the whole curve too. One point at a
-#' time is taken to its exact minimiser, in turn, until none moves: the energy never rises, and points keep their order
-#' and a gap. Points never leave the mesh.
+#' Points of curves slide along their own curve, then points of patches over the surface. Each goes
+#' to where the bending energy from the template (plus a strain of the spacings) is least. Landmarks
+#' do not move, nor do the ends of curves at landmarks. An end at which the scheme cuts a curve off
+#' slides along the whole curve too. Points are taken in turn, each to its exact minimiser, until
+#' none moves. So the energy never rises. Points keep their order and a gap, and never leave the
+#' mesh. [crestline-package] has a glossary.
 #'
-#' What is in the template but not in the shape, or the other way round, is left out of the energy; points that are missing
+#' Points that only the template has, or only the shape, are left out of the energy. Missing points
 #' stay NA. Points that coincide by construction still do.
 #'
 #' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of patches that lie on

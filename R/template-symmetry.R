@@ -3,16 +3,17 @@
 #' A perfectly symmetric shape, and how far a shape is from symmetric
 #'
 #' `symmetrise()` gives the mean of a shape and of its reflection with left and right relabelled, laid onto it by rotation
-#' (Procrustes superimposition of all places, without scaling): reflected and relabelled it is itself. It is a template for
-#' [slide()], not a measurement: its points lie on no mesh. A point that is missing takes its partner's reflection.
+#' (Procrustes superimposition of all places, without scaling). Reflecting and relabelling it
+#' changes nothing. It is a template for [slide()], not a measurement: its points lie on no mesh. A
+#' missing point takes its partner's reflection.
 #'
 #' `asymmetry()` measures the distances of the shape's points from the symmetric mean, half of those from
 #' their partners' reflections: for one specimen the asymmetric component of object symmetry.
 #'
 #' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left and right.
-#' @param off_middle How far off the mid-plane a landmark without a partner may lie before it is warned of, as a share of the
-#'   shape's RMS radius (0.1 is about 6 mm on a face): it counts as one of the mid-line, and the symmetric mean puts it
-#'   there.
+#' @param off_middle How far off the mid-plane a landmark without a partner may lie without a
+#'   warning, as a share of the shape's RMS radius (0.1 is about 6 mm on a face). Such a landmark
+#'   counts as one of the mid-line, and the symmetric mean puts it there.
 #' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`, `se` all NA, and no
 #'   paths.
 #' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places that have a partner.
