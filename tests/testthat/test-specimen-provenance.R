@@ -33,7 +33,7 @@ test_that("only settings that are not as by default are told, in every stage", {
 
 test_that("comments of files are single lines of ASCII", {
   odd <- from_files(one, "/a/na\u00efve\nface\\")
-  lines <- comment_lines(specimen_provenance(odd))
+  lines <- comment_lines(odd)
   expect_false(any(grepl("[^ -~]", lines)))
   expect_false(any(grepl("\\", lines, fixed = TRUE)))
   expect_length(grep("face/$", lines), 1)
