@@ -38,7 +38,9 @@ json_string <- function(object, name, default) {
 mrkjson_points <- function(markup, i, file, options) {
   point <- markup$controlPoints
   x <- lapply(seq_along(point), function(j) mrkjson_point(point[[j]], sprintf("list %d, point %d", i, j), file))
-  frame <- slicer_frame(json_string(markup, "coordinateSystem", "LPS"), file)
+  said <- markup[["coordinateSystem"]]
+  said <- if (is.numeric(said)) format(said) else json_string(markup, "coordinateSystem", "LPS")
+  frame <- slicer_frame(said, file)
   change_frame(matrix(as.numeric(unlist(x)), ncol = 3, byrow = TRUE), frame, options$frame)
 }
 

@@ -25,7 +25,7 @@ tps_record <- function(text, line, file) {
                     value = trimws(sub("^[^=]*=", "", text[is_key])), line = line[is_key])
   group <- cumsum(is_key)[!is_key]
   row <- split(data.frame(text = text, line = line)[!is_key, ], factor(group, seq_len(nrow(key))))
-  width <- if (key$key[1] == "LM3") 3 else tps_width(row[[1]], file)
+  width <- if (key$key[1] == "LM3") 3 else tps_width(c(Filter(nrow, row), row)[[1]], file)
   key$rows <- lapply(seq_len(nrow(key)), function(i) tps_block(key[i, ], row[[i]], width, file))
   key
 }
@@ -85,8 +85,8 @@ tps_curves <- function(record, scale, file) {
 tps_scales <- function(record, file, options) {
   if (!options$scale) return(rep(1, length(record)))
   scale <- vapply(record, function(key) {
-    i <- which(key$key == "SCALE" & nzchar(key$value))[1]
-    if (is.na(i)) NA_real_ else landmark_numbers(key$value[i], file, key$line[i])
+    i <- which(key$key == "SCALE" & nzchar(key$value))
+    if (length(i)) tps_scale(key[i, ], file) else NA_real_
   }, 0)
   if (all(is.na(scale))) return(rep(1, length(record)))
   if (anyNA(scale)) {
@@ -94,6 +94,19 @@ tps_scales <- function(record, file, options) {
     refuse_landmark_file(file, sprintf("specimens without SCALE= among others that have one (%d of %d): units would mix",
                                        sum(is.na(scale)), length(scale)),
                          "Give each its SCALE=, or read with scale = FALSE: all as they stand.", bare$line[1])
+  }
+  scale
+}
+
+# The one factor of a record, NA where it stands for none.
+tps_scale <- function(key, file) {
+  scale <- unique(landmark_numbers(key$value, file, key$line))
+  wrong <- c(which(scale <= 0), if (length(scale) > 1) 2)
+  if (length(wrong)) {
+    refuse_landmark_file(file, if (length(scale) > 1) "one specimen has two different SCALE=" else
+      sprintf("SCALE=%s is not greater than 0", key$value[1]),
+                         "Put the factor, or read with scale = FALSE: all as they stand.",
+                         key$line[wrong[1]])
   }
   scale
 }

@@ -30,6 +30,10 @@ ply_polygons <- function(table, header, file, id) {
       sprintf("its surface is in the element %s, that is not read", other[1]), id,
       "Export it as triangles: open and save it with MeshLab.")
   }
+  if (length(other)) {
+    warn_file(file, sprintf("has a second surface in the element %s: it was not read", other[1]),
+              "Export all as one list of faces: open and save it with MeshLab.", id)
+  }
   face <- if (isTRUE(listed["face"])) index("face")
   strip <- if (isTRUE(listed["tristrips"])) strip_triangles(index("tristrips"))
   list(value = c(face$value, strip$value), sides = c(face$sides, strip$sides))

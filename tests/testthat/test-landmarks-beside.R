@@ -18,6 +18,8 @@ test_that("the file beside a mesh is found in any format and any case of its ext
                  "f.MRK.JSON", "f.pp", "f_picked_points.pp")) {
     expect_equal(beside(do.call(new_folder_of, stats::setNames(list(at(1)), name))), name)
   }
+  expect_equal(beside(new_folder_of(f.PLY.csv = at(1))), "f.PLY.csv")
+  expect_equal(beside(new_folder_of(f.obj.csv = at(1), f.obj = "x")), "")
   expect_equal(beside(new_folder_of(g.csv = at(1), f2.csv = at(1), f.txt = "x", f.ply = "x")), "")
 })
 

@@ -219,3 +219,11 @@ test_that("a surface in an element that is not read is refused by its name", {
   expect_crestline_error(read_lines(sub(" int vertex_indices", " float vertex_indices", sub("^3 (.*)", "3 \\1.5", ply_lines()))),
                          "18 of 18 faces")
 })
+
+test_that("a second surface beside the faces is told of", {
+  line <- ply_lines()
+  end <- match("end_header", line)
+  more <- c("element range_grid 1", "property list uchar int vertex_indices")
+  lines <- c(line[seq_len(end - 1)], more, line[-seq_len(end - 1)], "3 0 1 2")
+  expect_warning(read_lines(lines), "second surface in the element range_grid", class = "crestline_file_warning")
+})
