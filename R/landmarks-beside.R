@@ -171,7 +171,9 @@ landmark_source <- function(landmarks, ids, ...) {
     found <- read_sets(file, ...)
     sets <- if (is.matrix(found)) list(found) else found
     if (isTRUE(attr(found, "numbered"))) names(sets) <- NULL
-    return(list(sets = sets, what = basename(file), alias = attr(found, "alias"), file = TRUE))
+    twice <- c(attr(found, "twice"), NA)[1]
+    what <- paste0(basename(file), if (!is.na(twice)) sprintf(" (ID=%s is there twice)", twice))
+    return(list(sets = sets, what = what, alias = attr(found, "alias"), file = TRUE))
   }
   list(sets = given_sets(landmarks), what = "`landmarks`")
 }

@@ -12,7 +12,7 @@ read_landmarks_tps <- function(file, options) {
   scale <- tps_scales(record, file, options)
   sets <- Map(tps_set, record, scale, MoreArgs = list(file = file))
   name <- tps_names(record)
-  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias)
+  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias, twice = name$twice)
 }
 
 # One record as its keys: data frame key, value, line, and the rows of numbers after each.
@@ -112,7 +112,8 @@ tps_scale <- function(key, file) {
 }
 
 #' By ID=, else by IMAGE=, where each has its own; else numbered
-#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=.
+#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=; `twice`, an ID= that keeps these
+#'   from being names.
 #' @noRd
 tps_names <- function(record) {
   by <- lapply(c(ID = "ID", IMAGE = "IMAGE"), function(key) {
@@ -121,7 +122,8 @@ tps_names <- function(record) {
   })
   if (!is.null(by$ID)) return(list(name = by$ID, numbered = FALSE, alias = by$IMAGE))
   if (!is.null(by$IMAGE)) return(list(name = by$IMAGE, numbered = FALSE))
-  list(name = as.character(seq_along(record)), numbered = TRUE)
+  id <- unlist(lapply(record, function(r) r$value[r$key == "ID" & nzchar(r$value)][1]))
+  list(name = as.character(seq_along(record)), numbered = TRUE, twice = stats::na.omit(id[duplicated(id)])[1])
 }
 
 write_landmarks_tps <- function(sets, file, options) {

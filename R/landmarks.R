@@ -96,7 +96,7 @@ read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999
   }
   found <- read_sets(file, frame, missing, scale)
   if (is.matrix(found)) return(found)
-  attr(found, "numbered") <- attr(found, "alias") <- NULL
+  attr(found, "numbered") <- attr(found, "alias") <- attr(found, "twice") <- NULL
   if (length(found) == 1) found[[1]] else found
 }
 

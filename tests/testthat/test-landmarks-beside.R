@@ -134,3 +134,8 @@ test_that("what is no source of landmarks is refused", {
                          c("has no landmark files", ".csv"))
   expect_crestline_error(landmarks_for(list(a = at(1), at(2)), c("a", "b")), "have no name")
 })
+
+test_that("an ID= that is there twice is named where specimens cannot be told apart", {
+  tps <- landmark_file("tps", rep(c("LM3=1", "1 2 3", "ID=S1"), 2))
+  expect_crestline_error(landmarks_for(tps, c("S1", "S2")), "ID=S1 is there twice")
+})
