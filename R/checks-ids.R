@@ -25,16 +25,19 @@ id_extension <- function() {
          "jpe?g|png|tiff?|bmp))+$")
 }
 
-#' Ids as text: whole numbers in all their digits, in every session
+#' Ids as text: whole numbers in all their digits, in every session; bytes that are no text of the
+#' session are taken for Latin 1, as in files
 #' @noRd
 id_text <- function(id) {
   text <- if (is.numeric(id) && !is.factor(id)) sprintf("%.15g", id) else as.character(id)
+  strange <- !validEnc(text)
+  text[strange] <- iconv(text[strange], "latin1", "UTF-8")
   replace(text, is.na(id), NA)
 }
 
 #' The places of ids among names, by their plain form
 #'
-#' A folder counts only where both have one. Ids that differ by no more than their plain form hides
+#' A folder counts only where both have one; a name may have more folders than the id. Ids that differ by no more than their plain form hides
 #' are matched exactly.
 #'
 #' @return List of integer vectors, one an id; empty where the name is not there.
@@ -54,6 +57,8 @@ id_places <- function(ids, names) {
   loose <- ifelse(bare_id == id, in_folder, without)
   empty <- lengths(found) == 0 & !again(bare_id)
   found[empty] <- loose[empty]
+  deeper <- which(lengths(found) == 0 & bare_id != id & !is.na(id))
+  found[deeper] <- lapply(id[deeper], function(one) which(endsWith(name, paste0("/", one))))
   found[again(id)] <- places(id_text(ids), id_text(names))[again(id)]
   found
 }
@@ -135,6 +140,11 @@ by_specimen <- function(x, ids, name, fail) {
 rows_of_specimens <- function(data, ids, name, fail) {
   what <- sprintf("`%s`", name)
   keys <- table_keys(data)
+  again <- names(data)[duplicated(names(data))]
+  if (any(names(keys) %in% again)) {
+    fail(sprintf("%s has two columns `%s`.", what, intersect(names(keys), again)[1]),
+         "Leave one of them.")
+  }
   known <- vapply(keys, function(key) mean(lengths(id_places(ids, key)) > 0), 0)
   distinct <- vapply(keys, function(key) !anyDuplicated(plain_id(key)), NA)
   keys <- keys[known > 0 | distinct][order(-known[known > 0 | distinct])]
@@ -144,7 +154,7 @@ rows_of_specimens <- function(data, ids, name, fail) {
   }
   key <- c(names(keys), "")[1]
   column <- setdiff(names(data), key)
-  same <- function(i) nrow(unique(as.data.frame(lapply(data[column], function(x) x[i])))) == 1
+  same <- function(i) same_rows(data[column], i)
   own <- if (length(keys)) keys[[1]]
   place <- places_of_specimens(own, nrow(data), ids, what, "row", same, fail)
   for (other in names(keys)[-1][known[names(keys)[-1]] == 1]) {
@@ -154,6 +164,16 @@ rows_of_specimens <- function(data, ids, name, fail) {
     }
   }
   structure(place, key = key)
+}
+
+#' Whether some rows of a table are the same, in all of its columns, matrices and tables among them
+#' @noRd
+same_rows <- function(data, i) {
+  row <- function(k) {
+    cells <- lapply(data, function(x) as.list(if (length(dim(x)) == 2) x[k, ] else x[k]))
+    unname(unlist(cells, recursive = FALSE))
+  }
+  all(vapply(i[-1], function(k) identical(row(k), row(i[1])), NA))
 }
 
 #' What may be a table's key: columns by their names, and row names that were given

@@ -46,6 +46,9 @@ check_stored <- function(file, stage, id = NULL, unpacks = character()) {
     crestline_abort(paste0(file, " cannot be read", problem, "."), remedy, stage = stage, id = id,
                     call = NULL)
   }
+  if (!file.exists(file)) {
+    refuse(": there is no such file", sprintf("Check the path; the working directory is %s.", getwd()))
+  }
   if (!isTRUE(file.size(file) > 0)) {
     refuse(": it is empty, or no file on disk but a pipe or device",
            "If it is empty, export or copy it again; save what comes through a pipe first.")

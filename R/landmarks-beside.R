@@ -2,7 +2,7 @@
 
 #' The landmark file beside a mesh
 #'
-#' Of its name without extension, in any format of [read_landmarks()] and in any case of the
+#' Of its name with or without extension, in any format of [read_landmarks()] and in any case of the
 #' extension, or as MeshLab names picked points. A `.json` that holds no markups is none.
 #'
 #' @param file Path of the mesh.
@@ -34,6 +34,7 @@ landmark_files_beside <- function(file) {
   own <- substr(name, 1, nchar(stem))
   end <- tolower(substring(name, nchar(stem) + 1))
   known <- c(paste0(".", tolower(names(landmark_formats()))), ".json", "_picked_points.pp")
+  known <- c(known, paste0(".", file_extension(file), known))
   meant <- if (stem %in% own[end %in% known]) stem else
     setdiff(own, own[end %in% paste0(".", names(mesh_readers()))])
   fits <- end %in% known & own %in% meant
@@ -170,7 +171,9 @@ landmark_source <- function(landmarks, ids, ...) {
     found <- read_sets(file, ...)
     sets <- if (is.matrix(found)) list(found) else found
     if (isTRUE(attr(found, "numbered"))) names(sets) <- NULL
-    return(list(sets = sets, what = basename(file), alias = attr(found, "alias"), file = TRUE))
+    twice <- c(attr(found, "twice"), NA)[1]
+    what <- paste0(basename(file), if (!is.na(twice)) sprintf(" (ID=%s is there twice)", twice))
+    return(list(sets = sets, what = what, alias = attr(found, "alias"), file = TRUE))
   }
   list(sets = given_sets(landmarks), what = "`landmarks`")
 }

@@ -35,10 +35,18 @@ json_string <- function(object, name, default) {
   if (is.character(value) && length(value) == 1) value else default
 }
 
+# The same where the value may be a number, as other programs write labels.
+json_word <- function(object, name) {
+  value <- if (is.list(object)) object[[name]]
+  if (is.numeric(value) && length(value) == 1) id_text(value) else json_string(object, name, "")
+}
+
 mrkjson_points <- function(markup, i, file, options) {
   point <- markup$controlPoints
   x <- lapply(seq_along(point), function(j) mrkjson_point(point[[j]], sprintf("list %d, point %d", i, j), file))
-  frame <- slicer_frame(json_string(markup, "coordinateSystem", "LPS"), file)
+  said <- markup[["coordinateSystem"]]
+  said <- if (is.numeric(said)) format(said) else json_string(markup, "coordinateSystem", "LPS")
+  frame <- slicer_frame(said, file)
   change_frame(matrix(as.numeric(unlist(x)), ncol = 3, byrow = TRUE), frame, options$frame)
 }
 
@@ -50,7 +58,7 @@ mrkjson_point <- function(point, where, file) {
   if (json_string(point, "positionStatus", "defined") != "defined") return(rep(NA_real_, 3))
   position <- point[["position"]]
   number <- vapply(position, function(v) if (is.numeric(v) && length(v) == 1) as.numeric(v) else NA_real_, 0)
-  if (length(number) != 3 || !all(is.finite(number))) {
+  if (length(number) != 3 || !all(is.finite(number)) || !is.null(names(position))) {
     refuse_landmark_file(file, paste0(where, ": the position is not three numbers"),
                          'Give it, or "positionStatus": "undefined".')
   }
@@ -87,8 +95,8 @@ mrkjson_names <- function(markup, file) {
 # Labels, else ids, else numbers; where two lists have the same ones, with the name of the list before them.
 mrkjson_labels <- function(markup, name) {
   label <- lapply(markup, function(one) {
-    label <- vapply(one$controlPoints, json_string, "", "label", "")
-    id <- vapply(one$controlPoints, json_string, "", "id", "")
+    label <- vapply(one$controlPoints, json_word, "", "label")
+    id <- vapply(one$controlPoints, json_word, "", "id")
     label <- ifelse(nzchar(label), label, id)
     ifelse(nzchar(label), label, as.character(seq_along(label)))
   })

@@ -47,7 +47,8 @@ xml_text <- function(text) {
   number <- gregexpr("&#(x[0-9A-Fa-f]{1,6}|[0-9]{1,7});", text)
   regmatches(text, number) <- lapply(regmatches(text, number), function(one) {
     code <- sub("^&#x", "0x", sub(";$", "", one))
-    vapply(as.integer(sub("^&#", "", code)), intToUtf8, "")
+    sign <- vapply(as.integer(sub("^&#", "", code)), intToUtf8, "")
+    ifelse(is.na(sign), "\ufffd", sign)
   })
   for (entity in names(xml_entities)) {
     text <- gsub(entity, xml_entities[[entity]], text, fixed = TRUE)

@@ -27,7 +27,13 @@ pts_parts <- function(text, file, line) {
   if (length(wrong)) {
     refuse_landmark_file(file, "not a name and three numbers", "Write: name x y z.", line[wrong[1]])
   }
-  matrix(as.character(unlist(part)), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
+  part <- matrix(as.character(unlist(part)), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
+  fourth <- grep("\\s[-+]?[0-9]*[.][0-9]+([eE][-+]?[0-9]+)?$", part[, 1])
+  if (length(fourth)) {
+    refuse_landmark_file(file, sprintf("more than three numbers: \"%s\" would be a name", part[fourth[1], 1]),
+                         "Write: name x y z, no more.", line[fourth[1]])
+  }
+  part
 }
 
 pts_curve_point <- function(name) grepl("^C[._-]?[0-9]+[._-][0-9]+$", name)

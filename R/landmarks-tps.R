@@ -12,7 +12,7 @@ read_landmarks_tps <- function(file, options) {
   scale <- tps_scales(record, file, options)
   sets <- Map(tps_set, record, scale, MoreArgs = list(file = file))
   name <- tps_names(record)
-  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias)
+  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias, twice = name$twice)
 }
 
 # One record as its keys: data frame key, value, line, and the rows of numbers after each.
@@ -25,7 +25,7 @@ tps_record <- function(text, line, file) {
                     value = trimws(sub("^[^=]*=", "", text[is_key])), line = line[is_key])
   group <- cumsum(is_key)[!is_key]
   row <- split(data.frame(text = text, line = line)[!is_key, ], factor(group, seq_len(nrow(key))))
-  width <- if (key$key[1] == "LM3") 3 else tps_width(row[[1]], file)
+  width <- if (key$key[1] == "LM3") 3 else tps_width(c(Filter(nrow, row), row)[[1]], file)
   key$rows <- lapply(seq_len(nrow(key)), function(i) tps_block(key[i, ], row[[i]], width, file))
   key
 }
@@ -85,8 +85,8 @@ tps_curves <- function(record, scale, file) {
 tps_scales <- function(record, file, options) {
   if (!options$scale) return(rep(1, length(record)))
   scale <- vapply(record, function(key) {
-    i <- which(key$key == "SCALE" & nzchar(key$value))[1]
-    if (is.na(i)) NA_real_ else landmark_numbers(key$value[i], file, key$line[i])
+    i <- which(key$key == "SCALE" & nzchar(key$value))
+    if (length(i)) tps_scale(key[i, ], file) else NA_real_
   }, 0)
   if (all(is.na(scale))) return(rep(1, length(record)))
   if (anyNA(scale)) {
@@ -98,8 +98,22 @@ tps_scales <- function(record, file, options) {
   scale
 }
 
+# The one factor of a record, NA where it stands for none.
+tps_scale <- function(key, file) {
+  scale <- unique(landmark_numbers(key$value, file, key$line))
+  wrong <- c(which(scale <= 0), if (length(scale) > 1) 2)
+  if (length(wrong)) {
+    refuse_landmark_file(file, if (length(scale) > 1) "one specimen has two different SCALE=" else
+      sprintf("SCALE=%s is not greater than 0", key$value[1]),
+                         "Put the factor, or read with scale = FALSE: all as they stand.",
+                         key$line[wrong[1]])
+  }
+  scale
+}
+
 #' By ID=, else by IMAGE=, where each has its own; else numbered
-#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=.
+#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=; `twice`, an ID= that keeps these
+#'   from being names.
 #' @noRd
 tps_names <- function(record) {
   by <- lapply(c(ID = "ID", IMAGE = "IMAGE"), function(key) {
@@ -108,7 +122,8 @@ tps_names <- function(record) {
   })
   if (!is.null(by$ID)) return(list(name = by$ID, numbered = FALSE, alias = by$IMAGE))
   if (!is.null(by$IMAGE)) return(list(name = by$IMAGE, numbered = FALSE))
-  list(name = as.character(seq_along(record)), numbered = TRUE)
+  id <- unlist(lapply(record, function(r) r$value[r$key == "ID" & nzchar(r$value)][1]))
+  list(name = as.character(seq_along(record)), numbered = TRUE, twice = stats::na.omit(id[duplicated(id)])[1])
 }
 
 write_landmarks_tps <- function(sets, file, options) {

@@ -103,7 +103,7 @@ read_landmarks <- function(file, frame = c("LPS", "RAS", "file"), missing = 9999
   }
   found <- read_sets(file, frame, missing, scale)
   if (is.matrix(found)) return(found)
-  attr(found, "numbered") <- attr(found, "alias") <- NULL
+  attr(found, "numbered") <- attr(found, "alias") <- attr(found, "twice") <- NULL
   if (length(found) == 1) found[[1]] else found
 }
 
@@ -116,7 +116,20 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
                   missing = check_number(missing, "missing"), scale = isTRUE(scale))
   format <- landmark_format(file)
   check_stored(file, "landmarks")
-  format$read(file, options)
+  found <- format$read(file, options)
+  check_set_names(found, file)
+  found
+}
+
+#' Refuses a file in which a specimen's name stands over different landmarks
+#' @noRd
+check_set_names <- function(found, file) {
+  if (is.matrix(found)) return(invisible())
+  for (name in unique(names(found)[duplicated(names(found))])) {
+    if (same_sets(found[names(found) == name])) next
+    refuse_landmark_file(file, sprintf("the specimen %s is there twice with different landmarks", name),
+                         "Give each specimen a name of its own, or leave one of them.")
+  }
 }
 
 #' @rdname read_landmarks

@@ -41,7 +41,8 @@ read_image <- function(file, id) {
   problem <- if (!file.exists(file)) "the texture image %s is not there" else
     if (reader == "none") "the texture image %s is neither jpg nor png" else
       if (!requireNamespace(reader, quietly = TRUE)) paste0("the texture image %s needs the package ", reader)
-  image <- if (is.null(problem)) tryCatch(
+  # A pipe, which would keep R waiting, has no size.
+  image <- if (is.null(problem) && isTRUE(file.size(file) > 0)) tryCatch(
     if (reader == "jpeg") jpeg::readJPEG(file) else png::readPNG(file), error = function(e) NULL
   )
   if (is.null(image)) {

@@ -19,8 +19,8 @@ obj_texture <- function(file, text, n, id) {
   if (!length(text$libraries) || all(is.na(text$texture))) return(NULL)
   uv <- matrix(text$uv, ncol = 2, byrow = TRUE)
   placed <- which(is.finite(rowSums(uv)))
-  material <- rep(c("", text$materials)[text$material + 1], text$sides)
-  images <- obj_images(file.path(dirname(file), text$libraries))
+  material <- rep(c("", valid_names(text$materials))[text$material + 1], text$sides)
+  images <- obj_images(file.path(dirname(file), valid_names(text$libraries)))
   colour <- rep(NA_character_, n)
   for (name in intersect(unique(material), names(images))) {
     image <- read_image(images[[name]], id)
@@ -34,11 +34,18 @@ obj_texture <- function(file, text, n, id) {
 
 obj_argument <- function(line) trim_bytes(sub("^[^ \t]+", "", line, useBytes = TRUE))
 
-# Named paths of the colour images (map_Kd) of the materials in mtl files that are there.
+# Names in a file, which Windows writes in Latin 1.
+valid_names <- function(name) {
+  latin <- !validUTF8(name)
+  name[latin] <- iconv(name[latin], "latin1", "UTF-8")
+  `Encoding<-`(name, "UTF-8")
+}
+
+# Named paths of the colour images (map_Kd) of the materials in mtl files that are there. Pipes and devices have no size.
 obj_images <- function(files) {
   images <- character()
-  for (file in files[file.exists(files) & !dir.exists(files)]) {
-    line <- text_lines(text_bytes(readBin(file, "raw", file.size(file))))
+  for (file in files[file.exists(files) & !dir.exists(files) & !file.size(files) %in% 0]) {
+    line <- valid_names(text_lines(text_bytes(readBin(file, "raw", file.size(file)))))
     material <- ""
     for (text in line) {
       if (grepl("^newmtl[ \t]", text, useBytes = TRUE)) material <- obj_argument(text)

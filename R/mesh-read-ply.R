@@ -8,10 +8,12 @@ read_ply <- function(file, id) {
   read <- ply_elements_read(stream, header$elements)
   stream$check(read$start, read$end)
   vertex <- read$table$vertex
-  if (!all(c("x", "y", "z") %in% names(vertex))) refuse_file(file, "its vertices have no x, y, z", id)
+  numbers <- names(vertex)[vapply(vertex, is.numeric, NA)]
+  if (!all(c("x", "y", "z") %in% numbers)) refuse_file(file, "its vertices have no x, y, z", id)
+  if (!length(vertex$x)) refuse_file(file, "it has no vertices", id)
   polygon <- ply_polygons(read$table, header, file, id)
   mesh_of_polygons(cbind(vertex$x, vertex$y, vertex$z), polygon$value + 1, polygon$sides,
-                   ply_colours(vertex, header))
+                   ply_colours(vertex[numbers], header))
 }
 
 ply_index_names <- c("vertex_indices", "vertex_index")
@@ -29,6 +31,10 @@ ply_polygons <- function(table, header, file, id) {
     refuse_file(file, if (nameless) "its faces have no list vertex_indices" else
       sprintf("its surface is in the element %s, that is not read", other[1]), id,
       "Export it as triangles: open and save it with MeshLab.")
+  }
+  if (length(other)) {
+    warn_file(file, sprintf("has a second surface in the element %s: it was not read", other[1]),
+              "Export all as one list of faces: open and save it with MeshLab.", id)
   }
   face <- if (isTRUE(listed["face"])) index("face")
   strip <- if (isTRUE(listed["tristrips"])) strip_triangles(index("tristrips"))
@@ -120,7 +126,10 @@ ply_properties <- function(token, file, id) {
   if (!all(c(type, count_type[is_list]) %in% names(ply_types()))) {
     refuse_file(file, "its header names types that are not known", id)
   }
-  data.frame(name = as.character(pick(3, 5)), type = type, count_type = count_type)
+  name <- as.character(pick(3, 5))
+  again <- intersect(c("x", "y", "z", ply_index_names), name[duplicated(name)])
+  if (length(again)) refuse_file(file, sprintf("its header has the property %s twice", again[1]), id)
+  data.frame(name = name, type = type, count_type = count_type)
 }
 
 # What follows the header as a stream: `get(at, type)` gives the numbers at 0-based places, `size` the places a number

@@ -42,8 +42,9 @@ specimen_ids <- function(x) {
 
 #' @noRd
 file_jobs <- function(files, landmarks, reading, call) {
-  if (anyNA(files)) {
-    crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(is.na(files)))),
+  none <- is.na(files) | !nzchar(files)
+  if (any(none)) {
+    crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(none))),
                     "Give paths of meshes.",
                     stage = "arguments", call = call)
   }

@@ -104,7 +104,7 @@ refuse_keeping <- function(file, reason) {
 }
 
 write_whole <- function(bytes, file) {
-  to <- file(file, "wb")
+  to <- suppressWarnings(file(file, "wb"))
   tryCatch(writeBin(bytes, to), finally = close(to))
   if (!identical(as.numeric(file.size(file)), as.numeric(length(bytes)))) stop("the disk is full")
 }
@@ -129,7 +129,7 @@ packed_bytes <- function(value, compression) {
   bytes <- serialize(value, NULL)
   file <- tempfile("packed-")
   on.exit(unlink(file))
-  to <- gzfile(file, "wb", compression = compression)
+  to <- suppressWarnings(gzfile(file, "wb", compression = compression))
   tryCatch(writeBin(bytes, to), finally = close(to))
   packed <- readBin(file, "raw", file.size(file))
   length <- sum(as.integer(utils::tail(packed, 4)) * 256^(0:3))
@@ -139,14 +139,21 @@ packed_bytes <- function(value, compression) {
   packed
 }
 
+#' The first bytes of a file, NULL where it cannot be read. R loses a connection for good where a
+#' warning of its opening is caught outside, and it has 128
+#' @noRd
+read_raw <- function(file, most = file.size(file)) {
+  if (!file.exists(file) || dir.exists(file)) return(NULL)
+  tryCatch(suppressWarnings(readBin(file, "raw", most)), error = function(e) NULL)
+}
+
 #' What a result's file says of itself in its first line, unproven
 #' @return List: `key`, `mesh`, NA where it has none; `own`: whether the file is one of ours,
 #'   perhaps cut short.
 #' @noRd
 peek_kept <- function(file, most = 200) {
   none <- list(key = NA_character_, mesh = NA_character_, own = FALSE)
-  start <- tryCatch(readBin(file, "raw", most), error = function(e) NULL,
-                    warning = function(w) NULL)
+  start <- read_raw(file, most)
   if (is.null(start)) return(none)
   layout <- charToRaw(kept_layout)
   known <- min(length(start), length(layout))
@@ -175,7 +182,7 @@ open_kept <- function(file) {
   if (!file.exists(file)) return(list(state = "absent"))
   damaged <- function(e) list(state = "damaged")
   tryCatch({
-    bytes <- readBin(file, "raw", file.size(file))
+    bytes <- read_raw(file)
     if (is_former(bytes)) return(list(state = "former"))
     end <- integer(3)
     for (i in 1:3) end[i] <- grepRaw(as.raw(10L), bytes, c(0, end)[i] + 1, fixed = TRUE)

@@ -111,10 +111,15 @@ wild_lines <- list(
   capitals = function(x, kind) if (kind == "stl") toupper(x) else x,
   names = function(x, kind) if (kind == "stl") c("solid facet vertex 1 2 3", x[-c(1, length(x))], "endsolid vertex") else x,
   header = function(x, kind) if (kind == "ply") append(x, rep("comment end_header of old", pick(c(3, 4000))), 2) else x,
-  blanks = function(x, kind) paste0(pick(c("", " ", "\t"), length(x)), gsub(" ", pick(c("  ", "\t")), x), pick(c("", " "), length(x))),
+  blanks = function(x, kind) if (kind == "ply") c("ply", wild_blanks(x[-1], "")) else wild_blanks(x),
   empty_lines = function(x, kind) if (kind == "ply") x else as.vector(rbind(x, "")),
   exponents = function(x, kind) gsub("([ ^])([0-9][.][0-9]+)( |$)", "\\1\\2E+00\\3", x)
 )
+
+# No blank stands before a word of a PLY header.
+wild_blanks <- function(x, before = c("", " ", "\t")) {
+  paste0(pick(before, length(x)), gsub(" ", pick(c("  ", "\t")), x), pick(c("", " "), length(x)))
+}
 
 negative_faces <- function(x) {
   face <- startsWith(x, "f ")

@@ -81,3 +81,33 @@ test_that("levels that differ by blanks or case only are found", {
   expect_length(alike_levels(c("F", "FF", "M")), 0)
   expect_length(alike_levels(character()), 0)
 })
+
+test_that("names may have more folders than the ids", {
+  expect_equal(id_places(c("m/a", "n/a", "b"), c("C:\\data\\n\\a.ply", "C:\\data\\b.ply", "C:\\data\\m\\a.ply")), list(3L, 1L, 2L))
+  expect_equal(lengths(id_places("m/a", c("x/m/a", "y/m/a", "xm/a"))), 2)
+})
+
+test_that("bytes that are no text are taken for Latin 1", {
+  bytes <- rawToChar(as.raw(c(0x47, 0x72, 0xfc, 0x6e)))
+  expect_equal(id_places("gr\u00fcn", bytes), list(1L))
+})
+
+test_that("rows of one specimen are compared in all columns, matrices and tables too", {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "groups", call = NULL)
+  data <- data.frame(id = c("a", "b", "b"), v = c(1, 2, 2))
+  rows <- function(column) {
+    data$more <- column
+    as.integer(rows_of_specimens(data, c("b", "a"), "data", fail))
+  }
+  expect_equal(rows(cbind(1:3, c(4, 5, 5), c(1, 1, 1))[, 3, drop = FALSE]), c(2, 1))
+  expect_crestline_error(rows(cbind(c(1, 2, 2), c(4, 5, 6))), "2 different rows for b")
+  expect_crestline_error(rows(I(data.frame(p = c(1, 2, 2), q = c(4, 5, 6)))), "2 different rows for b")
+  expect_equal(rows(I(list(1, "x", "x"))), c(2, 1))
+  expect_equal(rows(as.POSIXlt("2026-01-01", tz = "UTC") + c(0, 1, 1)), c(2, 1))
+})
+
+test_that("two key columns of one name are refused", {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "groups", call = NULL)
+  data <- cbind(data.frame(id = c("a", "b"), v = 1:2), id = c("b", "a"))
+  expect_crestline_error(rows_of_specimens(data, c("a", "b"), "data", fail), "two columns `id`")
+})

@@ -18,6 +18,8 @@ test_that("the file beside a mesh is found in any format and any case of its ext
                  "f.MRK.JSON", "f.pp", "f_picked_points.pp")) {
     expect_equal(beside(do.call(new_folder_of, stats::setNames(list(at(1)), name))), name)
   }
+  expect_equal(beside(new_folder_of(f.PLY.csv = at(1))), "f.PLY.csv")
+  expect_equal(beside(new_folder_of(f.obj.csv = at(1), f.obj = "x")), "")
   expect_equal(beside(new_folder_of(g.csv = at(1), f2.csv = at(1), f.txt = "x", f.ply = "x")), "")
 })
 
@@ -131,4 +133,9 @@ test_that("what is no source of landmarks is refused", {
   expect_crestline_error(landmarks_for(new_folder_of(a.txt = "x"), "a"),
                          c("has no landmark files", ".csv"))
   expect_crestline_error(landmarks_for(list(a = at(1), at(2)), c("a", "b")), "have no name")
+})
+
+test_that("an ID= that is there twice is named where specimens cannot be told apart", {
+  tps <- landmark_file("tps", rep(c("LM3=1", "1 2 3", "ID=S1"), 2))
+  expect_crestline_error(landmarks_for(tps, c("S1", "S2")), "ID=S1 is there twice")
 })

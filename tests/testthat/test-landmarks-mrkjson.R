@@ -109,3 +109,17 @@ test_that("what cannot be read is refused with file and place", {
   expect_refused(json_markups(json_list(json_point("a", '[1, "b", 3]'))), "three numbers")
   expect_refused(json_markups('{"type": "Fiducial", "controlPoints": "none"}'), "not a control point")
 })
+
+test_that("a co-ordinate system by its number is taken as such", {
+  list <- json_list(json_point("a", "[1, 2, 3]"))
+  markup <- if (grepl("coordinateSystem", list)) list else sub("{", '{"coordinateSystem": "LPS", ', list, fixed = TRUE)
+  numbered <- sub('"coordinateSystem": *"[A-Z]+"', '"coordinateSystem": 0', markup)
+  expect_equal(unname(read_landmarks(json_markups(numbered))[1, ]), c(-1, -2, 3))
+  expect_refused(json_markups(sub('"coordinateSystem": *"[A-Z]+"', '"coordinateSystem": 7', markup)), "7")
+})
+
+test_that("labels that are numbers are names; co-ordinates by name are refused", {
+  expect_identical(rownames(read_landmarks(json_markups(json_list('{"label": 5, "position": [1, 2, 3]}', '{"id": 12, "position": [1, 2, 4]}')))),
+                   c("5", "12"))
+  expect_refused(json_markups(json_list(json_point("a", '{"z": 3, "y": 2, "x": 1}'))), "three numbers")
+})

@@ -62,3 +62,8 @@ test_that("what cannot be written or read is refused with file, line and remedy"
   expect_refused(nts_file("1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5 6,x"), "8 words")
   expect_refused(nts_file("1 1L 6 1 9999 DIM=3", "a", "1 2 3", "4 5 sn"), '"sn"', line = 4)
 })
+
+test_that("a label over two different specimens is refused", {
+  expect_refused(nts_file("1 2L 6 0 DIM=3", "a a", "1 2 3 4 5 6", "1 2 3 4 5 7"), "the specimen a is there twice")
+  expect_identical(names(read_landmarks(nts_file("1 2L 6 0 DIM=3", "a b", "1 2 3 4 5 6", "1 2 3 4 5 6"))), c("a", "b"))
+})

@@ -31,3 +31,8 @@ test_that("what cannot be read is refused with file and remedy", {
   expect_refused(pp_file("<PickedPoints>", '<point x="1 y="2" z="3"/>', "</PickedPoints>"),
                  "a point cannot be read")
 })
+
+test_that("an entity of no sign stands for one that cannot be shown", {
+  file <- landmark_file("pp", "<PickedPoints>", '<point x="1" y="2" z="3" name="a&#x110000;"/>', "</PickedPoints>")
+  expect_identical(rownames(read_landmarks(file)), "a\ufffd")
+})

@@ -58,3 +58,8 @@ test_that("what cannot be read is refused with file, line and remedy", {
   expect_refused(pts_file("Version 1.0", "2", "a 1 2 3", "b 1 2 x3"), '"x3" is not a number', line = 4)
   expect_refused(pts_file(""), "number of points")
 })
+
+test_that("a fourth number in a row moves none of the others into the name", {
+  expect_refused(pts_file("Version 1.0", "2", "a 1 2 3", "b 1.5 2 3 0.25"), c("more than three numbers", "b 1.5"), line = 4)
+  expect_identical(rownames(read_landmarks(pts_file("Version 1.0", "2", "tip 1 1.5 2 3", "no. 2 1 2 3"))), c("tip 1", "no. 2"))
+})

@@ -74,3 +74,18 @@ test_that("decimal commas that look like more numbers are refused", {
   expect_refused(tps_file("LM=2", "1,5 2", "3,5 4"), "both commas and blanks", line = 2)
   expect_equal(unname(read_landmarks(tps_file("LM3=1", "1, 2, 3"))[1, ]), 1:3)
 })
+
+test_that("a factor of nothing, a negative one and two of them are refused", {
+  record <- c("LM3=1", "1 2 3", "ID=a")
+  expect_refused(tps_file(record, "SCALE=0"), "SCALE=0 is not greater than 0", line = 4)
+  expect_refused(tps_file(record, "SCALE=-0.5"), "SCALE=-0.5", line = 4)
+  expect_refused(tps_file(record, "SCALE=2", "SCALE=3"), "two different SCALE=", line = 5)
+  expect_equal(unname(read_landmarks(tps_file(record, "SCALE=2", "SCALE=2.0"))[1, ]), c(2, 4, 6))
+  expect_equal(unname(read_landmarks(tps_file(record, "SCALE=0"), scale = FALSE)[1, ]), 1:3)
+})
+
+test_that("curves without landmarks have the co-ordinates that they have", {
+  x <- read_landmarks(tps_file("LM=0", "CURVES=1", "POINTS=2", "1 2 3", "4 5 6", "ID=a"))
+  expect_equal(nrow(x), 0)
+  expect_equal(unname(attr(x, "curves")[[1]][2, ]), c(4, 5, 6))
+})

@@ -123,3 +123,20 @@ test_that("corners that are no whole numbers, or beyond all vertices, are refuse
   }
   expect_equal(read_mesh(obj_file(corners, "f 1 2 3.0"), "o")$it, cbind(1:3))
 })
+
+test_that("a material file of another name's encoding, a pipe or a device keeps no mesh from being read", {
+  folder <- tempfile("obj")
+  dir.create(folder)
+  body <- c("v 0 0 0", "v 1 0 0", "v 0 1 0", "vt 0 0", "usemtl a", "f 1/1 2/1 3/1", "")
+  read <- function(library) {
+    file <- file.path(folder, "a.obj")
+    writeBin(c(charToRaw("mtllib "), library, charToRaw(paste0("\n", paste(body, collapse = "\n")))), file)
+    ncol(read_mesh(file, "a")$it)
+  }
+  expect_equal(read(c(charToRaw("Gr"), as.raw(0xfc), charToRaw("n.mtl"))), 1)
+  skip_on_os("windows")
+  system2("mkfifo", file.path(folder, c("p.mtl", "p.png")))
+  writeLines(c("newmtl a", "map_Kd p.png"), file.path(folder, "q.mtl"))
+  expect_equal(read(charToRaw("p.mtl")), 1)
+  expect_warning(expect_equal(read(charToRaw("q.mtl")), 1), "p.png cannot be read")
+})

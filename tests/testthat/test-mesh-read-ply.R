@@ -219,3 +219,20 @@ test_that("a surface in an element that is not read is refused by its name", {
   expect_crestline_error(read_lines(sub(" int vertex_indices", " float vertex_indices", sub("^3 (.*)", "3 \\1.5", ply_lines()))),
                          "18 of 18 faces")
 })
+
+test_that("a second surface beside the faces is told of", {
+  line <- ply_lines()
+  end <- match("end_header", line)
+  more <- c("element range_grid 1", "property list uchar int vertex_indices")
+  lines <- c(line[seq_len(end - 1)], more, line[-seq_len(end - 1)], "3 0 1 2")
+  expect_warning(read_lines(lines), "second surface in the element range_grid", class = "crestline_file_warning")
+})
+
+test_that("a property that is there twice is refused, and a list is no co-ordinate nor colour", {
+  line <- ply_lines()
+  z <- grep("^property .* z$", line)
+  expect_crestline_error(read_lines(append(line, "property float x", z)), "property x twice")
+  expect_crestline_error(read_lines(sub("^property [a-z0-9]+ x$", "property list uchar float x", line)), "cannot be read")
+  nothing <- c("ply", "format ascii 1.0", "element vertex 0", paste("property float", c("x", "y", "z")), "end_header")
+  expect_no_warning(expect_crestline_error(read_lines(nothing), "it has no vertices"))
+})

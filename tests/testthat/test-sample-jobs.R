@@ -88,3 +88,9 @@ test_that("a key is of content, scheme, settings and reading, not of names, thre
   expect_false(identical(key(list(specimen = moved)), key(list(specimen = three[[1]]))))
   expect_identical(key(list(mesh = file.path(dir, "gone.ply"))), NA_character_)
 })
+
+test_that("a path that is empty, and a file that is not there, are named as such", {
+  expect_crestline_error(fit_shapes(c("a.ply", ""), face_scheme()), "no path at place 2")
+  absent <- file.path(tempdir(), "absent.ply")
+  expect_crestline_error(check_stored(absent, "reading"), c("absent.ply", "there is no such file"))
+})

@@ -97,3 +97,16 @@ test_that("a hash is of the content, however R has it in memory", {
   expect_identical(content_hash(list(1:3)), content_hash(list(c(1L, 2L, 3L))))
   expect_false(identical(content_hash(1:3), content_hash(c(1, 2, 3))))
 })
+
+test_that("results that are absent, folders or cannot be written cost no connection", {
+  before <- nrow(showConnections())
+  folder <- tempfile("folder")
+  dir.create(folder)
+  for (i in 1:3) {
+    expect_true(is.na(peek_kept(tempfile())$key))
+    expect_false(peek_kept(folder)$own)
+    expect_equal(open_kept(folder)$state, "damaged")
+    expect_crestline_error(keep(1, list(key = "a", mesh = "b"), file.path(tempfile(), "a.shape")), "cannot be written")
+  }
+  expect_equal(nrow(showConnections()), before)
+})
