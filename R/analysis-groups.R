@@ -254,34 +254,38 @@ summary.group_comparison <- function(object, ...) {
 
 #' @export
 print.comparison_summary <- function(x, ...) {
-  print.data.frame(x, row.names = FALSE)
-  if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
-  invisible(x)
+  printed(x, {
+    print.data.frame(x, row.names = FALSE)
+    if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
+    invisible(x)
+  })
 }
 
 #' @export
 print.group_comparison <- function(x, most = 5, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  counts <- table(x$group)
-  drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
-    amount(x$n_perm, "random permutation")
-  cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
-      drawn, "\n", sep = "")
-  if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
-  line <- design_line(x$design)
-  if (!is.null(line)) cat("  ", line, "\n", sep = "")
-  said <- spread_line(x)
-  if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
-  for (level in names(x$aligned)) {
-    for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
-  }
-  used <- x$components[!is.na(x$components)]
-  if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
-  if (!is.null(x$points)) {
-    for (level in unique(x$points$level)) cat("  ", points_line(x$points[x$points$level == level, ]), "\n", sep = "")
-  }
-  invisible(x)
+  printed(x, {
+    counts <- table(x$group)
+    drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
+      amount(x$n_perm, "random permutation")
+    cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
+        drawn, "\n", sep = "")
+    if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+    line <- design_line(x$design)
+    if (!is.null(line)) cat("  ", line, "\n", sep = "")
+    said <- spread_line(x)
+    if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
+    for (level in names(x$aligned)) {
+      for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
+    }
+    used <- x$components[!is.na(x$components)]
+    if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
+    if (!is.null(x$points)) {
+      for (level in unique(x$points$level)) cat("  ", points_line(x$points[x$points$level == level, ]), "\n", sep = "")
+    }
+    invisible(x)
+  })
 }
 
 #' The table of p-values as lines of text; of the components the first ones

@@ -80,9 +80,11 @@ summary.shape_pca <- function(object, ...) {
 
 #' @export
 print.summary_shape_pca <- function(x, ...) {
-  NextMethod()
-  print_provenance(x$provenance)
-  invisible(x)
+  printed(x, {
+    NextMethod()
+    print_provenance(x$provenance)
+    invisible(x)
+  })
 }
 
 sign_of_greatest <- function(v) {
@@ -117,13 +119,15 @@ names_of_components <- function(pca) colnames(pca$x)
 print.shape_pca <- function(x, most = 6, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
-      amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
-  shown <- utils::head(as.data.frame(x), most)
-  text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component, shown$sd, 100 * shown$share,
-                  100 * shown$cumulative)
-  cat(text, sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
+        amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
+    shown <- utils::head(as.data.frame(x), most)
+    text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component, shown$sd, 100 * shown$share,
+                    100 * shown$cumulative)
+    cat(text, sep = "\n")
+    invisible(x)
+  })
 }
 
 #' The shape at a place on principal components

@@ -298,24 +298,26 @@ as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ..
 #' @export
 print.shape_sample <- function(x, ...) {
   check_method_dots(...)
-  points <- x$template$points
-  count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
-                  0L)
-  cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name,
-      "\n", sep = "")
-  cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ",
-      count[["surface"]],
-      " surface points\n", sep = "")
-  if (!is.null(x$convergence)) {
-    last <- x$convergence[nrow(x$convergence), ]
-    cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n",
-                amount(last$round, "round"),
-                last$movement, last$largest))
-  }
-  if (nrow(x$missing)) {
-    cat(strwrap(paste0("missing: ", amount(sum(x$missing$points), "point"), " of ",
-                       shorten(unique(x$missing$id), 8)),
-                indent = 2, exdent = 4), sep = "\n")
-  }
-  invisible(x)
+  printed(x, {
+    points <- x$template$points
+    count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
+                    0L)
+    cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name,
+        "\n", sep = "")
+    cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ",
+        count[["surface"]],
+        " surface points\n", sep = "")
+    if (!is.null(x$convergence)) {
+      last <- x$convergence[nrow(x$convergence), ]
+      cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n",
+                  amount(last$round, "round"),
+                  last$movement, last$largest))
+    }
+    if (nrow(x$missing)) {
+      cat(strwrap(paste0("missing: ", amount(sum(x$missing$points), "point"), " of ",
+                         shorten(unique(x$missing$id), 8)),
+                  indent = 2, exdent = 4), sep = "\n")
+    }
+    invisible(x)
+  })
 }

@@ -114,25 +114,27 @@ as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) {
 print.shape <- function(x, most = 8, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
-  for (level in c("landmarks", "curves", "surface")) {
-    points <- x$points[x$points$level == level, ]
-    status <- x$status[x$status$level == level, ]
-    what <- switch(level, surface = "patches", level)
-    if (nrow(status)) cat("  ", sum(status$ok), " of ", nrow(status), " ", what, if (level != "landmarks") {
-      sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
-    }, "\n", sep = "")
-  }
-  print_placing(x$placing)
-  said <- x$status[!is.na(x$status$reason), ]
-  for (i in utils::head(seq_len(nrow(said)), most)) {
-    cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
-  }
-  if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
-  unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
-  if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
-  if (length(unused)) cat(unused, sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
+    for (level in c("landmarks", "curves", "surface")) {
+      points <- x$points[x$points$level == level, ]
+      status <- x$status[x$status$level == level, ]
+      what <- switch(level, surface = "patches", level)
+      if (nrow(status)) cat("  ", sum(status$ok), " of ", nrow(status), " ", what, if (level != "landmarks") {
+        sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
+      }, "\n", sep = "")
+    }
+    print_placing(x$placing)
+    said <- x$status[!is.na(x$status$reason), ]
+    for (i in utils::head(seq_len(nrow(said)), most)) {
+      cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
+    }
+    if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
+    unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
+    if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
+    if (length(unused)) cat(unused, sep = "\n")
+    invisible(x)
+  })
 }
 
 #' @exportS3Method
