@@ -188,6 +188,7 @@ warn_alignment <- function(rounds, moved) {
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   off <- sweep(x$coords, 1:2, x$mean)
   distance <- sqrt(colSums(matrix(off^2 * x$weights, length(x$mean))))
   ids <- dimnames(x$coords)[[3]]

@@ -129,6 +129,29 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   compared
 }
 
+#' @exportS3Method
+validate.group_comparison <- function(x) {
+  table <- function(value, columns) {
+    is.null(value) || is.data.frame(value) && all(columns %in% names(value)) && is.numeric(value$p_value) &&
+      all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
+  }
+  pca <- Filter(Negate(is.null), if (is.list(x$pca)) x$pca)
+  design <- is.null(x$design) || is.list(x$design) && is.factor(x$design$group) &&
+    is.character(x$design$kind) && isTRUE(x$design$kind %in% c("free", "whole", "within")) &&
+    (x$design$kind == "whole" || length(x$design$group) == length(x$group))
+  own <- function(one) inherits(one, "aligned") && length(one) == length(x$group)
+  right <- table(x$tests, c("level", "test", "statistic", "p_value", "p_parametric", "p_adjusted")) && design &&
+    table(x$points, c("level", "point", "p_value", "p_adjusted")) && is.factor(x$group) && is.list(x$aligned) &&
+    length(x$aligned) > 0 && all(vapply(x$aligned, own, NA)) && all(vapply(pca, inherits, NA, "shape_pca")) &&
+    is.numeric(x$n_perm) && length(x$n_perm) == 1
+  if (!right) {
+    crestline_abort("the comparison is damaged: its parts do not fit together.", "Compare anew: compare_groups().",
+                    stage = "comparison", call = NULL)
+  }
+  for (one in c(x$aligned, pca)) validate(one)
+  invisible(x)
+}
+
 #' The tests of one level
 #' @return List: `tests`, `points`, `pca`, `components`.
 #' @noRd
@@ -235,6 +258,7 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 #' @export
 as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   x$tests
 }
 
@@ -242,6 +266,7 @@ as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE
 #' @export
 summary.group_comparison <- function(object, ...) {
   check_method_dots(...)
+  validate(object)
   levels <- names(object$aligned)
   tests <- unique(object$tests$test)
   p <- lapply(levels, function(level) {

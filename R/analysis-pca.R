@@ -62,6 +62,18 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
             class = c("shape_pca", "prcomp"))
 }
 
+#' @exportS3Method
+validate.shape_pca <- function(x) {
+  numbers <- function(value, n) is.numeric(value) && length(value) == n
+  n <- length(x$sdev)
+  columns <- function(value) is.numeric(value) && is.matrix(value) && ncol(value) == n
+  right <- n > 0 && is.numeric(x$sdev) && numbers(x$share, n) && columns(x$x) && columns(x$direction) && columns(x$rotation) &&
+    is.matrix(x$mean) && numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
+  if (right) return(invisible(x))
+  crestline_abort("the components are damaged: their parts do not fit together.",
+                  "Work them out anew: shape_pca(aligned).", stage = "components", call = NULL)
+}
+
 #' A provenance with the arguments of one stage more
 #' @noRd
 with_settings <- function(provenance, stage, settings) {
@@ -72,6 +84,7 @@ with_settings <- function(provenance, stage, settings) {
 #' @rdname provenance
 #' @export
 summary.shape_pca <- function(object, ...) {
+  validate(object)
   found <- NextMethod()
   found$provenance <- object$provenance
   class(found) <- c("summary_shape_pca", class(found))
@@ -110,6 +123,7 @@ thin_svd <- function(x, tolerance) {
 #' @export
 as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   data.frame(component = names_of_components(x), sd = x$sdev, share = x$share, cumulative = cumsum(x$share))
 }
 

@@ -143,6 +143,8 @@ window_strength <- function(specimen, coordinates, curvature, type, keep_away, s
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
   value <- strength_at(curved, type, across = if (!principal) across)
+  # No direction is across a path where it runs along the normal, or stands still.
+  value[is.nan(value)] <- NA
   if (!is.null(keep_away)) {
     value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
   }

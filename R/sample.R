@@ -40,6 +40,7 @@ whole_provenance <- function(x) {
 #' @rdname provenance
 #' @export
 summary.shape_sample <- function(object, ...) {
+  validate(object)
   new_summary(printed_lines(object), whole_provenance(object))
 }
 
@@ -54,6 +55,9 @@ validate_shape_sample <- function(x, call = rlang::caller_env()) {
   shapes <- x$shapes
   check_class(x$template, "shape", "template", "symmetrise() or homologise()", call)
   refuse(!all(vapply(shapes, inherits, NA, "shape")), "some of its members are no shapes.")
+  named <- function(shape) is.character(unclass(shape)$id) && length(shape$id) == 1
+  refuse(!all(vapply(shapes, named, NA)), "some of its shapes have no id.")
+  for (shape in shapes) validate(shape)
   ids <- vapply(shapes, `[[`, "", "id")
   refuse(!identical(unname(ids), as.character(names(shapes))),
          "its names are not the ids of its shapes.", "Rename specimens by `names(sample) <- ...`.")
@@ -133,6 +137,7 @@ NULL
 #' @export
 `[.shape_sample` <- function(x, i, ...) {
   if (...length()) refuse_dimensions("the sample", "as.array(sample, level) has points and axes.")
+  validate(x)
   if (missing(i)) return(x)
   new_shape_sample(x$shapes[chosen_members(i, names(x), "the sample")], x$template, x$convergence,
                    x$provenance)
@@ -288,6 +293,7 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 #' @export
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   none <- cbind(id = character(), x$template$points[0, ])
   each <- lapply(x$shapes, function(shape) cbind(id = shape$id, shape$points))
   each <- do.call(rbind, c(list(none), unname(each)))

@@ -52,6 +52,7 @@
 quality <- function(x, limits = quality_limits(), others = NULL) {
   check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
+  if (inherits(x, "shape_sample")) validate(x)
   shapes <- named_shapes(x)
   measured <- Filter(Negate(is.null), shapes)
   parts <- Map(part_measures, measured, names(measured))
