@@ -34,12 +34,12 @@ validate_shape <- function(x) {
   validate(x$scheme)
   points <- x$points
   named <- c("level", "part", "point")
-  own <- is.data.frame(points) && !is.null(place_columns(points)) && is_error(points$se) &&
+  table <- function(value) is.data.frame(value) && all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
+  own <- table(points) && !is.null(place_columns(points)) && is_error(points$se) &&
     all(vapply(named, function(name) identical(as.vector(points[[name]]), as.vector(x$scheme$points[[name]])), NA))
   if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
   if (!is.list(x$paths) || !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
   kept <- function(name, is) is.null(x[[name]]) || is(x[[name]])
-  table <- function(value) is.data.frame(value) && all(lengths(value) == nrow(value))
   right <- kept("checks", table) && kept("placing", table) && kept("warnings", table) && kept("provenance", is.list) &&
     (is.null(x$checks) || nrow(x$checks) == nrow(x$status))
   if (!right) refuse("its `checks`, `placing`, `warnings` or `provenance` are not what they were.")

@@ -56,6 +56,7 @@ test_that("a sample with a damaged shape is refused", {
     structure(parts, class = class)
   }
   changes <- list(function(x) "x", function(x) tampered(x, function(f) within_list(f, points = "x")),
+                  function(x) tampered(x, function(f) within_list(f, points = replace(unclass(f$points), "level", list(sum)))),
                   function(x) tampered(x, function(f) within_list(f, id = NA)))
   for (change in changes) {
     for (call in list(align, summary, as.data.frame, quality, function(x) x[1])) {
