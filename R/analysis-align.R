@@ -192,6 +192,7 @@ warn_alignment <- function(rounds, moved) {
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   off <- sweep(x$coords, 1:2, x$mean)
   distance <- sqrt(colSums(matrix(off^2 * x$weights, length(x$mean))))
   ids <- dimnames(x$coords)[[3]]
@@ -202,14 +203,16 @@ as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
 #' @export
 print.aligned <- function(x, ...) {
   check_method_dots(...)
-  n <- dim(x$coords)[3]
-  cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
-      if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",
-      if (x$tangent) ", in tangent space", "\n", sep = "")
-  table <- as.data.frame(x)
-  cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size), max(table$size)))
-  cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n", sqrt(mean(table$distance^2)),
-              max(table$distance), table$id[which.max(table$distance)]))
-  for (line in missing_lines(x$missing)) cat(strwrap(line, indent = 2, exdent = 4), sep = "\n")
-  invisible(x)
+  printed(x, {
+    n <- dim(x$coords)[3]
+    cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
+        if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",
+        if (x$tangent) ", in tangent space", "\n", sep = "")
+    table <- as.data.frame(x)
+    cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size), max(table$size)))
+    cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n", sqrt(mean(table$distance^2)),
+                max(table$distance), table$id[which.max(table$distance)]))
+    for (line in missing_lines(x$missing)) cat(strwrap(line, indent = 2, exdent = 4), sep = "\n")
+    invisible(x)
+  })
 }

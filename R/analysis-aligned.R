@@ -62,11 +62,33 @@ validate_aligned <- function(x, call = rlang::caller_env()) {
 #' @exportS3Method
 validate.aligned <- function(x) {
   mean <- attr(x, "mean")
-  alike <- all(vapply(as.list(x), function(one) identical(dim(one), dim(mean)), NA))
-  if (alike && length(x$weights) == nrow(mean) && length(x$size) == length(x)) return(invisible(x))
+  like_mean <- function(one) is.numeric(one) && identical(dim(one), dim(mean))
+  numbers <- function(value, n) is.numeric(value) && length(value) == n
+  alike <- is.matrix(mean) && is.numeric(mean) && all(vapply(as.list(x), like_mean, NA))
+  if (alike && numbers(x$weights, nrow(mean)) && numbers(x$size, length(x)) && is_described(x)) {
+    return(invisible(x))
+  }
   crestline_abort("the fields of the alignment do not fit together.",
                   "Set `coords`, `mean`, `size`, `weights` alike, or align() the changed sample.",
                   stage = "align", call = NULL)
+}
+
+#' Whether what an alignment says of itself is of the right kinds
+#' @noRd
+is_described <- function(x) {
+  flag <- function(value) isTRUE(value) || isFALSE(value)
+  one <- function(value, is) is(value) && length(value) == 1 && !is.na(value)
+  texts <- function(value) is.character(value) || is.factor(value)
+  settings <- x$settings
+  known <- is.null(settings) || is.list(settings) && flag(settings$tangent) &&
+    one(settings$tolerance, is.numeric) && one(settings$rounds, is.numeric) &&
+    one(settings$missing, is.character) && settings$missing %in% c("estimate", "drop", "stop")
+  missing <- is.data.frame(x$missing) && texts(x$missing$id) && texts(x$missing$point) &&
+    texts(x$missing$action)
+  known && missing && flag(x$tangent) && (flag(x$scale) || identical(x$scale, "full")) &&
+    one(x$level, is.character) && is.matrix(x$reference) && is.numeric(x$reference) &&
+    is.list(x$provenance) &&
+    (is.null(x$provenance$settings) || is.list(x$provenance$settings))
 }
 
 #' The specimens of an alignment
@@ -111,6 +133,7 @@ NULL
 #' @export
 `[.aligned` <- function(x, i, ...) {
   if (...length()) refuse_dimensions("the alignment", "Or use the array: aligned$coords[, , i].")
+  validate(x)
   if (missing(i)) return(x)
   at <- chosen_members(i, names(x), "the alignment")
   if (length(at) == length(x)) return(reordered(x, at))
@@ -179,6 +202,7 @@ fields_of <- function(x, names = aligned_fields) {
 #' @rdname aligned
 #' @export
 `names<-.aligned` <- function(x, value) {
+  validate(x)
   value <- check_member_names(value, length(x))
   renamed <- fields_of(x)
   dimnames(renamed$coords)[[3]] <- value

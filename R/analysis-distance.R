@@ -135,19 +135,21 @@ polyline_distances <- function(points, line) {
 print.curve_distance <- function(x, most = 12, digits = 3, ...) {
   check_method_dots(..., known = c("most", "digits"))
   check_most(most)
-  all <- attr(x, "all")
-  whole <- !is.null(all) && all(c("part", "rms", "mean", "max") %in% names(x))
-  if (!whole) return(invisible(print(as.data.frame(x), digits = digits, ...)))
-  how <- paste0(c(points = "points of the same number", curves = "nearest places")[[attr(x, "between")]],
-                if (attr(x, "match") == "procrustes") ", b laid onto a")
-  cat("Distance of ", amount(sum(!is.na(x$rms)), "part"), ", ", how, "\n", sep = "")
-  worst <- utils::head(x[order(-x$rms), ], most)
-  shown <- rbind(as.data.frame(worst), all)
-  numbers <- c("rms", "mean", "max")
-  shown[numbers] <- signif(shown[numbers], digits)
-  print.data.frame(shown, row.names = FALSE)
-  if (nrow(x) > most) cat("and", nrow(x) - most, "nearer or missing parts in as.data.frame()\n")
-  invisible(x)
+  printed(x, {
+    all <- attr(x, "all")
+    whole <- !is.null(all) && all(c("part", "rms", "mean", "max") %in% names(x))
+    if (!whole) return(invisible(print(as.data.frame(x), digits = digits, ...)))
+    how <- paste0(c(points = "points of the same number", curves = "nearest places")[[attr(x, "between")]],
+                  if (attr(x, "match") == "procrustes") ", b laid onto a")
+    cat("Distance of ", amount(sum(!is.na(x$rms)), "part"), ", ", how, "\n", sep = "")
+    worst <- utils::head(x[order(-x$rms), ], most)
+    shown <- rbind(as.data.frame(worst), all)
+    numbers <- c("rms", "mean", "max")
+    shown[numbers] <- signif(shown[numbers], digits)
+    print.data.frame(shown, row.names = FALSE)
+    if (nrow(x) > most) cat("and", nrow(x) - most, "nearer or missing parts in as.data.frame()\n")
+    invisible(x)
+  })
 }
 
 #' @export

@@ -37,8 +37,10 @@ sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyon
 
 #' @export
 print.sample_limits <- function(x, ...) {
-  cat("Limits of a sample:", paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
-  invisible(x)
+  printed(x, {
+    cat("Limits of a sample:", paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
+    invisible(x)
+  })
 }
 
 #' An alignment, after a warning of each kind of doubt about it

@@ -138,6 +138,29 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   compared
 }
 
+#' @exportS3Method
+validate.group_comparison <- function(x) {
+  table <- function(value, columns) {
+    is.null(value) || is.data.frame(value) && all(columns %in% names(value)) && is.numeric(value$p_value) &&
+      all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
+  }
+  pca <- Filter(Negate(is.null), if (is.list(x$pca)) x$pca)
+  design <- is.null(x$design) || is.list(x$design) && is.factor(x$design$group) &&
+    is.character(x$design$kind) && isTRUE(x$design$kind %in% c("free", "whole", "within")) &&
+    (x$design$kind == "whole" || length(x$design$group) == length(x$group))
+  own <- function(one) inherits(one, "aligned") && length(one) == length(x$group)
+  right <- table(x$tests, c("level", "test", "statistic", "p_value", "p_parametric", "p_adjusted")) && design &&
+    table(x$points, c("level", "point", "p_value", "p_adjusted")) && is.factor(x$group) && is.list(x$aligned) &&
+    length(x$aligned) > 0 && all(vapply(x$aligned, own, NA)) && all(vapply(pca, inherits, NA, "shape_pca")) &&
+    is.numeric(x$n_perm) && length(x$n_perm) == 1
+  if (!right) {
+    crestline_abort("the comparison is damaged: its parts do not fit together.", "Compare anew: compare_groups().",
+                    stage = "comparison", call = NULL)
+  }
+  for (one in c(x$aligned, pca)) validate(one)
+  invisible(x)
+}
+
 #' The tests of one level
 #' @return List: `tests`, `points`, `pca`, `components`.
 #' @noRd
@@ -244,6 +267,7 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 #' @export
 as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   x$tests
 }
 
@@ -251,6 +275,7 @@ as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE
 #' @export
 summary.group_comparison <- function(object, ...) {
   check_method_dots(...)
+  validate(object)
   levels <- names(object$aligned)
   tests <- unique(object$tests$test)
   p <- lapply(levels, function(level) {
@@ -263,34 +288,38 @@ summary.group_comparison <- function(object, ...) {
 
 #' @export
 print.comparison_summary <- function(x, ...) {
-  print.data.frame(x, row.names = FALSE)
-  if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
-  invisible(x)
+  printed(x, {
+    print.data.frame(x, row.names = FALSE)
+    if (!is.null(attr(x, "provenance"))) print_provenance(attr(x, "provenance"))
+    invisible(x)
+  })
 }
 
 #' @export
 print.group_comparison <- function(x, most = 5, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  counts <- table(x$group)
-  drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
-    amount(x$n_perm, "random permutation")
-  cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
-      drawn, "\n", sep = "")
-  if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
-  line <- design_line(x$design)
-  if (!is.null(line)) cat("  ", line, "\n", sep = "")
-  said <- spread_line(x)
-  if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
-  for (level in names(x$aligned)) {
-    for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
-  }
-  used <- x$components[!is.na(x$components)]
-  if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
-  if (!is.null(x$points)) {
-    for (level in unique(x$points$level)) cat("  ", points_line(x$points[x$points$level == level, ]), "\n", sep = "")
-  }
-  invisible(x)
+  printed(x, {
+    counts <- table(x$group)
+    drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
+      amount(x$n_perm, "random permutation")
+    cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
+        drawn, "\n", sep = "")
+    if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+    line <- design_line(x$design)
+    if (!is.null(line)) cat("  ", line, "\n", sep = "")
+    said <- spread_line(x)
+    if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
+    for (level in names(x$aligned)) {
+      for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
+    }
+    used <- x$components[!is.na(x$components)]
+    if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
+    if (!is.null(x$points)) {
+      for (level in unique(x$points$level)) cat("  ", points_line(x$points[x$points$level == level, ]), "\n", sep = "")
+    }
+    invisible(x)
+  })
 }
 
 #' The table of p-values as lines of text; of the components the first ones

@@ -43,6 +43,7 @@
 as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
+  validate(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   columns <- covariates(data, dimnames(aligned$coords)[[3]])
   structure(c(list(coords = aligned$coords, size = aligned$size), columns), class = "geomorph.data.frame")
@@ -66,6 +67,7 @@ as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model")
 as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model"), ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
+  validate(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
   variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share, "Cumulative %" = 100 * cumsum(pca$share))

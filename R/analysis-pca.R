@@ -64,6 +64,18 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
             class = c("shape_pca", "prcomp"))
 }
 
+#' @exportS3Method
+validate.shape_pca <- function(x) {
+  numbers <- function(value, n) is.numeric(value) && length(value) == n
+  n <- length(x$sdev)
+  columns <- function(value) is.numeric(value) && is.matrix(value) && ncol(value) == n
+  right <- n > 0 && is.numeric(x$sdev) && numbers(x$share, n) && columns(x$x) && columns(x$direction) && columns(x$rotation) &&
+    is.matrix(x$mean) && numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
+  if (right) return(invisible(x))
+  crestline_abort("the components are damaged: their parts do not fit together.",
+                  "Work them out anew: shape_pca(aligned).", stage = "components", call = NULL)
+}
+
 #' A provenance with the arguments of one stage more
 #' @noRd
 with_settings <- function(provenance, stage, settings) {
@@ -74,6 +86,7 @@ with_settings <- function(provenance, stage, settings) {
 #' @rdname provenance
 #' @export
 summary.shape_pca <- function(object, ...) {
+  validate(object)
   found <- NextMethod()
   found$provenance <- object$provenance
   class(found) <- c("summary_shape_pca", class(found))
@@ -82,9 +95,11 @@ summary.shape_pca <- function(object, ...) {
 
 #' @export
 print.summary_shape_pca <- function(x, ...) {
-  NextMethod()
-  print_provenance(x$provenance)
-  invisible(x)
+  printed(x, {
+    NextMethod()
+    print_provenance(x$provenance)
+    invisible(x)
+  })
 }
 
 sign_of_greatest <- function(v) {
@@ -110,6 +125,7 @@ thin_svd <- function(x, tolerance) {
 #' @export
 as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   data.frame(component = names_of_components(x), sd = x$sdev, share = x$share, cumulative = cumsum(x$share))
 }
 
@@ -119,13 +135,15 @@ names_of_components <- function(pca) colnames(pca$x)
 print.shape_pca <- function(x, most = 6, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
-      amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
-  shown <- utils::head(as.data.frame(x), most)
-  text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component, shown$sd, 100 * shown$share,
-                  100 * shown$cumulative)
-  cat(text, sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
+        amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
+    shown <- utils::head(as.data.frame(x), most)
+    text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component, shown$sd, 100 * shown$share,
+                    100 * shown$cumulative)
+    cat(text, sep = "\n")
+    invisible(x)
+  })
 }
 
 #' The shape at a place on principal components

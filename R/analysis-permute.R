@@ -26,7 +26,7 @@ check_permutations <- function(x, n, call) {
   ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2, function(order) all(sort(order) == seq_len(n))))
   if (!ok) {
     crestline_abort("`permutations` are not orders of all specimens.",
-                    sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d.", n, n),
+                    sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d; their number is `n_perm`.", n, n),
                     stage = "arguments", call = call)
   }
   # The first of RRPP's permutations is the observed order.

@@ -270,21 +270,23 @@ as.data.frame.repeatability <- function(x, row.names = NULL, optional = FALSE, .
 print.repeatability <- function(x, most = 10, digits = 3, ...) {
   check_method_dots(..., known = c("most", "digits"))
   check_most(most)
-  count <- x$counts
-  cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ", amount(count[["specimens"]], "specimen"),
-      if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n", sep = "")
-  own <- utils::head(x$parts, -1)
-  shown <- rbind(utils::head(own[order(-own$error), ], most), utils::tail(x$parts, 1))
-  shown <- shown[colSums(!is.na(shown)) > 0]
-  numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"), names(shown))
-  shown[numbers] <- signif(shown[numbers], digits)
-  if (!is.null(shown$icc)) shown$icc <- round(shown$icc, digits)
-  cat("standard deviations by part, those of the greatest error first\n")
-  print.data.frame(shown, row.names = FALSE)
-  if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
-  if (length(x$failed)) cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80, exdent = 2), sep = "\n")
-  if (length(x$missing)) {
-    cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2), sep = "\n")
-  }
-  invisible(x)
+  printed(x, {
+    count <- x$counts
+    cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ", amount(count[["specimens"]], "specimen"),
+        if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n", sep = "")
+    own <- utils::head(x$parts, -1)
+    shown <- rbind(utils::head(own[order(-own$error), ], most), utils::tail(x$parts, 1))
+    shown <- shown[colSums(!is.na(shown)) > 0]
+    numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"), names(shown))
+    shown[numbers] <- signif(shown[numbers], digits)
+    if (!is.null(shown$icc)) shown$icc <- round(shown$icc, digits)
+    cat("standard deviations by part, those of the greatest error first\n")
+    print.data.frame(shown, row.names = FALSE)
+    if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
+    if (length(x$failed)) cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80, exdent = 2), sep = "\n")
+    if (length(x$missing)) {
+      cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2), sep = "\n")
+    }
+    invisible(x)
+  })
 }

@@ -28,6 +28,7 @@ NULL
 #' @exportS3Method generics::tidy
 tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
   check_method_dots(..., known = "what")
+  validate(x)
   what <- check_choice(what, c("tests", "points"), "what")
   table <- x[[what]]
   if (is.null(table)) {
@@ -46,6 +47,7 @@ tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
 #' @exportS3Method generics::glance
 glance.group_comparison <- function(x, ...) {
   check_method_dots(...)
+  validate(x)
   shape <- x$tests$p_value[startsWith(as.character(x$tests$test), "mean shape")]
   data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned), permutations = x$n_perm,
              exact = x$exact,
@@ -56,6 +58,7 @@ glance.group_comparison <- function(x, ...) {
 #' @exportS3Method generics::tidy
 tidy.shape_pca <- function(x, ...) {
   check_method_dots(...)
+  validate(x)
   data.frame(PC = seq_along(x$sdev), std.dev = x$sdev, percent = x$share, cumulative = cumsum(x$share))
 }
 
@@ -63,6 +66,7 @@ tidy.shape_pca <- function(x, ...) {
 #' @exportS3Method generics::glance
 glance.shape_pca <- function(x, ...) {
   check_method_dots(...)
+  validate(x)
   data.frame(nobs = nrow(x$x), points = nrow(x$mean), components = length(x$sdev), variance = sum(x$sdev^2))
 }
 

@@ -46,7 +46,7 @@ check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing 
     all((missing & is.na(x) & !is.nan(x)) | (is.finite(x) & x >= lower & x <= upper))
   if (!ok) {
     many <- if (is.null(n)) "" else paste0(paste(n, collapse = " or "), " ")
-    remedy <- sprintf("Give %sfinite numbers %s.", many, describe_range(lower, upper, FALSE))
+    remedy <- paste0(trimws(paste0("Give ", many, "finite numbers ", describe_range(lower, upper, FALSE))), ".")
     refuse_argument(name, x, if (missing) paste(remedy, "NA: missing.") else remedy, call)
   }
   as.numeric(x)

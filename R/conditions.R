@@ -45,3 +45,17 @@ in_context <- function(code, id, doing) {
     crestline_abort(paste0(doing, ": ", e$problem), e$remedy, e$stage, id, class = own, call = NULL)
   })
 }
+
+#' Print an object; of a damaged one an error of ours, in place of R's
+#'
+#' @param code What prints it.
+#' @noRd
+printed <- function(x, code) {
+  tryCatch(code, error = function(e) {
+    if (inherits(e, "crestline_error")) rlang::cnd_signal(e)
+    id <- if (is.list(x)) unclass(x)[["id"]]
+    crestline_abort(sprintf("the %s cannot be printed: it is damaged (%s).", class(x)[1], rlang::cnd_message(e)),
+                    "Make it anew; str(unclass(x)) shows what is left of it.", stage = "printing",
+                    id = if (is.character(id) && length(id) == 1) id, call = NULL)
+  })
+}

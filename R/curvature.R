@@ -229,18 +229,20 @@ abort_radius <- function(neighbours, radius) {
 #' @export
 print.curvature <- function(x, ...) {
   check_method_dots(...)
-  fitted <- !is.na(x$k1)
-  cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
-              length(fitted), attr(x, "radius")))
-  if (any(fitted)) {
-    shares <- stats::quantile(x$neighbours[fitted], c(0, 0.5, 1), names = FALSE)
-    cat(sprintf("  k1 %s\n  k2 %s\n", spread(x$k1), spread(x$k2)))
-    cat(sprintf("  neighbours %.0f to %.0f, median %.0f; residual sd %.3g in the median\n",
-                shares[1], shares[3], shares[2], stats::median(x$sigma, na.rm = TRUE)))
-  }
-  missed <- table(x$reason[!fitted])
-  for (why in names(missed)) cat(sprintf("  %d without: %s\n", missed[[why]], why))
-  invisible(x)
+  printed(x, {
+    fitted <- !is.na(x$k1)
+    cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
+                length(fitted), attr(x, "radius")))
+    if (any(fitted)) {
+      shares <- stats::quantile(x$neighbours[fitted], c(0, 0.5, 1), names = FALSE)
+      cat(sprintf("  k1 %s\n  k2 %s\n", spread(x$k1), spread(x$k2)))
+      cat(sprintf("  neighbours %.0f to %.0f, median %.0f; residual sd %.3g in the median\n",
+                  shares[1], shares[3], shares[2], stats::median(x$sigma, na.rm = TRUE)))
+    }
+    missed <- table(x$reason[!fitted])
+    for (why in names(missed)) cat(sprintf("  %d without: %s\n", missed[[why]], why))
+    invisible(x)
+  })
 }
 
 spread <- function(x) {

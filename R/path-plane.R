@@ -183,13 +183,15 @@ abort_cut <- function(end, ends, id) {
 #' @export
 print.mesh_path <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
-  if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
-  cat("\n")
-  optima <- attr(x, "optima")
-  if (!is.null(optima)) {
-    cat("Local optima:\n")
-    print(utils::head(optima, 6), digits = 3, row.names = FALSE)
-  }
-  invisible(x)
+  printed(x, {
+    cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
+    if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
+    cat("\n")
+    optima <- attr(x, "optima")
+    if (!is.null(optima)) {
+      cat("Local optima:\n")
+      print(utils::head(optima, 6), digits = 3, row.names = FALSE)
+    }
+    invisible(x)
+  })
 }

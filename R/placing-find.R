@@ -80,7 +80,8 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }
-  laid <- settled_pose(prepared, scan_cloud(scan, unit, prepared$settings, threads), prepared$settings)
+  cloud <- in_context(scan_cloud(scan, unit, prepared$settings, threads), scan$id, "looking for landmarks")
+  laid <- settled_pose(prepared, cloud, prepared$settings)
   if (laid$score > settings$refuse) {
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score,
                       settings$refuse)

@@ -60,13 +60,15 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
 #' @export
 print.landmark_template <- function(x, ...) {
   check_method_dots(...)
-  cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"),
-      if (x$mirror) ", with a mirror",
-      ", unit ", signif(x$unit, 3), "\n", sep = "")
-  names <- shorten(rownames(x$landmarks), 40)
-  cat(strwrap(paste0(amount(nrow(x$landmarks), "landmark"), ": ", names), exdent = 2), sep = "\n")
-  if (nrow(x$predicted)) cat("predicted by these:", shorten(rownames(x$predicted), 40), "\n")
-  invisible(x)
+  printed(x, {
+    cat("<landmark_template> ", x$id, ": ", amount(ncol(x$specimen$mesh$vb), "vertex", "vertices"),
+        if (x$mirror) ", with a mirror",
+        ", unit ", signif(x$unit, 3), "\n", sep = "")
+    names <- shorten(rownames(x$landmarks), 40)
+    cat(strwrap(paste0(amount(nrow(x$landmarks), "landmark"), ": ", names), exdent = 2), sep = "\n")
+    if (nrow(x$predicted)) cat("predicted by these:", shorten(rownames(x$predicted), 40), "\n")
+    invisible(x)
+  })
 }
 
 #' A specimen turned so that its landmarks' mirror is x = 0 and left is positive

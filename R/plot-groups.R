@@ -44,6 +44,7 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
                                   palette = grDevices::hcl.colors(21, "Blue-Red"), opacity = 0.8,
                                   engine = if (interactive()) "rgl" else "picture", view = "front",
                                   legend = TRUE, main = NULL, ...) {
+  validate(x)
   what <- check_choice(what, c("boxes", "means", "map"), "what")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   level <- level_to_plot(x, level, what)

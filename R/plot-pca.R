@@ -20,6 +20,7 @@
 #' @export
 plot.shape_pca <- function(x, what = c("scores", "shapes"), component = if (what[1] == "scores") 1:2 else 1, group = NULL,
                            colour = c("#2F7FD1", "#E0553F"), sd = 3, view = "front", ...) {
+  validate(x)
   what <- check_choice(what, c("scores", "shapes"), "what")
   for (one in component) check_number(one, "component", 1, length(x$sdev))
   drawn <- if (what == "scores") plot_scores(x, component, group, colour, ...) else

@@ -153,6 +153,8 @@ window_strength <- function(specimen, coordinates, curvature, type, keep_away, s
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
   value <- strength_at(curved, type, across = if (!principal) across)
+  # No direction is across a path where it runs along the normal, or stands still.
+  value[is.nan(value)] <- NA
   if (!is.null(keep_away)) {
     value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
   }
@@ -328,13 +330,15 @@ as.data.frame.curve <- function(x, ...) {
 #' @export
 print.curve <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
-              x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
-  cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
-  if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
-  cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
-              if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
-  invisible(x)
+  printed(x, {
+    cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
+                x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
+    cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
+    if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
+    cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
+                if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
+    invisible(x)
+  })
 }
 
 #' @exportS3Method

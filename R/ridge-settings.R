@@ -82,8 +82,10 @@ check_settings <- function(settings) {
 #' @export
 print.ridge_settings <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Ridge settings (preset \"%s\")\n", attr(x, "preset")))
-  values <- vapply(x, function(value) paste(format(value), collapse = " x "), "")
-  cat(strwrap(paste(names(x), values, sep = " = ", collapse = ", "), indent = 2, exdent = 2), sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat(sprintf("Ridge settings (preset \"%s\")\n", attr(x, "preset")))
+    values <- vapply(x, function(value) paste(format(value), collapse = " x "), "")
+    cat(strwrap(paste(names(x), values, sep = " = ", collapse = ", "), indent = 2, exdent = 2), sep = "\n")
+    invisible(x)
+  })
 }

@@ -136,7 +136,9 @@ predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
 #' @export
 print.curvature_surface <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Curvature surface over %.4g x %.4g (s, d): %d vertices, %.1f df%s\n", x$length,
-              2 * x$width, length(x$rows), x$df, if (x$converged) "" else ", df not reached"))
-  invisible(x)
+  printed(x, {
+    cat(sprintf("Curvature surface over %.4g x %.4g (s, d): %d vertices, %.1f df%s\n", x$length,
+                2 * x$width, length(x$rows), x$df, if (x$converged) "" else ", df not reached"))
+    invisible(x)
+  })
 }

@@ -167,8 +167,10 @@ names.kept_shape <- function(x) names(unkept(x))
 
 #' @export
 print.kept_shape <- function(x, ...) {
-  print(unkept(x), ...)
-  invisible(x)
+  printed(x, {
+    print(unkept(x), ...)
+    invisible(x)
+  })
 }
 
 #' The place of one specimen, by id or number, or an error with near ids
@@ -272,19 +274,21 @@ summary.shape_batch <- function(object, ...) {
 
 #' @export
 print.shape_batch <- function(x, most = 8, ...) {
-  x <- renewed_batch(x)
-  failed <- failures(x)
-  files <- unlist(lapply(plain_list(x), attr, "file"))
-  cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed),
-      " measured, ", nrow(failed),
-      " failed", if (length(files)) paste0(", in ",
-                                           shorten(unique(dirname(files)), 2)), "\n", sep = "")
-  told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
-  print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]),
-                warning_lines(attr(failed, "warnings"))),
-              most, "in warnings_of()")
-  print_items(told, most, "in failures()")
-  invisible(x)
+  printed(x, {
+    x <- renewed_batch(x)
+    failed <- failures(x)
+    files <- unlist(lapply(plain_list(x), attr, "file"))
+    cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed),
+        " measured, ", nrow(failed),
+        " failed", if (length(files)) paste0(", in ",
+                                             shorten(unique(dirname(files)), 2)), "\n", sep = "")
+    told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
+    print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]),
+                  warning_lines(attr(failed, "warnings"))),
+                most, "in warnings_of()")
+    print_items(told, most, "in failures()")
+    invisible(x)
+  })
 }
 
 #' Lines that tell of which shapes landmarks were found, and of which some are missing

@@ -40,6 +40,7 @@ whole_provenance <- function(x) {
 #' @rdname provenance
 #' @export
 summary.shape_sample <- function(object, ...) {
+  validate(object)
   new_summary(printed_lines(object), whole_provenance(object))
 }
 
@@ -54,6 +55,9 @@ validate_shape_sample <- function(x, call = rlang::caller_env()) {
   shapes <- x$shapes
   check_class(x$template, "shape", "template", "symmetrise() or homologise()", call)
   refuse(!all(vapply(shapes, inherits, NA, "shape")), "some of its members are no shapes.")
+  named <- function(shape) is.character(unclass(shape)$id) && length(shape$id) == 1
+  refuse(!all(vapply(shapes, named, NA)), "some of its shapes have no id.")
+  for (shape in shapes) validate(shape)
   ids <- vapply(shapes, `[[`, "", "id")
   refuse(!identical(unname(ids), as.character(names(shapes))),
          "its names are not the ids of its shapes.", "Rename specimens by `names(sample) <- ...`.")
@@ -133,6 +137,7 @@ NULL
 #' @export
 `[.shape_sample` <- function(x, i, ...) {
   if (...length()) refuse_dimensions("the sample", "as.array(sample, level) has points and axes.")
+  validate(x)
   if (missing(i)) return(x)
   new_shape_sample(x$shapes[chosen_members(i, names(x), "the sample")], x$template, x$convergence,
                    x$provenance)
@@ -288,6 +293,7 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 #' @export
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
+  validate(x)
   none <- cbind(id = character(), x$template$points[0, ])
   each <- lapply(x$shapes, function(shape) cbind(id = shape$id, shape$points))
   each <- do.call(rbind, c(list(none), unname(each)))
@@ -298,24 +304,26 @@ as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ..
 #' @export
 print.shape_sample <- function(x, ...) {
   check_method_dots(...)
-  points <- x$template$points
-  count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
-                  0L)
-  cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name,
-      "\n", sep = "")
-  cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ",
-      count[["surface"]],
-      " surface points\n", sep = "")
-  if (!is.null(x$convergence)) {
-    last <- x$convergence[nrow(x$convergence), ]
-    cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n",
-                amount(last$round, "round"),
-                last$movement, last$largest))
-  }
-  if (nrow(x$missing)) {
-    cat(strwrap(paste0("missing: ", amount(sum(x$missing$points), "point"), " of ",
-                       shorten(unique(x$missing$id), 8)),
-                indent = 2, exdent = 4), sep = "\n")
-  }
-  invisible(x)
+  printed(x, {
+    points <- x$template$points
+    count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
+                    0L)
+    cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name,
+        "\n", sep = "")
+    cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ",
+        count[["surface"]],
+        " surface points\n", sep = "")
+    if (!is.null(x$convergence)) {
+      last <- x$convergence[nrow(x$convergence), ]
+      cat(sprintf("  template: mean after %s, moved by %.2g in the last (%.2g at most)\n",
+                  amount(last$round, "round"),
+                  last$movement, last$largest))
+    }
+    if (nrow(x$missing)) {
+      cat(strwrap(paste0("missing: ", amount(sum(x$missing$points), "point"), " of ",
+                         shorten(unique(x$missing$id), 8)),
+                  indent = 2, exdent = 4), sep = "\n")
+    }
+    invisible(x)
+  })
 }

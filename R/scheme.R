@@ -207,23 +207,25 @@ as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, ta
 #' @export
 print.curve_scheme <- function(x, ...) {
   check_method_dots(...)
-  line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
-  curves <- x$curves
-  kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))
-  paired <- table(factor(x$pairs$level, c("landmarks", "curves", "surface")))
-  line("<curve_scheme> ", x$name, ": ", amount(nrow(x$landmarks), "landmark"), ", ",
-       amount(nrow(curves), "curve"), " with ", amount(sum(curves$n), "point"))
-  line("landmarks: ", shorten(x$landmarks$landmark, 30))
-  line("curves: ", paste(kinds, names(kinds), collapse = ", "))
-  line("constraints: ", sum(!is.na(curves$cut_share)), " cut off, ", sum(!is.na(curves$keep_away_from)),
-       " kept away from a region, ",
-       sum(!is.na(curves$side_of) | !is.na(curves$keep_side_from)), " held to a side, ",
-       sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
-       sum(!is.na(curves$angle_limit)), " limited in angle")
-  line("surface: ", surface_line(x))
-  if (nrow(x$definitions)) line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
-  line("left-right pairs: ", paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
-  invisible(x)
+  printed(x, {
+    line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 2), sep = "\n")
+    curves <- x$curves
+    kinds <- table(factor(curves$kind, c("ridge", "valley", "plane")))
+    paired <- table(factor(x$pairs$level, c("landmarks", "curves", "surface")))
+    line("<curve_scheme> ", x$name, ": ", amount(nrow(x$landmarks), "landmark"), ", ",
+         amount(nrow(curves), "curve"), " with ", amount(sum(curves$n), "point"))
+    line("landmarks: ", shorten(x$landmarks$landmark, 30))
+    line("curves: ", paste(kinds, names(kinds), collapse = ", "))
+    line("constraints: ", sum(!is.na(curves$cut_share)), " cut off, ", sum(!is.na(curves$keep_away_from)),
+         " kept away from a region, ",
+         sum(!is.na(curves$side_of) | !is.na(curves$keep_side_from)), " held to a side, ",
+         sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
+         sum(!is.na(curves$angle_limit)), " limited in angle")
+    line("surface: ", surface_line(x))
+    if (nrow(x$definitions)) line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
+    line("left-right pairs: ", paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
+    invisible(x)
+  })
 }
 
 surface_line <- function(x) {

@@ -72,10 +72,12 @@ find_settings <- function(...) {
 #' @export
 print.find_settings <- function(x, ...) {
   check_method_dots(...)
-  cat("Settings of finding landmarks\n")
-  value <- vapply(x, function(v) paste(format(v, trim = TRUE), collapse = " to "), "")
-  cat(strwrap(paste(names(x), value, sep = " = ", collapse = ", "), indent = 2, exdent = 2), sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat("Settings of finding landmarks\n")
+    value <- vapply(x, function(v) paste(format(v, trim = TRUE), collapse = " to "), "")
+    cat(strwrap(paste(names(x), value, sep = " = ", collapse = ", "), indent = 2, exdent = 2), sep = "\n")
+    invisible(x)
+  })
 }
 
 #' The settings' lengths for a template of another size

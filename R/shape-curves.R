@@ -52,7 +52,10 @@ finished_curves <- function(whole, open, specimen, faces, scheme, cut_scale) {
 #' @noRd
 fit_or_follow <- function(row, specimen, pairs, fit) {
   attempt <- function(row) {
-    tryCatch(fit(row), crestline_error = function(e) cut_instead(row, sub("\\.$", "", e$problem), fit))
+    tryCatch(fit(row), crestline_error = function(e) {
+      if (is_of_the_call(e)) rlang::cnd_signal(e)
+      cut_instead(row, sub("\\.$", "", e$problem), fit)
+    })
   }
   found <- attempt(row)
   far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, specimen, pairs)
@@ -64,13 +67,23 @@ fit_or_follow <- function(row, specimen, pairs, fit) {
   add_note(found, followed)
 }
 
+#' Whether an error tells of wrong arguments or objects, which no cut in a curve's place would mend
+#' @noRd
+is_of_the_call <- function(e) {
+  objects <- c("crestline_wrong_mesh", "crestline_mesh_error", "crestline_changed_specimen")
+  identical(e$stage, "arguments") || inherits(e, objects)
+}
+
 #' The shortest cut in place of a ridge or valley that could not be estimated, or the reason alone
 #' @noRd
 cut_instead <- function(row, problem, fit) {
   failed <- list(reason = problem)
   if (row$kind == "plane") return(failed)
   row$kind <- "plane"
-  cut <- tryCatch(fit(row), crestline_error = function(e) failed)
+  cut <- tryCatch(fit(row), crestline_error = function(e) {
+    if (is_of_the_call(e)) rlang::cnd_signal(e)
+    failed
+  })
   if (is.null(cut$path)) return(cut)
   cut$reason <- paste("the shortest cut instead:", problem)
   cut$determined <- FALSE

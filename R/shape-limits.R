@@ -87,12 +87,14 @@ check_limit <- function(x, name, falling, call = rlang::caller_env()) {
 #' @export
 print.quality_limits <- function(x, ...) {
   check_method_dots(...)
-  cat("Quality limits: amber, red\n")
-  pairs <- x[lengths(x) == 2]
-  side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")
-  cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1), vapply(pairs, `[`, 0, 2)), sep = "")
-  cat(sprintf("  not determined by curvature: %s; without a landmark on the mesh: %s\n", x$undetermined, x$guessed))
-  cat(sprintf("  landmarks exchanged: %s; predicted: %s\n", x$exchanged, x$predicted))
-  cat(sprintf("  z-scores against at least %d others, with a spread of at least %g\n", x$others, x$spread))
-  invisible(x)
+  printed(x, {
+    cat("Quality limits: amber, red\n")
+    pairs <- x[lengths(x) == 2]
+    side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")
+    cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1), vapply(pairs, `[`, 0, 2)), sep = "")
+    cat(sprintf("  not determined by curvature: %s; without a landmark on the mesh: %s\n", x$undetermined, x$guessed))
+    cat(sprintf("  landmarks exchanged: %s; predicted: %s\n", x$exchanged, x$predicted))
+    cat(sprintf("  z-scores against at least %d others, with a spread of at least %g\n", x$others, x$spread))
+    invisible(x)
+  })
 }

@@ -60,6 +60,7 @@
 quality <- function(x, limits = quality_limits(), others = NULL) {
   check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
+  if (inherits(x, "shape_sample")) validate(x)
   shapes <- named_shapes(x)
   measured <- Filter(Negate(is.null), shapes)
   parts <- Map(part_measures, measured, names(measured))
@@ -187,28 +188,30 @@ landmarks_came <- function(specimens, table) {
 print.shape_quality <- function(x, most = 10, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
-  counts <- summary(x)
-  counts <- counts[order(-counts$red, -counts$amber), ]
-  cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
-      paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
-  found <- attr(x, "found")
-  if (length(found)) {
-    cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s", amount(length(found), "specimen"),
-                        shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
-  }
-  if (nrow(counts) > 1) {
-    shown <- utils::head(counts, most)
-    cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
-    if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
-  }
-  worst <- x[x$grade > "green", ]
-  worst <- worst[order(worst$level != "specimen", -as.integer(worst$grade)), ]
-  for (i in utils::head(seq_len(nrow(worst)), most)) {
-    of <- if (nrow(counts) > 1) paste0(" of ", worst$specimen[i])
-    line <- paste0("- ", worst$grade[i], ": ", worst$part[i], of, ": ", worst$why[i])
-    cat(strwrap(line, width = 80, exdent = 4), sep = "\n")
-  }
-  if (nrow(worst) > most) cat("- and", nrow(worst) - most, "more that are not green\n")
-  invisible(x)
+  printed(x, {
+    if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
+    counts <- summary(x)
+    counts <- counts[order(-counts$red, -counts$amber), ]
+    cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
+        paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
+    found <- attr(x, "found")
+    if (length(found)) {
+      cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s", amount(length(found), "specimen"),
+                          shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
+    }
+    if (nrow(counts) > 1) {
+      shown <- utils::head(counts, most)
+      cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
+      if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
+    }
+    worst <- x[x$grade > "green", ]
+    worst <- worst[order(worst$level != "specimen", -as.integer(worst$grade)), ]
+    for (i in utils::head(seq_len(nrow(worst)), most)) {
+      of <- if (nrow(counts) > 1) paste0(" of ", worst$specimen[i])
+      line <- paste0("- ", worst$grade[i], ": ", worst$part[i], of, ": ", worst$why[i])
+      cat(strwrap(line, width = 80, exdent = 4), sep = "\n")
+    }
+    if (nrow(worst) > most) cat("- and", nrow(worst) - most, "more that are not green\n")
+    invisible(x)
+  })
 }

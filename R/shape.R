@@ -34,10 +34,15 @@ validate_shape <- function(x) {
   validate(x$scheme)
   points <- x$points
   named <- c("level", "part", "point")
-  own <- is.data.frame(points) && !is.null(place_columns(points)) && is_error(points$se) &&
+  table <- function(value) is.data.frame(value) && all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
+  own <- table(points) && !is.null(place_columns(points)) && is_error(points$se) &&
     all(vapply(named, function(name) identical(as.vector(points[[name]]), as.vector(x$scheme$points[[name]])), NA))
   if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
   if (!is.list(x$paths) || !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
+  kept <- function(name, is) is.null(x[[name]]) || is(x[[name]])
+  right <- kept("checks", table) && kept("placing", table) && kept("warnings", table) && kept("provenance", is.list) &&
+    (is.null(x$checks) || nrow(x$checks) == nrow(x$status))
+  if (!right) refuse("its `checks`, `placing`, `warnings` or `provenance` are not what they were.")
   invisible(x)
 }
 
@@ -114,25 +119,27 @@ as.data.frame.shape <- function(x, row.names = NULL, optional = FALSE, ...) {
 print.shape <- function(x, most = 8, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
-  cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
-  for (level in c("landmarks", "curves", "surface")) {
-    points <- x$points[x$points$level == level, ]
-    status <- x$status[x$status$level == level, ]
-    what <- switch(level, surface = "patches", level)
-    if (nrow(status)) cat("  ", sum(status$ok), " of ", nrow(status), " ", what, if (level != "landmarks") {
-      sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
-    }, "\n", sep = "")
-  }
-  print_placing(x$placing)
-  said <- x$status[!is.na(x$status$reason), ]
-  for (i in utils::head(seq_len(nrow(said)), most)) {
-    cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
-  }
-  if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
-  unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
-  if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
-  if (length(unused)) cat(unused, sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat("<shape> ", x$id, ", by the scheme ", x$scheme$name, "\n", sep = "")
+    for (level in c("landmarks", "curves", "surface")) {
+      points <- x$points[x$points$level == level, ]
+      status <- x$status[x$status$level == level, ]
+      what <- switch(level, surface = "patches", level)
+      if (nrow(status)) cat("  ", sum(status$ok), " of ", nrow(status), " ", what, if (level != "landmarks") {
+        sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
+      }, "\n", sep = "")
+    }
+    print_placing(x$placing)
+    said <- x$status[!is.na(x$status$reason), ]
+    for (i in utils::head(seq_len(nrow(said)), most)) {
+      cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
+    }
+    if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
+    unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
+    if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
+    if (length(unused)) cat(unused, sep = "\n")
+    invisible(x)
+  })
 }
 
 #' @exportS3Method

@@ -145,9 +145,11 @@ new_summary <- function(lines, provenance, ...) {
 
 #' @export
 print.crestline_summary <- function(x, ...) {
-  cat(x$lines, sep = "\n")
-  print_provenance(x$provenance)
-  invisible(x)
+  printed(x, {
+    cat(x$lines, sep = "\n")
+    print_provenance(x$provenance)
+    invisible(x)
+  })
 }
 
 print_provenance <- function(provenance, width = 80) {

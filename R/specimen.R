@@ -111,21 +111,23 @@ check_id <- function(id, name = "id", call = NULL) {
 #' @export
 print.specimen <- function(x, ...) {
   check_method_dots(...)
-  count <- function(n, what) paste0(format(n, big.mark = ","), " ", what)
-  cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "), count(ncol(x$mesh$it), "triangles"),
-      if (!is.null(x$mesh$material$color)) ", natural colour", "\n", sep = "")
-  size <- apply(x$mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))
-  cat("size", paste(signif(size, 4), collapse = " x "), "\n")
-  name <- rownames(x$landmarks)
-  absent <- is.na(x$landmarks[, 1])
-  cat(strwrap(paste0(count(length(name), "landmarks"), if (length(name)) ": ", shorten(name[!absent], 40)),
-              exdent = 2), sep = "\n")
-  if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
-  print_placing(x$placing)
-  print_exchanged(x$geometry$slips)
-  found <- x$report[x$report$count > 0, ]
-  for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ", found$action[i], "\n", sep = "")
-  invisible(x)
+  printed(x, {
+    count <- function(n, what) paste0(format(n, big.mark = ","), " ", what)
+    cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "), count(ncol(x$mesh$it), "triangles"),
+        if (!is.null(x$mesh$material$color)) ", natural colour", "\n", sep = "")
+    size <- apply(x$mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))
+    cat("size", paste(signif(size, 4), collapse = " x "), "\n")
+    name <- rownames(x$landmarks)
+    absent <- is.na(x$landmarks[, 1])
+    cat(strwrap(paste0(count(length(name), "landmarks"), if (length(name)) ": ", shorten(name[!absent], 40)),
+                exdent = 2), sep = "\n")
+    if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
+    print_placing(x$placing)
+    print_exchanged(x$geometry$slips)
+    found <- x$report[x$report$count > 0, ]
+    for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ", found$action[i], "\n", sep = "")
+    invisible(x)
+  })
 }
 
 #' A specimen whose landmarks that were changed since are located once, for many uses

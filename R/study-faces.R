@@ -161,20 +161,22 @@ check_groups <- function(groups, call = rlang::caller_env()) {
 #' @export
 print.simulated_faces <- function(x, ...) {
   check_method_dots(...)
-  count <- table(x$covariates$group)
-  cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "), ", from the template ",
-      x$template$id, "\n", sep = "")
-  share <- split(x$places$share, factor(x$places$part, names(x$effect)))
-  step <- vapply(share, function(own) own[which.max(abs(own))], 0) * x$effect
-  cat(sprintf("  %s is %+.3g %% in size", names(count)[2], 100 * x$size_effect),
-      if (length(step)) paste0(", ", paste(sprintf("%s %+.3g", names(step), step), collapse = ", ")), "\n", sep = "")
-  cat("  size ", paste(format(range(x$covariates$size), digits = 3), collapse = " to "), "\n", sep = "")
-  if (is.null(x$scan)) cat("  the truth only, no specimens\n") else {
-    vertices <- range(vapply(x$specimens, function(s) ncol(s$mesh$vb), 0L))
-    cat("  scanned with noise ", x$scan$noise, ", ", x$scan$holes, " holes each, ",
-        paste(unique(vertices), collapse = " to "), " vertices", if (x$scan$remesh) " of their own", "\n", sep = "")
-  }
-  invisible(x)
+  printed(x, {
+    count <- table(x$covariates$group)
+    cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "), ", from the template ",
+        x$template$id, "\n", sep = "")
+    share <- split(x$places$share, factor(x$places$part, names(x$effect)))
+    step <- vapply(share, function(own) own[which.max(abs(own))], 0) * x$effect
+    cat(sprintf("  %s is %+.3g %% in size", names(count)[2], 100 * x$size_effect),
+        if (length(step)) paste0(", ", paste(sprintf("%s %+.3g", names(step), step), collapse = ", ")), "\n", sep = "")
+    cat("  size ", paste(format(range(x$covariates$size), digits = 3), collapse = " to "), "\n", sep = "")
+    if (is.null(x$scan)) cat("  the truth only, no specimens\n") else {
+      vertices <- range(vapply(x$specimens, function(s) ncol(s$mesh$vb), 0L))
+      cat("  scanned with noise ", x$scan$noise, ", ", x$scan$holes, " holes each, ",
+          paste(unique(vertices), collapse = " to "), " vertices", if (x$scan$remesh) " of their own", "\n", sep = "")
+    }
+    invisible(x)
+  })
 }
 
 #' @export

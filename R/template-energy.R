@@ -122,7 +122,9 @@ bending_matrix <- function(xyz, nugget, functions) {
 #' @export
 print.bending_energy <- function(x, ...) {
   check_method_dots(...)
-  b <- attr(x, "matrix")
-  cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0), attr(x, "affine")))
-  invisible(x)
+  printed(x, {
+    b <- attr(x, "matrix")
+    cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0), attr(x, "affine")))
+    invisible(x)
+  })
 }

@@ -78,7 +78,9 @@ check_slide_settings <- function(settings) {
 #' @export
 print.slide_settings <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Slide settings (preset \"%s\")\n", attr(x, "preset")))
-  cat(strwrap(paste(names(x), vapply(x, format, ""), sep = " = ", collapse = ", "), indent = 2, exdent = 2), sep = "\n")
-  invisible(x)
+  printed(x, {
+    cat(sprintf("Slide settings (preset \"%s\")\n", attr(x, "preset")))
+    cat(strwrap(paste(names(x), vapply(x, format, ""), sep = " = ", collapse = ", "), indent = 2, exdent = 2), sep = "\n")
+    invisible(x)
+  })
 }

@@ -38,3 +38,16 @@ test_that("in_context() adds the specimen and what was being done to an error wi
   expect_identical(in_context(5, "other", "x"), 5)
   expect_error(in_context(stop("not ours"), "other", "x"), "^not ours$")
 })
+
+test_that("a damaged object is printed as an error of ours, a sound one as before", {
+  without <- function(x, ...) tampered(x, function(fields) within_list(fields, ...))
+  ball <- stretched_ball()
+  for (field in c("mesh", "landmarks", "report")) {
+    damaged <- do.call(without, c(list(ball), stats::setNames(list("x"), field)))
+    expect_error(capture.output(print(damaged)), "specimen ball, printing: the specimen cannot be printed", class = "crestline_error")
+  }
+  shape <- quad_shape()
+  expect_error(capture.output(print(without(shape, status = 1))), "the shape cannot be printed", class = "crestline_error")
+  expect_error(capture.output(print(without(shape$scheme, curves = sum))), "the curve_scheme cannot be printed", class = "crestline_error")
+  for (sound in list(ball, shape, shape$scheme)) capture.output(expect_invisible(print(sound)))
+})

@@ -97,3 +97,10 @@ test_that("a platform, or a stray vertex, does not change the unit that is guess
   found <- find_landmarks(specimen(face, debris = 0, outward = "keep"), settings = quick_settings())
   expect_equal(found$match$unit, 1)
 })
+
+test_that("a scan that is too coarse for curvature is named", {
+  ball <- Rvcg::vcgSphere(1)
+  ball$vb[1:3, ] <- 90 * ball$vb[1:3, ]
+  error <- expect_error(find_landmarks(specimen(ball, id = "coarse")), class = "crestline_error")
+  expect_match(conditionMessage(error), "specimen coarse, ", fixed = TRUE)
+})

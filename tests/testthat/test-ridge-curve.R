@@ -282,3 +282,16 @@ test_that("points on the reference path for want of a lifted ridge carry no offs
   expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
   expect_false(curve$determined)
 })
+
+test_that("no strength is NaN where no direction is across the path", {
+  face <- straight_ridge()
+  path <- reference_path(face, "a", "b", "plane")
+  window <- path_coordinates(face, path, 6)
+  source <- curvature_source(face, 6, "adaptive", 1)
+  along <- which(window$inside)[1]
+  normal <- source(window$vertex[along])$normal
+  window[along, c("tx", "ty", "tz")] <- as.list(normal)
+  strength <- window_strength(face, window, source, "ridge", NULL, ridge_settings())
+  expect_true(is.na(strength$value[along]) && !any(is.nan(strength$value)))
+  expect_gt(sum(!is.na(strength$value)), 10)
+})

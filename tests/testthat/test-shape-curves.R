@@ -87,3 +87,17 @@ test_that("a rival path is seen in competing", {
   expect_gt(status(3, 3)$competing, 0.9)
   expect_lt(status(3, 1)$competing, status(3, 3)$competing)
 })
+
+test_that("wrong arguments and objects stop a fit; a curve that lacks a path does not", {
+  row <- list(kind = "ridge", from = "a", to = "b", cut_share = NA)
+  refusing <- function(stage, class = NULL) {
+    function(row) if (row$kind == "plane") list(path = "a cut") else crestline_abort("no good.", "Mend it.", stage, class = class)
+  }
+  expect_error(fit_or_follow(row, NULL, NULL, refusing("arguments")), "no good", class = "crestline_error")
+  for (class in c("crestline_wrong_mesh", "crestline_mesh_error", "crestline_changed_specimen")) {
+    expect_error(fit_or_follow(row, NULL, NULL, refusing("mesh", class)), class = class)
+  }
+  cut <- fit_or_follow(row, NULL, NULL, refusing("path", "crestline_path_error"))
+  expect_equal(cut$reason, "the shortest cut instead: no good")
+  expect_false(cut$determined)
+})
