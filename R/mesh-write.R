@@ -87,7 +87,9 @@ written_mesh <- function(x, parts) UseMethod("written_mesh")
 
 #' @exportS3Method
 written_mesh.default <- function(x, parts) {
-  if (inherits(x, "specimen")) return(as_mesh(x))
+  if (inherits(x, "specimen")) {
+    return(as_mesh(check_class(x, "specimen", "x", "specimen() or read_specimen()")))
+  }
   check_class(x, "mesh3d", "x", "fit_shape(), specimen(), or `Rvcg::vcgImport()`")
   mesh <- as_mesh(split_quads(as_plain_mesh(x, NULL)$mesh, NULL)$mesh)
   structure(mesh, row = attr(x, "row"), group = attr(x, "group"))

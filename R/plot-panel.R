@@ -32,7 +32,7 @@ plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices
   palette <- check_colour(palette, "palette")
   colour <- check_colour(colour, "colour")
   contours <- check_count(contours, "contours", upper = 1000)
-  grid <- check_size(grid, "grid")
+  grid <- check_size(check_numbers(grid, "grid", 2, lower = 2), "grid")
   main <- check_text(main, "main", null = TRUE)
   check_class(x, "curve", "x", "ridge_curve()")
   if (is.null(x$line)) {

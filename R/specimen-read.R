@@ -33,6 +33,9 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   check_given()
   check_dots(..., known = names(formals(specimen))[-(1:3)])
   check_file(file, "reading")
+  if (inherits(landmarks, "specimen")) {
+    check_class(landmarks, "specimen", "landmarks", "specimen() or read_specimen()")
+  }
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)
   beside <- if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) landmarks else NA_character_

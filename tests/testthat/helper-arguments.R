@@ -245,8 +245,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                               passes = 1, radius = 0.25, width = 0.4, spacing = 0.1, correlation = 0, points = 5, dir = NULL,
                               block = 50, progress = FALSE, largest = 2e6),
                         largest = "number", settings = "any", n = "count", a = "numbers", b = "numbers", noise = "numbers",
-                        landmark_error = "number", passes = "count", radius = "number", width = "number", spacing = "number",
-                        correlation = "number", points = "count", dir = "any", block = "count", progress = "flag"),
+                        landmark_error = "numbers", passes = "numbers", radius = "numbers", width = "number", spacing = "numbers",
+                        correlation = "numbers", points = "count", dir = "any", block = "count", progress = "flag"),
     scan_settings = entry(given(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05, rounds = 1, crease = 30,
                                 holes = 0, hole_radius = 5, landmark_error = 0, turn = 0, shift = 0),
                           noise = "number", noise_range = "number", remesh = "flag", edge = "number?", edge_sd = "number",
@@ -314,6 +314,7 @@ flat_pca <- function(made) {
 }
 
 # What a call gives: "returned", "refused", "refused without its name" (of the argument), or the message of an error of R's.
+# A mesh is refused in the words of specimen(), which name the mesh.
 outcome_of <- function(fn, args, argument = NULL, seconds = 20) {
   setTimeLimit(elapsed = seconds, transient = TRUE)
   # Some values are paths: what is made of them goes where it is deleted.
@@ -326,7 +327,7 @@ outcome_of <- function(fn, args, argument = NULL, seconds = 20) {
   tryCatch({
     utils::capture.output(suppressMessages(suppressWarnings(do.call(getExportedValue("crestline", fn), args, quote = TRUE))))
     "returned"
-  }, crestline_error = function(e) if (named(conditionMessage(e))) "refused" else paste("refused without its name:", conditionMessage(e)),
+  }, crestline_mesh_error = function(e) "refused", crestline_error = function(e) if (named(conditionMessage(e))) "refused" else paste("refused without its name:", conditionMessage(e)),
   error = function(e) conditionMessage(e))
 }
 
