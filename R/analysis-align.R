@@ -12,48 +12,59 @@
 #' and takes the missing points along (least bending energy). `"drop"` leaves these points out of
 #' all specimens.
 #'
-#' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array (k x 2 x n for flat
-#'   configurations) of homologous points, NA where missing.
-#' @param level "landmarks", "curves", "surface", or "model": every place of the three once; of an array only a name.
-#' @param scale `TRUE`: to unit centroid size (partial Procrustes); `"full"`: by the factor that brings each nearest to the
-#'   mean (full Procrustes); `FALSE`: sizes are kept, size and shape together.
-#' @param weights `NULL`: all points count alike. "area": every point by the area of the surface that is nearest to it, a
-#'   third of its triangles' on the mean (levels "surface" and "model", or with `triangles`); points without triangles count
-#'   0. "places": points that coincide, such as the common end of two curves, count as one. Or k numbers, none negative.
+#' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array (k x 2 x n for
+#'   flat configurations) of homologous points, NA where missing.
+#' @param level "landmarks", "curves", "surface", or "model": every place of the three once; of an
+#'   array only a name.
+#' @param scale `TRUE`: to unit centroid size (partial Procrustes); `"full"`: by the factor that
+#'   brings each nearest to the mean (full Procrustes); `FALSE`: sizes are kept, size and shape
+#'   together.
+#' @param weights `NULL`: all points count alike. "area": every point by the area of the surface
+#'   that is nearest to it, a third of its triangles' on the mean (levels "surface" and "model", or
+#'   with `triangles`); points without triangles count
+#'   0. "places": points that coincide, such as the common end of two curves, count as one. Or k
+#'      numbers, none negative.
 #' @param missing What to do with missing points: "estimate", "drop" or "stop" (an error).
-#' @param tangent Whether scaled configurations are projected onto the space tangent to the sphere of shapes at the mean.
-#' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for pictures and areas.
-#' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its centroid size.
+#' @param tangent Whether scaled configurations are projected onto the space tangent to the sphere
+#'   of shapes at the mean.
+#' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for
+#'   pictures and areas.
+#' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its
+#'   centroid size.
 #' @param rounds Most rounds.
 #' @param limits Of [sample_limits()]: the limits above which [align()] warns.
 #' @return Object of class `aligned`, a list:
-#'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of unit size where scaled;
-#'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete configuration);
-#'   * `size`: n centroid sizes, in the unit of the meshes: the root of the (weighted) sum of squared distances from the
-#'     (weighted) centre, before scaling;
+#'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of
+#'     unit size where scaled;
+#'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete
+#'     configuration);
+#'   * `size`: n centroid sizes, in the unit of the meshes: the root of the (weighted) sum of
+#'     squared distances from the (weighted) centre, before scaling;
 #'   * `weights`: k, of mean 1; `scale`, `tangent`, `level`;
-#'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated", "dropped");
+#'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated",
+#'     "dropped");
 #'   * `moved`: the greatest move of the mean by round;
 #'   * `triangles`: 3 x m, rows of `mean`, or `NULL`;
 #'   * `settings`, `reference`, `provenance`: the arguments, the configuration that `mean` was laid
 #'     onto, and where all came from, see [summary.aligned()].
 #'
 #'   It is a container of its configurations: `aligned[ids]` aligns these again, see [aligned].
-#'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from the mean, in the unit of
-#'   `coords`), `missing` (number of points).
-#' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens, names twice, a
-#'   specimen with too few points to fit, missing points with `missing = "stop"`.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
-#'   `crestline_sample_doubt`, when a specimen or point exceeds one of the [sample_limits()]:
-#'   `crestline_far` (a specimen far
-#'   from the others), `crestline_point` (points of one far from those of the others), `crestline_size` (sizes that differ as units
-#'   do), `crestline_estimated` (points estimated for too many specimens, or too many of one), `crestline_beyond` (points
-#'   estimated far from what is there).
-#' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and Mardia (2016) *Statistical
-#'   Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and Bookstein (2009) Principles for the virtual
-#'   reconstruction of hominin crania, *Journal of Human Evolution* 57, 48-62 (missing points); the
-#'   paper, sections 4 and 5.3.
-#' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()], [as_geomorph()]
+#'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from
+#'   the mean, in the unit of `coords`), `missing` (number of points).
+#' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens,
+#'   names twice, a specimen with too few points to fit, missing points with `missing = "stop"`.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last
+#'   round; of class `crestline_sample_doubt`, when a specimen or point exceeds one of the
+#'   [sample_limits()]: `crestline_far` (a specimen far from the others), `crestline_point` (points
+#'   of one far from those of the others), `crestline_size` (sizes that differ as units do),
+#'   `crestline_estimated` (points estimated for too many specimens, or too many of one),
+#'   `crestline_beyond` (points estimated far from what is there).
+#' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and
+#'   Mardia (2016) *Statistical Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and
+#'   Bookstein (2009) Principles for the virtual reconstruction of hominin crania, *Journal of Human
+#'   Evolution* 57, 48-62 (missing points); the paper, sections 4 and 5.3.
+#' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()],
+#'   [as_geomorph()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' shapes <- shapes + rnorm(120, sd = 0.05)
@@ -61,22 +72,26 @@
 #' aligned
 #' head(as.data.frame(aligned))
 #' @export
-align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE, weights = NULL,
-                  missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL, tolerance = 1e-12,
+align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE,
+                  weights = NULL,
+                  missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL,
+                  tolerance = 1e-12,
                   rounds = 200, limits = sample_limits()) {
   check_given()
   check_flags(tangent)
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
   check_scaling(scale)
   settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
-                   tolerance = check_number(tolerance, "tolerance", lower = 0), rounds = check_count(rounds, "rounds"))
+                   tolerance = check_number(tolerance, "tolerance", lower = 0),
+                   rounds = check_count(rounds, "rounds"))
   aligned <- align_configurations(configurations(sample, level, triangles), settings)
   attr(aligned, "provenance") <- aligned_provenance(sample, settings)
   warn_of_doubts(aligned, limits)
 }
 
 #' @param given As of [configurations()].
-#' @param settings List of arguments of [align()]: `scale`, `weights`, `missing`, `tangent`, `tolerance`, `rounds`.
+#' @param settings List of arguments of [align()]: `scale`, `weights`, `missing`, `tangent`,
+#'   `tolerance`, `rounds`.
 #' @noRd
 align_configurations <- function(given, settings, call = rlang::caller_env()) {
   scaling <- check_scaling(settings$scale, call)
@@ -88,15 +103,18 @@ align_configurations <- function(given, settings, call = rlang::caller_env()) {
   if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
   projected <- settings$tangent && scaling > 0
   coords <- if (projected) tangent_projection(fit$coords, fit$mean, weight) else fit$coords
-  validate_aligned(new_aligned(coords, fit$mean, fit$size, weight, whole$places, settings$scale, projected, given$level,
-                               whole$missing, fit$moved, whole$triangles, settings, whole$reference))
+  validate_aligned(new_aligned(coords, fit$mean, fit$size, weight, whole$places, settings$scale,
+                               projected, given$level,
+                               whole$missing, fit$moved, whole$triangles, settings,
+                               whole$reference))
 }
 
 check_scaling <- function(scale, call = rlang::caller_env()) {
   if (isTRUE(scale)) return(1L)
   if (isFALSE(scale)) return(0L)
   if (identical(scale, "full")) return(2L)
-  crestline_abort(sprintf("`scale` is %s.", describe_value(scale)), "Choose TRUE, \"full\" or FALSE.", stage = "arguments",
+  crestline_abort(sprintf("`scale` is %s.", describe_value(scale)),
+                  "Choose TRUE, \"full\" or FALSE.", stage = "arguments",
                   call = call)
 }
 
@@ -110,8 +128,8 @@ tangent_projection <- function(coords, mean, weight) {
 
 #' What an argument `sample` gives
 #'
-#' @return List: `coords` (k x d x n with names), `reference` (k x d: where the result is laid, or `NULL`), `triangles`
-#'   (3 x m or `NULL`), `places` (k: points that coincide share one), `level`.
+#' @return List: `coords` (k x d x n with names), `reference` (k x d: where the result is laid, or
+#'   `NULL`), `triangles` (3 x m or `NULL`), `places` (k: points that coincide share one), `level`.
 #' @noRd
 configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
   if (inherits(sample, "shape_sample")) {
@@ -120,7 +138,8 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
     scheme <- sample$template$scheme
     whole <- level == "model"
     coords <- if (whole) every_place(sample) else as.array(sample, level)
-    if (level %in% c("surface", "model") && is.null(triangles)) triangles <- model_triangles(scheme, whole)
+    if (level %in% c("surface", "model") &&
+        is.null(triangles)) triangles <- model_triangles(scheme, whole)
     reference <- if (whole) places_of(sample$template) else coords(sample$template, level)
     places <- if (whole) rownames(reference) else scheme$points$place[scheme$points$level == level]
   } else {
@@ -131,10 +150,12 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
   }
   ids <- dimnames(coords)[[3]]
   if (length(ids) < 2) {
-    crestline_abort(sprintf("there is %s specimen%s.", if (length(ids)) "one" else "no", if (length(ids)) " only" else ""),
+    crestline_abort(sprintf("there is %s specimen%s.", if (length(ids)) "one" else "no",
+                            if (length(ids)) " only" else ""),
                     "Give two or more.", stage = "align", call = call)
   }
-  list(coords = coords, reference = reference, triangles = check_triangles(triangles, dim(coords)[1], call),
+  list(coords = coords, reference = reference,
+       triangles = check_triangles(triangles, dim(coords)[1], call),
        places = places, level = level)
 }
 
@@ -165,7 +186,8 @@ point_areas <- function(xyz, triangles) {
   u <- xyz[triangles[2, ], , drop = FALSE] - a
   v <- xyz[triangles[3, ], , drop = FALSE] - a
   area <- sqrt(pmax(0, rowSums(u^2) * rowSums(v^2) - rowSums(u * v)^2)) / 2
-  as.vector(tapply(rep(area / 3, each = 3), factor(triangles, seq_len(nrow(xyz))), sum, default = 0))
+  as.vector(tapply(rep(area / 3, each = 3), factor(triangles, seq_len(nrow(xyz))), sum,
+                   default = 0))
 }
 
 #' The Procrustes mean that areas are taken on
@@ -177,13 +199,16 @@ mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
 check_extent <- function(size, call = rlang::caller_env()) {
   at <- which(!(size > 0))
   if (length(at)) {
-    crestline_abort("all its points in `sample` coincide.", "Leave this specimen out.", stage = "align", id = names(size)[at[1]], call = call)
+    crestline_abort("all its points in `sample` coincide.", "Leave this specimen out.",
+                    stage = "align", id = names(size)[at[1]], call = call)
   }
 }
 
 warn_alignment <- function(rounds, moved) {
-  crestline_warn(sprintf("after %d rounds the mean still moves, by %.2g of its size.", rounds, moved),
-                 "Give more `rounds`, or a larger `tolerance`.", stage = "align", class = "crestline_not_converged")
+  crestline_warn(sprintf("after %d rounds the mean still moves, by %.2g of its size.", rounds,
+                         moved),
+                 "Give more `rounds`, or a larger `tolerance`.", stage = "align",
+                 class = "crestline_not_converged")
 }
 
 #' @rdname align
@@ -209,8 +234,10 @@ print.aligned <- function(x, ...) {
         if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",
         if (x$tangent) ", in tangent space", "\n", sep = "")
     table <- as.data.frame(x)
-    cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size), max(table$size)))
-    cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n", sqrt(mean(table$distance^2)),
+    cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size),
+                max(table$size)))
+    cat(sprintf("  distance from the mean %.3g (root mean square; largest %.3g, %s)\n",
+                sqrt(mean(table$distance^2)),
                 max(table$distance), table$id[which.max(table$distance)]))
     for (line in missing_lines(x$missing)) cat(strwrap(line, indent = 2, exdent = 4), sep = "\n")
     invisible(x)

@@ -2,17 +2,20 @@
 
 check_array <- function(x, call, name = "sample") {
   if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
-    size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else describe_value(x)
+    size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else
+      describe_value(x)
     crestline_abort(sprintf("`%s` is %s.", name, size),
                     "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
                     call = call)
   }
   if (any(is.infinite(x))) {
-    crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.", stage = "align", call = call)
+    crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.",
+                    stage = "align", call = call)
   }
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
-    crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]), "Name each of its own.",
+    crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]),
+                    "Name each of its own.",
                     stage = "align", call = call)
   }
   x
@@ -21,16 +24,19 @@ check_array <- function(x, call, name = "sample") {
 named_array <- function(x) {
   names <- if (is.null(dimnames(x))) list(NULL, NULL, NULL) else dimnames(x)
   fill <- list(seq_len(dim(x)[1]), c("x", "y", "z")[seq_len(dim(x)[2])], seq_len(dim(x)[3]))
-  dimnames(x) <- Map(function(own, other) if (is.null(own)) as.character(other) else own, unname(names), fill)
+  dimnames(x) <- Map(function(own, other) if (is.null(own)) as.character(other) else own,
+                     unname(names), fill)
   x
 }
 
 check_triangles <- function(triangles, k, call) {
   if (is.null(triangles)) return(NULL)
-  ok <- is.matrix(triangles) && nrow(triangles) == 3 && is.numeric(triangles) && all(triangles %in% seq_len(k))
+  ok <- is.matrix(triangles) && nrow(triangles) == 3 && is.numeric(triangles) && all(triangles %in%
+                                                                                     seq_len(k))
   if (!ok) {
     crestline_abort("`triangles` is no matrix of three rows with numbers of points.",
-                    "Give the `it` of a mesh whose vertices are the points.", stage = "align", call = call)
+                    "Give the `it` of a mesh whose vertices are the points.", stage = "align",
+                    call = call)
   }
   matrix(as.integer(triangles), 3)
 }
@@ -56,9 +62,11 @@ point_weights <- function(weights, whole, call = rlang::caller_env()) {
   if (identical(weights, "places")) {
     weights <- 1 / as.vector(table(whole$places)[whole$places])
   } else if (identical(weights, "area")) {
-    if (is.null(whole$triangles)) fail("there are no triangles to take areas of.", "Give `triangles`, or another `weights`.")
+    if (is.null(whole$triangles)) fail("there are no triangles to take areas of.",
+                                       "Give `triangles`, or another `weights`.")
     weights <- point_areas(mean_of_sizes(whole), whole$triangles)
-  } else if (!is.numeric(weights) || length(weights) != whole$given || any(!is.finite(weights)) || any(weights < 0)) {
+  } else if (!is.numeric(weights) || length(weights) != whole$given || any(!is.finite(weights)) ||
+             any(weights < 0)) {
     fail(sprintf("`weights` is %s.", describe_value(weights)),
          sprintf("Give \"area\", \"places\" or %d numbers, none of them negative.", whole$given))
   } else {
@@ -70,6 +78,7 @@ point_weights <- function(weights, whole, call = rlang::caller_env()) {
 
 as_whole <- function(aligned) {
   k <- nrow(aligned$mean)
-  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles, places = aligned$places, given = k,
+  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles,
+       places = aligned$places, given = k,
        kept = seq_len(k))
 }

@@ -4,9 +4,10 @@
 #'
 #' @param group Factor of n, named, as of [check_group()].
 #' @param block As in [compare_groups()].
-#' @return List: `kind` ("free": all specimens are exchanged; "within": those of a block among each other; "whole": whole
-#'   blocks), `block` (factor of n, NULL where free), `group` (factor of the units: the specimens, or the blocks where these
-#'   are whole), `silent` (blocks that say nothing as all their specimens are of one group).
+#' @return List: `kind` ("free": all specimens are exchanged; "within": those of a block among each
+#'   other; "whole": whole blocks), `block` (factor of n, NULL where free), `group` (factor of the
+#'   units: the specimens, or the blocks where these are whole), `silent` (blocks that say nothing
+#'   as all their specimens are of one group).
 #' @noRd
 comparison_design <- function(group, block, call = rlang::caller_env()) {
   ids <- names(group)
@@ -23,8 +24,10 @@ comparison_design <- function(group, block, call = rlang::caller_env()) {
 }
 
 check_block <- function(block, ids, call) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison", call = call)
-  if (!is.atomic(block)) fail(sprintf("`block` is %s.", describe_value(block)), "Give a factor, one value a specimen.")
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison",
+                                                    call = call)
+  if (!is.atomic(block)) fail(sprintf("`block` is %s.", describe_value(block)),
+                              "Give a factor, one value a specimen.")
   if (!is.null(names(block))) {
     absent <- setdiff(ids, names(block))
     if (length(absent)) fail(sprintf("`block` has no value for %s.", shorten(absent)),
@@ -32,9 +35,11 @@ check_block <- function(block, ids, call) {
     block <- block[ids]
   }
   if (length(block) != length(ids)) {
-    fail(sprintf("`block` has %d values for %d specimens.", length(block), length(ids)), "Give one for each.")
+    fail(sprintf("`block` has %d values for %d specimens.", length(block), length(ids)),
+         "Give one for each.")
   }
-  if (anyNA(block)) fail(sprintf("`block` is missing for %s.", shorten(ids[is.na(block)])), "Leave these specimens out.")
+  if (anyNA(block)) fail(sprintf("`block` is missing for %s.", shorten(ids[is.na(block)])),
+                         "Leave these specimens out.")
   droplevels(as.factor(unname(block)))
 }
 
@@ -49,8 +54,8 @@ check_units <- function(group, call) {
 
 #' An alignment of the units of a design
 #'
-#' Within blocks: every specimen less the mean of its block, so that what the blocks differ by is taken out. Whole blocks:
-#' their means.
+#' Within blocks: every specimen less the mean of its block, so that what the blocks differ by is
+#' taken out. Whole blocks: their means.
 #' @noRd
 in_design <- function(aligned, design) {
   if (design$kind == "free") return(aligned)
@@ -74,10 +79,13 @@ in_design <- function(aligned, design) {
 #' Regroupings of the units of a design
 #' @return As [regroupings()].
 #' @noRd
-design_regroupings <- function(design, n_perm, exact, permutations, seed, call = rlang::caller_env()) {
-  if (design$kind != "within") return(regroupings(design$group, n_perm, exact, permutations, seed, call))
+design_regroupings <- function(design, n_perm, exact, permutations, seed,
+                               call = rlang::caller_env()) {
+  if (design$kind != "within") return(regroupings(design$group, n_perm, exact, permutations, seed,
+                                                  call))
   if (!is.null(permutations)) {
-    crestline_abort("`permutations` and `block` are both given.", "Give one of them: orders within blocks are drawn here.",
+    crestline_abort("`permutations` and `block` are both given.",
+                    "Give one of them: orders within blocks are drawn here.",
                     stage = "arguments", call = call)
   }
   code <- as.integer(design$group)

@@ -9,18 +9,20 @@
 #'
 #' The paper matches each pair of curves by Procrustes, which can also mean each curve by itself.
 #'
-#' @param a,b Sets of curves: `shape`s, as of [fit_shape()]; named lists of k x 3 matrices, one a curve, as of
-#'   [read_curves()]; or k x 3 matrices with row names "curve point", as of [coords()].
+#' @param a,b Sets of curves: `shape`s, as of [fit_shape()]; named lists of k x 3 matrices, one a
+#'   curve, as of [read_curves()]; or k x 3 matrices with row names "curve point", as of [coords()].
 #' @param match "none": as they lie; "procrustes": b is laid onto a first.
-#' @param between "points": from each point to the one of the same number. "curves": from each point of either to the nearest
-#'   place of the other's polyline, so that numbers and spacing of points do not count.
+#' @param between "points": from each point to the one of the same number. "curves": from each point
+#'   of either to the nearest place of the other's polyline, so that numbers and spacing of points
+#'   do not count.
 #' @param level Of shapes: "curves", "landmarks" or "surface".
 #' @param scale Whether matching also brings b to the size of a.
-#' @return Data frame of class `curve_distance`, a row a part that either has: `part`, `points` (number of distances), and,
-#'   in the unit of the curves (mm for faces), `rms` (root mean square), `mean` and `max`; NA for parts that one of them
-#'   lacks. Missing points are left out. The attribute `all` is such a row for all points together.
-#' @section Errors: of class `crestline_error`: no sets of curves, no part in common, different numbers of points where
-#'   points are compared or matched.
+#' @return Data frame of class `curve_distance`, a row a part that either has: `part`, `points`
+#'   (number of distances), and, in the unit of the curves (mm for faces), `rms` (root mean square),
+#'   `mean` and `max`; NA for parts that one of them lacks. Missing points are left out. The
+#'   attribute `all` is such a row for all points together.
+#' @section Errors: of class `crestline_error`: no sets of curves, no part in common, different
+#'   numbers of points where points are compared or matched.
 #' @references The paper, section 5.3.
 #' @seealso [repeatability()]
 #' @examples
@@ -31,7 +33,8 @@
 #' curve_distance(list(arc = arc(9, 10)), list(arc = arc(9, 11)))
 #' curve_distance(list(arc = arc(9, 10)), list(arc = arc(30, 11)), between = "curves")
 #' @export
-curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("points", "curves"), level = "curves",
+curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("points", "curves"),
+                           level = "curves",
                            scale = FALSE) {
   check_given()
   check_flags(scale)
@@ -43,7 +46,8 @@ curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("p
   b <- curve_list(b, level, "b")
   both <- intersect(names(a), names(b))
   if (!length(both)) {
-    crestline_abort(sprintf("`a` (%s) and `b` (%s) have no part in common.", shorten(names(a), 3), shorten(names(b), 3)),
+    crestline_abort(sprintf("`a` (%s) and `b` (%s) have no part in common.", shorten(names(a), 3),
+                            shorten(names(b), 3)),
                     "Give the curves the same names.", stage = "distance")
   }
   if (between == "points" || match == "procrustes") check_same_counts(a[both], b[both])
@@ -59,8 +63,10 @@ curve_distance <- function(a, b, match = c("none", "procrustes"), between = c("p
 distance_row <- function(part, distance) {
   distance <- distance[!is.na(distance)]
   known <- length(distance) > 0
-  data.frame(part = part, points = length(distance), rms = if (known) sqrt(mean(distance^2)) else NA_real_,
-             mean = if (known) mean(distance) else NA_real_, max = if (known) max(distance) else NA_real_)
+  data.frame(part = part, points = length(distance),
+             rms = if (known) sqrt(mean(distance^2)) else NA_real_,
+             mean = if (known) mean(distance) else NA_real_,
+             max = if (known) max(distance) else NA_real_)
 }
 
 #' A set of curves as a named list of k x 3 matrices
@@ -97,8 +103,10 @@ check_same_counts <- function(a, b, call = rlang::caller_env()) {
   differ <- which(vapply(a, nrow, 0L) != vapply(b, nrow, 0L))
   if (length(differ)) {
     i <- differ[1]
-    crestline_abort(sprintf("%s has %d points in `a` and %d in `b`.", names(a)[i], nrow(a[[i]]), nrow(b[[i]])),
-                    "Give as many, or use between = \"curves\" without matching.", stage = "distance", call = call)
+    crestline_abort(sprintf("%s has %d points in `a` and %d in `b`.", names(a)[i], nrow(a[[i]]),
+                            nrow(b[[i]])),
+                    "Give as many, or use between = \"curves\" without matching.",
+                    stage = "distance", call = call)
   }
 }
 
@@ -125,7 +133,8 @@ polyline_distances <- function(points, line) {
   for (i in seq_len(nrow(line) - 1)) {
     step <- line[i + 1, ] - line[i, ]
     off <- sweep(points, 2, line[i, ])
-    share <- if (any(step != 0)) pmin(pmax(drop(off %*% step) / sum(step^2), 0), 1) else numeric(nrow(points))
+    share <- if (any(step != 0)) pmin(pmax(drop(off %*% step) / sum(step^2), 0), 1) else
+      numeric(nrow(points))
     nearest <- pmin(nearest, row_lengths(off - outer(share, step)))
   }
   nearest
@@ -139,7 +148,8 @@ print.curve_distance <- function(x, most = 12, digits = 3, ...) {
     all <- attr(x, "all")
     whole <- !is.null(all) && all(c("part", "rms", "mean", "max") %in% names(x))
     if (!whole) return(invisible(print(as.data.frame(x), digits = digits, ...)))
-    how <- paste0(c(points = "points of the same number", curves = "nearest places")[[attr(x, "between")]],
+    how <- paste0(c(points = "points of the same number",
+                    curves = "nearest places")[[attr(x, "between")]],
                   if (attr(x, "match") == "procrustes") ", b laid onto a")
     cat("Distance of ", amount(sum(!is.na(x$rms)), "part"), ", ", how, "\n", sep = "")
     worst <- utils::head(x[order(-x$rms), ], most)

@@ -26,19 +26,22 @@
 #' @examples
 #' sample_limits(far = Inf)
 #' @export
-sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyond = 0.5, fewest = 6) {
+sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyond = 0.5,
+                          fewest = 6) {
   limits <- list(far = far, point = point, size = size, estimated = estimated, beyond = beyond)
   for (name in names(limits)) {
     if (identical(limits[[name]], Inf)) next
     limits[[name]] <- check_number(limits[[name]], name, 0, open = TRUE)
   }
-  structure(c(limits, list(fewest = check_count(fewest, "fewest", lower = 3))), class = "sample_limits")
+  structure(c(limits, list(fewest = check_count(fewest, "fewest", lower = 3))),
+            class = "sample_limits")
 }
 
 #' @export
 print.sample_limits <- function(x, ...) {
   printed(x, {
-    cat("Limits of a sample:", paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
+    cat("Limits of a sample:",
+        paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
     invisible(x)
   })
 }
@@ -134,7 +137,8 @@ said_of_reach <- function(mean, gap, ids, limit) {
   far <- reach > limit
   if (!any(far)) return(NULL)
   named <- sprintf("%s (%.2g radii)", ids[colSums(gap) > 0][far], reach[far])
-  list(beyond = sprintf("points are estimated far from those that are there: of %s.", shorten(named)))
+  list(beyond = sprintf("points are estimated far from those that are there: of %s.",
+                        shorten(named)))
 }
 
 #' How far the farthest of some points lies beyond all others, in its direction from their middle; 0
@@ -144,7 +148,8 @@ reach_beyond <- function(known, gone) {
   middle <- colMeans(known)
   out <- sweep(gone, 2, middle)
   length <- sqrt(rowSums(out^2))
-  extent <- apply(tcrossprod(sweep(known, 2, middle), out / pmax(length, .Machine$double.xmin)), 2, max)
+  extent <- apply(tcrossprod(sweep(known, 2, middle), out / pmax(length, .Machine$double.xmin)), 2,
+                  max)
   max(0, length - extent)
 }
 
@@ -154,6 +159,7 @@ reach_beyond <- function(known, gone) {
 missing_lines <- function(missing, most = 8) {
   if (!nrow(missing)) return(character())
   count <- table(factor(missing$id, unique(missing$id)))
-  sprintf("missing and %s: %s of %s; most, %d, of %s", missing$action[1], amount(nrow(missing), "point"),
+  sprintf("missing and %s: %s of %s; most, %d, of %s", missing$action[1],
+          amount(nrow(missing), "point"),
           shorten(names(count), most), max(count), names(count)[which.max(count)])
 }

@@ -27,9 +27,9 @@
 #' warns where this can happen. With `equal_spread = FALSE` every group has a spread of its own, and
 #' only the means are compared. The permutation test of such statistics is exact if the groups have
 #' one distribution. If only their means agree, it is right in large samples (Janssen 1997). t is
-#' then Welch's, F
-#' that of Brown and Forsythe (the squares between groups over the sum of (1 - n_g / n) times the variance of group g),
-#' and T2 has separate covariances, on at most half as many components as the smallest group has degrees of freedom.
+#' then Welch's, F that of Brown and Forsythe (the squares between groups over the sum of (1 - n_g /
+#' n) times the variance of group g), and T2 has separate covariances, on at most half as many
+#' components as the smallest group has degrees of freedom.
 #'
 #' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent: name them
 #' by `block`. Some blocks hold specimens of several groups (before and after; sites with patients
@@ -40,8 +40,8 @@
 #' For covariates and interactions give the sample to RRPP or geomorph: [as_geomorph()].
 #' [crestline-package] has a glossary.
 #'
-#' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same specimens, named by level;
-#'   or an `aligned`.
+#' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same
+#'   specimens, named by level; or an `aligned`.
 #' @param group Factor of n, or a vector that can become one. Values with names are matched to the
 #'   specimens by name. So is a data frame of one column of groups and one of the specimens (`id`,
 #'   `specimen`, `file` and the like, or row names). Case, blanks and a file's extension are
@@ -50,46 +50,53 @@
 #' @param n_perm Number of random permutations.
 #' @param components Number of principal components: a whole number, or a share of the variance
 #'   below 1. At most n - groups - 1 are used.
-#' @param seed Number that starts the random stream; the stream of the session is then left untouched. `NULL`: the
-#'   session's stream.
-#' @param tests Which: "size", "shape", "T2", "components", "points", "dispersion" (not with exchange within blocks).
+#' @param seed Number that starts the random stream; the stream of the session is then left
+#'   untouched. `NULL`: the session's stream.
+#' @param tests Which: "size", "shape", "T2", "components", "points", "dispersion" (not with
+#'   exchange within blocks).
 #' @param exact Most regroupings that are enumerated instead of drawn at random.
 #' @param permutations Orders to use in place of random ones: n x B matrix or list (as of
 #'   `RRPP:::perm.index()`), each an order of the specimens that replaces the observed one.
 #' @param block Factor of n, or a vector that can become one: specimens of one block are not
 #'   independent of each other. Values with names are matched to the specimens by name. `NULL`: all
 #'   specimens are independent.
-#' @param equal_spread Whether the groups are taken to be equally spread, and their variances pooled.
-#' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others then have none. Not used
-#'   with an `aligned`, which is aligned already.
+#' @param equal_spread Whether the groups are taken to be equally spread, and their variances
+#'   pooled.
+#' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others
+#'   then have none. Not used with an `aligned`, which is aligned already.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `group_comparison`, a list:
-#'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of regroupings, the
-#'     observed one among them, whose statistic is at least as great), `p_adjusted` (for the
-#'     components of a level: by the greatest statistic over them, which controls the family-wise
-#'     error; else as `p_value`), `p_parametric` (under normality), `share` (of variance: between
-#'     groups for "mean shape", of the components used for the rest);
-#'   * `points`: data frame, a row a level and point: `level`, `point`, `x`, `y`, `z` (the mean, of mean size), `distance`
-#'     (second mean less first along the normal, outward positive; NA without triangles), `displacement` (between the
-#'     means), in the unit of the meshes; `statistic`, `p_value`, `p_adjusted` (by the greatest statistic over all points of
-#'     the level);
-#'   * `aligned`, `pca`: lists by level; `group`; `n_perm` (regroupings besides the observed one), `exact` (whether all),
-#'     `components` (by level), `seed`, `equal_spread`; `design`: list with `kind` of exchange ("free", "within" or "whole"
-#'     blocks), `group` (of the units exchanged), `block`.
+#'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of
+#'     regroupings, the observed one among them, whose statistic is at least as great), `p_adjusted`
+#'     (for the components of a level: by the greatest statistic over them, which controls the
+#'     family-wise error; else as `p_value`), `p_parametric` (under normality), `share` (of
+#'     variance: between groups for "mean shape", of the components used for the rest);
+#'   * `points`: data frame, a row a level and point: `level`, `point`, `x`, `y`, `z` (the mean, of
+#'     mean size), `distance` (second mean less first along the normal, outward positive; NA without
+#'     triangles), `displacement` (between the means), in the unit of the meshes; `statistic`,
+#'     `p_value`, `p_adjusted` (by the greatest statistic over all points of the level);
+#'   * `aligned`, `pca`: lists by level; `group`; `n_perm` (regroupings besides the observed one),
+#'     `exact` (whether all), `components` (by level), `seed`, `equal_spread`; `design`: list with
+#'     `kind` of exchange ("free", "within" or "whole" blocks), `group` (of the units exchanged),
+#'     `block`.
 #'
-#'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a level.
-#' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group only, groups that do
-#'   not match the specimens, a specimen in two groups, groups whose names differ by blanks or case
-#'   only, permutations that are none.
-#' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in spread and are pooled.
-#' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of the
-#'   Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized permutation tests for non-i.i.d. hypotheses,
-#'   *Statistics and Probability Letters* 36, 9-21; Brown and Forsythe (1974) The small sample behavior of some statistics
-#'   which test the equality of several means, *Technometrics* 16, 129-132; Krishnamoorthy and Yu (2004) Modified Nel and
-#'   Van der Merwe test, *Statistics and Probability Letters* 66, 161-169; Anderson (2006) Distance-based tests for
-#'   homogeneity of multivariate dispersions, *Biometrics* 62, 245-253; Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest
-#'   statistics); Phipson and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in Genetics
-#'   and Molecular Biology* 9, 39.
+#'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a
+#'   level.
+#' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group
+#'   only, groups that do not match the specimens, a specimen in two groups, groups whose names
+#'   differ by blanks or case only, permutations that are none.
+#' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in
+#'   spread and are pooled.
+#' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis
+#'   of shape, *Journal of the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized
+#'   permutation tests for non-i.i.d. hypotheses, *Statistics and Probability Letters* 36, 9-21;
+#'   Brown and Forsythe (1974) The small sample behavior of some statistics which test the equality
+#'   of several means, *Technometrics* 16, 129-132; Krishnamoorthy and Yu (2004) Modified Nel and
+#'   Van der Merwe test, *Statistics and Probability Letters* 66, 161-169; Anderson (2006)
+#'   Distance-based tests for homogeneity of multivariate dispersions, *Biometrics* 62, 245-253;
+#'   Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest statistics); Phipson
+#'   and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in
+#'   Genetics and Molecular Biology* 9, 39.
 #' @seealso [plot.group_comparison()], [align()], [shape_pca()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 20), c(4, 3, 20))
@@ -100,10 +107,13 @@
 #' compared
 #' head(compared$points)
 #' @export
-compare_groups <- function(sample, group, level = c("landmarks", "curves", "surface"), n_perm = 1000, components = 10,
-                           seed = NULL, tests = c("size", "shape", "T2", "components", "points", "dispersion"),
+compare_groups <- function(sample, group, level = c("landmarks", "curves", "surface"),
+                           n_perm = 1000, components = 10,
+                           seed = NULL, tests = c("size", "shape", "T2", "components", "points",
+                                                  "dispersion"),
                            exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
-                           missing = c("estimate", "drop", "stop"), progress = interactive(), block = NULL,
+                           missing = c("estimate", "drop", "stop"), progress = interactive(),
+                           block = NULL,
                            equal_spread = TRUE) {
   check_given()
   check_flags(progress, equal_spread)
@@ -120,19 +130,24 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   # A block of point-wise tests needs 250 x k numbers.
   blocks <- permutation_blocks(ncol(dealt$labels), 250)
   tick <- comparison_ticks(progress, length(aligned) * (1 + length(blocks) * ("points" %in% tests)))
-  spread <- list(equal = equal_spread, lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
+  spread <- list(equal = equal_spread,
+                 lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
   if (design$kind == "within") tests <- setdiff(tests, "dispersion")
   each <- lapply(aligned, function(one) {
     tick()
     compare_level(in_design(one, design), dealt$labels, components, tests, spread, blocks, tick)
   })
   count <- vapply(each, function(one) as.integer(one$components), 0L)
-  compared <- structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
-                 pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L, exact = dealt$exact,
+  compared <- structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"),
+                             aligned = aligned,
+                 pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L,
+                             exact = dealt$exact,
                  components = count, seed = seed, design = design, equal_spread = equal_spread,
                  provenance = with_settings(aligned[[1]]$provenance, "compare",
-                                            list(n_perm = n_perm, components = components, tests = tests,
-                                                 exchange = design$kind, equal_spread = equal_spread))),
+                                            list(n_perm = n_perm, components = components,
+                                                 tests = tests,
+                                                 exchange = design$kind,
+                                                 equal_spread = equal_spread))),
                         class = "group_comparison")
   warn_unequal_spread(compared)
   compared
@@ -141,7 +156,8 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
 #' @exportS3Method
 validate.group_comparison <- function(x) {
   table <- function(value, columns) {
-    is.null(value) || is.data.frame(value) && all(columns %in% names(value)) && is.numeric(value$p_value) &&
+    is.null(value) || is.data.frame(value) && all(columns %in%
+                                                  names(value)) && is.numeric(value$p_value) &&
       all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
   }
   pca <- Filter(Negate(is.null), if (is.list(x$pca)) x$pca)
@@ -149,12 +165,17 @@ validate.group_comparison <- function(x) {
     is.character(x$design$kind) && isTRUE(x$design$kind %in% c("free", "whole", "within")) &&
     (x$design$kind == "whole" || length(x$design$group) == length(x$group))
   own <- function(one) inherits(one, "aligned") && length(one) == length(x$group)
-  right <- table(x$tests, c("level", "test", "statistic", "p_value", "p_parametric", "p_adjusted")) && design &&
-    table(x$points, c("level", "point", "p_value", "p_adjusted")) && is.factor(x$group) && is.list(x$aligned) &&
-    length(x$aligned) > 0 && all(vapply(x$aligned, own, NA)) && all(vapply(pca, inherits, NA, "shape_pca")) &&
+  right <- table(x$tests,
+                 c("level", "test", "statistic", "p_value", "p_parametric",
+                   "p_adjusted")) && design &&
+    table(x$points, c("level", "point", "p_value",
+                      "p_adjusted")) && is.factor(x$group) && is.list(x$aligned) &&
+    length(x$aligned) > 0 && all(vapply(x$aligned, own,
+                                        NA)) && all(vapply(pca, inherits, NA, "shape_pca")) &&
     is.numeric(x$n_perm) && length(x$n_perm) == 1
   if (!right) {
-    crestline_abort("the comparison is damaged: its parts do not fit together.", "Compare anew: compare_groups().",
+    crestline_abort("the comparison is damaged: its parts do not fit together.",
+                    "Compare anew: compare_groups().",
                     stage = "comparison", call = NULL)
   }
   for (one in c(x$aligned, pca)) validate(one)
@@ -205,7 +226,9 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     return(stats::setNames(list(sample), sample$level))
   }
   as_aligned <- function(one, level) {
-    areas <- identical(weights, "area") && inherits(one, "shape_sample") && !level %in% c("surface", "model")
+    areas <- identical(weights, "area") && inherits(one,
+                                                    "shape_sample") && !level %in% c("surface",
+                                                                                     "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (inherits(sample, "shape_sample")) {
@@ -216,7 +239,8 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     aligned <- Map(as_aligned, sample, names(sample))
     ids <- lapply(aligned, function(one) dimnames(one$coords)[[3]])
     if (!all(vapply(ids, identical, NA, ids[[1]]))) {
-      crestline_abort("the levels have different specimens.", "Give arrays with the same specimens in the same order.",
+      crestline_abort("the levels have different specimens.",
+                      "Give arrays with the same specimens in the same order.",
                       stage = "comparison", call = call)
     }
     return(aligned)
@@ -227,7 +251,8 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
 check_components <- function(components, call = rlang::caller_env()) {
   components <- check_number(components, "components", lower = 0, call = call)
   if (components == 0) {
-    crestline_abort("`components` is 0.", "Give a whole number, or a share of the variance below 1.", stage = "arguments",
+    crestline_abort("`components` is 0.",
+                    "Give a whole number, or a share of the variance below 1.", stage = "arguments",
                     call = call)
   }
   if (components >= 1) check_count(components, "components", call = call) else components
@@ -241,7 +266,8 @@ check_tests <- function(tests, call = rlang::caller_env()) {
 #' A factor with the levels that occur, in the order of the specimens
 #' @noRd
 check_group <- function(group, ids, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison", call = call)
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison",
+                                                    call = call)
   group <- by_specimen(group, ids, "group", fail)
   if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)
   absent <- is.na(group) | !nzchar(trimws(as.character(group)))
@@ -256,7 +282,8 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
   }
   if (nlevels(group) < 2) fail("there is one group only.", "Give two or more.")
   if (min(table(group)) < 2) {
-    fail(sprintf("the group \"%s\" has one specimen.", names(which.min(table(group)))), "Give every group two or more.")
+    fail(sprintf("the group \"%s\" has one specimen.", names(which.min(table(group)))),
+         "Give every group two or more.")
   }
   group
 }
@@ -305,18 +332,24 @@ print.group_comparison <- function(x, most = 5, ...) {
       amount(x$n_perm, "random permutation")
     cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
         drawn, "\n", sep = "")
-    if (!is.null(x$tests)) cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+    if (!is.null(x$tests)) cat("p-values by permutation:\n",
+                               paste0("  ", comparison_lines(x, most), "\n"), sep = "")
     line <- design_line(x$design)
     if (!is.null(line)) cat("  ", line, "\n", sep = "")
     said <- spread_line(x)
     if (length(said)) cat(strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
     for (level in names(x$aligned)) {
-      for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line), indent = 2, exdent = 4), sep = "\n")
+      for (line in missing_lines(x$aligned[[level]]$missing)) cat(strwrap(paste0(level, ": ", line),
+                                                                          indent = 2, exdent = 4),
+                                                                  sep = "\n")
     }
     used <- x$components[!is.na(x$components)]
-    if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n", sep = "")
+    if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n",
+                          sep = "")
     if (!is.null(x$points)) {
-      for (level in unique(x$points$level)) cat("  ", points_line(x$points[x$points$level == level, ]), "\n", sep = "")
+      for (level in unique(x$points$level)) cat("  ",
+                                                points_line(x$points[x$points$level == level, ]),
+                                                "\n", sep = "")
     }
     invisible(x)
   })
@@ -328,12 +361,15 @@ comparison_lines <- function(x, most) {
   table <- summary(x)
   component <- grepl("^PC[0-9]+$", table$test)
   table <- table[!component | cumsum(component) <= most, ]
-  digits <- function(p) ifelse(is.na(p), "", ifelse(p < 5e-5, "<0.0001", formatC(p, format = "f", digits = 4)))
+  digits <- function(p) ifelse(is.na(p), "",
+                               ifelse(p < 5e-5, "<0.0001", formatC(p, format = "f", digits = 4)))
   shown <- vapply(table[-1], digits, character(nrow(table)))
   all <- rbind(names(table)[-1], matrix(shown, nrow(table)))
   width <- apply(nchar(all), 2, max) + 2
-  cells <- vapply(seq_along(width), function(j) formatC(all[, j], width = width[j]), character(nrow(all)))
-  paste0(formatC(c("", table$test), width = -12), apply(matrix(cells, nrow(all)), 1, paste, collapse = ""))
+  cells <- vapply(seq_along(width), function(j) formatC(all[, j], width = width[j]),
+                  character(nrow(all)))
+  paste0(formatC(c("", table$test), width = -12),
+         apply(matrix(cells, nrow(all)), 1, paste, collapse = ""))
 }
 
 #' One line about the spread of the groups
@@ -341,7 +377,8 @@ comparison_lines <- function(x, most) {
 spread_line <- function(x) {
   worst <- worst_spread(x)
   if (is.null(worst)) return(NULL)
-  sprintf("dispersion: the spreads of the groups differ by a factor of %.2g at most (%s, p = %s)", worst$statistic,
+  sprintf("dispersion: the spreads of the groups differ by a factor of %.2g at most (%s, p = %s)",
+          worst$statistic,
           worst$level, format.pval(worst$p_value, digits = 2, eps = 1e-4))
 }
 
@@ -350,14 +387,15 @@ worst_spread <- function(x) {
   if (NROW(own)) own[which.max(own$statistic), ]
 }
 
-#' @param ratio Of the spreads of groups of unequal size, above which pooled tests are not to be trusted: at 24 and 6
-#'   specimens and a ratio of 2 they reject a true null hypothesis in more than half of the samples, see
-#'   `tests/testthat/test-analysis-spread.R`.
+#' @param ratio Of the spreads of groups of unequal size, above which pooled tests are not to be
+#'   trusted: at 24 and 6 specimens and a ratio of 2 they reject a true null hypothesis in more than
+#'   half of the samples, see `tests/testthat/test-analysis-spread.R`.
 #' @noRd
 warn_unequal_spread <- function(x, ratio = 1.5) {
   worst <- worst_spread(x)
   sizes <- table(x$design$group)
-  if (!x$equal_spread || is.null(worst) || min(sizes) == max(sizes) || worst$statistic <= ratio) return(invisible())
+  if (!x$equal_spread || is.null(worst) || min(sizes) == max(sizes) ||
+      worst$statistic <= ratio) return(invisible())
   crestline_warn(
     sprintf("the groups are unequal in size (%s), and their spreads differ by a factor of %.2g (%s).",
             paste(sizes, collapse = ", "), worst$statistic, worst$level),

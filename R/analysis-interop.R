@@ -2,15 +2,14 @@
 
 #' A sample for geomorph, RRPP and Morpho
 #'
-#' For what [compare_groups()] does not do: covariates, interactions, nested designs, pairwise comparisons, allometry.
-#' Neither
-#' package is needed to make these objects.
+#' For what [compare_groups()] does not do: covariates, interactions, nested designs, pairwise
+#' comparisons, allometry. Neither package is needed to make these objects.
 #'
-#' `as_geomorph()` makes what `geomorph::geomorph.data.frame()` does, ready for `procD.lm(coords ~ size * sex, data =
-#' )`; `as_rrpp()`
-#' what `RRPP::rrpp.data.frame()` does, the co-ordinates as a matrix, for `lm.rrpp(coords ~ size * sex, data = )`;
-#' `as_morpho()` an
-#' object of the class of `Morpho::procSym()` with what its functions on such objects use. `as_aligned()` goes the other way.
+#' `as_geomorph()` makes what `geomorph::geomorph.data.frame()` does, ready for
+#' `procD.lm(coords ~ size * sex, data = )`; `as_rrpp()` what `RRPP::rrpp.data.frame()` does, the
+#' co-ordinates as a matrix, for `lm.rrpp(coords ~ size * sex, data = )`; `as_morpho()` an object of
+#' the class of `Morpho::procSym()` with what its functions on such objects use. `as_aligned()` goes
+#' the other way.
 #'
 #' @param sample A `shape_sample`, an `aligned`, or an array, k x 3 x n.
 #' @param level Level of a `shape_sample`, as in [align()].
@@ -20,14 +19,12 @@
 #'   extension aside. Rows are taken in order only where the specimens have no names and the table
 #'   none, with a message.
 #' @param ... Passed to [align()]: `scale`, `weights`, `missing`.
-#' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned), `size` (centroid
-#'   sizes), and the
-#'   columns of `data`. `as_rrpp()`: list of class `rrpp.data.frame`: `coords` (n x 3k, a row a specimen: x, y, z of
-#'   the first
-#'   point, then of the second, as `geomorph::two.d.array()` has them), `size`, and the columns of `data`.
-#'   `as_morpho()`: list
-#'   of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata` (after), `mshape`, `PCs`, `PCscores`,
-#'   `eigenvalues`, `Variance`, `rho`.
+#' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned),
+#'   `size` (centroid sizes), and the columns of `data`. `as_rrpp()`: list of class
+#'   `rrpp.data.frame`: `coords` (n x 3k, a row a specimen: x, y, z of the first point, then of the
+#'   second, as `geomorph::two.d.array()` has them), `size`, and the columns of `data`.
+#'   `as_morpho()`: list of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata`
+#'   (after), `mshape`, `PCs`, `PCscores`, `eigenvalues`, `Variance`, `rho`.
 #' @section Errors: of class `crestline_error`: `data` that lacks a specimen, has different rows of
 #'   one or no column of the specimens' names, or has a column `coords` or `size`.
 #' @section Warnings: of class `crestline_alike_groups`, when values of a column differ by blanks or
@@ -40,24 +37,28 @@
 #' str(frame)
 #' as_aligned(frame)
 #' @export
-as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL,
+                        ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
   validate(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   columns <- covariates(data, dimnames(aligned$coords)[[3]])
-  structure(c(list(coords = aligned$coords, size = aligned$size), columns), class = "geomorph.data.frame")
+  structure(c(list(coords = aligned$coords, size = aligned$size), columns),
+            class = "geomorph.data.frame")
 }
 
 #' @rdname as_geomorph
 #' @export
-as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL, ...) {
+as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model"), data = NULL,
+                    ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
   frame <- as_geomorph(sample, level, data, ...)
   coords <- frame$coords
   flat <- matrix(aperm(coords, c(3, 2, 1)), dim(coords)[3])
-  dimnames(flat) <- list(dimnames(coords)[[3]], as.vector(t(outer(dimnames(coords)[[1]], dimnames(coords)[[2]], paste))))
+  dimnames(flat) <- list(dimnames(coords)[[3]],
+                         as.vector(t(outer(dimnames(coords)[[1]], dimnames(coords)[[2]], paste))))
   frame$coords <- flat
   structure(frame, class = "rrpp.data.frame")
 }
@@ -70,24 +71,29 @@ as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model
   validate(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
-  variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share, "Cumulative %" = 100 * cumsum(pca$share))
+  variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share,
+                    "Cumulative %" = 100 * cumsum(pca$share))
   rotated <- before_projection(aligned)
-  cosine <- apply(rotated, 3, function(one) sum(one * aligned$mean) / sqrt(sum(one^2) * sum(aligned$mean^2)))
+  cosine <- apply(rotated, 3,
+                  function(one) sum(one * aligned$mean) / sqrt(sum(one^2) * sum(aligned$mean^2)))
   rho <- stats::setNames(acos(pmin(1, cosine)), names(aligned$size))
-  structure(list(size = aligned$size, rotated = rotated, mshape = aligned$mean, PCs = unname(pca$rotation),
-                 PCscores = pca$x, eigenvalues = pca$sdev^2, Variance = variance, orpdata = aligned$coords, rho = rho),
-            class = "nosymproc", CSinit = !isFALSE(aligned$scale), scale = identical(aligned$scale, "full"),
+  structure(list(size = aligned$size, rotated = rotated, mshape = aligned$mean,
+                 PCs = unname(pca$rotation),
+                 PCscores = pca$x, eigenvalues = pca$sdev^2, Variance = variance,
+                 orpdata = aligned$coords, rho = rho),
+            class = "nosymproc", CSinit = !isFALSE(aligned$scale),
+            scale = identical(aligned$scale, "full"),
             orp = aligned$tangent, sizeshape = FALSE)
 }
 
 #' @rdname as_geomorph
-#' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or `Morpho::procSym()` returns, or an
-#'   array of
-#'   aligned configurations.
+#' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or
+#'   `Morpho::procSym()` returns, or an array of aligned configurations.
 #' @param size Centroid sizes, matched by name where they have names; `NULL`: those that `x` has
 #'   (`size`, `Csize`), else of `coords`.
 #' @param triangles As in [align()].
-#' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are: nothing is turned or scaled.
+#' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are:
+#'   nothing is turned or scaled.
 #' @export
 as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   check_given()
@@ -107,9 +113,12 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (!is.null(names(size)) && has_ids(ids)) size <- sizes_by_specimen(size, ids)
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
-  validate_aligned(new_aligned(provenance = made_with(), coords, apply(coords, 1:2, mean), stats::setNames(as.vector(size), dimnames(coords)[[3]]),
-                               rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
-                               triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())))
+  validate_aligned(new_aligned(provenance = made_with(), coords, apply(coords, 1:2, mean),
+                               stats::setNames(as.vector(size), dimnames(coords)[[3]]),
+                               rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled,
+                               tangent = FALSE, level = level,
+                               triangles = check_triangles(triangles, dim(coords)[1],
+                                                           rlang::current_env())))
 }
 
 sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
@@ -121,10 +130,13 @@ sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
 #' @noRd
 covariates <- function(data, ids, call = rlang::caller_env()) {
   if (is.null(data)) return(list())
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments", call = call)
-  if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments",
+                                                    call = call)
+  if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)),
+                                 "Give a data frame.")
   clash <- intersect(names(data), c("coords", "size"))
-  if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]), "Rename it: the sample's own has that name.")
+  if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]),
+                          "Rename it: the sample's own has that name.")
   data <- data[rows_of_specimens(data, ids, "data", fail), , drop = FALSE]
   for (name in names(data)) warn_alike_levels(data[[name]], name)
   as.list(data)

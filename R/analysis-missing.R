@@ -3,23 +3,26 @@
 #' Configurations without gaps
 #'
 #' @param given As of [configurations()].
-#' @return `given` with complete `coords`, and `missing` (data frame `id`, `point`, `action`), `kept` (rows of the given
-#'   points), `given` (their number), `reference` (filled).
+#' @return `given` with complete `coords`, and `missing` (data frame `id`, `point`, `action`),
+#'   `kept` (rows of the given points), `given` (their number), `reference` (filled).
 #' @noRd
 complete_configurations <- function(given, missing, call = rlang::caller_env()) {
   coords <- given$coords
   gap <- gaps(coords)
   at <- which(gap, arr.ind = TRUE)
   action <- c(estimate = "estimated", drop = "dropped", stop = "")[[missing]]
-  given$missing <- data.frame(id = colnames(gap)[at[, 2]], point = rownames(gap)[at[, 1]], action = rep(action, nrow(at)))
+  given$missing <- data.frame(id = colnames(gap)[at[, 2]], point = rownames(gap)[at[, 1]],
+                              action = rep(action, nrow(at)))
   given$given <- dim(coords)[1]
   given$kept <- seq_len(given$given)
   if (any(gap)) {
     if (missing == "stop") abort_missing(given$missing, call)
     check_enough(gap, dim(coords)[2], missing, call)
-    given <- if (missing == "drop") without_points(given, rowSums(gap) > 0) else estimated(given, gap, call)
+    given <- if (missing == "drop") without_points(given, rowSums(gap) > 0) else
+      estimated(given, gap, call)
   }
-  if (is.null(given$reference) || anyNA(given$reference)) given$reference <- unnamed_slice(given$coords, 1)
+  if (is.null(given$reference) ||
+      anyNA(given$reference)) given$reference <- unnamed_slice(given$coords, 1)
   given
 }
 
@@ -33,21 +36,26 @@ gaps <- function(coords) {
 unnamed_slice <- function(coords, i) matrix(coords[, , i], dim(coords)[1])
 
 abort_missing <- function(missing, call) {
-  crestline_abort(sprintf("%s missing, of %s.", amount(nrow(missing), "point"), shorten(unique(missing$id), 5)),
+  crestline_abort(sprintf("%s missing, of %s.", amount(nrow(missing), "point"),
+                          shorten(unique(missing$id), 5)),
                   "Let them be estimated or dropped: see `missing`.", stage = "align", call = call)
 }
 
 check_enough <- function(gap, dim, missing, call) {
-  fail <- function(problem, remedy, id = NULL) crestline_abort(problem, remedy, stage = "align", id = id, call = call)
+  fail <- function(problem, remedy,
+                   id = NULL) crestline_abort(problem, remedy, stage = "align", id = id,
+                                              call = call)
   if (missing == "drop") {
     if (sum(rowSums(gap) == 0) <= dim) {
-      fail("no more than three points are there in every specimen.", "Estimate them, or leave out the worst specimens.")
+      fail("no more than three points are there in every specimen.",
+           "Estimate them, or leave out the worst specimens.")
     }
     return(invisible())
   }
   nowhere <- which(rowSums(!gap) == 0)
   if (length(nowhere)) {
-    fail(sprintf("%s missing in every specimen: %s.", amount(length(nowhere), "point"), shorten(rownames(gap)[nowhere], 5)),
+    fail(sprintf("%s missing in every specimen: %s.", amount(length(nowhere), "point"),
+                 shorten(rownames(gap)[nowhere], 5)),
          "Use missing = \"drop\".")
   }
   few <- which(colSums(!gap) <= dim + 1)
@@ -74,15 +82,16 @@ without_points <- function(given, out) {
 
 #' Missing points put where the spline from the mean takes them
 #'
-#' The mean of a point that some lack is not that of the same specimens as its neighbours': so the mean is taken again with
-#' the points put in, and they from it, until they stand still.
+#' The mean of a point that some lack is not that of the same specimens as its neighbours': so the
+#' mean is taken again with the points put in, and they from it, until they stand still.
 #'
-#' @param tolerance Greatest move of an estimated co-ordinate between two rounds, as a share of its specimen's centroid size
-#'   (1e-6: about a thousandth of a millimetre on a face).
+#' @param tolerance Greatest move of an estimated co-ordinate between two rounds, as a share of its
+#'   specimen's centroid size (1e-6: about a thousandth of a millimetre on a face).
 #' @param rounds Most rounds.
 #' @noRd
 estimated <- function(given, gap, call, tolerance = 1e-6, rounds = 50) {
-  given$reference <- if (is.null(given$reference) || anyNA(given$reference)) NULL else given$reference
+  given$reference <- if (is.null(given$reference) || anyNA(given$reference)) NULL else
+    given$reference
   mean <- mean_with_gaps(given$coords, gap)
   before <- given$coords
   for (round in seq_len(rounds)) {
@@ -90,7 +99,8 @@ estimated <- function(given, gap, call, tolerance = 1e-6, rounds = 50) {
     moved <- max(abs(given$coords - before)[rep_gap(gap, dim(before)[2])])
     if (!is.na(moved) && moved <= tolerance * sqrt(sum(mean^2))) break
     before <- given$coords
-    fit <- fit_alignment(list(coords = before, reference = mean), rep(1, nrow(mean)), 1L, tolerance, rounds)
+    fit <- fit_alignment(list(coords = before, reference = mean), rep(1, nrow(mean)), 1L, tolerance,
+                         rounds)
     mean <- fit$mean * mean(fit$size)
   }
   if (is.null(given$reference)) given$reference <- mean
@@ -123,12 +133,14 @@ mean_with_gaps <- function(coords, gap) {
 
 #' The interpolating thin-plate spline from one configuration onto the known points of another
 #'
-#' Kernel r in space and r^2 log r in the plane. The template is brought to unit size: no answer depends on the unit.
+#' Kernel r in space and r^2 log r in the plane. The template is brought to unit size: no answer
+#' depends on the unit.
 #'
 #' @param template k x d, complete.
 #' @param own k x d.
 #' @param gap Logical, k: which points to place.
-#' @param rank Points whose least extent is below this share of the greatest lie in a plane (in the plane: on a line).
+#' @param rank Points whose least extent is below this share of the greatest lie in a plane (in the
+#'   plane: on a line).
 #' @return Matrix, a row a TRUE of `gap`.
 #' @noRd
 spline_places <- function(template, own, gap, id, call, rank = 1e-6) {
@@ -137,16 +149,19 @@ spline_places <- function(template, own, gap, id, call, rank = 1e-6) {
   known <- known[!duplicated(template[known, , drop = FALSE])]
   from <- template[known, , drop = FALSE]
   at <- template[gap, , drop = FALSE]
-  distance <- function(a) sqrt(pmax(outer(rowSums(a^2), rowSums(from^2), `+`) - 2 * tcrossprod(a, from), 0))
+  distance <- function(a) sqrt(pmax(outer(rowSums(a^2), rowSums(from^2), `+`) - 2 *
+                                    tcrossprod(a, from), 0))
   kernel <- if (ncol(template) == 3) function(r) -r else function(r) ifelse(r > 0, r^2 * log(r), 0)
   affine <- cbind(1, from)
-  system <- rbind(cbind(kernel(distance(from)), affine), cbind(t(affine), matrix(0, ncol(affine), ncol(affine))))
+  system <- rbind(cbind(kernel(distance(from)), affine),
+                  cbind(t(affine), matrix(0, ncol(affine), ncol(affine))))
   diag(system)[seq_along(known)] <- 0
   right <- rbind(own[known, , drop = FALSE], matrix(0, ncol(affine), ncol(template)))
   spread <- svd(sweep(from, 2, colMeans(from)), 0, 0)$d
   if (min(spread) < rank * max(spread)) {
     crestline_abort("the points that are there lie in a plane: the others cannot be placed.",
-                    "Leave this specimen out, or use missing = \"drop\".", stage = "align", id = id, call = call)
+                    "Leave this specimen out, or use missing = \"drop\".", stage = "align", id = id,
+                    call = call)
   }
   weight <- solve(system, right, tol = 0)
   cbind(kernel(distance(at)), 1, at) %*% weight

@@ -5,23 +5,23 @@
 #' Finds the directions in which aligned shapes vary most, with the scores of the specimens on them.
 #'
 #' @param aligned An `aligned`, as [align()] returns it.
-#' @param weights Weights of points, as in [align()]: by default those of the alignment. With "area" variance is that per
-#'   area of the surface, whether its points are dense or sparse.
+#' @param weights Weights of points, as in [align()]: by default those of the alignment. With "area"
+#'   variance is that per area of the surface, whether its points are dense or sparse.
 #' @param tolerance Components whose variance is below this share of the first one's are left out.
-#' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d k x r, rows in the
-#'   order of
-#'   `as.vector(mean)`), `center`, `scale` (`FALSE`) are those of [stats::prcomp()] of the n x d k matrix of co-ordinates
-#'   where all weights are 1, but for signs: the greatest entry of every column of `rotation` is positive. With weights the
-#'   components are orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`. Besides:
-#'   `share`
-#'   (r, of the variance), `direction` (d k x r: what one unit of a score adds to the co-ordinates; `rotation` where
-#'   all weights
-#'   are 1), `mean` (k x d), `size` (mean centroid size, in the unit of the meshes), `weights`, `level`, `triangles`.
+#' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d
+#'   k x r, rows in the order of `as.vector(mean)`), `center`, `scale` (`FALSE`) are those of
+#'   [stats::prcomp()] of the n x d k matrix of co-ordinates where all weights are 1, but for signs:
+#'   the greatest entry of every column of `rotation` is positive. With weights the components are
+#'   orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`.
+#'   Besides: `share` (r, of the variance), `direction` (d k x r: what one unit of a score adds to
+#'   the co-ordinates; `rotation` where all weights are 1), `mean` (k x d), `size` (mean centroid
+#'   size, in the unit of the meshes), `weights`, `level`, `triangles`.
 #'
-#'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`; `summary()`, `predict()` and
-#'   `biplot()` are those of `prcomp`.
+#'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`;
+#'   `summary()`, `predict()` and `biplot()` are those of `prcomp`.
 #' @section Errors: of class `crestline_error`: no `aligned`, or all shapes the same.
-#' @references The paper, section 6; Dryden and Mardia (2016) *Statistical Shape Analysis*, section 7.7.
+#' @references The paper, section 6; Dryden and Mardia (2016) *Statistical Shape Analysis*, section
+#'   7.7.
 #' @seealso [shape_at()], [plot.shape_pca()], [write_pca_page()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -42,7 +42,8 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
   center <- colMeans(x)
   parts <- thin_svd(sweep(x, 2, center) * rep(sqrt(weight), each = dims[3]), tolerance)
   if (!length(parts$d)) {
-    crestline_abort("all shapes are the same.", "Check that the sample is what it should be.", stage = "components")
+    crestline_abort("all shapes are the same.", "Check that the sample is what it should be.",
+                    stage = "components")
   }
   axis <- parts$v * rep(sign_of_greatest(parts$v), each = nrow(parts$v))
   names <- paste0("PC", seq_along(parts$d))
@@ -55,12 +56,15 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
     crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
   dimnames(direction) <- dimnames(rotation)
   rownames(scores) <- names(aligned)
-  structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows), scale = FALSE,
+  structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows),
+                 scale = FALSE,
                  x = scores,
                  share = variance / sum(variance), direction = direction,
-                 mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)), size = mean(aligned$size),
+                 mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)),
+                 size = mean(aligned$size),
                  weights = weights, level = aligned$level, triangles = aligned$triangles,
-                 provenance = with_settings(aligned$provenance, "pca", list(tolerance = tolerance))),
+                 provenance = with_settings(aligned$provenance, "pca",
+                                            list(tolerance = tolerance))),
             class = c("shape_pca", "prcomp"))
 }
 
@@ -69,7 +73,8 @@ validate.shape_pca <- function(x) {
   numbers <- function(value, n) is.numeric(value) && length(value) == n
   n <- length(x$sdev)
   columns <- function(value) is.numeric(value) && is.matrix(value) && ncol(value) == n
-  right <- n > 0 && is.numeric(x$sdev) && numbers(x$share, n) && columns(x$x) && columns(x$direction) && columns(x$rotation) &&
+  right <- n > 0 && is.numeric(x$sdev) && numbers(x$share,
+                                                  n) && columns(x$x) && columns(x$direction) && columns(x$rotation) &&
     is.matrix(x$mean) && numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
   if (right) return(invisible(x))
   crestline_abort("the components are damaged: their parts do not fit together.",
@@ -126,7 +131,8 @@ thin_svd <- function(x, tolerance) {
 as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
   validate(x)
-  data.frame(component = names_of_components(x), sd = x$sdev, share = x$share, cumulative = cumsum(x$share))
+  data.frame(component = names_of_components(x), sd = x$sdev, share = x$share,
+             cumulative = cumsum(x$share))
 }
 
 names_of_components <- function(pca) colnames(pca$x)
@@ -136,10 +142,13 @@ print.shape_pca <- function(x, most = 6, ...) {
   check_method_dots(..., known = "most")
   check_most(most)
   printed(x, {
-    cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
-        amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n", sep = "")
+    cat("<shape_pca> ", amount(nrow(x$x), "specimen"), ", ", nrow(x$mean), " points (", x$level,
+        "), ",
+        amount(length(x$sdev), "component"), if (diff(range(x$weights)) > 0) ", weighted", "\n",
+        sep = "")
     shown <- utils::head(as.data.frame(x), most)
-    text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component, shown$sd, 100 * shown$share,
+    text <- sprintf("  %-5s sd %-8.3g %5.1f %% of variance, %5.1f %% so far", shown$component,
+                    shown$sd, 100 * shown$share,
                     100 * shown$cumulative)
     cat(text, sep = "\n")
     invisible(x)
@@ -152,10 +161,10 @@ print.shape_pca <- function(x, most = 6, ...) {
 #' @param component Numbers of components.
 #' @param sd For each of them, how many standard deviations from the mean.
 #' @param as "matrix" or "mesh".
-#' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the mean size in the unit
-#'   of the meshes.
-#' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those points that have triangles
-#'   (attribute `row`: which).
+#' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the
+#'   mean size in the unit of the meshes.
+#' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those
+#'   points that have triangles (attribute `row`: which).
 #' @section Errors: of class `crestline_error`: no such component; no triangles for a mesh.
 #' @seealso [shape_pca()]
 #' @examples
@@ -172,7 +181,8 @@ shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size 
   size <- check_number(size, "size", lower = 0, open = TRUE)
   check_component(component, pca)
   if (!is.numeric(sd) || !length(sd) %in% c(1, length(component)) || any(!is.finite(sd))) {
-    crestline_abort(sprintf("`sd` is %s.", describe_value(sd)), "Give a number for each component.", stage = "components")
+    crestline_abort(sprintf("`sd` is %s.", describe_value(sd)), "Give a number for each component.",
+                    stage = "components")
   }
   added <- pca$direction[, component, drop = FALSE] %*% (sd * pca$sdev[component])
   shape <- size * (pca$mean + as.vector(added))
@@ -184,15 +194,18 @@ shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size 
 points_mesh <- function(xyz, triangles, call = rlang::caller_env()) {
   if (is.null(triangles) || !ncol(triangles) || ncol(xyz) != 3) {
     crestline_abort("these points have no triangles between them.",
-                    "Use the level \"surface\" of a sample, or give align() `triangles`.", stage = "components", call = call)
+                    "Use the level \"surface\" of a sample, or give align() `triangles`.",
+                    stage = "components", call = call)
   }
   row <- sort(unique(as.vector(triangles)))
-  mesh <- rgl::mesh3d(vertices = unname(rbind(t(xyz[row, ]), 1)), triangles = matrix(match(triangles, row), 3))
+  mesh <- rgl::mesh3d(vertices = unname(rbind(t(xyz[row, ]), 1)),
+                      triangles = matrix(match(triangles, row), 3))
   structure(with_normals(mesh), row = row)
 }
 
 check_component <- function(component, pca, call = rlang::caller_env()) {
   if (!is.numeric(component) || !length(component) || !all(component %in% seq_along(pca$sdev))) {
-    refuse_argument("component", component, sprintf("There are components 1 to %d.", length(pca$sdev)), call)
+    refuse_argument("component", component,
+                    sprintf("There are components 1 to %d.", length(pca$sdev)), call)
   }
 }

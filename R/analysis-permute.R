@@ -6,9 +6,11 @@
 #' @param n_perm Number of random permutations.
 #' @param exact Most regroupings that are enumerated instead.
 #' @param permutations n x B matrix or list of B orders of 1, ..., n, or `NULL`.
-#' @return List: `labels` (n x B integer matrix of group numbers, the observed first), `exact` (logical).
+#' @return List: `labels` (n x B integer matrix of group numbers, the observed first), `exact`
+#'   (logical).
 #' @noRd
-regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL, call = rlang::caller_env()) {
+regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL,
+                        call = rlang::caller_env()) {
   code <- as.integer(group)
   if (!is.null(permutations)) {
     orders <- check_permutations(permutations, length(code), call)
@@ -23,7 +25,8 @@ regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL, 
 
 check_permutations <- function(x, n, call) {
   if (is.list(x) && length(x) && all(lengths(x) == n)) x <- matrix(unlist(x), ncol = length(x))
-  ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2, function(order) all(sort(order) == seq_len(n))))
+  ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2,
+                                                                                  function(order) all(sort(order) == seq_len(n))))
   if (!ok) {
     crestline_abort("`permutations` are not orders of all specimens.",
                     sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d; their number is `n_perm`.", n, n),
@@ -35,7 +38,8 @@ check_permutations <- function(x, n, call) {
 
 #' How many ways there are to deal the specimens to groups of these sizes
 #' @noRd
-count_regroupings <- function(code) round(exp(lfactorial(length(code)) - sum(lfactorial(table(code)))))
+count_regroupings <- function(code) round(exp(lfactorial(length(code)) -
+                                              sum(lfactorial(table(code)))))
 
 #' All of them, n x count, the observed first
 #' @noRd
@@ -52,7 +56,8 @@ all_regroupings <- function(code) {
   sizes <- as.vector(table(code))
   dealt <- deal(seq_along(code), sizes)
   labels <- matrix(0L, length(code), nrow(dealt))
-  labels[cbind(as.vector(t(dealt)), rep(seq_len(nrow(dealt)), each = length(code)))] <- rep(seq_along(sizes), sizes)
+  labels[cbind(as.vector(t(dealt)),
+               rep(seq_len(nrow(dealt)), each = length(code)))] <- rep(seq_along(sizes), sizes)
   same <- which(colSums(labels != code) == 0)
   labels[, c(same, seq_len(ncol(labels))[-same]), drop = FALSE]
 }
@@ -73,7 +78,8 @@ by_block <- function(labels, statistic, block = 5000) {
 #' @noRd
 permutation_blocks <- function(n, block) unname(split(seq_len(n), ceiling(seq_len(n) / block)))
 
-#' Share of regroupings whose statistic is as great as the observed one, the first; rounding does not break ties
+#' Share of regroupings whose statistic is as great as the observed one, the first; rounding does
+#' not break ties
 #'
 #' @param x Matrix, a row a regrouping, or a vector.
 #' @param observed What is compared, a value a column of `x`.

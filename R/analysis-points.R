@@ -2,15 +2,16 @@
 
 #' Tests at every point
 #'
-#' On a surface the displacement along the mean surface's normal, elsewhere all co-ordinates of the point together.
+#' On a surface the displacement along the mean surface's normal, elsewhere all co-ordinates of the
+#' point together.
 #'
 #' @param aligned An `aligned`.
 #' @param labels n x B matrix of group numbers.
 #' @param spread As in [observed_f()].
 #' @param blocks List of its columns, as of [permutation_blocks()].
 #' @param tick Called once a block.
-#' @return Data frame, a row a point: `point`, `x`, `y`, `z`, `distance`, `displacement`, `statistic`, `p_value`,
-#'   `p_adjusted`.
+#' @return Data frame, a row a point: `point`, `x`, `y`, `z`, `distance`, `displacement`,
+#'   `statistic`, `p_value`, `p_adjusted`.
 #' @noRd
 point_tests <- function(aligned, labels, spread, blocks, tick) {
   along <- !is.null(aligned$triangles)
@@ -29,7 +30,8 @@ point_tests <- function(aligned, labels, spread, blocks, tick) {
   f <- observed_f(y, labels[, 1], spread)$f
   described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
   described$p_value <- as_great / ncol(labels)
-  described$p_adjusted <- vapply(observed[1, ], function(value) mean(family >= value * (1 - 1e-10)), 0)
+  described$p_adjusted <- vapply(observed[1, ], function(value) mean(family >= value * (1 - 1e-10)),
+                                 0)
   described
 }
 
@@ -45,7 +47,8 @@ point_table <- function(aligned, code, along) {
     displacement <- sqrt(rowSums(off^2))
     if (along) distance <- rowSums(off * point_normals(aligned$mean, aligned$triangles))
   }
-  data.frame(point = rownames(aligned$mean), at, distance = unname(distance), displacement = unname(displacement),
+  data.frame(point = rownames(aligned$mean), at, distance = unname(distance),
+             displacement = unname(displacement),
              row.names = NULL)
 }
 
@@ -57,7 +60,8 @@ mean_differences <- function(aligned, code) {
 
 mean_shape_of <- function(aligned, chosen) {
   own <- aligned$coords[, , chosen, drop = FALSE]
-  matrix(rowMeans(matrix(own, length(aligned$mean))), nrow(aligned$mean), dimnames = dimnames(aligned$mean))
+  matrix(rowMeans(matrix(own, length(aligned$mean))), nrow(aligned$mean),
+         dimnames = dimnames(aligned$mean))
 }
 
 #' List of one n x k matrix: displacements from the mean along its normals
@@ -84,9 +88,11 @@ point_normals <- function(xyz, triangles) {
   a <- xyz[triangles[1, ], , drop = FALSE]
   u <- xyz[triangles[2, ], , drop = FALSE] - a
   v <- xyz[triangles[3, ], , drop = FALSE] - a
-  cross <- cbind(u[, 2] * v[, 3] - u[, 3] * v[, 2], u[, 3] * v[, 1] - u[, 1] * v[, 3], u[, 1] * v[, 2] - u[, 2] * v[, 1])
+  cross <- cbind(u[, 2] * v[, 3] - u[, 3] * v[, 2], u[, 3] * v[, 1] - u[, 1] * v[, 3],
+                 u[, 1] * v[, 2] - u[, 2] * v[, 1])
   corner <- factor(triangles, seq_len(nrow(xyz)))
-  sums <- vapply(1:3, function(d) as.vector(tapply(rep(cross[, d], each = 3), corner, sum, default = NA)),
+  sums <- vapply(1:3, function(d) as.vector(tapply(rep(cross[, d], each = 3), corner, sum,
+                                                   default = NA)),
                  numeric(nrow(xyz)))
   sums / sqrt(rowSums(sums^2))
 }

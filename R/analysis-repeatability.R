@@ -7,42 +7,47 @@
 #' observers differ from specimen to specimen), and of the rest. The intra-class correlation is the
 #' share of the variance that is due to the specimens.
 #'
-#' The variances are those of the random-effects model point = specimen + observer + specimen:observer + residual, in each
-#' co-ordinate by itself, then summed over the three co-ordinates and averaged over the points of a curve. They are
-#' estimated from the sequential sums of squares (Henderson's method 3, also where numbers of repeats differ; where they
-#' are equal, those of the analysis of variance). An estimate below 0 counts as 0. The interaction
-#' is in the model if some observer measured some specimen twice, else it is part of the residual.
-#' Differences between observers count as error: the correlation is that of agreement, ICC(1)
-#' without and ICC(2, 1) with observers. One specimen that was measured several times gives the
-#' error only; the variance of specimens and the correlation are NA.
+#' The variances are those of the random-effects model point = specimen + observer +
+#' specimen:observer + residual, in each co-ordinate by itself, then summed over the three
+#' co-ordinates and averaged over the points of a curve. They are estimated from the sequential sums
+#' of squares (Henderson's method 3, also where numbers of repeats differ; where they are equal,
+#' those of the analysis of variance). An estimate below 0 counts as 0. The interaction is in the
+#' model if some observer measured some specimen twice, else it is part of the residual. Differences
+#' between observers count as error: the correlation is that of agreement, ICC(1) without and ICC(2,
+#' 1) with observers. One specimen that was measured several times gives the error only; the
+#' variance of specimens and the correlation are NA.
 #'
-#' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a measurement failed), a
-#'   `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of points "curve point".
+#' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a
+#'   measurement failed), a `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of
+#'   points "curve point".
 #' @param specimen N names: the specimen that each measurement is of; those that failed may be
 #'   counted or not. A vector with names, or a data frame with a column of names, is matched to the
 #'   names of the measurements; a vector without is taken in their order.
 #' @param observer N names, in the same way: who made it; `NULL`: not told apart.
 #' @param level Of shapes and samples: "landmarks", "curves" or "surface".
-#' @param match In which frame specimens are compared. "specimen": all measurements of a specimen share a frame, as on
-#'   one scan: each specimen is laid by rotation and shift onto the others by its mean. "each": every measurement is laid
-#'   onto the mean by itself, as when every one has a scan of its own (a little of the error goes with the frame).
-#'   "none": as they lie.
+#' @param match In which frame specimens are compared. "specimen": all measurements of a specimen
+#'   share a frame, as on one scan: each specimen is laid by rotation and shift onto the others by
+#'   its mean. "each": every measurement is laid onto the mean by itself, as when every one has a
+#'   scan of its own (a little of the error goes with the frame). "none": as they lie.
 #' @return Object of class `repeatability`, a list:
-#'   * `parts`: data frame, a row a curve, and one for all: `part`, `points`; standard deviations in the unit of the
-#'     mesh, root mean squares over the points, of all three co-ordinates together: `specimen`, `observer`, `interaction`
-#'     (NA where not in the model), `residual`, and `error`, of all but the specimen: the typical distance of a measured
-#'     point from where it is on average; `icc`;
+#'   * `parts`: data frame, a row a curve, and one for all: `part`, `points`; standard deviations in
+#'     the unit of the mesh, root mean squares over the points, of all three co-ordinates together:
+#'     `specimen`, `observer`, `interaction` (NA where not in the model), `residual`, and `error`,
+#'     of all but the specimen: the typical distance of a measured point from where it is on
+#'     average; `icc`;
 #'   * `points`: the same for each point, with its place `x, y, z` in the mean;
-#'   * `counts`: numbers of `specimens`, `observers`, `measurements`, `failed`; `failed`: names (or numbers) of the
-#'     measurements left out because they failed; `missing`: names of points left out because some measurement lacks them.
+#'   * `counts`: numbers of `specimens`, `observers`, `measurements`, `failed`; `failed`: names (or
+#'     numbers) of the measurements left out because they failed; `missing`: names of points left
+#'     out because some measurement lacks them.
 #'
 #'   `as.data.frame()` gives `parts`.
 #' @section Errors: of class `crestline_error`: no measurements, factors of another length, none
 #'   measured twice, no point in all of them.
-#' @section Warnings: of class `crestline_failed_measurements`, when measurements are left out because they failed.
-#' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout and Fleiss (1979)
-#'   Intraclass correlations, *Psychological Bulletin* 86, 420-428; Klingenberg and McIntyre (1998), *Evolution* 52,
-#'   1363-1375 (sums over co-ordinates).
+#' @section Warnings: of class `crestline_failed_measurements`, when measurements are left out
+#'   because they failed.
+#' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout
+#'   and Fleiss (1979) Intraclass correlations, *Psychological Bulletin* 86, 420-428; Klingenberg
+#'   and McIntyre (1998), *Evolution* 52, 1363-1375 (sums over co-ordinates).
 #' @seealso [plot.repeatability()], [curve_distance()], [simulate_faces()]
 #' @examples
 #' # Five specimens with an arc of nine points, each measured three times with an error of 0.1
@@ -53,7 +58,8 @@
 #' rownames(arcs) <- paste("arc", 1:9)
 #' repeatability(arcs, specimen)
 #' @export
-repeatability <- function(shapes, specimen, observer = NULL, level = "curves", match = c("specimen", "each", "none")) {
+repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
+                          match = c("specimen", "each", "none")) {
   check_given()
   match <- check_choice(match, c("specimen", "each", "none"), "match")
   if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
@@ -69,7 +75,8 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves", m
   missing <- rownames(coords)[gap]
   coords <- coords[!gap, , , drop = FALSE]
   check_repeats(coords, specimen, observer)
-  framed <- in_one_frame(coords, if (match == "each") factor(seq_len(n)) else specimen, match != "none")
+  framed <- in_one_frame(coords, if (match == "each") factor(seq_len(n)) else specimen,
+                         match != "none")
   components <- variance_components(t(matrix(framed, ncol = n)), specimen, observer)
   each <- component_sums(components, nrow(coords))
   part <- sub(" [^ ]*$", "", rownames(coords))
@@ -77,17 +84,21 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves", m
   size <- as.vector(table(part))
   mean <- structure(rowMeans(framed, dims = 2), dimnames = list(NULL, c("x", "y", "z")))
   by_part <- rbind(rowsum(each, part) / size, all = colMeans(each))
-  points <- data.frame(point = rownames(coords), part = as.character(part), mean, component_table(each))
-  parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)), component_table(by_part))
+  points <- data.frame(point = rownames(coords), part = as.character(part), mean,
+                       component_table(each))
+  parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)),
+                      component_table(by_part))
   structure(list(parts = parts, points = points, missing = missing, failed = names(failed)[failed],
-                 counts = c(specimens = nlevels(specimen), observers = nlevels(observer), measurements = n,
+                 counts = c(specimens = nlevels(specimen), observers = nlevels(observer),
+                            measurements = n,
                             failed = sum(failed)),
                  provenance = repeats_provenance(shapes)),
             class = "repeatability")
 }
 
 repeats_provenance <- function(shapes) {
-  if (inherits(shapes, "shape_sample")) whole_provenance(shapes) else if (is.list(shapes)) shapes_provenance(shapes) else made_with()
+  if (inherits(shapes, "shape_sample")) whole_provenance(shapes) else
+    if (is.list(shapes)) shapes_provenance(shapes) else made_with()
 }
 
 #' @rdname provenance
@@ -103,7 +114,8 @@ failed_measurements <- function(shapes) {
   failed <- vapply(shapes, is.null, NA)
   if (is.null(names(failed))) names(failed) <- seq_along(failed)
   if (any(failed)) {
-    crestline_warn(sprintf("%s of %s failed and %s left out: %s.", sum(failed), amount(length(failed), "measurement"),
+    crestline_warn(sprintf("%s of %s failed and %s left out: %s.", sum(failed),
+                           amount(length(failed), "measurement"),
                            if (sum(failed) == 1) "is" else "are", shorten(names(failed)[failed])),
                    "See failures() of the batch; the specimens and observers that are left may be unbalanced.",
                    stage = "repeatability", class = "crestline_failed_measurements")
@@ -137,7 +149,8 @@ measurements <- function(shapes, level, call = rlang::caller_env()) {
     return(array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(NULL))))
   }
   if (!is.array(shapes) || length(dim(shapes)) != 3 || !is.numeric(shapes) || dim(shapes)[2] != 3) {
-    crestline_abort(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes, or a k x 3 x N array.",
+    crestline_abort(sprintf("`shapes` is %s.", describe_value(shapes)),
+                    "Give a list of shapes, or a k x 3 x N array.",
                     stage = "arguments", call = call)
   }
   if (is.null(rownames(shapes))) rownames(shapes) <- paste("point", seq_len(nrow(shapes)))
@@ -165,9 +178,12 @@ check_factor <- function(x, ids, name, call = rlang::caller_env()) {
 }
 
 check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "repeatability", call = call)
-  if (!nrow(coords)) fail("no point is in all measurements.", "Leave out the measurements that lack most.")
-  if (nlevels(specimen) == length(specimen)) fail("no specimen was measured twice.", "Give repeated measurements.")
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "repeatability",
+                                                    call = call)
+  if (!nrow(coords)) fail("no point is in all measurements.",
+                          "Leave out the measurements that lack most.")
+  if (nlevels(specimen) == length(specimen)) fail("no specimen was measured twice.",
+                                                  "Give repeated measurements.")
   if (!is.null(observer) && nlevels(observer) < 2) {
     fail("there is one observer only.", "Leave `observer` out, or give two or more.")
   }
@@ -180,7 +196,8 @@ check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()
 #' @noRd
 in_one_frame <- function(coords, unit, wanted, tolerance = 1e-10, rounds = 100) {
   if (!wanted) return(coords)
-  own <- lapply(split(seq_along(unit), unit), function(i) rowMeans(coords[, , i, drop = FALSE], dims = 2))
+  own <- lapply(split(seq_along(unit), unit),
+                function(i) rowMeans(coords[, , i, drop = FALSE], dims = 2))
   mean <- own[[1]]
   for (round in seq_len(rounds)) {
     next_mean <- mean_of(lapply(own, laid_onto, mean, scale = FALSE))
@@ -195,12 +212,14 @@ in_one_frame <- function(coords, unit, wanted, tolerance = 1e-10, rounds = 100) 
 
 #' Variance components by sequential sums of squares (Henderson's method 3)
 #'
-#' The projections of the terms, each after those before it, are orthogonal; the expected sum of squares of one is
-#' sum_k sigma_k^2 |Q' Z_k|^2 over its own and later terms, plus its degrees of freedom times the residual variance.
+#' The projections of the terms, each after those before it, are orthogonal; the expected sum of
+#' squares of one is sum_k sigma_k^2 |Q' Z_k|^2 over its own and later terms, plus its degrees of
+#' freedom times the residual variance.
 #'
 #' @param y N x m, a column a variable.
-#' @return Matrix, a row a term ("specimen", "observer", "interaction", "residual"), a column a variable: variances, not
-#'   below 0; NA for terms not in the model, such as the specimen where there is one.
+#' @return Matrix, a row a term ("specimen", "observer", "interaction", "residual"), a column a
+#'   variable: variances, not below 0; NA for terms not in the model, such as the specimen where
+#'   there is one.
 #' @noRd
 variance_components <- function(y, specimen, observer = NULL) {
   terms <- if (nlevels(specimen) > 1) list(specimen = specimen) else list()
@@ -209,7 +228,8 @@ variance_components <- function(y, specimen, observer = NULL) {
     cell <- interaction(specimen, observer, drop = TRUE)
     if (nlevels(specimen) > 1 && nlevels(cell) < length(cell)) terms$interaction <- cell
   }
-  found <- matrix(NA_real_, 4, ncol(y), dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
+  found <- matrix(NA_real_, 4, ncol(y),
+                  dimnames = list(c("specimen", "observer", "interaction", "residual"), NULL))
   if (!length(terms)) {
     found["residual", ] <- apply(y, 2, stats::var)
     return(found)
@@ -218,15 +238,18 @@ variance_components <- function(y, specimen, observer = NULL) {
   spaces <- sequential_spaces(dummies)
   fitted <- lapply(spaces, function(q) crossprod(q, y))
   rest <- sweep(y, 2, colMeans(y)) - Reduce(`+`, Map(`%*%`, spaces, fitted))
-  squares <- rbind(t(vapply(fitted, function(part) colSums(part^2), numeric(ncol(y)))), colSums(rest^2))
+  squares <- rbind(t(vapply(fitted, function(part) colSums(part^2), numeric(ncol(y)))),
+                   colSums(rest^2))
   df <- vapply(spaces, ncol, 0L)
-  expected <- vapply(dummies, function(z) vapply(spaces, function(q) sum(crossprod(q, z)^2), 0), numeric(length(spaces)))
+  expected <- vapply(dummies, function(z) vapply(spaces, function(q) sum(crossprod(q, z)^2), 0),
+                     numeric(length(spaces)))
   if (any(df == 0) || sum(df) >= length(specimen) - 1) {
     crestline_abort("specimens, observers and residual cannot be told apart in this design.",
                     "Let observers measure the same specimens, some of them twice; or leave `observer` out.",
                     stage = "repeatability", call = NULL)
   }
-  system <- rbind(cbind(matrix(expected, length(spaces)), df), c(numeric(length(spaces)), length(specimen) - 1 - sum(df)))
+  system <- rbind(cbind(matrix(expected, length(spaces)), df),
+                  c(numeric(length(spaces)), length(specimen) - 1 - sum(df)))
   estimate <- pmax(solve(system, squares), 0)
   found[c(names(terms), "residual"), ] <- estimate
   found
@@ -257,7 +280,8 @@ component_sums <- function(components, k) {
 component_table <- function(variance) {
   error <- rowSums(variance[, -1, drop = FALSE], na.rm = TRUE)
   all <- variance[, 1] + error
-  data.frame(sqrt(variance), error = sqrt(error), icc = ifelse(all > 0, variance[, 1] / all, NA), row.names = NULL)
+  data.frame(sqrt(variance), error = sqrt(error), icc = ifelse(all > 0, variance[, 1] / all, NA),
+             row.names = NULL)
 }
 
 #' @export
@@ -272,20 +296,25 @@ print.repeatability <- function(x, most = 10, digits = 3, ...) {
   check_most(most)
   printed(x, {
     count <- x$counts
-    cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ", amount(count[["specimens"]], "specimen"),
-        if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n", sep = "")
+    cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ",
+        amount(count[["specimens"]], "specimen"),
+        if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n",
+        sep = "")
     own <- utils::head(x$parts, -1)
     shown <- rbind(utils::head(own[order(-own$error), ], most), utils::tail(x$parts, 1))
     shown <- shown[colSums(!is.na(shown)) > 0]
-    numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"), names(shown))
+    numbers <- intersect(c("specimen", "observer", "interaction", "residual", "error"),
+                         names(shown))
     shown[numbers] <- signif(shown[numbers], digits)
     if (!is.null(shown$icc)) shown$icc <- round(shown$icc, digits)
     cat("standard deviations by part, those of the greatest error first\n")
     print.data.frame(shown, row.names = FALSE)
     if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
-    if (length(x$failed)) cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80, exdent = 2), sep = "\n")
+    if (length(x$failed)) cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80,
+                                      exdent = 2), sep = "\n")
     if (length(x$missing)) {
-      cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2), sep = "\n")
+      cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2),
+          sep = "\n")
     }
     invisible(x)
   })

@@ -40,14 +40,17 @@ between_total <- function(gram, labels) {
   total + (if (length(groups) == 1) form(e) else form(last)) / max(sizes)
 }
 
-#' What the columns of y are tested by, for many regroupings: greater, the more lies between the groups
+#' What the columns of y are tested by, for many regroupings: greater, the more lies between the
+#' groups
 #'
-#' With equal spread: sum of squares between over that in all. Else, with F of Brown and Forsythe (1974, with two groups
-#' the square of Welch's t) on df degrees of freedom of its own (Satterthwaite's): df log(1 + (groups - 1) F / df), near to
-#' chi-squared on groups - 1 degrees whatever df is (Wallace 1959). Without that a small group of great spread, which
-#' regroupings dilute, would be compared with lighter tails than its own.
+#' With equal spread: sum of squares between over that in all. Else, with F of Brown and Forsythe
+#' (1974, with two groups the square of Welch's t) on df degrees of freedom of its own
+#' (Satterthwaite's): df log(1 + (groups - 1) F / df), near to chi-squared on groups - 1 degrees
+#' whatever df is (Wallace 1959). Without that a small group of great spread, which regroupings
+#' dilute, would be compared with lighter tails than its own.
 #'
-#' @param y List of n x q matrices, columns centred, over which squares are summed (the co-ordinates of points).
+#' @param y List of n x q matrices, columns centred, over which squares are summed (the co-ordinates
+#'   of points).
 #' @param labels As in [between_squares()].
 #' @return B x q matrix; NA where nothing varies.
 #' @noRd
@@ -70,7 +73,8 @@ f_score <- function(between, variance, df, groups) {
   df * log1p((groups - 1) * f / df)
 }
 
-#' Sum over groups of (1 - n_g / n) times the variance within the group, and its degrees of freedom (Satterthwaite)
+#' Sum over groups of (1 - n_g / n) times the variance within the group, and its degrees of freedom
+#' (Satterthwaite)
 #' @return List of two B x q matrices: `variance`, `df`.
 #' @noRd
 separate_variance <- function(y, squares, labels) {
@@ -103,7 +107,8 @@ separate_variance <- function(y, squares, labels) {
 
 #' The same for the sum over all variables, from the inner products of the specimens
 #' @param gram As in [between_total()].
-#' @return B values: with equal spread the share that lies between, else F of Brown and Forsythe (1974).
+#' @return B values: with equal spread the share that lies between, else F of Brown and Forsythe
+#'   (1974).
 #' @noRd
 total_scores <- function(gram, labels, equal_spread) {
   between <- between_total(gram, labels)
@@ -123,7 +128,8 @@ total_scores <- function(gram, labels, equal_spread) {
 #'
 #' @param y As in [group_scores()].
 #' @param code Group numbers.
-#' @param spread List: `equal` (see [compare_groups()]), `lost` (degrees of freedom that the means of blocks take).
+#' @param spread List: `equal` (see [compare_groups()]), `lost` (degrees of freedom that the means
+#'   of blocks take).
 #' @return List: `f` (with two groups the square of t: Student's, or Welch's), `df` (below).
 #' @noRd
 observed_f <- function(y, code, spread) {
@@ -169,8 +175,9 @@ hotelling <- function(u, labels) {
 
 #' T2 with separate covariances of one grouping
 #'
-#' The trace of the squares between over the sum of (1 - n_g / n) S_g, S_g the groups' covariances; with two groups
-#' T2 = d' (S_1 / n_1 + S_2 / n_2)^-1 d. Its degrees of freedom as Krishnamoorthy and Yu (2004) have them.
+#' The trace of the squares between over the sum of (1 - n_g / n) S_g, S_g the groups' covariances;
+#' with two groups T2 = d' (S_1 / n_1 + S_2 / n_2)^-1 d. Its degrees of freedom as Krishnamoorthy
+#' and Yu (2004) have them.
 #'
 #' @return `t2`, `df`; NA without an inverse.
 #' @noRd
@@ -190,8 +197,8 @@ separate_t2 <- function(u, code) {
   c(t2 = sum((mean %*% whole) * mean * sizes), df = (p + p^2) / sum(spent))
 }
 
-#' What T2 with separate covariances is tested by: minus the logarithm of its approximate p, as its tails depend on the
-#' grouping
+#' What T2 with separate covariances is tested by: minus the logarithm of its approximate p, as its
+#' tails depend on the grouping
 #' @noRd
 separate_t2_scores <- function(u, labels) {
   groups <- max(labels)
@@ -205,7 +212,8 @@ separate_t2_scores <- function(u, labels) {
 #' @noRd
 t2_tail <- function(t2, df, components, groups, log = FALSE, least = 0.5) {
   below <- pmax(df - components + 1, least)
-  stats::pf(t2 * below / (df * components * (groups - 1)), components * (groups - 1), below, lower.tail = FALSE,
+  stats::pf(t2 * below / (df * components * (groups - 1)), components * (groups - 1), below,
+            lower.tail = FALSE,
             log.p = log)
 }
 
@@ -227,8 +235,10 @@ hotelling_p <- function(t2, n, groups, components) {
 
 #' One row of the table of tests
 #' @noRd
-test_row <- function(test, statistic, p_value, p_parametric = NA_real_, p_adjusted = p_value, share = NA_real_) {
-  data.frame(test = test, statistic = statistic, p_value = p_value, p_adjusted = p_adjusted, p_parametric = p_parametric,
+test_row <- function(test, statistic, p_value, p_parametric = NA_real_, p_adjusted = p_value,
+                     share = NA_real_) {
+  data.frame(test = test, statistic = statistic, p_value = p_value, p_adjusted = p_adjusted,
+             p_parametric = p_parametric,
              share = share)
 }
 
@@ -252,14 +262,18 @@ mean_shape_test <- function(y, labels, spread) {
   kept <- kept_df(nrow(y), groups, spread)
   statistic <- if (groups == 2) sqrt(between * sum(1 / sizes)) else
     kept * if (spread$equal) share / (1 - share) * (nrow(y) - groups) / (groups - 1) else scores[1]
-  test_row(if (groups == 2) "mean shape" else "mean shape F", statistic, permutation_p(scores), share = share)
+  test_row(if (groups == 2) "mean shape" else "mean shape F", statistic, permutation_p(scores),
+           share = share)
 }
 
 t2_test <- function(pca, components, labels, spread) {
   n <- nrow(pca$x)
   groups <- max(labels)
-  u <- pca$x[, seq_len(components), drop = FALSE] / rep(pca$sdev[seq_len(components)] * sqrt(n - 1), each = n)
-  scores <- by_block(labels, function(part) if (spread$equal) hotelling(u, part) else separate_t2_scores(u, part))
+  u <- pca$x[, seq_len(components), drop = FALSE] / rep(pca$sdev[seq_len(components)] * sqrt(n - 1),
+                                                        each = n)
+  scores <- by_block(labels,
+                     function(part) if (spread$equal) hotelling(u, part) else separate_t2_scores(u,
+                                                                                                 part))
   kept <- kept_df(n, groups, spread)
   if (spread$equal) {
     statistic <- scores[1] * kept
@@ -284,13 +298,15 @@ component_tests <- function(pca, components, labels, spread) {
   most <- do.call(pmax, as.data.frame(scores))
   test_row(colnames(x), if (groups == 2) sign * sqrt(own$f) else own$f, permutation_p(scores),
            stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE),
-           permutation_p(matrix(most, length(most), components), scores[1, ]), pca$share[seq_len(components)])
+           permutation_p(matrix(most, length(most), components), scores[1, ]),
+           pca$share[seq_len(components)])
 }
 
-#' Whether the groups are equally spread: distances of specimens to the mean of their own group (Anderson 2006)
+#' Whether the groups are equally spread: distances of specimens to the mean of their own group
+#' (Anderson 2006)
 #'
-#' The statistic is the largest group's root mean square distance over the smallest's. A distance is divided by the root
-#' of 1 - 1 / n_g, since the mean follows its own members.
+#' The statistic is the largest group's root mean square distance over the smallest's. A distance is
+#' divided by the root of 1 - 1 / n_g, since the mean follows its own members.
 #' @noRd
 dispersion_test <- function(y, labels) {
   code <- labels[, 1]
@@ -303,8 +319,8 @@ dispersion_test <- function(y, labels) {
   test_row("dispersion", max(spread) / min(spread), permutation_p(scores))
 }
 
-#' How many components: a number, or a share of variance; never more than leave a degree of freedom, and with separate
-#' covariances never more than half the degrees of freedom of the smallest group
+#' How many components: a number, or a share of variance; never more than leave a degree of freedom,
+#' and with separate covariances never more than half the degrees of freedom of the smallest group
 #' @noRd
 component_count <- function(components, pca, code, spread) {
   sizes <- tabulate(code)

@@ -7,15 +7,15 @@
 #' @param x A `group_comparison`, `shape_pca` or `aligned`.
 #' @param what Of a `group_comparison`: "tests" or "points".
 #' @param ... Ignored.
-#' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test), `statistic`, `p.value`,
-#'   `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point), `estimate` (`distance` along the normal, or the
-#'   displacement where there is none), `statistic`, `p.value`, `adj.p.value`. Of components: `PC`, `std.dev`,
-#'   `percent`, `cumulative`
-#'   (shares, as in broom). Of an alignment: a row a specimen, as `as.data.frame()`.
-#'   `glance()`: one row. Of a comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of
-#'   the mean shape's). Of
-#'   components: `nobs`, `points`, `components`, `variance` (total). Of an alignment: `nobs`, `points`, `size` (mean),
-#'   `distance` (root mean square from the mean), `missing`.
+#' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test),
+#'   `statistic`, `p.value`, `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point),
+#'   `estimate` (`distance` along the normal, or the displacement where there is none), `statistic`,
+#'   `p.value`, `adj.p.value`. Of components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as
+#'   in broom). Of an alignment: a row a specimen, as `as.data.frame()`. `glance()`: one row. Of a
+#'   comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of the
+#'   mean shape's). Of components: `nobs`, `points`, `components`, `variance` (total). Of an
+#'   alignment: `nobs`, `points`, `size` (mean), `distance` (root mean square from the mean),
+#'   `missing`.
 #' @examplesIf requireNamespace("generics", quietly = TRUE)
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' aligned <- align(shapes + rnorm(120, sd = 0.05))
@@ -32,14 +32,17 @@ tidy.group_comparison <- function(x, what = c("tests", "points"), ...) {
   what <- check_choice(what, c("tests", "points"), "what")
   table <- x[[what]]
   if (is.null(table)) {
-    crestline_abort(sprintf("there are no %s.", what), "Compare with more `tests`.", stage = "comparison")
+    crestline_abort(sprintf("there are no %s.", what), "Compare with more `tests`.",
+                    stage = "comparison")
   }
   if (what == "points") {
     estimate <- ifelse(is.na(table$distance), table$displacement, table$distance)
-    return(data.frame(level = table$level, term = table$point, estimate = estimate, statistic = table$statistic,
+    return(data.frame(level = table$level, term = table$point, estimate = estimate,
+                      statistic = table$statistic,
                       p.value = table$p_value, adj.p.value = table$p_adjusted))
   }
-  data.frame(level = table$level, term = table$test, statistic = table$statistic, p.value = table$p_value,
+  data.frame(level = table$level, term = table$test, statistic = table$statistic,
+             p.value = table$p_value,
              adj.p.value = table$p_adjusted, p.value.parametric = table$p_parametric)
 }
 
@@ -49,7 +52,8 @@ glance.group_comparison <- function(x, ...) {
   check_method_dots(...)
   validate(x)
   shape <- x$tests$p_value[startsWith(as.character(x$tests$test), "mean shape")]
-  data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned), permutations = x$n_perm,
+  data.frame(nobs = length(x$group), groups = nlevels(x$group), levels = length(x$aligned),
+             permutations = x$n_perm,
              exact = x$exact,
              p.value = if (length(shape)) min(shape) else NA_real_)
 }
@@ -59,7 +63,8 @@ glance.group_comparison <- function(x, ...) {
 tidy.shape_pca <- function(x, ...) {
   check_method_dots(...)
   validate(x)
-  data.frame(PC = seq_along(x$sdev), std.dev = x$sdev, percent = x$share, cumulative = cumsum(x$share))
+  data.frame(PC = seq_along(x$sdev), std.dev = x$sdev, percent = x$share,
+             cumulative = cumsum(x$share))
 }
 
 #' @rdname tidy.group_comparison
@@ -67,7 +72,8 @@ tidy.shape_pca <- function(x, ...) {
 glance.shape_pca <- function(x, ...) {
   check_method_dots(...)
   validate(x)
-  data.frame(nobs = nrow(x$x), points = nrow(x$mean), components = length(x$sdev), variance = sum(x$sdev^2))
+  data.frame(nobs = nrow(x$x), points = nrow(x$mean), components = length(x$sdev),
+             variance = sum(x$sdev^2))
 }
 
 #' @rdname tidy.group_comparison
@@ -82,6 +88,7 @@ tidy.aligned <- function(x, ...) {
 glance.aligned <- function(x, ...) {
   check_method_dots(...)
   table <- as.data.frame(x)
-  data.frame(nobs = nrow(table), points = nrow(x$mean), size = mean(table$size), distance = sqrt(mean(table$distance^2)),
+  data.frame(nobs = nrow(table), points = nrow(x$mean), size = mean(table$size),
+             distance = sqrt(mean(table$distance^2)),
              missing = nrow(x$missing))
 }

@@ -37,8 +37,8 @@ id_text <- function(id) {
 
 #' The places of ids among names, by their plain form
 #'
-#' A folder counts only where both have one; a name may have more folders than the id. Ids that differ by no more than their plain form hides
-#' are matched exactly.
+#' A folder counts only where both have one; a name may have more folders than the id. Ids that
+#' differ by no more than their plain form hides are matched exactly.
 #'
 #' @return List of integer vectors, one an id; empty where the name is not there.
 #' @noRd

@@ -2,11 +2,13 @@
 
 #' What can no longer be meant, or would fill the memory before the first result
 #'
-#' @return List: `count` (numbers of points, rounds, components), `permutations`, `threads`, `pixels` (of a picture with its samples, 8 bytes each in 5
-#'   planes: 8 GB), `vertices` (of a surface that is made), `bytes` (of a result that is held in memory at once).
+#' @return List: `count` (numbers of points, rounds, components), `permutations`, `threads`,
+#'   `pixels` (of a picture with its samples, 8 bytes each in 5 planes: 8 GB), `vertices` (of a
+#'   surface that is made), `bytes` (of a result that is held in memory at once).
 #' @noRd
 argument_limits <- function() {
-  list(count = 1e6, permutations = 1e7, threads = 1024, pixels = 2e8, vertices = 5e7, bytes = 1.6e10)
+  list(count = 1e6, permutations = 1e7, threads = 1024, pixels = 2e8, vertices = 5e7,
+       bytes = 1.6e10)
 }
 
 refuse_argument <- function(name, x, remedy, call, said = describe_value(x)) {
@@ -17,11 +19,14 @@ check_number <- function(x, name, lower = -Inf, upper = Inf, open = FALSE,
                          call = rlang::caller_env()) {
   ok <- is.numeric(x) && length(x) == 1 && is.finite(x) &&
     (if (open) x > lower && x < upper else x >= lower && x <= upper)
-  if (!ok) refuse_argument(name, x, sprintf("Give one finite number %s.", describe_range(lower, upper, open)), call)
+  if (!ok) refuse_argument(name, x,
+                           sprintf("Give one finite number %s.",
+                                   describe_range(lower, upper, open)), call)
   as.numeric(x)
 }
 
-check_count <- function(x, name, lower = 1, upper = argument_limits()$count, call = rlang::caller_env()) {
+check_count <- function(x, name, lower = 1, upper = argument_limits()$count,
+                        call = rlang::caller_env()) {
   x <- check_number(x, name, lower = lower, upper = upper, call = call)
   if (x != round(x)) refuse_argument(name, x, "Give a whole number.", call)
   as.integer(x)
@@ -34,19 +39,22 @@ check_threads <- function(threads, call = rlang::caller_env()) {
 #' A length as a share of another, above 0; Inf: without end
 #' @noRd
 check_reach <- function(reach, name = "reach", call = rlang::caller_env()) {
-  if (identical(reach, Inf)) reach else check_number(reach, name, lower = 0, open = TRUE, call = call)
+  if (identical(reach, Inf)) reach else
+    check_number(reach, name, lower = 0, open = TRUE, call = call)
 }
 
 #' A vector of finite numbers, or of NA too
 #' @param n How many; any number but 0 where NULL.
 #' @noRd
-check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing = FALSE, call = rlang::caller_env()) {
+check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing = FALSE,
+                          call = rlang::caller_env()) {
   number <- is.numeric(x) || (missing && is.logical(x) && all(is.na(x)))
   ok <- number && is.null(dim(x)) && (if (is.null(n)) length(x) > 0 else length(x) %in% n) &&
     all((missing & is.na(x) & !is.nan(x)) | (is.finite(x) & x >= lower & x <= upper))
   if (!ok) {
     many <- if (is.null(n)) "" else paste0(paste(n, collapse = " or "), " ")
-    remedy <- paste0(trimws(paste0("Give ", many, "finite numbers ", describe_range(lower, upper, FALSE))), ".")
+    remedy <- paste0(trimws(paste0("Give ", many, "finite numbers ",
+                                   describe_range(lower, upper, FALSE))), ".")
     refuse_argument(name, x, if (missing) paste(remedy, "NA: missing.") else remedy, call)
   }
   as.numeric(x)
@@ -73,7 +81,8 @@ check_shares <- function(..., call = rlang::caller_env()) {
 
 check_choice <- function(x, choices, name, call = rlang::caller_env()) {
   if (!is.character(x) || length(x) < 1 || !x[[1]] %in% choices) {
-    refuse_argument(name, x, paste0("Choose one of ", paste0('"', choices, '"', collapse = ", "), "."), call)
+    refuse_argument(name, x,
+                    paste0("Choose one of ", paste0('"', choices, '"', collapse = ", "), "."), call)
   }
   x[[1]]
 }
@@ -82,7 +91,8 @@ check_choice <- function(x, choices, name, call = rlang::caller_env()) {
 #' @noRd
 check_choices <- function(x, choices, name, call = rlang::caller_env()) {
   if (!is.character(x) || !length(x) || !all(x %in% choices)) {
-    refuse_argument(name, x, paste0("Choose among ", paste0('"', choices, '"', collapse = ", "), "."), call)
+    refuse_argument(name, x,
+                    paste0("Choose among ", paste0('"', choices, '"', collapse = ", "), "."), call)
   }
   unique(x)
 }
@@ -99,7 +109,8 @@ check_text <- function(x, name, null = FALSE, call = rlang::caller_env()) {
 
 check_names <- function(x, name, null = FALSE, call = rlang::caller_env()) {
   if (is.null(x) && null) return(NULL)
-  if (!is.character(x) || anyNA(x)) refuse_argument(name, x, "Give names: strings, none of them NA.", call)
+  if (!is.character(x) || anyNA(x)) refuse_argument(name, x,
+                                                    "Give names: strings, none of them NA.", call)
   as.character(x)
 }
 
@@ -108,10 +119,13 @@ check_names <- function(x, name, null = FALSE, call = rlang::caller_env()) {
 #' @noRd
 check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
   if (none && length(x) == 1 && is.atomic(x) && is.na(x) && !is.nan(x)) return(NA)
-  known <- function(x) !is.null(tryCatch(suppressWarnings(grDevices::col2rgb(x)), error = function(e) NULL))
+  known <- function(x) !is.null(tryCatch(suppressWarnings(grDevices::col2rgb(x)),
+                                         error = function(e) NULL))
   kind <- is.null(dim(x)) && (is.character(x) || (is.numeric(x) && all(is.finite(x) & x < 1e9)))
   if (!kind || !length(x) || (none && length(x) > 1) || anyNA(x) || !known(unique(x))) {
-    refuse_argument(name, x, sprintf("Give colours, such as \"black\" or \"#16218C\"%s.", if (none) ", or NA" else ""), call)
+    refuse_argument(name, x,
+                    sprintf("Give colours, such as \"black\" or \"#16218C\"%s.",
+                            if (none) ", or NA" else ""), call)
   }
   x
 }
@@ -120,23 +134,30 @@ check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
 #' @noRd
 check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   make <- sprintf("Make one with %s.", maker)
-  if (!inherits(x, class)) refuse_argument(name, x, make, call, sprintf("%s, not of class \"%s\"", describe_value(x), class))
+  if (!inherits(x, class)) refuse_argument(name, x, make, call,
+                                           sprintf("%s, not of class \"%s\"", describe_value(x),
+                                                   class))
   parts <- class_parts[[class]]
-  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(x[[part]], parts[[part]]), NA)]
+  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(x[[part]], parts[[part]]),
+                                NA)]
   if (length(lacks)) {
-    refuse_argument(name, x, make, call, sprintf("a damaged \"%s\": it has no proper %s", class, paste0("`", lacks, "`", collapse = ", ")))
+    refuse_argument(name, x, make, call,
+                    sprintf("a damaged \"%s\": it has no proper %s", class,
+                            paste0("`", lacks, "`", collapse = ", ")))
   }
   validate(x)
   invisible(x)
 }
 
-#' Refuse an object that breaks the rules of its class: validate_<class>() of the classes that have rules
+#' Refuse an object that breaks the rules of its class: validate_<class>() of the classes that have
+#' rules
 #' @noRd
 validate <- function(x) UseMethod("validate")
 
 #' Whether an object passed its rules lately
 #'
-#' It is known by its place in memory: R changes nothing that something else holds, so that what was touched lies elsewhere.
+#' It is known by its place in memory: R changes nothing that something else holds, so that what was
+#' touched lies elsewhere.
 #' @noRd
 passed_lately <- function(x, class) {
   for (one in passed_objects[[class]]) if (rlang::is_reference(x, one)) return(TRUE)
@@ -157,7 +178,8 @@ validate.default <- function(x) invisible(x)
 #' A specimen or a mesh
 #' @noRd
 check_surface <- function(x, name, call = rlang::caller_env()) {
-  if (inherits(x, "specimen")) return(check_class(x, "specimen", name, "specimen() or read_specimen()", call))
+  if (inherits(x, "specimen")) return(check_class(x, "specimen", name,
+                                                  "specimen() or read_specimen()", call))
   check_class(x, "mesh3d", name, "specimen(), read_specimen() or `Rvcg::vcgImport()`", call)
 }
 
@@ -168,15 +190,18 @@ check_ends <- function(..., call = rlang::caller_env()) {
   for (name in names(ends)) {
     x <- ends[[name]]
     has <- function(...) all(c(...) %in% names(x))
-    placed <- is.data.frame(x) && nrow(x) == 1 && (has("x", "y", "z") || has("face", "w1", "w2", "w3"))
+    placed <- is.data.frame(x) && nrow(x) == 1 && (has("x", "y", "z") ||
+                                                   has("face", "w1", "w2", "w3"))
     located <- is.numeric(x) && identical(names(x), mesh_columns)
     position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
-    if (!position && !is_path(x)) refuse_argument(name, x, "Give the name of a landmark, or three finite co-ordinates.", call)
+    if (!position && !is_path(x)) refuse_argument(name, x,
+                                                  "Give the name of a landmark, or three finite co-ordinates.", call)
   }
 }
 
 is_of_kind <- function(x, kind) {
-  switch(kind, list = is.list(x), table = is.data.frame(x), numbers = is.numeric(x), id = is.character(x) && length(x) == 1,
+  switch(kind, list = is.list(x), table = is.data.frame(x), numbers = is.numeric(x),
+         id = is.character(x) && length(x) == 1,
          inherits(x, kind))
 }
 
@@ -187,17 +212,21 @@ check_regions <- function(x, name = "keep_away", call = rlang::caller_env()) {
   if (inherits(x, c("keep_away", "keep_side"))) x <- list(x)
   plain <- is.list(x) && !is.object(x)
   if (!plain) check_class(x, "keep_away", name, "keep_away() or keep_side()", call)
-  for (one in x) if (!inherits(one, "keep_side")) check_class(one, "keep_away", name, "keep_away() or keep_side()", call)
+  for (one in x) if (!inherits(one,
+                               "keep_side")) check_class(one, "keep_away", name,
+                                                         "keep_away() or keep_side()", call)
   x
 }
 
 # The parts without which no function can use an object of the class, and what they are.
 class_parts <- list(
   specimen = c(id = "id", mesh = "mesh3d", landmarks = "numbers"),
-  shape = c(id = "id", points = "table", status = "table", scheme = "curve_scheme"), curve = c(path = "table", points = "table"),
+  shape = c(id = "id", points = "table", status = "table", scheme = "curve_scheme"),
+  curve = c(path = "table", points = "table"),
   curve_scheme = c(landmarks = "table", curves = "table", points = "table"),
   shape_pca = c(x = "numbers", sdev = "numbers", mean = "numbers"),
-  landmark_template = c(specimen = "specimen", landmarks = "numbers"), simulated_faces = c(template = "specimen")
+  landmark_template = c(specimen = "specimen", landmarks = "numbers"),
+  simulated_faces = c(template = "specimen")
 )
 
 #' A list of objects of a class; one alone counts as a list of it
@@ -213,7 +242,9 @@ check_list <- function(x, class, name, maker, call = rlang::caller_env()) {
 #' @noRd
 check_matrix <- function(x, name, columns = 3, call = rlang::caller_env()) {
   if (!is.matrix(x) || !is.numeric(x) || !ncol(x) %in% columns) {
-    refuse_argument(name, x, sprintf("Give a matrix of numbers with %s columns.", paste(columns, collapse = " or ")), call)
+    refuse_argument(name, x,
+                    sprintf("Give a matrix of numbers with %s columns.",
+                            paste(columns, collapse = " or ")), call)
   }
   x
 }
@@ -256,20 +287,26 @@ check_memory <- function(numbers, x, name, call = rlang::caller_env()) {
   gigabytes <- 8 * numbers / 1e9
   most <- argument_limits()$bytes / 1e9
   if (gigabytes <= most) return(invisible(x))
-  refuse_argument(name, x, sprintf("Give less: the result would take %.3g GB, the limit is %g.", gigabytes, most), call)
+  refuse_argument(name, x,
+                  sprintf("Give less: the result would take %.3g GB, the limit is %g.", gigabytes,
+                          most), call)
 }
 
 #' The path of a file to be written, in a folder that exists
 #' @param endings Extensions that will do, without the dot; any where NULL.
 #' @noRd
-check_path_to_write <- function(x, name, endings = NULL, stage = "arguments", call = rlang::caller_env()) {
-  fail <- function(said, remedy) crestline_abort(sprintf("`%s` is %s.", name, said), remedy, stage = stage, call = call)
+check_path_to_write <- function(x, name, endings = NULL, stage = "arguments",
+                                call = rlang::caller_env()) {
+  fail <- function(said, remedy) crestline_abort(sprintf("`%s` is %s.", name, said), remedy,
+                                                 stage = stage, call = call)
   if (!is_path(x)) fail(describe_value(x), "Give the path of one file.")
   if (!is.null(endings) && !file_extension(x) %in% endings) {
-    fail(describe_value(x), sprintf("Give a path that ends in %s.", paste0(".", endings, collapse = ", ")))
+    fail(describe_value(x),
+         sprintf("Give a path that ends in %s.", paste0(".", endings, collapse = ", ")))
   }
   if (dir.exists(x)) fail(sprintf("%s, a folder", x), "Give the path of a file.")
-  if (!dir.exists(dirname(x))) fail(sprintf("%s, in a folder that does not exist", x), "Create the folder first.")
+  if (!dir.exists(dirname(x))) fail(sprintf("%s, in a folder that does not exist", x),
+                                    "Create the folder first.")
   x
 }
 
@@ -280,9 +317,11 @@ check_path_to_write <- function(x, name, endings = NULL, stage = "arguments", ca
 #' @noRd
 check_given <- function(but = character(), frame = rlang::caller_env(), fn = rlang::caller_fn()) {
   needed <- names(Filter(function(x) identical(x, quote(expr = )), as.list(formals(fn))))
-  absent <- Filter(function(name) eval(as.call(list(quote(base::missing), as.name(name))), frame), setdiff(needed, c("...", but)))
+  absent <- Filter(function(name) eval(as.call(list(quote(base::missing), as.name(name))), frame),
+                   setdiff(needed, c("...", but)))
   if (!length(absent)) return(invisible())
-  crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "), if (length(absent) == 1) "is" else "are"),
+  crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "),
+                          if (length(absent) == 1) "is" else "are"),
                   "See the help page of the function.", stage = "arguments", call = frame)
 }
 
@@ -300,19 +339,25 @@ check_dots <- function(..., known = character(), call = rlang::caller_env()) {
   said <- if (nzchar(name)) sprintf("there is no argument `%s`.", name) else
     sprintf("there is no use for the argument in place %d of `...`.", strange[1])
   near <- known[order(utils::adist(name, known, ignore.case = TRUE))]
-  crestline_abort(said, if (length(near)) sprintf("Near names: %s.", shorten(near)) else "Leave it out.", stage = "arguments",
+  crestline_abort(said,
+                  if (length(near)) sprintf("Near names: %s.", shorten(near)) else "Leave it out.",
+                  stage = "arguments",
                   call = call)
 }
 
-#' No argument that a method of print(), as.data.frame() and the like does not know; R itself passes some
+#' No argument that a method of print(), as.data.frame() and the like does not know; R itself passes
+#' some
 #' @noRd
 check_method_dots <- function(..., known = character(), call = rlang::caller_env()) {
-  own <- c("digits", "quote", "right", "max", "row.names", "optional", "stringsAsFactors", "make.names", "check.names",
+  own <- c("digits", "quote", "right", "max", "row.names", "optional", "stringsAsFactors",
+           "make.names", "check.names",
            "col.names", "nm", "cut.names", "fix.empty.names")
   strange <- setdiff(...names(), c("", own, known))
   if (length(strange)) {
     crestline_abort(sprintf("there is no argument `%s`.", strange[1]),
-                    if (length(known)) sprintf("There is: %s.", shorten(known)) else "Leave it out.", stage = "arguments", call = call)
+                    if (length(known)) sprintf("There is: %s.",
+                                               shorten(known)) else "Leave it out.",
+                    stage = "arguments", call = call)
   }
 }
 

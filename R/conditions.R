@@ -36,7 +36,8 @@ condition_text <- function(problem, remedy, stage, id) {
   c(paste0(where, ": ", problem), i = remedy)
 }
 
-#' Run code; an error of ours that names no specimen is raised again with the specimen and what was being done
+#' Run code; an error of ours that names no specimen is raised again with the specimen and what was
+#' being done
 #' @noRd
 in_context <- function(code, id, doing) {
   rlang::try_fetch(code, crestline_error = function(e) {
@@ -54,7 +55,8 @@ printed <- function(x, code) {
   tryCatch(code, error = function(e) {
     if (inherits(e, "crestline_error")) rlang::cnd_signal(e)
     id <- if (is.list(x)) unclass(x)[["id"]]
-    crestline_abort(sprintf("the %s cannot be printed: it is damaged (%s).", class(x)[1], rlang::cnd_message(e)),
+    crestline_abort(sprintf("the %s cannot be printed: it is damaged (%s).", class(x)[1],
+                            rlang::cnd_message(e)),
                     "Make it anew; str(unclass(x)) shows what is left of it.", stage = "printing",
                     id = if (is.character(id) && length(id) == 1) id, call = NULL)
   })

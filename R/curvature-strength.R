@@ -39,7 +39,8 @@ normal_curvature <- function(curved, at, direction) {
 #'
 #' @param from,to Names of landmarks, or positions.
 #' @param radius Radius of the cylinder, as a share of the distance between them.
-#' @param extension Length by which the cylinder goes beyond each landmark, as a share of the distance.
+#' @param extension Length by which the cylinder goes beyond each landmark, as a share of the
+#'   distance.
 #' @return A `keep_away` object for [reference_path()] and [ridge_curve()].
 #' @section Errors: of class `crestline_error` when a share is negative.
 #' @seealso [keep_side()]
@@ -56,7 +57,8 @@ keep_away <- function(from, to, radius = 0.7, extension = 0.2) {
 #' @export
 print.keep_away <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Keep away from %s - %s: radius %g, extension %g of their distance\n", end_name(x$from),
+  cat(sprintf("Keep away from %s - %s: radius %g, extension %g of their distance\n",
+              end_name(x$from),
               end_name(x$to), x$radius, x$extension))
   invisible(x)
 }
@@ -70,7 +72,8 @@ print.keep_away <- function(x, ...) {
 #'
 #' @param from,to Names of landmarks, or positions, that the line joins.
 #' @param towards Name of a landmark, or a position, on the side that counts.
-#' @return A `keep_side` object, for the argument `keep_away` of [reference_path()] and [ridge_curve()].
+#' @return A `keep_side` object, for the argument `keep_away` of [reference_path()] and
+#'   [ridge_curve()].
 #' @section Errors: of class `crestline_error`, where it is used, when the three lie on one line.
 #' @seealso [keep_away()]
 #' @examples
@@ -85,7 +88,8 @@ keep_side <- function(from, to, towards) {
 #' @export
 print.keep_side <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Keep to the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to), end_name(x$towards)))
+  cat(sprintf("Keep to the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to),
+              end_name(x$towards)))
   invisible(x)
 }
 
@@ -117,12 +121,14 @@ is_in_cylinder <- function(region, specimen, xyz) {
   relative <- sweep(xyz, 2, a)
   along <- as.vector(relative %*% axis) / span
   off <- sqrt(pmax(rowSums(relative^2) - along^2, 0))
-  off <= region$radius * span & along >= -region$extension * span & along <= (1 + region$extension) * span
+  off <= region$radius * span & along >= -region$extension * span & along <= (1 +
+                                                                              region$extension) * span
 }
 
 #' Points on the other side of a line
 #'
-#' @param flat Height of the third point above the line, as a share of its length, at which the three count as lying on a line.
+#' @param flat Height of the third point above the line, as a share of its length, at which the
+#'   three count as lying on a line.
 #' @noRd
 is_beyond <- function(region, specimen, xyz, flat = 1e-6) {
   a <- region_point(specimen, region, "from")
@@ -130,11 +136,14 @@ is_beyond <- function(region, specimen, xyz, flat = 1e-6) {
   third <- region_point(specimen, region, "towards") - a
   up <- third - sum(third * axis) / sum(axis^2) * axis
   if (sum(up^2) <= flat^2 * sum(axis^2)) {
-    crestline_abort(sprintf("%s lies on the line from %s to %s.", end_name(region$towards), end_name(region$from),
+    crestline_abort(sprintf("%s lies on the line from %s to %s.", end_name(region$towards),
+                            end_name(region$from),
                             end_name(region$to)),
-                    "Give keep_side() a landmark well beside that line.", stage = "regions", id = specimen$id)
+                    "Give keep_side() a landmark well beside that line.", stage = "regions",
+                    id = specimen$id)
   }
   as.vector(sweep(xyz, 2, a) %*% up) < 0
 }
 
-region_point <- function(specimen, region, end) unlist(end_point(specimen, region[[end]], end)[1, c("x", "y", "z")])
+region_point <- function(specimen, region,
+                         end) unlist(end_point(specimen, region[[end]], end)[1, c("x", "y", "z")])

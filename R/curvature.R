@@ -5,20 +5,20 @@
 #' that a first fit has refined. The principal curvatures and directions are those
 #' of the fitted surface at the vertex's foot (its Weingarten map).
 #'
-#' Constant and linear terms are kept, so that the surface need not pass through
-#' the noisy vertex. With `order = "adaptive"` nested fits of order 2, 3 and 4 are
-#' combined: the Hessian of the higher order is taken up as far as its difference
-#' from the lower one exceeds what noise makes,
+#' Constant and linear terms are kept, so that the surface need not pass through the noisy vertex.
+#' With `order = "adaptive"` nested fits of order 2, 3 and 4 are combined: the Hessian of the higher
+#' order is taken up as far as its difference from the lower one exceeds what noise makes,
 #' \eqn{H = H_{lo} + w (H_{hi} - H_{lo})}{H = H_lo + w (H_hi - H_lo)} with
-#' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}{w = max(0, 1 - c sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)},
-#' where \eqn{\sigma^2 V} is the covariance of a fit's Hessian.
+#' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}{w = max(0, 1 - c
+#' sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)}, where \eqn{\sigma^2 V} is the covariance of a fit's
+#' Hessian.
 #'
 #' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
 #' @param radius Radius of the ball, in the unit of the mesh. On faces, 10 mm for broad
 #'   features (the paper: 10 mm) and 5 mm for lips, nose and eyes (our choice).
-#' @param order `"adaptive"` (nested fits up to order 4: most accurate), `"adaptive cubic"` (up to order 3:
-#'   smoother, the default of [ridge_curve()]), or a plain polynomial: `"quadratic"`, `"cubic"`,
-#'   `"quartic"`; or `"forced"`, the paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2}
+#' @param order `"adaptive"` (nested fits up to order 4: most accurate), `"adaptive cubic"` (up to
+#'   order 3: smoother, the default of [ridge_curve()]), or a plain polynomial: `"quadratic"`,
+#'   `"cubic"`, `"quartic"`; or `"forced"`, the paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2}
 #'   through the vertex, level along the average of the triangles' normals.
 #' @param threads Number of threads.
 #' @param vertices Vertices to work at (indices or logical); all when `NULL`.
@@ -77,7 +77,8 @@ curvature <- function(mesh, radius, order = "adaptive",
 #' @param mesh As of [mesh_of()].
 #' @noRd
 new_curvature <- function(fields, radius, order, mesh) {
-  structure(fields, radius = radius, order = order, key = mesh$key, id = mesh$id, class = "curvature")
+  structure(fields, radius = radius, order = order, key = mesh$key, id = mesh$id,
+            class = "curvature")
 }
 
 #' Refuse a curvature whose parts do not belong together
@@ -90,7 +91,8 @@ validate_curvature <- function(x) {
     all(vapply(c("direction1", "direction2", "normal"), rows, NA))
   if (right) return(invisible(x))
   crestline_abort("the curvature lacks values or directions of some of its vertices.",
-                  "Give what curvature() returns, whole.", stage = "curvature", id = attr(x, "id"), call = NULL)
+                  "Give what curvature() returns, whole.", stage = "curvature", id = attr(x, "id"),
+                  call = NULL)
 }
 
 #' Refuse the curvature of another mesh
@@ -103,7 +105,8 @@ check_curvature_on <- function(curvature, mesh) {
   n <- ncol(as_mesh(mesh)$vb)
   if (length(curvature$k1) == n) return(invisible(curvature))
   crestline_abort(sprintf("`curvature` has %d values for %d vertices.", length(curvature$k1), n),
-                  "Give what curvature() returns, whole.", stage = "curvature", id = mesh_of(mesh)$id,
+                  "Give what curvature() returns, whole.", stage = "curvature",
+                  id = mesh_of(mesh)$id,
                   class = "crestline_wrong_mesh", call = NULL)
 }
 
@@ -136,8 +139,8 @@ curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
 
 #' Curvature at vertices, estimated when it is first asked for and then kept
 #'
-#' @return Function of vertices (indices): list of `k1`, `k2`, `direction1`, `direction2`, `normal`, `sigma`, with an
-#'   entry for each of them.
+#' @return Function of vertices (indices): list of `k1`, `k2`, `direction1`, `direction2`, `normal`,
+#'   `sigma`, with an entry for each of them.
 #' @noRd
 curvature_source <- function(specimen, radius, order, threads) {
   mesh <- as_mesh(specimen)
@@ -151,7 +154,8 @@ curvature_source <- function(specimen, radius, order, threads) {
       found <- curvature_at(mesh, new, settings, threads)
       if (all(is.na(found$k1)) && all(is.na(known$k1))) abort_radius(found$neighbours, radius)
       row[new] <<- length(known$k1) + seq_along(new)
-      known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known, found[names(known)])
+      known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known,
+                    found[names(known)])
     }
     curvature_rows(known, row[vertices])
   }
@@ -168,21 +172,26 @@ empty_curvature <- function(n, reason = NA_character_) {
   blank <- rep(NA_real_, n)
   vectors <- matrix(NA_real_, n, 3)
   list(k1 = blank, k2 = blank, direction1 = vectors, direction2 = vectors, normal = vectors,
-       order = rep(NA_integer_, n), sigma = blank, neighbours = rep(NA_integer_, n), reason = rep(reason, n))
+       order = rep(NA_integer_, n), sigma = blank, neighbours = rep(NA_integer_, n),
+       reason = rep(reason, n))
 }
 
 fill_curvature <- function(out, found, at) {
   for (name in names(found)) {
-    if (is.matrix(found[[name]])) out[[name]][at, ] <- found[[name]] else out[[name]][at] <- found[[name]]
+    if (is.matrix(found[[name]])) out[[name]][at, ] <- found[[name]] else
+      out[[name]][at] <- found[[name]]
   }
   out
 }
 
 # The lowest and the highest order of the nested fits.
-fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L), cubic = c(3L, 3L),
+fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic = c(2L, 2L),
+                   cubic = c(3L, 3L),
                    quartic = c(4L, 4L), forced = c(2L, 2L))
 
-check_order <- function(order, call = rlang::caller_env()) check_choice(order, names(fit_orders), "order", call)
+check_order <- function(order,
+                        call = rlang::caller_env()) check_choice(order, names(fit_orders), "order",
+                                                                 call)
 
 #' Settings of the local fit in the form of the kernel
 #' @noRd
@@ -200,9 +209,11 @@ fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_t
 vertex_indices <- function(vertices, n) {
   if (is.null(vertices)) return(seq_len(n))
   if (is.logical(vertices) && length(vertices) == n && !anyNA(vertices)) vertices <- which(vertices)
-  if (!is.numeric(vertices) || !is.null(dim(vertices)) || anyNA(vertices) || any(vertices < 1 | vertices > n)) {
+  if (!is.numeric(vertices) || !is.null(dim(vertices)) || anyNA(vertices) ||
+      any(vertices < 1 | vertices > n)) {
     crestline_abort(sprintf("`vertices` is %s.", describe_value(vertices)),
-                    sprintf("Give indices from 1 to %d, or %d logical values.", n, n), stage = "curvature")
+                    sprintf("Give indices from 1 to %d, or %d logical values.", n, n),
+                    stage = "curvature")
   }
   as.integer(vertices)
 }
@@ -212,7 +223,8 @@ vertex_indices <- function(vertices, n) {
 check_radius <- function(radius, mesh) {
   size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_diagonal(mesh)
   if (radius > size / 2) {
-    crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.", radius, size),
+    crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.",
+                            radius, size),
                     "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
   }
 }

@@ -2,38 +2,49 @@
 
 #' How pictures are lit and made
 #'
-#' Settings of the engine "picture". Every function that draws a surface takes them by name in its `...`.
+#' Settings of the engine "picture". Every function that draws a surface takes them by name in its
+#' `...`.
 #'
 #' @param light Direction towards the light, as the viewer sees it: right, up, towards the viewer.
 #' @param ambient Share of the colour that needs no light, 0 to 1.
-#' @param wrap How far the light reaches round the edge into shade: 0 is Lambert's law, 1 leaves no place without some.
+#' @param wrap How far the light reaches round the edge into shade: 0 is Lambert's law, 1 leaves no
+#'   place without some.
 #' @param gloss Strength of highlights, 0 to 1; a little helps the eye, much hides colours.
 #' @param sharpness Exponent of the highlights (Blinn-Phong): greater is smaller.
 #' @param resolution Pixels per inch of the surface's raster: that of the device, at least 150.
 #' @param samples The samples in a pixel are this number squared.
 #' @param margin Room about what is shown, a share of its size.
-#' @param around Points (as `x` of [draw_lines()]) that the picture is to hold, NULL for the whole mesh.
-#' @param tolerance How far behind the surface a point may lie and still be seen, a share of the diagonal of the mesh's box.
-#' @param inside Colour of the backs of triangles, NA for none: an open surface is looked through from behind.
+#' @param around Points (as `x` of [draw_lines()]) that the picture is to hold, NULL for the whole
+#'   mesh.
+#' @param tolerance How far behind the surface a point may lie and still be seen, a share of the
+#'   diagonal of the mesh's box.
+#' @param inside Colour of the backs of triangles, NA for none: an open surface is looked through
+#'   from behind.
 #' @return A list of these settings.
 #' @examples
 #' str(picture_settings(gloss = 0))
 #' @export
 picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.4, gloss = 0.1,
                              sharpness = 20,
-                             resolution = max(150, grDevices::dev.size("px") / grDevices::dev.size("in")),
+                             resolution = max(150,
+                                              grDevices::dev.size("px") /
+                                              grDevices::dev.size("in")),
                              samples = 3, margin = 0.02, around = NULL, tolerance = 0.005,
                              inside = NA) {
   if (!is.numeric(light) || length(light) != 3 || any(!is.finite(light)) || all(light == 0)) {
-    crestline_abort("`light` is not a direction.", "Give three finite numbers, not all 0.", stage = "picture")
+    crestline_abort("`light` is not a direction.", "Give three finite numbers, not all 0.",
+                    stage = "picture")
   }
   list(light = light / sqrt(sum(light^2)),
        ambient = check_number(ambient, "ambient", 0, 1), wrap = check_number(wrap, "wrap", 0, 1),
        gloss = check_number(gloss, "gloss", 0, 1),
        sharpness = check_number(sharpness, "sharpness", 0),
-       resolution = check_number(resolution, "resolution", 1), samples = check_count(samples, "samples", upper = 64),
+       resolution = check_number(resolution, "resolution", 1),
+       samples = check_count(samples, "samples", upper = 64),
        margin = check_number(margin, "margin", 0),
-       around = if (!is.null(around)) point_matrix(around, name = "around"), tolerance = check_number(tolerance, "tolerance", 0), inside = check_colour(inside, "inside", none = TRUE))
+       around = if (!is.null(around)) point_matrix(around, name = "around"),
+       tolerance = check_number(tolerance, "tolerance", 0),
+       inside = check_colour(inside, "inside", none = TRUE))
 }
 
 #' Settings from the dots of a function that draws, where a misspelt one is told of
@@ -47,12 +58,15 @@ picture_surface <- function(mesh, colour, rotation, settings) {
   turned <- rotation %*% mesh$vb[1:3, , drop = FALSE]
   shown <- if (is.null(settings$around)) turned else rotation %*% t(settings$around)
   frame <- picture_frame(shown, settings)
-  xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel, (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
+  xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel,
+               (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
   normals <- rotation %*% mesh$normals[1:3, , drop = FALSE]
   tolerance <- settings$tolerance * mesh_diagonal(mesh)
-  render <- function(xyz, rgb, it) cpp_render_mesh(xyz, rgb, it, frame$width, frame$height, settings$samples)
+  render <- function(xyz, rgb, it) cpp_render_mesh(xyz, rgb, it, frame$width, frame$height,
+                                                   settings$samples)
   seen <- render(xyz, shade_vertices(colour, normals, settings), mesh$it)
-  if (!is.na(settings$inside)) seen <- seen_with_inside(seen, render, xyz, colour, normals, mesh$it, settings, tolerance)
+  if (!is.na(settings$inside)) seen <- seen_with_inside(seen, render, xyz, colour, normals, mesh$it,
+                                                        settings, tolerance)
   right <- frame$usr[1] + frame$width * frame$pixel
   bottom <- frame$usr[4] - frame$height * frame$pixel
   graphics::rasterImage(seen$rgba, frame$usr[1], bottom, right, frame$usr[4])
@@ -61,22 +75,26 @@ picture_surface <- function(mesh, colour, rotation, settings) {
             class = "picture_scene")
 }
 
-# Fronts and backs; where a back is seen, what lies on its front side is not, so that its depth is brought forward.
+# Fronts and backs; where a back is seen, what lies on its front side is not, so that its depth is
+# brought forward.
 seen_with_inside <- function(front, render, xyz, colour, normals, it, settings, tolerance) {
   inside <- rep(settings$inside, ncol(xyz))
-  rgb <- cbind(shade_vertices(colour, normals, settings), shade_vertices(inside, -normals, settings))
+  rgb <- cbind(shade_vertices(colour, normals, settings),
+               shade_vertices(inside, -normals, settings))
   both <- render(cbind(xyz, xyz), rgb, cbind(it, it[c(1, 3, 2), ] + ncol(xyz)))
   back <- both$depth > front$depth
   both$depth[back] <- both$depth[back] + 2 * tolerance
   both
 }
 
-# A new plot, equal in scale, that just holds the turned points (3 x n); its limits, and the size of a pixel in their unit.
+# A new plot, equal in scale, that just holds the turned points (3 x n); its limits, and the size of
+# a pixel in their unit.
 picture_frame <- function(turned, settings) {
   limits <- apply(turned[1:2, , drop = FALSE], 1, range)
   room <- settings$margin * max(limits[2, ] - limits[1, ])
   graphics::plot.new()
-  graphics::plot.window(limits[, 1] + c(-room, room), limits[, 2] + c(-room, room), asp = 1, xaxs = "i", yaxs = "i")
+  graphics::plot.window(limits[, 1] + c(-room, room), limits[, 2] + c(-room, room), asp = 1,
+                        xaxs = "i", yaxs = "i")
   usr <- graphics::par("usr")
   pixels <- pmax(1, ceiling(graphics::par("pin") * settings$resolution))
   check_pixels(prod(pixels) * settings$samples^2, settings$resolution)
@@ -87,10 +105,13 @@ picture_frame <- function(turned, settings) {
 check_pixels <- function(pixels, resolution) {
   most <- argument_limits()$pixels
   if (pixels <= most) return(invisible())
-  refuse_argument("resolution", resolution, sprintf("Give less, or fewer `samples`: %.3g pixels, at most %g.", pixels, most), NULL)
+  refuse_argument("resolution", resolution,
+                  sprintf("Give less, or fewer `samples`: %.3g pixels, at most %g.", pixels, most),
+                  NULL)
 }
 
-# 3 x n colours in [0, 1] under ambient light, one lamp (Lambert, wrapped) and its highlight (Blinn and Phong).
+# 3 x n colours in [0, 1] under ambient light, one lamp (Lambert, wrapped) and its highlight (Blinn
+# and Phong).
 shade_vertices <- function(colour, normals, settings) {
   rgb <- grDevices::col2rgb(colour) / 255
   normals <- normals / rep(pmax(sqrt(colSums(normals^2)), .Machine$double.xmin), each = 3)
@@ -115,13 +136,17 @@ view_points <- function(scene, x) x %*% t(scene$rotation)
 seen_from <- function(scene, view) {
   column <- floor((view[, 1] - scene$usr[1]) / scene$pixel) + 1
   row <- floor((scene$usr[4] - view[, 2]) / scene$pixel) + 1
-  inside <- !is.na(column + row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 & row <= nrow(scene$depth)
+  inside <- !is.na(column +
+                   row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 & row <= nrow(scene$depth)
   seen <- inside
-  seen[inside] <- view[inside, 3] >= scene$depth[cbind(row, column)[inside, , drop = FALSE]] - scene$tolerance
+  seen[inside] <- view[inside,
+                       3] >= scene$depth[cbind(row, column)[inside, ,
+                                                            drop = FALSE]] - scene$tolerance
   seen
 }
 
-# Evaluate drawing in the plot region and co-ordinates of the scene, whatever has become of them since.
+# Evaluate drawing in the plot region and co-ordinates of the scene, whatever has become of them
+# since.
 on_scene <- function(scene, drawing) {
   old <- graphics::par(plt = scene$plt, usr = scene$usr, xpd = NA)
   on.exit(graphics::par(old))
@@ -140,7 +165,8 @@ draw_lines.picture_scene <- function(scene, x, colour = "black", width = 2, halo
 }
 
 #' @export
-draw_points.picture_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
+draw_points.picture_scene <- function(scene, x, colour = "black", size = 1, halo = NA,
+                                      labels = NULL) {
   x <- point_matrix(x)
   view <- view_points(scene, x)
   seen <- seen_from(scene, view)
@@ -148,7 +174,8 @@ draw_points.picture_scene <- function(scene, x, colour = "black", size = 1, halo
     at <- view[seen, 1:2, drop = FALSE]
     if (is.na(halo)) graphics::points(at, pch = 16, col = colour, cex = size)
     else graphics::points(at, pch = 21, bg = colour, col = halo, cex = size)
-    if (!is.null(labels) && any(seen)) graphics::text(at, labels[seen], pos = 4, offset = 0.3, cex = 0.7 * size, col = colour)
+    if (!is.null(labels) && any(seen)) graphics::text(at, labels[seen], pos = 4, offset = 0.3,
+                                                      cex = 0.7 * size, col = colour)
   })
 }
 
@@ -173,7 +200,9 @@ runs_of <- function(x) {
 point_matrix <- function(x, call = rlang::caller_env(), name = "x") {
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
-    refuse_argument(name, x, "Give points: a matrix with three columns or a data frame with x, y and z.", call)
+    refuse_argument(name, x,
+                    "Give points: a matrix with three columns or a data frame with x, y and z.",
+                    call)
   }
   x
 }

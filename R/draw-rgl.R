@@ -3,7 +3,8 @@
 rgl_surface <- function(mesh, colour, rotation, ..., zoom = 0.8) {
   if (rgl::cur3d() == 0) rgl::open3d()
   look <- utils::modifyList(list(specular = "#202020", polygon_offset = 1), list(...))
-  corners <- list(t(mesh$vb[1:3, , drop = FALSE]), normals = t(mesh$normals[1:3, , drop = FALSE]), indices = mesh$it)
+  corners <- list(t(mesh$vb[1:3, , drop = FALSE]), normals = t(mesh$normals[1:3, , drop = FALSE]),
+                  indices = mesh$it)
   id <- do.call(rgl::triangles3d, c(corners, list(color = colour), look))
   rgl::par3d(userMatrix = rbind(cbind(rotation, 0), c(0, 0, 0, 1)), FOV = 15, zoom = zoom)
   rgl::aspect3d("iso")
@@ -23,9 +24,12 @@ draw_lines.rgl_scene <- function(scene, x, colour = "black", width = 2, halo = N
 #' @export
 draw_points.rgl_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
   x <- point_matrix(x)
-  scene <- add_ids(scene, rgl::spheres3d(x, radius = size * scene$diagonal / 400, color = colour, specular = "black"))
+  scene <- add_ids(scene,
+                   rgl::spheres3d(x, radius = size * scene$diagonal / 400, color = colour,
+                                  specular = "black"))
   if (is.null(labels)) return(invisible(scene))
-  add_ids(scene, rgl::text3d(x, texts = labels, color = colour, cex = 0.7 * size, adj = c(-0.5, 0.5), lit = FALSE, depth_test = "always"))
+  add_ids(scene, rgl::text3d(x, texts = labels, color = colour, cex = 0.7 * size,
+                             adj = c(-0.5, 0.5), lit = FALSE, depth_test = "always"))
 }
 
 #' @export
@@ -48,6 +52,7 @@ print.rgl_scene <- function(x, ...) {
 #' @export
 print.picture_scene <- function(x, ...) {
   check_method_dots(...)
-  cat("Picture of", nrow(x$depth), "x", ncol(x$depth), "pixels, one pixel =", format(x$pixel, digits = 3), "units\n")
+  cat("Picture of", nrow(x$depth), "x", ncol(x$depth), "pixels, one pixel =",
+      format(x$pixel, digits = 3), "units\n")
   invisible(x)
 }

@@ -2,23 +2,26 @@
 
 #' Draw a surface, and lines, points and bands on it
 #'
-#' `draw_surface()` draws a mesh and returns a scene; the other functions add to the scene what
-#' can be seen of lines, points and bands that lie on the surface. The engine "picture" draws on the current
-#' graphics device with base graphics (orthographic, smoothly shaded, no display needed), the engine
-#' "rgl" in the current rgl scene or a new one, on rgl's null device when `options(rgl.useNULL = TRUE)`.
+#' `draw_surface()` draws a mesh and returns a scene; the other functions add to the scene what can
+#' be seen of lines, points and bands that lie on the surface. The engine "picture" draws on the
+#' current graphics device with base graphics (orthographic, smoothly shaded, no display needed),
+#' the engine "rgl" in the current rgl scene or a new one, on rgl's null device when
+#' `options(rgl.useNULL = TRUE)`.
 #'
 #' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
-#' @param view Where to look from: "front" (along -z at +z, y up), "left" and "right" (the subject's own),
-#'   "three-quarter" (from the subject's left and a little above), "below", "above", "back"; or two angles in radians, how far the
-#'   viewer goes round to the subject's left and how far up; or a 3 x 3 rotation that
-#'   turns the mesh so that x points right, y up and z to the viewer.
+#' @param view Where to look from: "front" (along -z at +z, y up), "left" and "right" (the subject's
+#'   own), "three-quarter" (from the subject's left and a little above), "below", "above", "back";
+#'   or two angles in radians, how far the viewer goes round to the subject's left and how far up;
+#'   or a 3 x 3 rotation that turns the mesh so that x points right, y up and z to the viewer.
 #' @param engine "picture" or "rgl".
 #' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
 #'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].
-#' @return `draw_surface()`: a scene, of class "picture_scene" (a list: `rotation` 3 x 3, `pixel`, the size of a pixel in the mesh's unit, `depth`, a matrix of
-#'   what the pixels see, and how they map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects, `diagonal` of the mesh's box). `draw_lines()`,
-#'   `draw_points()`, `draw_band()`: the scene, with the rgl `ids` added, invisibly. `visible_points()`: logical, which points of `x` are seen.
+#' @return `draw_surface()`: a scene, of class "picture_scene" (a list: `rotation` 3 x 3, `pixel`,
+#'   the size of a pixel in the mesh's unit, `depth`, a matrix of what the pixels see, and how they
+#'   map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects, `diagonal` of the mesh's
+#'   box). `draw_lines()`, `draw_points()`, `draw_band()`: the scene, with the rgl `ids` added,
+#'   invisibly. `visible_points()`: logical, which points of `x` are seen.
 #' @examples
 #' ball <- Rvcg::vcgSphere(3)
 #' scene <- draw_surface(ball, "wheat", view = c(0.4, 0.3), engine = "picture")
@@ -40,9 +43,11 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 
 #' @rdname draw_surface
 #' @param scene What `draw_surface()` returned.
-#' @param x Points: a matrix with three columns or a data frame with columns x, y and z, as a `path` has. For lines a row of NA makes a gap.
+#' @param x Points: a matrix with three columns or a data frame with columns x, y and z, as a `path`
+#'   has. For lines a row of NA makes a gap.
 #' @param width Line width, as `lwd` of [graphics::par()].
-#' @param halo Colour of a wider line below the line, or of a ring about the points, NA for none ("picture" only).
+#' @param halo Colour of a wider line below the line, or of a ring about the points, NA for none
+#'   ("picture" only).
 #' @export
 draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) {
   check_given()
@@ -68,7 +73,8 @@ check_drawn <- function(colour, halo = NA, call = rlang::caller_env()) {
 }
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the diagonal of the mesh's box wide at size 1.
+#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the
+#'   diagonal of the mesh's box wide at size 1.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
@@ -90,7 +96,8 @@ draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) {
   check_scene(scene)
   sides <- list(point_matrix(left, name = "left"), point_matrix(right, name = "right"))
   if (nrow(sides[[1]]) != nrow(sides[[2]])) {
-    crestline_abort(sprintf("`left` has %d points, `right` %d.", nrow(sides[[1]]), nrow(sides[[2]])), "Give as many on either side.",
+    crestline_abort(sprintf("`left` has %d points, `right` %d.", nrow(sides[[1]]),
+                            nrow(sides[[2]])), "Give as many on either side.",
                     stage = "picture")
   }
   check_drawn(colour)
@@ -120,7 +127,8 @@ check_rotation <- function(view, call) {
     max(abs(crossprod(view) - diag(3))) < 1e-6 && det(view) > 0
   if (!proper) {
     crestline_abort("`view` is a matrix but not a 3 x 3 rotation.",
-                    "Its rows must be orthonormal and its determinant 1.", stage = "picture", call = call)
+                    "Its rows must be orthonormal and its determinant 1.", stage = "picture",
+                    call = call)
   }
   unname(view)
 }

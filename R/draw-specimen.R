@@ -5,7 +5,8 @@ specimen_scale <- function(x, colour, curvature) {
   switch(colour,
          "shape index" = shape_legend(shape_index(curvature)),
          "curvature" = curvature_legend(curvature),
-         list(colours = if (colour == "natural" && length(natural) == ncol(x$mesh$vb)) natural else "#E3CDB8"))
+         list(colours = if (colour == "natural" &&
+                            length(natural) == ncol(x$mesh$vb)) natural else "#E3CDB8"))
 }
 
 shape_legend <- function(index) {
@@ -14,16 +15,19 @@ shape_legend <- function(index) {
        at = (scale$index + 1) / 2, labels = scale$category)
 }
 
-curvature_legend <- function(curvature, quantile = 0.95, palette = grDevices::hcl.colors(11, "Blue-Red"),
+curvature_legend <- function(curvature, quantile = 0.95,
+                             palette = grDevices::hcl.colors(11, "Blue-Red"),
                              missing = "#BEBEBE") {
   greater <- ifelse(abs(curvature$k1) > abs(curvature$k2), -curvature$k1, -curvature$k2)
   limit <- stats::quantile(abs(greater), quantile, na.rm = TRUE)
   share <- (pmin(pmax(greater / limit, -1), 1) + 1) / 2
   at <- seq(-1, 1, by = 0.5)
-  list(colours = ramp_colours(share, palette, missing), ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing),
-       at = (at + 1) / 2, labels = paste(signif(abs(at) * limit, 2), c("valley", "", "", "", "ridge")))
+  list(colours = ramp_colours(share, palette, missing),
+       ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing),
+       at = (at + 1) / 2, labels = paste(signif(abs(at) * limit, 2),
+                                         c("valley", "", "", "", "ridge")))
 }
 
-# The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of the way.
-# What the colours of a specimen's surface may show.
+# The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of
+# the way. What the colours of a specimen's surface may show.
 surface_choices <- c("natural", "shape index", "curvature", "plain")

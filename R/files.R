@@ -12,10 +12,12 @@ check_file <- function(file, stage, name = "file") {
 }
 
 refuse_no_path <- function(file, stage) {
-  crestline_abort(sprintf("`file` is %s.", describe_value(file)), "Give the path of one file.", stage = stage, call = NULL)
+  crestline_abort(sprintf("`file` is %s.", describe_value(file)), "Give the path of one file.",
+                  stage = stage, call = NULL)
 }
 
-refuse_file <- function(file, reason, id, remedy = "The file is damaged or cut short: export or copy it again.") {
+refuse_file <- function(file, reason, id,
+                        remedy = "The file is damaged or cut short: export or copy it again.") {
   crestline_abort(sprintf("%s cannot be read: %s.", basename(file), reason), remedy,
                   stage = "reading", id = id, class = "crestline_mesh_error", call = NULL)
 }
@@ -47,7 +49,8 @@ check_stored <- function(file, stage, id = NULL, unpacks = character()) {
                     call = NULL)
   }
   if (!file.exists(file)) {
-    refuse(": there is no such file", sprintf("Check the path; the working directory is %s.", getwd()))
+    refuse(": there is no such file",
+           sprintf("Check the path; the working directory is %s.", getwd()))
   }
   if (!isTRUE(file.size(file) > 0)) {
     refuse(": it is empty, or no file on disk but a pipe or device",
@@ -78,10 +81,12 @@ write_content <- function(content, file) {
     refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
   })
   on.exit(close(connection))
-  if (is.raw(content)) writeBin(content, connection) else writeLines(content, connection, useBytes = TRUE)
+  if (is.raw(content)) writeBin(content, connection) else
+    writeLines(content, connection, useBytes = TRUE)
 }
 
-# The rows of a matrix (or elements of a vector) as columns of little-endian bytes, each number of `size`.
+# The rows of a matrix (or elements of a vector) as columns of little-endian bytes, each number of
+# `size`.
 bytes_of <- function(x, size) {
   x <- t(as.matrix(x))
   if (size == 1L) storage.mode(x) <- "integer"
@@ -89,6 +94,7 @@ bytes_of <- function(x, size) {
 }
 
 refuse_writing <- function(file, reason, remedy) {
-  crestline_abort(sprintf("`file`: %s cannot be written: %s.", basename(file), reason), remedy, stage = "writing",
+  crestline_abort(sprintf("`file`: %s cannot be written: %s.", basename(file), reason), remedy,
+                  stage = "writing",
                   class = "crestline_mesh_error", call = NULL)
 }

@@ -20,8 +20,8 @@ row_lengths <- function(a) sqrt(row_products(a, a))
 box_diagonal <- function(xyz) cpp_box_diagonal(xyz)
 
 #' @param x,y n x 3, centred, no missing points.
-#' @return List: `rotation` r, proper, 3 x 3, such that `x %*% r` is nearest to `y`; `d`: singular values of `x' y`, the
-#'   last negative where a reflection would come nearer.
+#' @return List: `rotation` r, proper, 3 x 3, such that `x %*% r` is nearest to `y`; `d`: singular
+#'   values of `x' y`, the last negative where a reflection would come nearer.
 #' @noRd
 nearest_rotation <- function(x, y) {
   parts <- svd(crossprod(x, y))

@@ -1,16 +1,18 @@
-# .landmarkAscii of Amira and Avizo: define Markers n, Parameters, Markers { float[3] Coordinates } @1, data after @1.
-# Several sets of co-ordinates are several specimens. Names, which the format has not, stand among the
-# parameters; a missing point is NaN.
+# .landmarkAscii of Amira and Avizo: define Markers n, Parameters, Markers { float[3] Coordinates } @1,
+# data after @1. Several sets of co-ordinates are several specimens. Names, which the format has
+# not, stand among the parameters; a missing point is NaN.
 
 read_landmarks_amira <- function(file, options) {
   line <- file_lines(file)
   if (!grepl("^#.*ASCII", line[1])) {
-    refuse_landmark_file(file, "not an AmiraMesh or Avizo file in ASCII", "Save it as ASCII, not binary.", 1)
+    refuse_landmark_file(file, "not an AmiraMesh or Avizo file in ASCII",
+                         "Save it as ASCII, not binary.", 1)
   }
   count <- regmatches(line, regexec("^\\s*define\\s+Markers\\s+([0-9]{1,9})", line))
   count <- unlist(lapply(count, `[`, 2))
   if (all(is.na(count))) {
-    refuse_landmark_file(file, "no line define Markers", "Give the number of points: define Markers 23.")
+    refuse_landmark_file(file, "no line define Markers",
+                         "Give the number of points: define Markers 23.")
   }
   n <- as.integer(count[!is.na(count)][1])
   name <- amira_names(line, "Names", n)
@@ -27,7 +29,8 @@ amira_sections <- function(line, file) {
   section <- unlist(lapply(regmatches(line, regexec(pattern, line)), `[`, 3))
   section <- section[!is.na(section)]
   if (!length(section)) {
-    refuse_landmark_file(file, "no co-ordinates are declared", "Write: Markers { float[3] Coordinates } @1.")
+    refuse_landmark_file(file, "no co-ordinates are declared",
+                         "Write: Markers { float[3] Coordinates } @1.")
   }
   section
 }
@@ -40,7 +43,8 @@ amira_rows <- function(line, section, n, file) {
   row <- seq_len(end - at - 1) + at
   row <- row[grepl("\\S", line[row])]
   if (length(row) != n) {
-    refuse_landmark_file(file, sprintf("%d points are announced, %d follow @%s", n, length(row), section),
+    refuse_landmark_file(file,
+                         sprintf("%d points are announced, %d follow @%s", n, length(row), section),
                          "Put the right number, or the whole file.", at)
   }
   landmark_rows(line[row], 3, file, row)
@@ -51,7 +55,8 @@ amira_names <- function(line, key, n) {
   found <- grep(paste0("(^|[ ,])", key, " [{] "), line, value = TRUE)[1]
   if (is.na(found)) return(NULL)
   found <- sub(paste0("^.*?(^|[ ,])", key, " [{] "), "", found, perl = TRUE)
-  name <- regmatches(found, gregexpr('N[0-9]+ "(\\\\.|[^"\\\\])*"', found, perl = TRUE))[[1]][seq_len(n)]
+  name <- regmatches(found,
+                     gregexpr('N[0-9]+ "(\\\\.|[^"\\\\])*"', found, perl = TRUE))[[1]][seq_len(n)]
   if (!anyNA(name)) gsub("\\\\(.)", "\\1", sub('"$', "", sub('^N[0-9]+ "', "", name)))
 }
 
@@ -63,9 +68,12 @@ write_landmarks_amira <- function(sets, file, options) {
   write_file_lines(c(
     "# AmiraMesh 3D ASCII 2.0", "", sprintf("define Markers %d", nrow(x)), "",
     "Parameters {", sprintf("    NumSets %d,", length(sets)),
-    paste0('    ContentType "LandmarkSet"', amira_parameter("Sets", names(sets)), amira_parameter("Names", rownames(x))),
-    "}", "", sprintf("Markers { float[3] %s } @%d", coordinates, number), "", "# Data section follows",
-    unlist(Map(function(x, i) c(paste0("@", i), if (nrow(x)) row_text(x, missing = "NaN"), ""), sets, number))
+    paste0('    ContentType "LandmarkSet"', amira_parameter("Sets", names(sets)),
+           amira_parameter("Names", rownames(x))),
+    "}", "", sprintf("Markers { float[3] %s } @%d", coordinates, number), "",
+    "# Data section follows",
+    unlist(Map(function(x, i) c(paste0("@", i), if (nrow(x)) row_text(x, missing = "NaN"), ""),
+               sets, number))
   ), file)
 }
 

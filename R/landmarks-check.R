@@ -16,7 +16,8 @@ as_landmarks <- function(x, id = NULL) {
   }
   twice <- unique(name[duplicated(name)])
   if (length(twice)) {
-    refuse_landmarks(sprintf("named twice: %s.", shorten(twice)), "Give every landmark its own name.", id)
+    refuse_landmarks(sprintf("named twice: %s.", shorten(twice)),
+                     "Give every landmark its own name.", id)
   }
   x[rowSums(!is.finite(x)) > 0, ] <- NA
   matrix(as.numeric(x), ncol = 3, dimnames = list(name, c("x", "y", "z")))
@@ -33,7 +34,8 @@ landmarks_of_table <- function(x) {
 }
 
 refuse_landmarks <- function(problem, remedy, id) {
-  crestline_abort(problem, remedy, stage = "landmarks", id = id, class = "crestline_landmark_error", call = NULL)
+  crestline_abort(problem, remedy, stage = "landmarks", id = id, class = "crestline_landmark_error",
+                  call = NULL)
 }
 
 #' Check landmarks against their mesh and put them on it
@@ -45,14 +47,15 @@ refuse_landmarks <- function(problem, remedy, id) {
 #' @param midline Names of landmarks of the midline from top to bottom.
 #' @param piece Number of the piece of every triangle.
 #' @param size Of [mesh_size()]; NULL: that of the pieces that carry the landmarks.
-#' @return A list: `landmarks` on the surface, `located` (see surface_points()), `report`, `size`, `slips` (of
-#'   [exchanged_landmarks()]).
+#' @return A list: `landmarks` on the surface, `located` (see surface_points()), `report`, `size`,
+#'   `slips` (of [exchanged_landmarks()]).
 #' @noRd
 check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NULL, size = NULL) {
   located <- surface_points(mesh, landmarks)
   if (is.null(size)) size <- carrying_size(mesh, piece, located)
   away <- sqrt(rowSums((as.matrix(located[c("x", "y", "z")]) - landmarks)^2))
-  if (any(away > tolerance * size, na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance, size)
+  if (any(away > tolerance * size,
+          na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance, size)
   slips <- slips_by_name(landmarks, located, mesh, midline)
   warn_exchanged(slips, id)
   moved <- sum(away > 1e-6 * size, na.rm = TRUE)
@@ -78,11 +81,13 @@ slips_by_name <- function(landmarks, located, mesh, midline) {
 refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
   off <- which(away > tolerance * size)
   off <- off[order(-away[off])]
-  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh, tolerance * mesh_size(mesh))
+  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh,
+                                                                 tolerance * mesh_size(mesh))
   named <- paste0(rownames(landmarks)[off], " (by ", signif(away[off], 3), ")")
   if (!is.null(fit)) {
     refuse_landmarks(
-      sprintf("the landmarks are in another unit or frame than the mesh: off it are %s.", shorten(named)),
+      sprintf("the landmarks are in another unit or frame than the mesh: off it are %s.",
+              shorten(named)),
       sprintf("They would lie on it %s: change them so.", fit), id
     )
   }
@@ -95,13 +100,16 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
 
 #' In words the change of unit or axes after which at least half of the landmarks are on the surface
 #'
-#' Units first, then axes turned, then mirrored, then both; of several of a kind the nearest for its size.
+#' Units first, then axes turned, then mirrored, then both; of several of a kind the nearest for its
+#' size.
 #' @param tolerance Greatest distance from the surface.
 #' @param factors Of units; inch: 25.4 mm.
-#' @param tried How many changes of a kind are looked at closely: those that come nearest to the triangles' centres.
+#' @param tried How many changes of a kind are looked at closely: those that come nearest to the
+#'   triangles' centres.
 #' @return NULL where there is none.
 #' @noRd
-fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000, 25.4), tried = 6) {
+fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000, 25.4),
+                           tried = 6) {
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
   if (nrow(given) < 2) return(NULL)
   turns <- axis_turns()
@@ -110,7 +118,8 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
   words <- c(paste("multiplied by", factors), paste("divided by", factors))
   both <- expand.grid(unit = seq_along(units), turn = which(turned))
   kinds <- list(
-    list(change = units, words = words), list(change = turns[turned], words = turn_words(turns[turned])),
+    list(change = units, words = words),
+    list(change = turns[turned], words = turn_words(turns[turned])),
     list(change = turns[!turned], words = turn_words(turns[!turned])),
     list(change = Map(function(i, j) units[[i]] %*% turns[[j]], both$unit, both$turn),
          words = paste(words[both$unit], "and", turn_words(turns)[both$turn]))
@@ -127,7 +136,9 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
 axis_turns <- function() {
   orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
   signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
-  all <- unlist(lapply(orders, function(order) lapply(seq_len(8), function(i) diag(3)[, order] %*% diag(signs[i, ]))),
+  all <- unlist(lapply(orders,
+                       function(order) lapply(seq_len(8),
+                                              function(i) diag(3)[, order] %*% diag(signs[i, ]))),
                 recursive = FALSE)
   all[-1]
 }
@@ -135,10 +146,12 @@ axis_turns <- function() {
 turn_words <- function(turns) {
   vapply(turns, function(turn) {
     from <- apply(turn != 0, 2, which)
-    axes <- paste0(ifelse(turn[cbind(from, 1:3)] < 0, "-", ""), c("x", "y", "z")[from], collapse = ", ")
+    axes <- paste0(ifelse(turn[cbind(from, 1:3)] < 0, "-", ""), c("x", "y", "z")[from],
+                   collapse = ", ")
     if (axes == "-x, -y, z") return("with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
     sprintf("with their axes turned, as (%s)%s", axes,
-            if (det(turn) < 0) ": a mirror image" else if (grepl("^-?x, -?z", axes)) ": here y, there z points up" else "")
+            if (det(turn) < 0) ": a mirror image" else if (grepl("^-?x, -?z",
+                                                                 axes)) ": here y, there z points up" else "")
   }, "")
 }
 
@@ -148,7 +161,8 @@ centre_misfits <- function(changes, given, mesh) {
   moved <- lapply(changes, function(change) given %*% change)
   centre <- face_centres(mesh)
   at <- do.call(rbind, moved)
-  away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]), nrow(given))
+  away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]),
+                 nrow(given))
   apply(away, 2, stats::median) / vapply(moved, spread_of, 0)
 }
 

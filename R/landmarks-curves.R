@@ -9,11 +9,11 @@
 #' @param file Path of the file, see [read_landmarks()].
 #' @param curves Names of the curves that are wanted, in this order; NULL for all.
 #' @param ... Further arguments of [read_landmarks()].
-#' @return Named list of n x 3 matrices with columns `x`, `y`, `z`, NA in missing points, each with the attribute `closed`;
-#'   of a file of several specimens a named list of such lists. [fit_shape()] takes such curves in place of its
-#'   own.
-#' @section Errors: of class `crestline_landmark_error`, when a curve is not in the file (near names are given), and as
-#'   [read_landmarks()].
+#' @return Named list of n x 3 matrices with columns `x`, `y`, `z`, NA in missing points, each with
+#'   the attribute `closed`; of a file of several specimens a named list of such lists.
+#'   [fit_shape()] takes such curves in place of its own.
+#' @section Errors: of class `crestline_landmark_error`, when a curve is not in the file (near names
+#'   are given), and as [read_landmarks()].
 #' @examples
 #' file <- tempfile(fileext = ".csv")
 #' lips <- list("upper lip" = rbind(c(0, 1, 2), c(1, 1, 3)),
@@ -37,8 +37,11 @@ curves_of_set <- function(set) {
   row <- which(lengths(part) == 3)
   name <- vapply(part[row], `[`, "", 2)
   number <- as.numeric(vapply(part[row], `[`, "", 3))
-  rows <- lapply(stats::setNames(nm = unique(name)), function(one) row[name == one][order(number[name == one])])
-  whole <- vapply(names(rows), function(one) identical(sort(number[name == one]), as.numeric(seq_along(rows[[one]]))), NA)
+  rows <- lapply(stats::setNames(nm = unique(name)),
+                 function(one) row[name == one][order(number[name == one])])
+  whole <- vapply(names(rows),
+                  function(one) identical(sort(number[name == one]),
+                                          as.numeric(seq_along(rows[[one]]))), NA)
   lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
 }
 

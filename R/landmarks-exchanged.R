@@ -243,7 +243,8 @@ exchange_reasons <- function(found, names, sided) {
   if (found$mirrored) said[names %in% sided] <- "left and right look mirrored"
   for (group in found$groups) said[group] <- paste(word_list(group), "look exchanged")
   for (two in found$either) {
-    said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "), "look exchanged")
+    said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "),
+                               "look exchanged")
   }
   said[names]
 }

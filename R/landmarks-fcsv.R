@@ -1,8 +1,10 @@
-# .fcsv of 3D Slicer: comment lines with version, co-ordinate system and columns, then one point a line.
-# After the named columns Slicer writes the state of the point: 0 undefined, 1 preview, 2 defined, 3 missing.
+# .fcsv of 3D Slicer: comment lines with version, co-ordinate system and columns, then one point a
+# line. After the named columns Slicer writes the state of the point: 0 undefined, 1 preview, 2
+# defined, 3 missing.
 
 fcsv_columns <- function() {
-  c("id", "x", "y", "z", "ow", "ox", "oy", "oz", "vis", "sel", "lock", "label", "desc", "associatednodeid")
+  c("id", "x", "y", "z", "ow", "ox", "oy", "oz", "vis", "sel", "lock", "label", "desc",
+    "associatednodeid")
 }
 
 read_landmarks_fcsv <- function(file, options) {
@@ -10,9 +12,11 @@ read_landmarks_fcsv <- function(file, options) {
   comment <- grepl("^#", line)
   row <- which(!comment & grepl("\\S", line))
   column <- fcsv_header(line[comment], "columns")
-  column <- if (is.na(column)) fcsv_columns() else tolower(trimws(strsplit(column, ",", fixed = TRUE)[[1]]))
+  column <- if (is.na(column)) fcsv_columns() else
+    tolower(trimws(strsplit(column, ",", fixed = TRUE)[[1]]))
   if (!all(c("x", "y", "z") %in% column)) {
-    refuse_landmark_file(file, "no columns x, y, z", "Give them in the line # columns = id,x,y,z,...")
+    refuse_landmark_file(file, "no columns x, y, z",
+                         "Give them in the line # columns = id,x,y,z,...")
   }
   field <- fcsv_fields(line[row], row, column, file)
   check_fcsv_fields(field, column, row, file)

@@ -1,6 +1,6 @@
-# .mrk.json of 3D Slicer (markups schema 1.0): an array of lists, each of a type, in a co-ordinate system, of control points.
-# Fiducial lists are landmarks; Curve, ClosedCurve, Line and Angle are curves. The orientation of a point is
-# not a change of frame.
+# .mrk.json of 3D Slicer (markups schema 1.0): an array of lists, each of a type, in a co-ordinate
+# system, of control points. Fiducial lists are landmarks; Curve, ClosedCurve, Line and Angle are
+# curves. The orientation of a point is not a change of frame.
 
 read_landmarks_mrkjson <- function(file, options) {
   markup <- mrkjson_markups(file)
@@ -17,7 +17,8 @@ read_landmarks_mrkjson <- function(file, options) {
 }
 
 mrkjson_markups <- function(file) {
-  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")), error = function(e) {
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
+                      error = function(e) {
     reason <- strsplit(conditionMessage(e), "\n")[[1]][1]
     refuse_landmark_file(file, paste("not JSON:", reason), "Save it anew from Slicer.")
   })
@@ -43,7 +44,8 @@ json_word <- function(object, name) {
 
 mrkjson_points <- function(markup, i, file, options) {
   point <- markup$controlPoints
-  x <- lapply(seq_along(point), function(j) mrkjson_point(point[[j]], sprintf("list %d, point %d", i, j), file))
+  x <- lapply(seq_along(point),
+              function(j) mrkjson_point(point[[j]], sprintf("list %d, point %d", i, j), file))
   said <- markup[["coordinateSystem"]]
   said <- if (is.numeric(said)) format(said) else json_string(markup, "coordinateSystem", "LPS")
   frame <- slicer_frame(said, file)
@@ -57,7 +59,8 @@ mrkjson_point <- function(point, where, file) {
   }
   if (json_string(point, "positionStatus", "defined") != "defined") return(rep(NA_real_, 3))
   position <- point[["position"]]
-  number <- vapply(position, function(v) if (is.numeric(v) && length(v) == 1) as.numeric(v) else NA_real_, 0)
+  number <- vapply(position,
+                   function(v) if (is.numeric(v) && length(v) == 1) as.numeric(v) else NA_real_, 0)
   if (length(number) != 3 || !all(is.finite(number)) || !is.null(names(position))) {
     refuse_landmark_file(file, paste0(where, ": the position is not three numbers"),
                          'Give it, or "positionStatus": "undefined".')
@@ -69,7 +72,8 @@ check_mrkjson_types <- function(type, file) {
   other <- setdiff(type, c("Fiducial", "Curve", "ClosedCurve", "Line", "Angle"))
   if (length(other)) {
     crestline_warn(sprintf("%s: lists of type %s are left out.", basename(file), shorten(other)),
-                   "Landmarks and curves only are read.", stage = "landmarks", class = "crestline_format_warning")
+                   "Landmarks and curves only are read.", stage = "landmarks",
+                   class = "crestline_format_warning")
   }
 }
 
@@ -77,14 +81,17 @@ check_mrkjson_types <- function(type, file) {
 check_mrkjson_units <- function(markup, file) {
   unit <- vapply(markup, function(one) {
     given <- one[["coordinateUnits"]]
-    json_string(list(unit = if (is.list(given) && length(given)) given[[1]] else given), "unit", "mm")
+    json_string(list(unit = if (is.list(given) && length(given)) given[[1]] else given), "unit",
+                "mm")
   }, "")
   if (length(unique(unit)) > 1) {
-    refuse_landmark_file(file, sprintf("lists in different units: %s", shorten(unique(unit))), "Save them in one unit.")
+    refuse_landmark_file(file, sprintf("lists in different units: %s", shorten(unique(unit))),
+                         "Save them in one unit.")
   }
 }
 
-# The names of the lists; a list without one has the file's (as in Slicer), of several with its number.
+# The names of the lists; a list without one has the file's (as in Slicer), of several with its
+# number.
 mrkjson_names <- function(markup, file) {
   name <- vapply(markup, json_string, "", "name", "")
   stem <- sub("([.]mrk)?[.]json$", "", basename(file), ignore.case = TRUE)
@@ -92,7 +99,8 @@ mrkjson_names <- function(markup, file) {
   make.unique(ifelse(nzchar(name), name, bare), " ")
 }
 
-# Labels, else ids, else numbers; where two lists have the same ones, with the name of the list before them.
+# Labels, else ids, else numbers; where two lists have the same ones, with the name of the list
+# before them.
 mrkjson_labels <- function(markup, name) {
   label <- lapply(markup, function(one) {
     label <- vapply(one$controlPoints, json_word, "", "label")
@@ -119,7 +127,8 @@ write_landmarks_mrkjson <- function(sets, file, options) {
   schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/",
                    "Resources/Schema/markups-schema-v1.0.3.json#")
   comments <- attr(x, "comments")
-  said <- if (length(comments)) sprintf('"provenance": [%s],\n', paste(json_text(comments), collapse = ", "))
+  said <- if (length(comments)) sprintf('"provenance": [%s],\n',
+                                        paste(json_text(comments), collapse = ", "))
   head <- paste0(sprintf('{"@schema": "%s",\n', schema), said)
   write_file_lines(paste0(head, '"markups": [\n', paste(list, collapse = ",\n"), "\n]}"), file)
 }
@@ -137,5 +146,6 @@ mrkjson_list <- function(x, type, name, label, options) {
 }
 
 json_text <- function(string) {
-  vapply(string, function(one) as.character(jsonlite::toJSON(one, auto_unbox = TRUE)), "", USE.NAMES = FALSE)
+  vapply(string, function(one) as.character(jsonlite::toJSON(one, auto_unbox = TRUE)), "",
+         USE.NAMES = FALSE)
 }

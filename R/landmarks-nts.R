@@ -1,5 +1,6 @@
-# .nts of NTSYS and .dta of IDAV Landmark: comments, then 1 nL p*k 1 9999 DIM=k, n labels, n blocks of p x k numbers.
-# Names of landmarks, which the format has not, stand in a comment; of one specimen also p x k with labelled rows is read.
+# .nts of NTSYS and .dta of IDAV Landmark: comments, then 1 nL p*k 1 9999 DIM=k, n labels, n blocks
+# of p x k numbers. Names of landmarks, which the format has not, stand in a comment; of one
+# specimen also p x k with labelled rows is read.
 
 read_landmarks_nts <- function(file, options) {
   line <- file_lines(file)
@@ -26,12 +27,15 @@ nts_header <- function(text, file, line) {
   if (part[2] != "1") refuse("not a rectangular matrix (1)")
   if (!all(label %in% c("", "L"))) refuse("labels within the rows (B, E) are not read")
   head <- list(rows = as.integer(part[3]), columns = as.integer(part[5]), labels = label == "L",
-               flag = part[7] == "1", code = landmark_numbers(trimws(part[8]), file, line), dim = as.integer(part[9]))
-  if (!head$dim %in% 2:3 || head$columns %% head$dim) refuse("columns that are not points of two or three dimensions")
+               flag = part[7] == "1", code = landmark_numbers(trimws(part[8]), file, line),
+               dim = as.integer(part[9]))
+  if (!head$dim %in% 2:3 || head$columns %%
+      head$dim) refuse("columns that are not points of two or three dimensions")
   head
 }
 
-# Labels, one a line (with blanks in them) or, where that does not fit, one a word; then the numbers.
+# Labels, one a line (with blanks in them) or, where that does not fit, one a word; then the
+# numbers.
 nts_body <- function(text, line, head, file) {
   labels <- sum(c(head$rows, head$columns)[head$labels])
   wanted <- as.numeric(head$rows) * head$columns
@@ -49,8 +53,10 @@ nts_body <- function(text, line, head, file) {
     after <- seq_along(flat) > labels
     number <- landmark_numbers(flat[after], file, rep(line, lengths(word))[after])
   } else {
-    said <- sprintf("%d labels and %.0f numbers are announced, %d words follow", labels, wanted, sum(lengths(word)))
-    refuse_landmark_file(file, said, "Put the right numbers in the line of parameters, or the whole file.")
+    said <- sprintf("%d labels and %.0f numbers are announced, %d words follow", labels, wanted,
+                    sum(lengths(word)))
+    refuse_landmark_file(file, said,
+                         "Put the right numbers in the line of parameters, or the whole file.")
   }
   list(label = if (head$labels[1]) label[seq_len(head$rows)],
        x = matrix(as.numeric(number), head$rows, head$columns, byrow = TRUE))
@@ -96,7 +102,9 @@ nts_comment <- function(x, id, alone) {
 check_nts_sets <- function(sets, file) {
   differs <- which(!vapply(sets, function(x) identical(rownames(x), rownames(sets[[1]])), TRUE))
   if (length(differs)) {
-    refuse_landmark_file(file, sprintf("specimen %s has other landmarks than %s", names(sets)[differs[1]], names(sets)[1]),
+    refuse_landmark_file(file,
+                         sprintf("specimen %s has other landmarks than %s", names(sets)[differs[1]],
+                                 names(sets)[1]),
                          "Give all the same landmarks in the same order, missing ones as NA.")
   }
   wrong <- grepl("^['\"]", names(sets))

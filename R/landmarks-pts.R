@@ -30,7 +30,9 @@ pts_parts <- function(text, file, line) {
   part <- matrix(as.character(unlist(part)), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
   fourth <- grep("\\s[-+]?[0-9]*[.][0-9]+([eE][-+]?[0-9]+)?$", part[, 1])
   if (length(fourth)) {
-    refuse_landmark_file(file, sprintf("more than three numbers: \"%s\" would be a name", part[fourth[1], 1]),
+    refuse_landmark_file(file,
+                         sprintf("more than three numbers: \"%s\" would be a name",
+                                 part[fourth[1], 1]),
                          "Write: name x y z, no more.", line[fourth[1]])
   }
   part
@@ -56,7 +58,8 @@ write_landmarks_pts <- function(sets, file, options) {
   check_pts_names(rownames(x), file)
   number <- pts_curve_names(curves, file)
   point <- unlist(lapply(seq_along(curves), function(i) {
-    sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1, pts_rows(curves[[i]], file, options))
+    sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1,
+            pts_rows(curves[[i]], file, options))
   }))
   row <- c(if (nrow(x)) paste(rownames(x), pts_rows(x, file, options)), point)
   write_file_lines(c("Version 1.0", sprintf("%d", length(row)), row), file)
@@ -64,7 +67,9 @@ write_landmarks_pts <- function(sets, file, options) {
 
 pts_rows <- function(x, file, options) {
   if (any(rowSums(x == options$missing) == 3, na.rm = TRUE)) {
-    refuse_landmark_file(file, sprintf("a point at %s three times would be read as missing", options$missing),
+    refuse_landmark_file(file,
+                         sprintf("a point at %s three times would be read as missing",
+                                 options$missing),
                          "Give another number as `missing`.")
   }
   row_text(x, missing = number_text(options$missing))
@@ -73,7 +78,8 @@ pts_rows <- function(x, file, options) {
 check_pts_names <- function(name, file) {
   wrong <- name[pts_curve_point(name) | grepl("^\\s|\\s$", name)]
   if (length(wrong)) {
-    refuse_landmark_file(file, sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
+    refuse_landmark_file(file,
+                         sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
                          "Name it otherwise: C, number, dash, number is a point of a curve; no blanks at the ends.")
   }
 }
@@ -89,7 +95,8 @@ pts_curve_names <- function(curves, file) {
     crestline_warn(
       sprintf("%s: .pts has curves by number and open only: %s.", basename(file), paste(
         number, "is", paste0(name, ifelse(closed, " (closed)", "")), collapse = ", ")),
-      "Keep a .mrk.json, .tps or .csv as well.", stage = "landmarks", class = "crestline_format_warning"
+      "Keep a .mrk.json, .tps or .csv as well.", stage = "landmarks",
+      class = "crestline_format_warning"
     )
   }
   number

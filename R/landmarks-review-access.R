@@ -6,10 +6,12 @@
 #' @param launch.browser,... As in [shiny::runApp()].
 #' @return What the server ends with.
 #' @noRd
-run_review <- function(ui, server, launch.browser = getOption("shiny.launch.browser", interactive()), ...) {
+run_review <- function(ui, server,
+                       launch.browser = getOption("shiny.launch.browser", interactive()), ...) {
   token <- random_token()
   app <- shiny::shinyApp(guarded_page(ui, token), guarded_server(server, token))
-  shiny::runApp(app, launch.browser = function(url) open_page(paste0(sub("/$", "", url), "/?token=", token), launch.browser), ...)
+  shiny::runApp(app, launch.browser = function(url) open_page(paste0(sub("/$", "", url), "/?token=",
+                                                                     token), launch.browser), ...)
 }
 
 open_page <- function(address, launch.browser) {
@@ -27,7 +29,8 @@ random_token <- function() paste(cpp_random_bytes(16), collapse = "")
 guarded_page <- function(ui, token) {
   function(request) {
     if (has_token(request$QUERY_STRING, token)) return(ui)
-    shiny::httpResponse(403L, "text/plain", "Open the address that R printed or opened: it has a token.")
+    shiny::httpResponse(403L, "text/plain",
+                        "Open the address that R printed or opened: it has a token.")
   }
 }
 
@@ -36,7 +39,8 @@ guarded_page <- function(ui, token) {
 guarded_server <- function(server, token) {
   function(input, output, session) {
     address <- shiny::isolate(session$clientData$url_search)
-    if (is_own_site(session$request) && has_token(address, token)) return(server(input, output, session))
+    if (is_own_site(session$request) &&
+        has_token(address, token)) return(server(input, output, session))
     session$close()
   }
 }
@@ -47,8 +51,8 @@ has_token <- function(query, token) {
 
 #' Whether a socket was asked for by a page of the same site
 #'
-#' Browsers name the site in the header Origin, which no script can change. A server that stands between, such as RStudio's,
-#' says in a header of its own which address the browser knows.
+#' Browsers name the site in the header Origin, which no script can change. A server that stands
+#' between, such as RStudio's, says in a header of its own which address the browser knows.
 #'
 #' @param request Request that opened the socket: an environment of the form of Rook.
 #' @noRd

@@ -1,4 +1,5 @@
-# What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets, errors.
+# What the text formats of landmarks share: lines, numbers to the last bit, quoted names, sets,
+# errors.
 
 # The lines of a text file, ended as on any system. UTF-8 or UTF-16, with or without a mark of it;
 # else taken for Latin 1, as Windows writes names with accents.
@@ -9,7 +10,8 @@ file_lines <- function(file) {
   }
   text <- gsub("\r\n?", "\n", rawToChar(bytes), useBytes = TRUE)
   line <- strsplit(text, "\n", fixed = TRUE, useBytes = TRUE)[[1]]
-  line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else iconv(line, "latin1", "UTF-8")
+  line <- if (all(validUTF8(line))) enc2utf8(`Encoding<-`(line, "UTF-8")) else
+    iconv(line, "latin1", "UTF-8")
   if (length(line)) line[1] <- sub("^\ufeff", "", line[1])
   line
 }
@@ -30,7 +32,8 @@ write_file_lines <- function(line, file) {
     refuse_landmark_file(file, "is a pipe, no file on disk", "Write to a file.")
   }
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
-    refuse_landmark_file(file, "cannot be written", "Check the folder and the right to write there.")
+    refuse_landmark_file(file, "cannot be written",
+                         "Check the folder and the right to write there.")
   })
   line <- enc2utf8(line)
   tryCatch(writeLines(line, connection, useBytes = TRUE),
@@ -53,7 +56,8 @@ landmark_numbers <- function(word, file, line) {
   wrong <- odd[!missing]
   if (length(wrong)) {
     refuse_landmark_file(
-      file, sprintf('"%s" is not a %snumber', word[wrong[1]], if (is.na(number[wrong[1]])) "" else "finite "),
+      file, sprintf('"%s" is not a %snumber', word[wrong[1]],
+                    if (is.na(number[wrong[1]])) "" else "finite "),
       "Write numbers with a decimal point, NA for a missing one.",
       if (!is.null(line)) rep_len(line, length(word))[wrong[1]]
     )
@@ -66,8 +70,11 @@ landmark_rows <- function(text, width, file, line) {
   word <- strsplit(trimws(text), "[[:space:],]+")
   wrong <- which(lengths(word) != width)
   if (length(wrong)) {
-    refuse_landmark_file(file, sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]], width),
-                         "Give every point its own line, blanks between the numbers.", line[wrong[1]])
+    refuse_landmark_file(file,
+                         sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]],
+                                 width),
+                         "Give every point its own line, blanks between the numbers.",
+                         line[wrong[1]])
   }
   check_separators(text, file, line)
   matrix(landmark_numbers(unlist(word), file, rep(line, each = width)), ncol = width, byrow = TRUE)
@@ -89,18 +96,21 @@ check_separators <- function(text, file, line) {
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
 unquote_names <- function(text) {
-  suppressWarnings(scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE,
+  suppressWarnings(scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE,
+                        strip.white = FALSE,
                         na.strings = character(), encoding = "UTF-8"))
 }
 
-# The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number is another.
+# The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number
+# is another.
 commented_names <- function(comment, key, n, file) {
   start <- paste0("^", key, ': "')
   found <- comment[grepl(start, comment)]
   if (!length(found)) return(NULL)
   name <- unquote_names(sub(paste0("^", key, ": "), "", found[1]))
   if (length(name) != n) {
-    refuse_landmark_file(file, sprintf("the comment of %s has %d names for %d", key, length(name), n),
+    refuse_landmark_file(file,
+                         sprintf("the comment of %s has %d names for %d", key, length(name), n),
                          "Change the comment, or delete it: then they are numbered.")
   }
   name
@@ -110,7 +120,8 @@ name_comment <- function(name, key) {
   if (!identical(name, as.character(seq_along(name)))) sprintf("%s: %s", key, quote_names(name))
 }
 
-# The landmarks of one specimen, with the curves where there are any. A point without one of its co-ordinates is missing.
+# The landmarks of one specimen, with the curves where there are any. A point without one of its
+# co-ordinates is missing.
 landmark_set <- function(x, name = NULL, curves = list()) {
   x <- complete_rows(x)
   rownames(x) <- if (is.null(name)) as.character(seq_len(nrow(x))) else name

@@ -1,18 +1,20 @@
-# .tps of F. J. Rohlf's programs: records LM= or LM3=, CURVES= and OUTLINES= with POINTS=, IMAGE=, ID=, SCALE=.
-# Names of landmarks and curves, which the format has not, stand in COMMENT= lines.
+# .tps of F. J. Rohlf's programs: records LM= or LM3=, CURVES= and OUTLINES= with POINTS=, IMAGE=,
+# ID=, SCALE=. Names of landmarks and curves, which the format has not, stand in COMMENT= lines.
 
 read_landmarks_tps <- function(file, options) {
   line <- file_lines(file)
   start <- which(grepl("^\\s*LM3?\\s*=", line, ignore.case = TRUE))
   if (!length(start)) {
-    refuse_landmark_file(file, "no line LM= or LM3=", "Begin every specimen with LM3= and the number of its landmarks.")
+    refuse_landmark_file(file, "no line LM= or LM3=",
+                         "Begin every specimen with LM3= and the number of its landmarks.")
   }
   end <- c(start[-1] - 1, length(line))
   record <- Map(function(from, to) tps_record(line[from:to], from:to, file), start, end)
   scale <- tps_scales(record, file, options)
   sets <- Map(tps_set, record, scale, MoreArgs = list(file = file))
   name <- tps_names(record)
-  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias, twice = name$twice)
+  structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias,
+            twice = name$twice)
 }
 
 # One record as its keys: data frame key, value, line, and the rows of numbers after each.
@@ -34,7 +36,8 @@ tps_record <- function(text, line, file) {
 tps_width <- function(row, file) {
   if (!nrow(row)) return(2)
   width <- length(strsplit(trimws(row$text[1]), "[[:space:],]+")[[1]])
-  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers", "Write one point a line.", row$line[1])
+  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers",
+                                            "Write one point a line.", row$line[1])
   width
 }
 
@@ -42,7 +45,8 @@ tps_width <- function(row, file) {
 tps_block <- function(key, row, width, file) {
   said <- if (key$key %in% c("LM", "LM3", "POINTS")) tps_count(key, file) else 0
   if (nrow(row) != said) {
-    refuse_landmark_file(file, sprintf("%s= announces %d points, %d follow", key$key, said, nrow(row)),
+    refuse_landmark_file(file,
+                         sprintf("%s= announces %d points, %d follow", key$key, said, nrow(row)),
                          "Put the right number, or the whole file.", key$line)
   }
   landmark_rows(row$text, width, file, row$line)
@@ -50,7 +54,8 @@ tps_block <- function(key, row, width, file) {
 
 tps_count <- function(key, file) {
   if (!grepl("^[0-9]{1,9}$", key$value)) {
-    refuse_landmark_file(file, sprintf("%s=%s has no whole number", key$key, key$value), "Put the number of points.",
+    refuse_landmark_file(file, sprintf("%s=%s has no whole number", key$key, key$value),
+                         "Put the number of points.",
                          key$line)
   }
   as.integer(key$value)
@@ -73,7 +78,9 @@ tps_curves <- function(record, scale, file) {
   for (i in seq_along(head)) {
     said <- tps_count(record[head[i], ], file)
     if (sum(group == i) != said) {
-      refuse_landmark_file(file, sprintf("%s= announces %d, %d follow", record$key[head[i]], said, sum(group == i)),
+      refuse_landmark_file(file,
+                           sprintf("%s= announces %d, %d follow", record$key[head[i]], said,
+                                   sum(group == i)),
                            "Put the right number, or the whole file.", record$line[head[i]])
     }
   }
@@ -91,9 +98,11 @@ tps_scales <- function(record, file, options) {
   if (all(is.na(scale))) return(rep(1, length(record)))
   if (anyNA(scale)) {
     bare <- record[[which(is.na(scale))[1]]]
-    refuse_landmark_file(file, sprintf("specimens without SCALE= among others that have one (%d of %d): units would mix",
+    refuse_landmark_file(file,
+                         sprintf("specimens without SCALE= among others that have one (%d of %d): units would mix",
                                        sum(is.na(scale)), length(scale)),
-                         "Give each its SCALE=, or read with scale = FALSE: all as they stand.", bare$line[1])
+                         "Give each its SCALE=, or read with scale = FALSE: all as they stand.",
+                         bare$line[1])
   }
   scale
 }
@@ -112,8 +121,8 @@ tps_scale <- function(key, file) {
 }
 
 #' By ID=, else by IMAGE=, where each has its own; else numbered
-#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=; `twice`, an ID= that keeps these
-#'   from being names.
+#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=; `twice`,
+#'   an ID= that keeps these from being names.
 #' @noRd
 tps_names <- function(record) {
   by <- lapply(c(ID = "ID", IMAGE = "IMAGE"), function(key) {
@@ -123,7 +132,8 @@ tps_names <- function(record) {
   if (!is.null(by$ID)) return(list(name = by$ID, numbered = FALSE, alias = by$IMAGE))
   if (!is.null(by$IMAGE)) return(list(name = by$IMAGE, numbered = FALSE))
   id <- unlist(lapply(record, function(r) r$value[r$key == "ID" & nzchar(r$value)][1]))
-  list(name = as.character(seq_along(record)), numbered = TRUE, twice = stats::na.omit(id[duplicated(id)])[1])
+  list(name = as.character(seq_along(record)), numbered = TRUE,
+       twice = stats::na.omit(id[duplicated(id)])[1])
 }
 
 write_landmarks_tps <- function(sets, file, options) {
@@ -135,7 +145,8 @@ tps_lines <- function(x, id) {
   c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves),
     paste0("ID=", id),
     tps_comment(name_comment(rownames(x), "landmarks")),
-    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))), tps_comment(attr(x, "comments")))
+    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))),
+    tps_comment(attr(x, "comments")))
 }
 
 tps_comment <- function(text) if (!is.null(text)) paste0("COMMENT=", text)

@@ -64,27 +64,27 @@
 #' name from either.
 #'
 #' @param file Path of the file; for reading also of a folder of landmark files.
-#' @param frame For the formats of 3D Slicer, which write x and y of either sign. `read_landmarks()`: the
-#'   frame that you want the co-ordinates in. By default Slicer saves meshes in "LPS" (left,
-#'   posterior, superior). Its scene is in "RAS". "file" leaves the numbers as they are.
-#'   `write_landmarks()`: the frame that `x` is in, which the file will name.
+#' @param frame For the formats of 3D Slicer, which write x and y of either sign.
+#'   `read_landmarks()`: the frame that you want the co-ordinates in. By default Slicer saves meshes
+#'   in "LPS" (left, posterior, superior). Its scene is in "RAS". "file" leaves the numbers as they
+#'   are. `write_landmarks()`: the frame that `x` is in, which the file will name.
 #' @param missing Number that stands for a missing co-ordinate in `.pts`: a point that has it three
 #'   times is missing.
-#' @param scale Whether the co-ordinates of a `.tps` file are multiplied by `SCALE=`. A file in which
-#'   only some specimens have one is refused.
-#' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z, a
-#'   [specimen()], a `shape` as [fit_shape()] returns it, NULL for no landmarks, or, where the format holds several
-#'   specimens, a list of them, a k x 3 x n array, a `shape_sample`, a `shape_batch` or an
-#'   `aligned`.
-#' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of data
-#'   frames with columns x, y, z, or of values of [ridge_curve()]. NULL: those of the shape, or the attribute
-#'   `curves` of `x`, if any; `list()`: none.
+#' @param scale Whether the co-ordinates of a `.tps` file are multiplied by `SCALE=`. A file in
+#'   which only some specimens have one is refused.
+#' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z,
+#'   a [specimen()], a `shape` as [fit_shape()] returns it, NULL for no landmarks, or, where the
+#'   format holds several specimens, a list of them, a k x 3 x n array, a `shape_sample`, a
+#'   `shape_batch` or an `aligned`.
+#' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of
+#'   data frames with columns x, y, z, or of values of [ridge_curve()]. NULL: those of the shape, or
+#'   the attribute `curves` of `x`, if any; `list()`: none.
 #' @return `read_landmarks()`: k x 3 numeric matrix with row names and columns `x`, `y`, `z`, in the
-#'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA in all
-#'   three co-ordinates of a missing one. Where the file has curves, the attribute `curves`: named list of n x 3
-#'   matrices, each with the attribute `closed`. For a file of several specimens, or a folder, a
-#'   named list of such matrices. `write_landmarks()`: `file`, invisibly. Errors are of class
-#'   `crestline_landmark_error` and name file, line and remedy.
+#'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA
+#'   in all three co-ordinates of a missing one. Where the file has curves, the attribute `curves`:
+#'   named list of n x 3 matrices, each with the attribute `closed`. For a file of several
+#'   specimens, or a folder, a named list of such matrices. `write_landmarks()`: `file`, invisibly.
+#'   Errors are of class `crestline_landmark_error` and name file, line and remedy.
 #' @examples
 #' file <- tempfile(fileext = ".csv")
 #' write_landmarks(rbind(pn = c(0, 1, 2), sn = c(NA, NA, NA)), file)
@@ -127,7 +127,8 @@ check_set_names <- function(found, file) {
   if (is.matrix(found)) return(invisible())
   for (name in unique(names(found)[duplicated(names(found))])) {
     if (same_sets(found[names(found) == name])) next
-    refuse_landmark_file(file, sprintf("the specimen %s is there twice with different landmarks", name),
+    refuse_landmark_file(file,
+                         sprintf("the specimen %s is there twice with different landmarks", name),
                          "Give each specimen a name of its own, or leave one of them.")
   }
 }
@@ -136,13 +137,16 @@ check_set_names <- function(found, file) {
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   check_given()
-  if (is.null(x) && is.null(curves)) refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
+  if (is.null(x) && is.null(curves)) refuse_argument("x", x,
+                                                     "Give landmarks, a specimen or a shape.",
+                                                     rlang::current_env())
   format <- landmark_format(file)
   if (is.null(format$write)) {
     refuse_landmark_file(file, "this format is read, not written",
                          "Write a .pts file, which Checkpoint reads.")
   }
-  options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"), missing = check_number(missing, "missing"))
+  options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"),
+                  missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
   if (!format$curves && has_shape(x)) sets <- curves_as_points(sets, file)
   check_written(sets, format, file)
@@ -150,18 +154,24 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   invisible(file)
 }
 
-# Every format: read = function(file, options), a matrix or a named list of them; write = function(sets, file,
-# options), sets such a list; whether it holds several specimens, and curves.
+# Every format: read = function(file, options), a matrix or a named list of them; write =
+# function(sets, file, options), sets such a list; whether it holds several specimens, and curves.
 landmark_formats <- function() {
-  nts <- list(read = read_landmarks_nts, write = write_landmarks_nts, several = TRUE, curves = FALSE)
+  nts <- list(read = read_landmarks_nts, write = write_landmarks_nts, several = TRUE,
+              curves = FALSE)
   list(
-    csv = list(read = read_landmarks_csv, write = write_landmarks_csv, several = FALSE, curves = TRUE),
-    pts = list(read = read_landmarks_pts, write = write_landmarks_pts, several = FALSE, curves = TRUE),
-    tps = list(read = read_landmarks_tps, write = write_landmarks_tps, several = TRUE, curves = TRUE),
+    csv = list(read = read_landmarks_csv, write = write_landmarks_csv, several = FALSE,
+               curves = TRUE),
+    pts = list(read = read_landmarks_pts, write = write_landmarks_pts, several = FALSE,
+               curves = TRUE),
+    tps = list(read = read_landmarks_tps, write = write_landmarks_tps, several = TRUE,
+               curves = TRUE),
     nts = nts,
     dta = nts,
-    landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE, curves = FALSE),
-    fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE, curves = FALSE),
+    landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE,
+                         curves = FALSE),
+    fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE,
+                curves = FALSE),
     mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE,
                     curves = TRUE),
     pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE,
@@ -173,7 +183,8 @@ landmark_formats <- function() {
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
 written_sets <- function(x, curves, file) {
   x <- sets_of_sample(x, file)
-  if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) || !is.list(x)) {
+  if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) ||
+      !is.list(x)) {
     id <- if (inherits(x, c("specimen", "shape"))) x$id else "1"
     return(stats::setNames(list(written_set(x, curves)), id))
   }
@@ -213,7 +224,8 @@ written_set <- function(x, curves) {
   comments <- comment_lines(x)
   x <- as_landmarks(own$landmarks)
   curves <- as_curves(curves)
-  structure(x, curves = if (length(curves)) curves, comments = if (length(comments)) paste("provenance,", comments))
+  structure(x, curves = if (length(curves)) curves,
+            comments = if (length(comments)) paste("provenance,", comments))
 }
 
 #' The landmarks and curves of what is written
@@ -227,7 +239,8 @@ written_landmarks.default <- function(x) list(landmarks = x, curves = attr(x, "c
 # A named list of n x 3 matrices, each with attribute `closed`.
 as_curves <- function(x) {
   name <- names(x)
-  if (length(x) && (!is.list(x) || is.null(name) || anyNA(name) || any(!nzchar(name)) || anyDuplicated(name))) {
+  if (length(x) && (!is.list(x) || is.null(name) || anyNA(name) || any(!nzchar(name)) ||
+                    anyDuplicated(name))) {
     refuse_landmarks("`curves` is not a list with a name of its own for each.",
                      "Give list(name = n x 3 matrix, ...).", id = NULL)
   }
@@ -259,7 +272,8 @@ check_written <- function(sets, format, file) {
   name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
   wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
   if (wrong || any(names(sets) != trimws(names(sets)))) {
-    refuse_landmark_file(file, "a name is empty or holds a line break, or two specimens have the same",
+    refuse_landmark_file(file,
+                         "a name is empty or holds a line break, or two specimens have the same",
                          "Give every specimen, landmark and curve a name of its own, in one line, no blanks at the ends.")
   }
 }
@@ -281,7 +295,8 @@ landmark_format <- function(file) {
   formats[[format]]
 }
 
-has_shape <- function(x) inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
+has_shape <- function(x) inherits(x,
+                                  "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
 
 #' Sets whose curves are landmarks named "curve point", as in [coords()]
 #' @noRd
@@ -295,7 +310,8 @@ curves_as_points <- function(sets, file) {
     class = "crestline_format_warning"
   )
   Map(function(set, curves) {
-    names <- paste(rep(names(curves), vapply(curves, nrow, 0L)), unlist(lapply(curves, function(x) seq_len(nrow(x)))))
+    names <- paste(rep(names(curves), vapply(curves, nrow, 0L)),
+                   unlist(lapply(curves, function(x) seq_len(nrow(x)))))
     points <- do.call(rbind, c(list(set), unname(curves)))
     rownames(points) <- c(rownames(set), names)
     structure(as_landmarks(points), comments = attr(set, "comments"))

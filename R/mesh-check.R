@@ -7,16 +7,19 @@
 #' @param outward "detect", "keep" or "flip", see [specimen()].
 #' @param debris Pieces with less than this share of the faces are left out.
 #' @return A list: `mesh` (`vb`, `it`, `normals`, perhaps `material$color`), `topology` (see
-#'   mesh_topology()), `report` (data frame: `check`, `count`, `action`, a row for every check), `vertices` (for every
-#'   vertex given its number in `mesh`, NA where it was left out).
+#'   mesh_topology()), `report` (data frame: `check`, `count`, `action`, a row for every check),
+#'   `vertices` (for every vertex given its number in `mesh`, NA where it was left out).
 #' @noRd
 check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   outward <- check_choice(outward, c("detect", "keep", "flip"), "outward")
   debris <- check_number(debris, "debris", lower = 0, upper = 1)
   steps <- list(
-    as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices, drop_non_finite, drop_far,
-    merge_duplicate_vertices, triangulate_cloud, drop_degenerate_faces, drop_duplicate_faces, refuse_empty,
-    join_near_vertices, split_edges_at_vertices, mend_winding, function(mesh, id) drop_debris(mesh, id, debris),
+    as_plain_mesh, normalise_homogeneous, split_quads, refuse_bad_indices, drop_non_finite,
+    drop_far,
+    merge_duplicate_vertices, triangulate_cloud, drop_degenerate_faces, drop_duplicate_faces,
+    refuse_empty,
+    join_near_vertices, split_edges_at_vertices, mend_winding,
+    function(mesh, id) drop_debris(mesh, id, debris),
     drop_unreferenced, function(mesh, id) turn_outward(mesh, id, outward)
   )
   report <- list()
@@ -33,7 +36,8 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   area <- row_lengths(normal)
   if (!any(area > 0)) refuse_flat(id)
   mesh$normals <- vertex_normals(mesh)
-  report <- c(report, describe_topology(mesh, topology, area), tell_contacts(mesh, topology, area, id))
+  report <- c(report, describe_topology(mesh, topology, area),
+              tell_contacts(mesh, topology, area, id))
   list(mesh = mesh, topology = topology, report = do.call(rbind, report), vertices = vertices)
 }
 
@@ -43,7 +47,8 @@ as_plain_mesh <- function(mesh, id) {
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
   }
   vb <- mesh$vb
-  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 || ncol(vb) < 3) refuse_no_vertices(id)
+  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 ||
+      ncol(vb) < 3) refuse_no_vertices(id)
   if (nrow(vb) == 3) vb <- rbind(vb, 1)
   plain <- list(vb = unname(vb), it = face_matrix(mesh$it, 3, id), ib = face_matrix(mesh$ib, 4, id))
   colour <- vertex_colours(mesh)
@@ -71,7 +76,8 @@ split_quads <- function(mesh, id) {
 }
 
 refuse_bad_indices <- function(mesh, id) {
-  if (anyNA(mesh$it) || any(mesh$it < 1 | mesh$it > ncol(mesh$vb))) refuse_indices(mesh$it, ncol(mesh$vb), id)
+  if (anyNA(mesh$it) ||
+      any(mesh$it < 1 | mesh$it > ncol(mesh$vb))) refuse_indices(mesh$it, ncol(mesh$vb), id)
   mended(mesh, "faces naming missing vertices", 0, "refused")
 }
 
@@ -79,7 +85,8 @@ refuse_bad_indices <- function(mesh, id) {
 drop_non_finite <- function(mesh, id) {
   finite <- is.finite(colSums(mesh$vb[1:3, , drop = FALSE]^4))
   if (!any(finite)) {
-    refuse_mesh("none of its vertices has finite co-ordinates, or all are absurdly large.", "Export it again.", id)
+    refuse_mesh("none of its vertices has finite co-ordinates, or all are absurdly large.",
+                "Export it again.", id)
   }
   absurd <- sum(is.finite(colSums(mesh$vb[1:3, !finite, drop = FALSE] / 4)))
   if (absurd > 0) warn_far(absurd, "have absurdly large co-ordinates", id)
@@ -87,9 +94,9 @@ drop_non_finite <- function(mesh, id) {
          "vertices and their faces left out")
 }
 
-# Vertices of the surface that are no part of it: more than `far` times as far from its middle as half of the vertices
-# (a scan with its platform, or a whole body with most vertices on the head: up to 20 times). They would blind every
-# tolerance that goes by the size.
+# Vertices of the surface that are no part of it: more than `far` times as far from its middle as
+# half of the vertices (a scan with its platform, or a whole body with most vertices on the head: up
+# to 20 times). They would blind every tolerance that goes by the size.
 drop_far <- function(mesh, id, far = 50) {
   check <- "vertices far from all others"
   gone <- far_vertices(mesh, seq_len(ncol(mesh$vb)), far)
@@ -97,7 +104,9 @@ drop_far <- function(mesh, id, far = 50) {
   # Those that no triangle uses are none of the surface, and may be most.
   if (ncol(mesh$it)) gone <- far_vertices(mesh, which(tabulate(mesh$it, ncol(mesh$vb)) > 0), far)
   if (length(gone)) {
-    warn_far(length(gone), sprintf("are more than %g times as far from the middle as half of the others", far), id)
+    warn_far(length(gone),
+             sprintf("are more than %g times as far from the middle as half of the others", far),
+             id)
   }
   kept <- !seq_len(ncol(mesh$vb)) %in% gone
   mended(losing(mesh, keep_vertices(mesh, kept)), check, length(gone), "left out, with their faces")
@@ -105,7 +114,8 @@ drop_far <- function(mesh, id, far = 50) {
 
 warn_far <- function(count, what, id) {
   crestline_warn(sprintf("%d vertices %s: left out, with their faces.", count, what),
-                 "Look at the mesh; if they belong to it, scale or crop it first.", stage = "mesh", id = id,
+                 "Look at the mesh; if they belong to it, scale or crop it first.", stage = "mesh",
+                 id = id,
                  class = "crestline_far_vertices")
 }
 
@@ -126,11 +136,14 @@ losing <- function(before, after) {
 warn_dropped <- function(mesh, report, id, noticeable = 0.01) {
   given <- mesh$lost + ncol(mesh$it)
   if (mesh$lost <= noticeable * given) return(invisible())
-  why <- report[report$check %in% c("non-finite co-ordinates", "vertices far from all others", "debris") & report$count > 0, ]
+  why <- report[report$check %in%
+                c("non-finite co-ordinates", "vertices far from all others", "debris") &
+                report$count > 0, ]
   crestline_warn(
     sprintf("%.0f %% of the triangles were left out (%s).", 100 * mesh$lost / given,
             paste(why$count, why$check, collapse = ", ")),
-    "Look whether the surface has what you measure; if not, export it again.", stage = "mesh", id = id,
+    "Look whether the surface has what you measure; if not, export it again.", stage = "mesh",
+    id = id,
     class = "crestline_triangles_dropped"
   )
 }
@@ -159,8 +172,10 @@ triangulate_cloud <- function(mesh, id) {
                 "Export it with its triangles, or give more points of the surface.", id)
   }
   crestline_warn(
-    sprintf("there are points only; %d triangles between them were made by ball pivoting.", ncol(mesh$it)),
-    "Export the scan with its own triangles, or look whether these are the surface.", stage = "mesh", id = id,
+    sprintf("there are points only; %d triangles between them were made by ball pivoting.",
+            ncol(mesh$it)),
+    "Export the scan with its own triangles, or look whether these are the surface.",
+    stage = "mesh", id = id,
     class = "crestline_triangulated"
   )
   mended(mesh, "point cloud without triangles", n, "triangulated by ball pivoting (Rvcg)")
@@ -214,9 +229,11 @@ describe_topology <- function(mesh, topology, area) {
 
 # What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
 tell_contacts <- function(mesh, topology, area, id) {
-  edge <- sqrt(2 / sqrt(3) * stats::median(area))  # of equilateral triangles of the median area; `area` is twice it
+  edge <- sqrt(2 / sqrt(3) *
+               stats::median(area))  # of equilateral triangles of the median area; `area` is twice it
   loose <- warn_loose(topology, id)
-  list(tell_seams(mesh, topology, edge, id, silent = loose), tell_second_skin(mesh, topology, edge, id))
+  list(tell_seams(mesh, topology, edge, id, silent = loose),
+       tell_second_skin(mesh, topology, edge, id))
 }
 
 # Whether that `share` of the triangles, and so many at `least`, have no neighbour.
@@ -226,7 +243,8 @@ warn_loose <- function(topology, id, share = 0.1, least = 10) {
   crestline_warn(
     sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.",
             100 * loose / length(topology$piece)),
-    "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id, class = "crestline_loose_triangles"
+    "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id,
+    class = "crestline_loose_triangles"
   )
   TRUE
 }

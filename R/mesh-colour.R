@@ -1,11 +1,13 @@
 # Natural colour of the vertices: kept from the mesh, or taken from an image.
 
-# One "#RRGGBB" a vertex, or NULL. rgl and Rvcg keep one colour a vertex, a corner, or for the whole mesh.
+# One "#RRGGBB" a vertex, or NULL. rgl and Rvcg keep one colour a vertex, a corner, or for the whole
+# mesh.
 vertex_colours <- function(mesh) {
   colour <- as.vector(mesh$material$color)
   n <- ncol(mesh$vb)
   if (length(colour) == n) return(colour)
-  if (length(mesh$it) && length(colour) == length(mesh$it) && isTRUE(all(mesh$it >= 1 & mesh$it <= n))) {
+  if (length(mesh$it) && length(colour) == length(mesh$it) &&
+      isTRUE(all(mesh$it >= 1 & mesh$it <= n))) {
     by_vertex <- rep(NA_character_, n)
     by_vertex[mesh$it[length(colour):1]] <- rev(colour)
     return(ifelse(is.na(by_vertex), "#BFBFBF", by_vertex))
@@ -22,8 +24,10 @@ colour_hex <- function(rgb, top = if (max(rgb, 0, na.rm = TRUE) > 1) 255 else 1)
 
 #' Colours of an image at texture co-ordinates
 #'
-#' @param image h x w x channels array of numbers in 0 to 1 (1 or 2 channels: grey), first row on top.
-#' @param uv n x 2 matrix; (0, 0) is the lower left corner, (1, 1) the upper right; the image repeats beyond.
+#' @param image h x w x channels array of numbers in 0 to 1 (1 or 2 channels: grey), first row on
+#'   top.
+#' @param uv n x 2 matrix; (0, 0) is the lower left corner, (1, 1) the upper right; the image
+#'   repeats beyond.
 #' @return n hex colours, those of the nearest pixels.
 #' @noRd
 sample_image <- function(image, uv) {
@@ -32,7 +36,8 @@ sample_image <- function(image, uv) {
   column <- pmin(floor(wrapped[, 1] * dim(image)[2]) + 1, dim(image)[2])
   row <- pmin(floor((1 - wrapped[, 2]) * dim(image)[1]) + 1, dim(image)[1])
   channel <- if (dim(image)[3] >= 3) 1:3 else c(1, 1, 1)
-  colour_hex(vapply(channel, function(i) image[cbind(row, column, i)], numeric(nrow(uv))) |> matrix(ncol = 3), top = 1)
+  colour_hex(vapply(channel, function(i) image[cbind(row, column, i)],
+                    numeric(nrow(uv))) |> matrix(ncol = 3), top = 1)
 }
 
 # A jpg or png as an array, or NULL with a warning: a picture is never worth a specimen.
@@ -40,15 +45,19 @@ read_image <- function(file, id) {
   reader <- switch(file_extension(file), jpg = , jpeg = "jpeg", png = "png", "none")
   problem <- if (!file.exists(file)) "the texture image %s is not there" else
     if (reader == "none") "the texture image %s is neither jpg nor png" else
-      if (!requireNamespace(reader, quietly = TRUE)) paste0("the texture image %s needs the package ", reader)
+      if (!requireNamespace(reader,
+                            quietly = TRUE)) paste0("the texture image %s needs the package ",
+                                                    reader)
   # A pipe, which would keep R waiting, has no size.
   image <- if (is.null(problem) && isTRUE(file.size(file) > 0)) tryCatch(
     if (reader == "jpeg") jpeg::readJPEG(file) else png::readPNG(file), error = function(e) NULL
   )
   if (is.null(image)) {
     if (is.null(problem)) problem <- "the texture image %s cannot be read"
-    crestline_warn(paste0(sprintf(problem, basename(file)), "; the specimen has no natural colour."),
-                   "Put it beside the .mtl file, convert it, or install what is missing.", stage = "reading", id = id)
+    crestline_warn(paste0(sprintf(problem, basename(file)),
+                          "; the specimen has no natural colour."),
+                   "Put it beside the .mtl file, convert it, or install what is missing.",
+                   stage = "reading", id = id)
   }
   image
 }
@@ -58,21 +67,25 @@ read_image <- function(file, id) {
 #' @param colour One colour, one for each vertex, "patch", or a number for each vertex.
 #' @param palette,limits,missing Of numbers, see [write_mesh()].
 #' @noRd
-surface_colours <- function(mesh, colour, palette = grDevices::hcl.colors(11, "Viridis"), limits = NULL, missing = "#BEBEBE") {
+surface_colours <- function(mesh, colour, palette = grDevices::hcl.colors(11, "Viridis"),
+                            limits = NULL, missing = "#BEBEBE") {
   if (identical(colour, "patch")) return(patch_colours(mesh))
   if (!is.numeric(colour)) return(check_colours(colour, ncol(mesh$vb), call = NULL))
-  if (is.null(limits)) limits <- if (any(is.finite(colour))) range(colour[is.finite(colour)]) else 0:1
+  if (is.null(limits)) limits <- if (any(is.finite(colour))) range(colour[is.finite(colour)]) else
+    0:1
   span <- max(limits[2] - limits[1], .Machine$double.xmin)
   share <- ifelse(is.finite(colour), pmin(pmax((colour - limits[1]) / span, 0), 1), NA)
   ramp_colours(share, palette, missing)
 }
 
-# A colour for each patch, grey where there are strips only. `apart`: hues of patches that follow one another are this
-# share of the palette apart (the golden ratio, so that none of the next few is near).
+# A colour for each patch, grey where there are strips only. `apart`: hues of patches that follow
+# one another are this share of the palette apart (the golden ratio, so that none of the next few is
+# near).
 patch_colours <- function(mesh, palette = "Dark 3", between = "#BEBEBE", apart = 0.618) {
   group <- attr(mesh, "group")
   if (is.null(group)) {
-    crestline_abort("the mesh has no patches.", "Give a shape, or what shape_mesh() returns.", stage = "colours",
+    crestline_abort("the mesh has no patches.", "Give a shape, or what shape_mesh() returns.",
+                    stage = "colours",
                     call = NULL)
   }
   patches <- unique(group[!startsWith(group, "strip ")])

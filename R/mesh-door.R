@@ -3,8 +3,8 @@
 #' A mesh as the kernels take it, or an error in the words of [specimen()]
 #'
 #' @param mesh A `mesh3d` or a specimen.
-#' @return The `mesh3d`: `vb` with finite co-ordinates and a fourth row of 1, `it` integer, 3 x m, all its vertices there;
-#'   without normals that do not fit.
+#' @return The `mesh3d`: `vb` with finite co-ordinates and a fourth row of 1, `it` integer, 3 x m,
+#'   all its vertices there; without normals that do not fit.
 #' @noRd
 as_mesh <- function(mesh) {
   if (inherits(mesh, "specimen")) return(validate(mesh)$mesh)
@@ -16,11 +16,12 @@ as_mesh <- function(mesh) {
 
 #' What is known of a mesh that has passed the door
 #'
-#' What passed lately is known again by its place in memory: R changes no vector that something else holds, so that a mesh that
-#' was touched in any way lies elsewhere.
+#' What passed lately is known again by its place in memory: R changes no vector that something else
+#' holds, so that a mesh that was touched in any way lies elsewhere.
 #'
 #' @param id Of its specimen, for errors.
-#' @return Environment: `vb`, `it` (as kernels take them), `key`, `diagonal`; what was found right with this mesh is kept in it.
+#' @return Environment: `vb`, `it` (as kernels take them), `key`, `diagonal`; what was found right
+#'   with this mesh is kept in it.
 #' @noRd
 passed_mesh <- function(mesh, id) {
   if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
@@ -28,10 +29,12 @@ passed_mesh <- function(mesh, id) {
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
   }
   for (known in passed_meshes$last) {
-    if (is_the_same(mesh$vb, known$given$vb) && is_the_same(mesh$it, known$given$it) && length(mesh$ib) == 0) return(known)
+    if (is_the_same(mesh$vb, known$given$vb) && is_the_same(mesh$it, known$given$it) &&
+        length(mesh$ib) == 0) return(known)
   }
   sound <- sound_mesh(mesh, id)
-  known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = sound$vb, it = sound$it, key = mesh_key(sound),
+  known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = sound$vb, it = sound$it,
+                      key = mesh_key(sound),
                       diagonal = mesh_diagonal(sound))
   remember_mesh(known)
   known
@@ -58,7 +61,8 @@ sound_mesh <- function(mesh, id) {
   faults <- cpp_mesh_faults(vb, it)
   if (faults$faces > 0) refuse_indices(it, ncol(vb), id)
   if (faults$vertices > 0) {
-    refuse_mesh(sprintf("%d of %d vertices have non-finite co-ordinates, or absurd ones.", faults$vertices, ncol(vb)),
+    refuse_mesh(sprintf("%d of %d vertices have non-finite co-ordinates, or absurd ones.",
+                        faults$vertices, ncol(vb)),
                 "Pass it through specimen(), which leaves them out, or export it again.", id)
   }
   list(vb = vb, it = it)
@@ -67,7 +71,8 @@ sound_mesh <- function(mesh, id) {
 #' Vertices as a matrix of four rows, the fourth 1
 #' @noRd
 vertex_matrix <- function(vb, id) {
-  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 || ncol(vb) < 3) refuse_no_vertices(id)
+  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 ||
+      ncol(vb) < 3) refuse_no_vertices(id)
   vb <- as_doubles(vb)
   if (nrow(vb) == 3) return(rbind(vb, 1))
   if (identical(range(vb[4, ]), c(1, 1))) return(vb)
@@ -77,7 +82,8 @@ vertex_matrix <- function(vb, id) {
 }
 
 refuse_no_vertices <- function(id) {
-  refuse_mesh("the mesh has no vertices (`vb` must be 4 x n, n at least 3).", "Read or export it again.", id)
+  refuse_mesh("the mesh has no vertices (`vb` must be 4 x n, n at least 3).",
+              "Read or export it again.", id)
 }
 
 #' Faces as an integer matrix with a column each
@@ -88,17 +94,20 @@ face_matrix <- function(x, corners, id) {
   if (is.null(x) || length(x) == 0) return(matrix(0L, corners, 0))
   if (!is.numeric(x) || length(x) %% corners != 0 || !is.null(dim(x)) && dim(x)[1] != corners) {
     lying <- is.matrix(x) && ncol(x) == corners
-    refuse_mesh(sprintf("the faces are not a numeric matrix of %d rows but %s.", corners, describe_shape(x)),
+    refuse_mesh(sprintf("the faces are not a numeric matrix of %d rows but %s.", corners,
+                        describe_shape(x)),
                 if (lying) "Give them a column each: t(mesh$it)." else "Give `it` as 3 x m vertex numbers.", id)
   }
   if (is.double(x)) {
     part <- colSums(matrix(x != round(x), corners), na.rm = TRUE) > 0
     if (any(part)) {
-      refuse_mesh(sprintf("%d of %d faces have corners that are not whole numbers.", sum(part), length(part)),
+      refuse_mesh(sprintf("%d of %d faces have corners that are not whole numbers.", sum(part),
+                          length(part)),
                   "Give `it` as 3 x m vertex numbers, counted from 1.", id)
     }
   }
-  if (is.integer(x) && identical(dim(x), c(corners, length(x) %/% corners)) && is.null(dimnames(x))) return(x)
+  if (is.integer(x) && identical(dim(x), c(corners, length(x) %/% corners)) &&
+      is.null(dimnames(x))) return(x)
   matrix(suppressWarnings(as.integer(x)), corners)
 }
 

@@ -1,20 +1,22 @@
-# What should hang together and does not: corners and edges that differ by rounding are joined, wider seams and second
-# skins are told of.
+# What should hang together and does not: corners and edges that differ by rounding are joined,
+# wider seams and second skins are told of.
 
-# Comparisons a vertex or edge after which a search gives up: a mesh of which so many lie together has another fault.
+# Comparisons a vertex or edge after which a search gives up: a mesh of which so many lie together
+# has another fault.
 join_effort <- 2000L
 
-# Vertices that differ by rounding, as those of single triangles that went through text, of both sides of a texture
-# seam, or of a skin that is there twice. `near`: distance, as a share of the mesh's size. Joined are ends of borders
-# that no edge joins, and, of several pieces, vertices whose triangles then are others' duplicates; the first stands for
-# all.
+# Vertices that differ by rounding, as those of single triangles that went through text, of both
+# sides of a texture seam, or of a skin that is there twice. `near`: distance, as a share of the
+# mesh's size. Joined are ends of borders that no edge joins, and, of several pieces, vertices whose
+# triangles then are others' duplicates; the first stands for all.
 join_near_vertices <- function(mesh, id, near = 1e-6) {
   check <- "vertices apart by rounding"
   mesh <- with_topology(mesh)
   border <- sort(border_vertices(mesh$it, mesh$topology$twin))
   several <- mesh$topology$pieces > 1
   at <- if (several) seq_len(ncol(mesh$vb)) else border
-  pair <- matrix(at[cpp_near_pairs(mesh$vb[, at, drop = FALSE], near * surface_diagonal(mesh), join_effort)], 2)
+  pair <- matrix(at[cpp_near_pairs(mesh$vb[, at, drop = FALSE], near * surface_diagonal(mesh),
+                                   join_effort)], 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   if (ncol(pair) && several) {
     both <- pair[1, ] %in% border & pair[2, ] %in% border
@@ -38,7 +40,8 @@ surface_diagonal <- function(mesh) {
 joined_by_edge <- function(mesh, pair) {
   key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
   it <- mesh$it[, colSums(matrix(mesh$it %in% pair, 3)) > 1, drop = FALSE]
-  key(pair[1, ], pair[2, ]) %in% c(key(it[1, ], it[2, ]), key(it[2, ], it[3, ]), key(it[3, ], it[1, ]))
+  key(pair[1, ], pair[2, ]) %in% c(key(it[1, ], it[2, ]), key(it[2, ], it[3, ]),
+                                   key(it[3, ], it[1, ]))
 }
 
 # Pairs in triangles of which two or more become one.
@@ -52,8 +55,9 @@ of_second_skin <- function(mesh, pair) {
   double[pair[1, ]] & double[pair[2, ]]
 }
 
-# Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which moves nothing, if one
-# of its parts is an edge of the other side. Each round divides one edge of a triangle.
+# Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which
+# moves nothing, if one of its parts is an edge of the other side. Each round divides one edge of a
+# triangle.
 split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
   reach <- near * surface_diagonal(mesh)
   count <- 0
@@ -70,10 +74,12 @@ split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
   mended(mesh, "vertices on edges of other triangles", count, "joined: these edges divided there")
 }
 
-# Ends of borders on the inner part of another border side: data frame `side`, `vertex`, `along`, in the order along sides.
+# Ends of borders on the inner part of another border side: data frame `side`, `vertex`, `along`, in
+# the order along sides.
 border_contacts <- function(mesh, reach) {
   side <- border_sides(mesh$topology)
-  found <- as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, mesh$topology$twin, side, reach, join_effort))
+  found <- as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, mesh$topology$twin, side, reach,
+                                               join_effort))
   found <- found[order(found$side, found$along), ]
   found[!duplicated(found[c("side", "along")]), ]
 }
@@ -90,8 +96,10 @@ meeting_sides <- function(mesh, found) {
 side_parts <- function(mesh, found) {
   first <- !duplicated(found$side)
   last <- !duplicated(found$side, fromLast = TRUE)
-  following <- ifelse(last, mesh$it[next_side(found$side)], c(found$vertex[-1], NA)[seq_along(last)])
-  data.frame(side = c(found$side[first], found$side), from = c(mesh$it[found$side[first]], found$vertex),
+  following <- ifelse(last, mesh$it[next_side(found$side)],
+                      c(found$vertex[-1], NA)[seq_along(last)])
+  data.frame(side = c(found$side[first], found$side),
+             from = c(mesh$it[found$side[first]], found$vertex),
              to = c(found$vertex[first], following))
 }
 
@@ -106,12 +114,13 @@ split_sides <- function(mesh, found) {
   mesh
 }
 
-# Borders beside one another: a row of the report and a warning, where so many vertices make a seam. `gap`: as a share
-# of the usual length of an edge; `least`: vertices.
+# Borders beside one another: a row of the report and a warning, where so many vertices make a seam.
+# `gap`: as a share of the usual length of an edge; `least`: vertices.
 tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent = FALSE) {
   mesh$topology <- topology
   border <- sort(border_vertices(mesh$it, topology$twin))
-  pair <- matrix(border[cpp_near_pairs(mesh$vb[, border, drop = FALSE], gap * edge, join_effort)], 2)
+  pair <- matrix(border[cpp_near_pairs(mesh$vb[, border, drop = FALSE], gap * edge, join_effort)],
+                 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   beside <- length(unique(c(pair, border_contacts(mesh, gap * edge)$vertex)))
   if (beside < least) beside <- 0
@@ -126,15 +135,18 @@ tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent =
   report_row("vertices on a border beside another", beside, "kept; no curve crosses a seam")
 }
 
-# A second sheet of the surface a hair from the first, as of scans that were laid together and not fused. `gap`: as a
-# share of the usual length of an edge; `sample`: triangles that are looked at; `share` of them that makes a skin;
-# `parallel`: least cosine between the normals; `hollow`: share of `gap` within which a sheet of the same piece that
-# faces the other way counts too, as no wall of a hollow thing is so thin.
-tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, share = 0.1, parallel = 0.7,
+# A second sheet of the surface a hair from the first, as of scans that were laid together and not
+# fused. `gap`: as a share of the usual length of an edge; `sample`: triangles that are looked at;
+# `share` of them that makes a skin; `parallel`: least cosine between the normals; `hollow`: share
+# of `gap` within which a sheet of the same piece that faces the other way counts too, as no wall of
+# a hollow thing is so thin.
+tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, share = 0.1,
+                             parallel = 0.7,
                              hollow = 0.25) {
   m <- ncol(mesh$it)
   face <- unique(round(seq(1, m, length.out = min(sample, m))))
-  away <- cpp_other_sheets(mesh$vb, mesh$it, topology$twin, topology$piece, face, gap * edge, parallel,
+  away <- cpp_other_sheets(mesh$vb, mesh$it, topology$twin, topology$piece, face, gap * edge,
+                           parallel,
                            hollow)
   double <- mean(is.finite(away))
   if (double >= share) {
@@ -145,5 +157,6 @@ tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, sh
       class = "crestline_double_skin"
     )
   }
-  report_row("per cent of the surface with a second skin", if (double >= share) round(100 * double) else 0, "kept; see the warning")
+  report_row("per cent of the surface with a second skin",
+             if (double >= share) round(100 * double) else 0, "kept; see the warning")
 }

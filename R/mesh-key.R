@@ -1,10 +1,12 @@
-# What a mesh is, in one string: by it points, paths and shapes know the mesh that their face numbers belong to.
+# What a mesh is, in one string: by it points, paths and shapes know the mesh that their face
+# numbers belong to.
 
 #' Key of a mesh
 #'
-#' A hash of vertices and triangles, in their order. Normals, colours, names and the fourth row of `vb` do not count; whole
-#' numbers are the same as integers and -0 as 0. A mesh that was moved, or whose triangles stand in another order, has
-#' another key, for its faces have other numbers or places.
+#' A hash of vertices and triangles, in their order. Normals, colours, names and the fourth row of
+#' `vb` do not count; whole numbers are the same as integers and -0 as 0. A mesh that was moved, or
+#' whose triangles stand in another order, has another key, for its faces have other numbers or
+#' places.
 #'
 #' @param mesh A `mesh3d` with `vb` and `it`, or a list of the two.
 #' @return One string of 32 characters.
@@ -17,7 +19,8 @@ as_integers <- function(x) if (is.integer(x)) x else structure(as.integer(x), di
 
 #' The mesh that something belongs to
 #'
-#' @param x A specimen, shape or curve (fields), or a path, its co-ordinates or a curvature (attributes).
+#' @param x A specimen, shape or curve (fields), or a path, its co-ordinates or a curvature
+#'   (attributes).
 #' @return List: `key` (NULL where it is not known), `id` (NULL where it has none).
 #' @noRd
 mesh_of <- function(x) UseMethod("mesh_of")
@@ -54,17 +57,20 @@ refuse_unknown_mesh <- function(name, expected, came) {
 }
 
 mesh_words <- function(mesh, digits = 8) {
-  sprintf("%s (key %s)", if (is.null(mesh$id)) "a mesh without an id" else paste("the mesh of", mesh$id),
+  sprintf("%s (key %s)",
+          if (is.null(mesh$id)) "a mesh without an id" else paste("the mesh of", mesh$id),
           substr(mesh$key, 1, digits))
 }
 
 #' Refuse points whose faces, weights and co-ordinates do not agree with a mesh
 #'
-#' @param points Data frame or matrix with the columns `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`; rows without a face are passed over.
+#' @param points Data frame or matrix with the columns `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`; rows
+#'   without a face are passed over.
 #' @param known The mesh, as of [passed_mesh()].
 #' @param name What they are called.
 #' @param id Of the mesh.
-#' @param tolerance Greatest distance of a place from its co-ordinates, as a share of the mesh's diagonal.
+#' @param tolerance Greatest distance of a place from its co-ordinates, as a share of the mesh's
+#'   diagonal.
 #' @noRd
 check_places <- function(points, known, name, id = NULL, tolerance = 1e-6) {
   at <- place_columns(points)
@@ -82,7 +88,8 @@ check_places <- function(points, known, name, id = NULL, tolerance = 1e-6) {
 #' The seven columns of points as a numeric matrix, NULL where they have them not
 #' @noRd
 place_columns <- function(points) {
-  if (is.matrix(points)) points <- if (all(mesh_columns %in% colnames(points))) as.data.frame(points)
+  if (is.matrix(points)) points <- if (all(mesh_columns %in%
+                                           colnames(points))) as.data.frame(points)
   columns <- if (is.list(points)) unclass(points)[mesh_columns]
   if (length(columns) && all(vapply(columns, is.numeric, NA))) do.call(cbind, columns)
 }
@@ -91,7 +98,8 @@ place_columns <- function(points) {
 #' @noRd
 misplaced <- function(at, mesh, tolerance) {
   face <- at[, "face"]
-  if (any(face != round(face) | face < 1 | face > ncol(mesh$it))) return("name faces that the mesh does not have")
+  if (any(face != round(face) | face < 1 |
+          face > ncol(mesh$it))) return("name faces that the mesh does not have")
   if (!all(is.finite(at))) return("lack co-ordinates or weights")
   place <- place_on_faces_of(mesh, face, at[, c("w1", "w2", "w3"), drop = FALSE])
   away <- row_lengths(place - at[, c("x", "y", "z"), drop = FALSE])

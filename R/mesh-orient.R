@@ -9,7 +9,8 @@ mend_winding <- function(mesh, id) {
   if (!nrow(link)) return(mended(mesh, "faces wound against their neighbours", 0))
   turned <- turned_pieces(link, tabulate(topology$piece, topology$pieces))
   face <- which(turned[topology$piece])
-  mended(turn_faces(mesh, face), "faces wound against their neighbours", length(face), "turned round")
+  mended(turn_faces(mesh, face), "faces wound against their neighbours", length(face),
+         "turned round")
 }
 
 turn_faces <- function(mesh, face) {
@@ -63,12 +64,14 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
   normal <- face_normals(mesh)
-  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece, normal), tabulate(piece), certainty)
+  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece, normal), tabulate(piece),
+                                             certainty)
   face <- which(inward[piece])
   if (!length(face)) mesh$face_normals <- normal
   if (outward == "detect" && length(face)) {
     crestline_warn(
-      sprintf("%d of %d triangles looked inwards and were turned round.", length(face), length(piece)),
+      sprintf("%d of %d triangles looked inwards and were turned round.", length(face),
+              length(piece)),
       'If they were right (a hollow surface), give outward = "keep".', stage = "mesh", id = id
     )
   }
@@ -88,7 +91,8 @@ outwardness <- function(mesh, piece, normal = face_normals(mesh)) {
   corner <- face_corners(mesh)
   middle <- (corner[[1]] + corner[[2]] + corner[[3]]) / 3
   area <- row_lengths(normal)
-  away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin), each = nrow(middle))
+  away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin),
+                       each = nrow(middle))
   cosine <- row_products(normal, away) / pmax(row_lengths(away), .Machine$double.xmin)
   total <- pmax(rowsum(area, piece), .Machine$double.xmin)
   as.vector(rowsum(cosine, piece) / total)

@@ -1,7 +1,7 @@
 # A mesh from the polygons of a file.
 
-# `vertex` n x 3, `corner` the 1-based vertex numbers of all polygons in turn, `sides` how many each has.
-# A corner that is no whole number is NA, which the door refuses.
+# `vertex` n x 3, `corner` the 1-based vertex numbers of all polygons in turn, `sides` how many each
+# has. A corner that is no whole number is NA, which the door refuses.
 mesh_of_polygons <- function(vertex, corner, sides, colour = NULL) {
   corner <- corner[fan_corners(sides)]
   if (is.double(corner)) corner[corner != round(corner) | abs(corner) > .Machine$integer.max] <- NA

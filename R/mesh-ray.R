@@ -5,9 +5,10 @@
 #' Every face is tried (Moeller and Trumbore's test) in double precision, from either side.
 #'
 #' @param mesh A `mesh3d` with triangles.
-#' @param from,towards Where the ray begins, and a place that it passes: three co-ordinates each, in the mesh's unit.
-#' @param slack How far beyond its edges a face still counts (in barycentric weights), so that no ray slips through
-#'   between two of them.
+#' @param from,towards Where the ray begins, and a place that it passes: three co-ordinates each, in
+#'   the mesh's unit.
+#' @param slack How far beyond its edges a face still counts (in barycentric weights), so that no
+#'   ray slips through between two of them.
 #' @return One-row data frame as of [surface_points()]; NULL where the ray meets nothing.
 #' @noRd
 mesh_on_ray <- function(mesh, from, towards, slack = 1e-9) {
@@ -28,5 +29,6 @@ mesh_on_ray <- function(mesh, from, towards, slack = 1e-9) {
   weight <- pmax(weight[face, , drop = FALSE], 0)
   weight <- weight / sum(weight)
   at <- place_on_faces(mesh, face, weight)
-  data.frame(x = at[1], y = at[2], z = at[3], face = face, w1 = weight[1], w2 = weight[2], w3 = weight[3])
+  data.frame(x = at[1], y = at[2], z = at[3], face = face, w1 = weight[1], w2 = weight[2],
+             w3 = weight[3])
 }

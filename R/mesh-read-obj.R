@@ -41,7 +41,8 @@ valid_names <- function(name) {
   `Encoding<-`(name, "UTF-8")
 }
 
-# Named paths of the colour images (map_Kd) of the materials in mtl files that are there. Pipes and devices have no size.
+# Named paths of the colour images (map_Kd) of the materials in mtl files that are there. Pipes and
+# devices have no size.
 obj_images <- function(files) {
   images <- character()
   for (file in files[file.exists(files) & !dir.exists(files) & !file.size(files) %in% 0]) {
@@ -49,7 +50,8 @@ obj_images <- function(files) {
     material <- ""
     for (text in line) {
       if (grepl("^newmtl[ \t]", text, useBytes = TRUE)) material <- obj_argument(text)
-      if (grepl("^map_Kd[ \t]", text, useBytes = TRUE)) images[material] <- mtl_image(text, dirname(file))
+      if (grepl("^map_Kd[ \t]", text,
+                useBytes = TRUE)) images[material] <- mtl_image(text, dirname(file))
     }
   }
   images
@@ -58,5 +60,6 @@ obj_images <- function(files) {
 # The rest of the line where that is a file, else its last word (options may stand before).
 mtl_image <- function(text, folder) {
   whole <- file.path(folder, gsub("\\\\", "/", obj_argument(text)))
-  if (file.exists(whole)) whole else file.path(folder, basename(sub(".*[ \t]", "", gsub("\\\\", "/", text))))
+  if (file.exists(whole)) whole else
+    file.path(folder, basename(sub(".*[ \t]", "", gsub("\\\\", "/", text))))
 }

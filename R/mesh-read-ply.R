@@ -18,10 +18,11 @@ read_ply <- function(file, id) {
 
 ply_index_names <- c("vertex_indices", "vertex_index")
 
-# The polygons of `face` and the triangles of `tristrips`, 0-based. A surface in any other element is refused, since
-# the vertices alone would be taken for a cloud.
+# The polygons of `face` and the triangles of `tristrips`, 0-based. A surface in any other element
+# is refused, since the vertices alone would be taken for a cloud.
 ply_polygons <- function(table, header, file, id) {
-  index <- function(element) table[[element]][[intersect(ply_index_names, names(table[[element]]))[1]]]
+  index <- function(element) table[[element]][[intersect(ply_index_names,
+                                                         names(table[[element]]))[1]]]
   listed <- vapply(header$elements, function(x) {
     x$count > 0 && any(nzchar(x$properties$count_type) & x$properties$name %in% ply_index_names)
   }, NA)
@@ -41,8 +42,8 @@ ply_polygons <- function(table, header, file, id) {
   list(value = c(face$value, strip$value), sides = c(face$sides, strip$sides))
 }
 
-# Triangles of strips: every vertex with the two before it, every other one turned. A negative number ends a strip,
-# as the end of a row does.
+# Triangles of strips: every vertex with the two before it, every other one turned. A negative
+# number ends a strip, as the end of a row does.
 strip_triangles <- function(strip) {
   n <- length(strip$value)
   row <- rep(seq_along(strip$sides), strip$sides)
@@ -66,8 +67,8 @@ ply_colours <- function(vertex, header) {
   if (bytes) colour_hex(colour, 255) else colour_hex(colour)
 }
 
-# list(format, raw, body, elements): `body` the bytes of `raw` before the data; an element has `count` and `properties`
-# (data frame: name, type, count_type, which is "" but for lists).
+# list(format, raw, body, elements): `body` the bytes of `raw` before the data; an element has
+# `count` and `properties` (data frame: name, type, count_type, which is "" but for lists).
 ply_header <- function(raw, file, id) {
   raw <- unmarked_bytes(raw)
   body <- ply_header_end(raw)
@@ -83,8 +84,8 @@ ply_header <- function(raw, file, id) {
        elements = ply_elements(token[key %in% c("element", "property")], length(raw), file, id))
 }
 
-# Bytes up to the end of the line end_header, NA where there is none. Where lines end in CR alone, as the first tells,
-# a byte LF behind it is data. `usual`: most headers end within so many bytes.
+# Bytes up to the end of the line end_header, NA where there is none. Where lines end in CR alone,
+# as the first tells, a byte LF behind it is data. `usual`: most headers end within so many bytes.
 ply_header_end <- function(raw, usual = 2^16) {
   if (!identical(raw[1:3], charToRaw("ply"))) return(NA)
   first <- grepRaw("^ply[ \t]*\r[^\n]", raw[seq_len(min(usual, length(raw)))])
@@ -105,16 +106,19 @@ ply_types <- function() {
 ply_elements <- function(token, most, file, id) {
   is_element <- vapply(token, function(x) x[1] == "element", NA)
   group <- cumsum(is_element)
-  if (!length(token) || !is_element[1] || any(lengths(token) < 3)) refuse_file(file, "its header is damaged", id)
+  if (!length(token) || !is_element[1] ||
+      any(lengths(token) < 3)) refuse_file(file, "its header is damaged", id)
   count <- suppressWarnings(vapply(token[is_element], function(x) as.numeric(x[3]), 0))
   if (anyNA(count) || any(count < 0 | count > most | count != round(count))) {
     refuse_file(file, "it promises more than it holds", id)
   }
-  properties <- lapply(seq_along(count), function(g) ply_properties(token[group == g & !is_element], file, id))
+  properties <- lapply(seq_along(count),
+                       function(g) ply_properties(token[group == g & !is_element], file, id))
   names(properties) <- vapply(token[is_element], `[`, "", 2)
   twice <- names(properties)[duplicated(names(properties))]
   if (length(twice)) refuse_file(file, sprintf("its header has the element %s twice", twice[1]), id)
-  elements <- Map(function(count, properties) list(count = count, properties = properties), count, properties)
+  elements <- Map(function(count, properties) list(count = count, properties = properties), count,
+                  properties)
   stats::setNames(elements, names(properties))
 }
 
@@ -128,13 +132,15 @@ ply_properties <- function(token, file, id) {
   }
   name <- as.character(pick(3, 5))
   again <- intersect(c("x", "y", "z", ply_index_names), name[duplicated(name)])
-  if (length(again)) refuse_file(file, sprintf("its header has the property %s twice", again[1]), id)
+  if (length(again)) refuse_file(file, sprintf("its header has the property %s twice", again[1]),
+                                 id)
   data.frame(name = name, type = type, count_type = count_type)
 }
 
-# What follows the header as a stream: `get(at, type)` gives the numbers at 0-based places, `size` the places a number
-# of each type takes, `start` and `end` the first place and the one behind the last; `short()` refuses a file that ends
-# too early, `check(start, end)` warns of what is behind the places that were used and refuses rows that are no lines.
+# What follows the header as a stream: `get(at, type)` gives the numbers at 0-based places, `size`
+# the places a number of each type takes, `start` and `end` the first place and the one behind the
+# last; `short()` refuses a file that ends too early, `check(start, end)` warns of what is behind
+# the places that were used and refuses rows that are no lines.
 ply_stream <- function(header, file, id) {
   if (header$format == "ascii") return(ply_text_stream(header, file, id))
   raw <- header$raw
@@ -143,8 +149,10 @@ ply_stream <- function(header, file, id) {
     rest <- length(raw) - end
     if (rest > 0 && !all(raw[end + seq_len(rest)] %in% blank_bytes)) warn_extra(file, rest, id)
   }
-  list(get = function(at, type) ply_numbers(raw, at, type, endian), size = ply_types(), start = header$body,
-       end = length(raw), short = function() refuse_file(file, "it ends too early", id), check = check)
+  list(get = function(at, type) ply_numbers(raw, at, type, endian), size = ply_types(),
+       start = header$body,
+       end = length(raw), short = function() refuse_file(file, "it ends too early", id),
+       check = check)
 }
 
 ply_text_stream <- function(header, file, id) {
@@ -158,8 +166,8 @@ ply_text_stream <- function(header, file, id) {
        check = function(start, end) ply_check_lines(text, start, end, header$lines, file, id))
 }
 
-# Rows stand on lines of their own. Only where exactly as many numbers are there as the header promises, on another number
-# of lines, lines may be broken as they like.
+# Rows stand on lines of their own. Only where exactly as many numbers are there as the header
+# promises, on another number of lines, lines may be broken as they like.
 ply_check_lines <- function(text, start, end, lines, file, id) {
   rows <- seq_along(start)
   aligned <- length(text$start) >= length(start) && all(text$start[rows] == start)
@@ -178,11 +186,12 @@ ply_check_lines <- function(text, start, end, lines, file, id) {
 }
 
 ply_numbers <- function(raw, at, type, endian) {
-  cpp_numbers_at(raw, at, grepl("float|double", type), !startsWith(type, "u"), ply_types()[[type]], endian == "big")
+  cpp_numbers_at(raw, at, grepl("float|double", type), !startsWith(type, "u"), ply_types()[[type]],
+                 endian == "big")
 }
 
-# `table`: every element as a named list, a vector for each property, list(value, sides) for a list; `start`: where all
-# rows start; `end`: behind the last.
+# `table`: every element as a named list, a vector for each property, list(value, sides) for a list;
+# `start`: where all rows start; `end`: behind the last.
 ply_elements_read <- function(stream, elements) {
   at <- stream$start
   starts <- list()
@@ -209,7 +218,8 @@ ply_rows <- function(stream, properties, at) {
         stop("a list has an impossible length")
       }
       place <- rep(at, sides) + (sequence(sides) - 1) * size
-      column[[properties$name[i]]] <- list(value = ply_get(stream, place, properties$type[i]), sides = sides)
+      column[[properties$name[i]]] <- list(value = ply_get(stream, place, properties$type[i]),
+                                           sides = sides)
     } else {
       column[[properties$name[i]]] <- ply_get(stream, at, properties$type[i])
     }

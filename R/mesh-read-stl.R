@@ -1,7 +1,7 @@
 # STL: triangles without shared vertices; the door merges equal ones.
 
-# Binary unless the length says otherwise and the text is one: a binary header may start with "solid", as the ascii
-# format does.
+# Binary unless the length says otherwise and the text is one: a binary header may start with
+# "solid", as the ascii format does.
 read_stl <- function(file, id) {
   raw <- file_bytes(file, id)
   faces <- stl_faces(raw)
@@ -21,10 +21,12 @@ stl_faces <- function(raw) {
 # Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.
 stl_is_binary <- function(raw, bytes = 1000) {
   first <- utils::head(text_bytes(utils::head(raw, bytes)), -1)
-  any(first < 9 | first > 13 & first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
+  any(first < 9 | first > 13 &
+      first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
 }
 
-# Each face: 12 floats (normal, three corners) and two bytes. The number of faces is the content's where that is whole.
+# Each face: 12 floats (normal, three corners) and two bytes. The number of faces is the content's
+# where that is whole.
 stl_binary <- function(raw, faces, file, id) {
   there <- (length(raw) - 84) / 50
   if (there < 1) refuse_file(file, "it has no triangles", id)
@@ -32,20 +34,25 @@ stl_binary <- function(raw, faces, file, id) {
     refuse_file(file, sprintf("it promises %.0f triangles and holds %.0f", faces, floor(there)), id)
   }
   if (there > faces && (faces == 0 || there == floor(there))) {
-    warn_file(file, sprintf("promises %.0f triangles and holds %.0f: all were read", faces, floor(there)),
-              "See that nothing is on the surface that does not belong there, or export it again.", id)
+    warn_file(file, sprintf("promises %.0f triangles and holds %.0f: all were read", faces,
+                            floor(there)),
+              "See that nothing is on the surface that does not belong there, or export it again.",
+              id)
     faces <- floor(there)
   } else if (!all(raw[-seq_len(84 + 50 * faces)] %in% blank_bytes)) {
     warn_extra(file, length(raw) - 84 - 50 * faces, id)
   }
   body <- matrix(raw[84 + seq_len(50 * faces)], 50)[13:48, ]
-  matrix(readBin(as.vector(body), "double", 9 * faces, size = 4, endian = "little"), ncol = 3, byrow = TRUE)
+  matrix(readBin(as.vector(body), "double", 9 * faces, size = 4, endian = "little"), ncol = 3,
+         byrow = TRUE)
 }
 
 stl_ascii <- function(raw, file, id) {
   text <- cpp_read_stl(text_bytes(raw))
   if (nzchar(text$bad)) refuse_word(file, text$bad, text$bad_line, id)
-  if (text$bad_line > 0) refuse_file(file, sprintf("its vertices are not in threes at line %d", text$bad_line), id)
+  if (text$bad_line > 0) refuse_file(file,
+                                     sprintf("its vertices are not in threes at line %d",
+                                             text$bad_line), id)
   if (!length(text$vertex)) refuse_file(file, "it has no triangles", id)
   if (!text$ended) {
     warn_file(file, 'ends without "endsolid", as a file that was cut short does',

@@ -13,7 +13,8 @@ file_bytes <- function(file, id) {
 }
 
 # What a download may leave in place of a mesh, by what it begins with.
-foreign_files <- list("a page of the web" = "^\\s*<(!doctype )?html", "a pointer of Git LFS" = "^version https://git-lfs")
+foreign_files <- list("a page of the web" = "^\\s*<(!doctype )?html",
+                      "a pointer of Git LFS" = "^version https://git-lfs")
 
 # A cut file unpacks without a word: its last four bytes are then not the length.
 unpacked_bytes <- function(file, raw, id, chunk = 2^24) {
@@ -21,7 +22,8 @@ unpacked_bytes <- function(file, raw, id, chunk = 2^24) {
   on.exit(close(connection))
   parts <- list()
   repeat {
-    part <- withCallingHandlers(readBin(connection, "raw", chunk), warning = function(w) stop(conditionMessage(w)))
+    part <- withCallingHandlers(readBin(connection, "raw", chunk),
+                                warning = function(w) stop(conditionMessage(w)))
     if (!length(part)) break
     parts <- c(parts, list(part))
   }
@@ -39,16 +41,19 @@ text_bytes <- function(raw) c(unmarked_bytes(raw), as.raw(10))
 # Without the mark of an encoding in front; text of two bytes a sign becomes text of one.
 unmarked_bytes <- function(raw) {
   begins <- function(...) identical(raw[seq_along(c(...))], as.raw(c(...)))
-  wide <- if (begins(0xff, 0xfe)) "UTF-16LE" else if (begins(0xfe, 0xff)) "UTF-16BE" else wide_text(raw)
+  wide <- if (begins(0xff, 0xfe)) "UTF-16LE" else if (begins(0xfe, 0xff)) "UTF-16BE" else
+    wide_text(raw)
   if (!is.null(wide)) raw <- narrow_text(raw, wide)
   if (identical(raw[1:3], as.raw(c(0xef, 0xbb, 0xbf)))) raw[-(1:3)] else raw
 }
 
-# Text of two bytes a sign without a mark: every other one of the first is 0. `signs`: how many are looked at.
+# Text of two bytes a sign without a mark: every other one of the first is 0. `signs`: how many are
+# looked at.
 wide_text <- function(raw, signs = 16) {
   if (length(raw) < 2 * signs) return(NULL)
   zero <- matrix(raw[seq_len(2 * signs)] == 0, 2)
-  if (all(zero[2, ]) && !any(zero[1, ])) "UTF-16LE" else if (all(zero[1, ]) && !any(zero[2, ])) "UTF-16BE"
+  if (all(zero[2, ]) && !any(zero[1, ])) "UTF-16LE" else
+    if (all(zero[1, ]) && !any(zero[2, ])) "UTF-16BE"
 }
 
 # Signs beyond one byte stand in names and comments only: "?".
@@ -89,6 +94,7 @@ warn_file <- function(file, problem, remedy, id) {
 blank_bytes <- as.raw(c(0, 9, 10, 13, 26, 32))
 
 warn_extra <- function(file, bytes, id) {
-  warn_file(file, sprintf("holds %.0f bytes more than its header promises: they were passed over", bytes),
+  warn_file(file, sprintf("holds %.0f bytes more than its header promises: they were passed over",
+                          bytes),
             "See whether the surface is whole, or export it again.", id)
 }

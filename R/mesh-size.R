@@ -22,7 +22,8 @@
 #' @param around,fewest See `at`.
 #' @return Number in the mesh's unit.
 #' @noRd
-mesh_size <- function(mesh, used = NULL, at = NULL, diagonal = 4, cap = 4, steps = 5, around = 12, fewest = 4) {
+mesh_size <- function(mesh, used = NULL, at = NULL, diagonal = 4, cap = 4, steps = 5, around = 12,
+                      fewest = 4) {
   if (is.null(used)) used <- rep(TRUE, ncol(mesh$it))
   it <- mesh$it
   storage.mode(it) <- "integer"

@@ -1,9 +1,9 @@
 #' Which triangle lies across each edge
 #'
 #' @param mesh A `mesh3d` with triangles `it` (3 x m).
-#' @return A list: `twin` 3 x m, the half edge across side c of triangle f (numbered
-#'   3 (f - 1) + c; 0 at a border and at non-manifold edges); `piece`, length m, the
-#'   edge-connected piece of each triangle; the counts `pieces`, `border_edges`, `nonmanifold_edges`.
+#' @return A list: `twin` 3 x m, the half edge across side c of triangle f (numbered 3 (f - 1) + c;
+#'   0 at a border and at non-manifold edges); `piece`, length m, the edge-connected piece of each
+#'   triangle; the counts `pieces`, `border_edges`, `nonmanifold_edges`.
 #' @noRd
 mesh_topology <- function(mesh) cpp_mesh_topology(mesh$it, ncol(mesh$vb))
 

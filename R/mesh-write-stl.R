@@ -6,12 +6,14 @@ write_stl <- function(mesh, file, ascii) {
   normal <- normal / pmax(row_lengths(normal), .Machine$double.xmin)
   if (ascii) {
     vertex <- lapply(corner, function(xyz) paste("vertex", row_text(xyz, missing = "nan")))
-    lines <- rbind(paste("facet normal", row_text(normal, missing = "nan")), "outer loop", do.call(rbind, vertex), "endloop",
+    lines <- rbind(paste("facet normal", row_text(normal, missing = "nan")), "outer loop",
+                   do.call(rbind, vertex), "endloop",
                    "endfacet")
     return(write_content(c("solid crestline", as.vector(lines), "endsolid crestline"), file))
   }
   # A binary header must not begin with "solid".
-  head <- c(charToRaw(formatC("written by crestline", width = -80)), writeBin(nrow(mesh$it), raw(), endian = "little"))
+  head <- c(charToRaw(formatC("written by crestline", width = -80)),
+            writeBin(nrow(mesh$it), raw(), endian = "little"))
   facet <- rbind(bytes_of(cbind(normal, do.call(cbind, corner)), 4L), as.raw(0), as.raw(0))
   write_content(c(head, as.vector(facet)), file)
 }

@@ -12,34 +12,36 @@
 #' | `.obj` | as many digits as give them back | yes, behind the co-ordinates | no |
 #' | `.stl` | single precision, with `ascii` as in `.obj` | no | no |
 #'
-#' * `.ply`: binary (little endian) or ascii. MeshLab and CloudCompare show `quality` as a scalar field. The mesh of
-#'   [shape_mesh()] has a property `row` too: the row of every vertex in `coords(shape, "surface")`, 0 for the
-#'   points between them, since the format has no names of points: `rownames(coords(shape, "surface"))[row]` are these.
+#' * `.ply`: binary (little endian) or ascii. MeshLab and CloudCompare show `quality` as a scalar
+#'   field. The mesh of [shape_mesh()] has a property `row` too: the row of every vertex in
+#'   `coords(shape, "surface")`, 0 for the points between them, since the format has no names of
+#'   points: `rownames(coords(shape, "surface"))[row]` are these.
 #' * `.obj`: text, colours as numbers from 0 to 1.
-#' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the triangles.
-#' * `.ply` and `.obj` of a specimen or a shape have its provenance (see [summary.specimen()]) in comment lines; `.stl` has no
-#'   place for it.
+#' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the
+#'   triangles.
+#' * `.ply` and `.obj` of a specimen or a shape have its provenance (see [summary.specimen()]) in
+#'   comment lines; `.stl` has no place for it.
 #'
-#' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer takes meshes for LPS unless told otherwise, as
-#' [write_landmarks()] does.
+#' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer takes meshes for LPS unless
+#' told otherwise, as [write_landmarks()] does.
 #'
-#' @param x A `shape` (its surface, see [shape_mesh()]), a [specimen()], or a `mesh3d` such as a denser surface of
-#'   [shape_mesh()].
+#' @param x A `shape` (its surface, see [shape_mesh()]), a [specimen()], or a `mesh3d` such as a
+#'   denser surface of [shape_mesh()].
 #' @param file Path of the file, ending in `.ply`, `.obj` or `.stl`.
-#' @param colour Colours of the vertices: NULL for the natural ones, if any; one colour or one for each vertex; numbers, one
-#'   for each vertex (with a shape, also one for each of its surface points), which `palette` turns into colours; "patch"
-#'   for a colour a patch (strips between patches grey); or "se" for the standard errors of a shape's surface points (NA
-#'   inside patches).
+#' @param colour Colours of the vertices: NULL for the natural ones, if any; one colour or one for
+#'   each vertex; numbers, one for each vertex (with a shape, also one for each of its surface
+#'   points), which `palette` turns into colours; "patch" for a colour a patch (strips between
+#'   patches grey); or "se" for the standard errors of a shape's surface points (NA inside patches).
 #' @param parts Of a shape: parts of the surface, as in [shape_mesh()].
 #' @param palette Colours from the least number to the greatest, with even steps between.
-#' @param limits The numbers at the ends of the palette; the range of the numbers unless given. Numbers beyond have the
-#'   colour of the end.
+#' @param limits The numbers at the ends of the palette; the range of the numbers unless given.
+#'   Numbers beyond have the colour of the end.
 #' @param missing Colour where the number is NA.
 #' @param ascii Whether `.ply` and `.stl` are written as text, not binary.
 #' @return `file`, invisibly.
-#' @section Errors: of class `crestline_error`, for an unknown extension, a file that cannot be written, a mesh without
-#'   triangles, or colours that do not fit. A warning of class `crestline_format_warning` tells when STL leaves out colours
-#'   that were asked for.
+#' @section Errors: of class `crestline_error`, for an unknown extension, a file that cannot be
+#'   written, a mesh without triangles, or colours that do not fit. A warning of class
+#'   `crestline_format_warning` tells when STL leaves out colours that were asked for.
 #' @seealso [shape_mesh()], [write_landmarks()] for the points, [write_page()] for the browser
 #' @examples
 #' file <- tempfile(fileext = ".ply")
@@ -48,7 +50,8 @@
 #' read_specimen(file)
 #' unlink(file)
 #' @export
-write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevices::hcl.colors(11, "Viridis"),
+write_mesh <- function(x, file, colour = NULL, parts = "model",
+                       palette = grDevices::hcl.colors(11, "Viridis"),
                        limits = NULL, missing = "#BEBEBE", ascii = FALSE) {
   check_given()
   check_flags(ascii)
@@ -63,7 +66,8 @@ write_mesh <- function(x, file, colour = NULL, parts = "model", palette = grDevi
   painted$comments <- c("written by crestline", comment_lines(x))
   write(painted, file, ascii)
   if (!is.null(colour) && identical(file_extension(file), "stl")) {
-    crestline_warn(sprintf("%s: .stl has no colours: they are left out.", basename(file)), "Write a .ply or .obj file.",
+    crestline_warn(sprintf("%s: .stl has no colours: they are left out.", basename(file)),
+                   "Write a .ply or .obj file.",
                    stage = "writing", class = "crestline_format_warning")
   }
   invisible(file)
@@ -98,8 +102,8 @@ written_mesh.default <- function(x, parts) {
 #' What the formats hold of a mesh
 #'
 #' @param shape The `shape` whose surface it is, or NULL.
-#' @return List: `xyz` (n x 3), `it` (m x 3), `rgb` (n x 3, 0 to 255; NULL where there is no colour), `value` (n numbers or
-#'   NULL), `row` (n rows of surface points or NULL).
+#' @return List: `xyz` (n x 3), `it` (m x 3), `rgb` (n x 3, 0 to 255; NULL where there is no
+#'   colour), `value` (n numbers or NULL), `row` (n rows of surface points or NULL).
 #' @noRd
 painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
   n <- ncol(mesh$vb)
@@ -108,14 +112,17 @@ painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
   by_row <- is.numeric(colour) && !is.null(shape) && length(colour) == sum(shape$points$level == "surface")
   if (by_row) colour <- colour[row]
   value <- if (is.numeric(colour)) check_values(colour, n)
-  hex <- if (is.null(colour)) vertex_colours(mesh) else surface_colours(mesh, colour, palette, limits, missing)
-  list(xyz = t(mesh$vb[1:3, , drop = FALSE]), it = matrix(as.integer(t(mesh$it)), ncol = 3), value = value, row = row,
+  hex <- if (is.null(colour)) vertex_colours(mesh) else
+    surface_colours(mesh, colour, palette, limits, missing)
+  list(xyz = t(mesh$vb[1:3, , drop = FALSE]), it = matrix(as.integer(t(mesh$it)), ncol = 3),
+       value = value, row = row,
        rgb = if (!is.null(hex)) t(grDevices::col2rgb(hex)))
 }
 
 check_values <- function(x, n) {
   if (length(x) != n) {
-    crestline_abort(sprintf("`colour` has %d numbers for %d vertices.", length(x), n), "Give one for each vertex.",
+    crestline_abort(sprintf("`colour` has %d numbers for %d vertices.", length(x), n),
+                    "Give one for each vertex.",
                     stage = "writing", call = NULL)
   }
   x
@@ -123,7 +130,8 @@ check_values <- function(x, n) {
 
 shape_errors <- function(shape) {
   if (is.null(shape)) {
-    crestline_abort("`colour` is \"se\", but `x` is no shape.", "Give a shape, or numbers of your own.", stage = "writing",
+    crestline_abort("`colour` is \"se\", but `x` is no shape.",
+                    "Give a shape, or numbers of your own.", stage = "writing",
                     call = NULL)
   }
   as.numeric(shape$points$se[shape$points$level == "surface"])

@@ -4,10 +4,10 @@
 #' nearest place of the path and its signed distance `d` from there, positive to the left of
 #' the path seen from outside (the side of normal x tangent).
 #'
-#' Only vertices connected to the path within the window and its margin are kept. Past its ends
-#' the path is taken to go on straight; vertices there have `s < 0` or `s` above
-#' the length. Those in the margin are needed to lift a curve that comes near the edge or the ends, and
-#' take no part in fits.
+#' Only vertices connected to the path within the window and its margin are kept. Past its ends the
+#' path is taken to go on straight; vertices there have `s < 0` or `s` above the length. Those in
+#' the margin are needed to lift a curve that comes near the edge or the ends, and take no part in
+#' fits.
 #'
 #' @param specimen A [specimen()] or `mesh3d`.
 #' @param path A `mesh_path` on it.
@@ -18,7 +18,8 @@
 #'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
 #'   attributes `length` (of the path), `width`, `key` and `id` (of the mesh).
 #' @section Errors: of class `crestline_wrong_mesh`, when the path belongs to another mesh.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
+#'   3.2.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
@@ -37,7 +38,8 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   near <- cpp_vertices_in_box(mesh$vb, box[1, ], box[2, ])
   found <- cpp_path_coordinates(mesh$vb[1:3, near, drop = FALSE], track, path_normals(mesh, clear))
-  kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") + margin
+  kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path,
+                                                                                "length") + margin
   member <- logical(ncol(mesh$vb))
   member[near[kept]] <- TRUE
   joined <- cpp_joined_to(mesh$it, member, as.vector(mesh$it[, path$face]))[near]
@@ -51,7 +53,8 @@ path_coordinates <- function(specimen, path, width, margin = width) {
 #' @param mesh As of [mesh_of()].
 #' @noRd
 new_path_coordinates <- function(columns, length, width, mesh) {
-  frame_of(columns, length = length, width = width, key = mesh$key, id = mesh$id, class = "path_coordinates")
+  frame_of(columns, length = length, width = width, key = mesh$key, id = mesh$id,
+           class = "path_coordinates")
 }
 
 #' Refuse co-ordinates without their columns, length or width
@@ -60,11 +63,13 @@ validate_path_coordinates <- function(x) {
   columns <- c("vertex", "s", "d", intersect(c("tx", "ty", "tz"), names(x)))
   one <- function(value) is.numeric(value) && length(value) == 1 && is.finite(value)
   right <- is.data.frame(x) && all(c(columns, "inside") %in% names(x)) && is.logical(x$inside) &&
-    all(vapply(unclass(x)[columns], function(column) is.numeric(column) && all(is.finite(column)), NA)) &&
+    all(vapply(unclass(x)[columns], function(column) is.numeric(column) && all(is.finite(column)),
+               NA)) &&
     one(attr(x, "length")) && one(attr(x, "width"))
   if (right) return(invisible(x))
   crestline_abort("the co-ordinates lack columns, the path's length or the window's width.",
-                  "Give what path_coordinates() returns, whole.", stage = "path", id = attr(x, "id"), call = NULL)
+                  "Give what path_coordinates() returns, whole.", stage = "path",
+                  id = attr(x, "id"), call = NULL)
 }
 
 #' @exportS3Method
@@ -75,15 +80,19 @@ validate.path_coordinates <- function(x) validate_path_coordinates(x)
 check_coordinates_on <- function(coordinates, mesh, name) {
   check_same_mesh(coordinates, mesh, name)
   vertex <- coordinates$vertex
-  if (all(vertex == round(vertex) & vertex >= 1 & vertex <= ncol(as_mesh(mesh)$vb))) return(invisible(coordinates))
-  crestline_abort(sprintf("%s names vertices that the mesh does not have.", name), "Give what path_coordinates() returns, whole.",
-                  stage = "path", id = mesh_of(mesh)$id, class = "crestline_wrong_mesh", call = NULL)
+  if (all(vertex == round(vertex) & vertex >= 1 &
+          vertex <= ncol(as_mesh(mesh)$vb))) return(invisible(coordinates))
+  crestline_abort(sprintf("%s names vertices that the mesh does not have.", name),
+                  "Give what path_coordinates() returns, whole.",
+                  stage = "path", id = mesh_of(mesh)$id, class = "crestline_wrong_mesh",
+                  call = NULL)
 }
 
 #' A path without the crossings next to its ends
 #'
-#' An end at a corner or on an edge of the mesh is moved inside its triangle for the walk, so that the first
-#' crossing may be next to it, in any direction; the path's direction at its ends is that beyond.
+#' An end at a corner or on an edge of the mesh is moved inside its triangle for the walk, so that
+#' the first crossing may be next to it, in any direction; the path's direction at its ends is that
+#' beyond.
 #'
 #' @return Data frame of its rows, not a path: their arc lengths are those of the whole.
 #' @param stub Arc length below which a crossing is next to an end, as a share of the path's length.

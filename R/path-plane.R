@@ -21,7 +21,8 @@
 #'   `angle`, `side`.
 #' @section Errors: of class `crestline_path_error`, when the cut ends at a border
 #'   of the mesh (a hole between the points) or comes round without meeting `to`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.1.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
+#'   3.1.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' quarter <- plane_path(ball, c(1, 0, 0), c(0, 1, 0), angle = 0)
@@ -45,7 +46,8 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
 #' @param ... Attributes of the path.
 #' @noRd
 cut_path <- function(surface, ends, axis, angle, side, reach, ...) {
-  found <- cpp_plane_path(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, angle), side,
+  found <- cpp_plane_path(surface$vb, surface$it, surface$twin, ends$from, ends$to,
+                          plane_normal(axis, angle), side,
                           reach * axis$span)
   if (found$end != "arrived") abort_cut(found$end, ends, surface$id)
   new_path(found$points, ends, surface, angle = angle, side = side, ...)
@@ -56,8 +58,10 @@ cut_path <- function(surface, ends, axis, angle, side, reach, ...) {
 walkable <- function(mesh) {
   whole <- as_mesh(mesh)
   known <- passed_mesh(whole, NULL)
-  geometry <- if (inherits(mesh, "specimen")) mesh$geometry else mesh_topology(whole)[c("twin", "piece")]
-  list(vb = known$vb, it = known$it, twin = geometry$twin, piece = geometry$piece, key = known$key, diagonal = known$diagonal,
+  geometry <- if (inherits(mesh, "specimen")) mesh$geometry else
+    mesh_topology(whole)[c("twin", "piece")]
+  list(vb = known$vb, it = known$it, twin = geometry$twin, piece = geometry$piece, key = known$key,
+       diagonal = known$diagonal,
        id = if (inherits(mesh, "specimen")) mesh$id)
 }
 
@@ -116,14 +120,16 @@ new_path <- function(crossings, ends, surface, ...) {
   path_through(rbind(ends$exact[1, ], crossings, ends$exact[2, ]), surface, ...)
 }
 
-#' A path through points that follow one another on the mesh; of neighbours at one place the later goes, but not the last
+#' A path through points that follow one another on the mesh; of neighbours at one place the later
+#' goes, but not the last
 #'
 #' @param points k x 7 matrix.
 #' @param mesh The mesh that they lie on: list of `key` and `id`, as of [walkable()] or [mesh_of()].
 #' @param ... Attributes of the path.
 #' @noRd
 path_through <- function(points, mesh = NULL, ...) {
-  step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] - points[-nrow(points), 1:3, drop = FALSE]))
+  step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] -
+                             points[-nrow(points), 1:3, drop = FALSE]))
   kept <- c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))]
   columns <- lapply(1:7, function(i) as.vector(points[kept, i]))
   columns[[4]] <- as.integer(columns[[4]])
@@ -135,16 +141,20 @@ path_through <- function(points, mesh = NULL, ...) {
 #'
 #' @param columns List of `s` and the columns of points on a mesh.
 #' @param length In the unit of the mesh.
-#' @param key,id Of the mesh that its faces are numbers of, and of the specimen; NULL where there is none.
+#' @param key,id Of the mesh that its faces are numbers of, and of the specimen; NULL where there is
+#'   none.
 #' @param angle,side Of a plane cut.
 #' @param type,criterion,optima,competing Of a reference path.
 #' @param trusted Arc lengths between which it is believed.
 #' @param lifted Whether a lifted curve was walked in one.
 #' @noRd
-new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL, type = NULL, criterion = NULL,
+new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL,
+                          type = NULL, criterion = NULL,
                           optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
-  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type, criterion = criterion,
-           optima = optima, competing = competing, trusted = trusted, lifted = lifted, class = "mesh_path")
+  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type,
+           criterion = criterion,
+           optima = optima, competing = competing, trusted = trusted, lifted = lifted,
+           class = "mesh_path")
 }
 
 #' Refuse a path without its columns, length or order
@@ -156,7 +166,8 @@ validate_mesh_path <- function(x) {
     is.numeric(length) && length(length) == 1 && is.finite(length)
   if (isTRUE(right)) return(invisible(x))
   crestline_abort("the path lacks co-ordinates, faces, weights, rising arc lengths `s`, or its length.",
-                  "Give a path as plane_path() or reference_path() returns it, whole.", stage = "path", id = attr(x, "id"),
+                  "Give a path as plane_path() or reference_path() returns it, whole.",
+                  stage = "path", id = attr(x, "id"),
                   class = "crestline_path_error", call = NULL)
 }
 
@@ -173,7 +184,8 @@ check_path_on <- function(path, mesh, name) {
 }
 
 abort_cut <- function(end, ends, id) {
-  why <- switch(end, border = "meets a border of the mesh", round = "does not come to the second point",
+  why <- switch(end, border = "meets a border of the mesh",
+                round = "does not come to the second point",
                 "too far" = "strays too far from the axis")
   crestline_abort(sprintf("the plane cut from %s to %s %s.", ends$names[1], ends$names[2], why),
                   "Fill the hole between them, try another angle, or check the two landmarks.",
@@ -185,7 +197,8 @@ print.mesh_path <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
-    if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
+    if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees",
+                                                attr(x, "angle") * 180 / pi))
     cat("\n")
     optima <- attr(x, "optima")
     if (!is.null(optima)) {

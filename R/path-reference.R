@@ -13,8 +13,8 @@
 #' @param specimen A [specimen()] (or a `mesh3d` with positions for `from` and `to`).
 #' @inheritParams plane_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
-#' @param radius Radius of the curvature estimates, in the unit of the mesh; that of `curvature` where it is given; not
-#'   needed for `"plane"`.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh; that of `curvature`
+#'   where it is given; not needed for `"plane"`.
 #' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where curvature is
 #'   ignored: one, or a list.
 #' @param curvature A `curvature` of the mesh at this radius, where it is already
@@ -22,24 +22,28 @@
 #' @param reach Cuts stay within this share of the distance between the landmarks
 #'   from the straight line between them (the paper: 1/2).
 #' @param longest Cuts may be this many times as long as the shortest.
-#' @param spacing Strength is taken along a cut at places no further apart than this share of `radius`.
+#' @param spacing Strength is taken along a cut at places no further apart than this share of
+#'   `radius`.
 #' @param angles Number of angles of the coarse grid over a half turn.
 #' @param refined Number of angles between the neighbours of each local optimum.
-#' @param tie Of local optima within this share of the best the shortest cut is taken: curvature is not
-#'   known better than to some per cent, and planes that nearly touch the surface gather it on a ragged way.
+#' @param tie Of local optima within this share of the best the shortest cut is taken: curvature is
+#'   not known better than to some per cent, and planes that nearly touch the surface gather it on a
+#'   ragged way.
 #' @param rival Share within which a second optimum is a rival that is warned of.
 #' @param distinct A rival runs further than this share of the path's length from it at some place.
 #' @inheritParams curvature
-#' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of its settings.
-#' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion`
-#'   (mean strength in 1 / unit, or length), `optima`: data frame with a row for every local
-#'   optimum, that of the path first, then from the best on: `angle` (radians), `side`, `criterion`, `length`; and
-#'   `competing`: how good the best of those that run elsewhere is, as a share of the path (for lengths the other way
-#'   round), NA where there is none.
+#' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of
+#'   its settings.
+#' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion` (mean strength in
+#'   1 / unit, or length), `optima`: data frame with a row for every local optimum, that of the path
+#'   first, then from the best on: `angle` (radians), `side`, `criterion`, `length`; and
+#'   `competing`: how good the best of those that run elsewhere is, as a share of the path (for
+#'   lengths the other way round), NA where there is none.
 #' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
 #' @section Warnings: of class `crestline_rival_path`, when another optimum is
 #'   nearly as good; the warning names both angles.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.1.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
+#'   3.1.
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
@@ -49,10 +53,12 @@
 #' attr(path, "criterion")
 #' head(as.data.frame(path), 3)
 #' @export
-reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius = attr(curvature, "radius"),
+reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"),
+                           radius = attr(curvature, "radius"),
                            keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
                            spacing = 0.25, angles = 60, refined = 21, tie = 0.002,
-                           rival = 0.05, distinct = 0.05, order = "adaptive", threads = getOption("crestline.threads", 1L)) {
+                           rival = 0.05, distinct = 0.05, order = "adaptive",
+                           threads = getOption("crestline.threads", 1L)) {
   check_given()
   check_surface(specimen, "specimen")
   threads <- check_threads(threads)
@@ -79,7 +85,8 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   measure <- function(angle, side) measure_cuts(surface, ends, axis, angle, side, reach)
   optima <- cut_optima(measure, rate, angles, refined, longest, tie)
   if (nrow(optima) == 0) abort_no_cut(measure(0, 0L)$end, ends, surface$id)
-  cut <- function(i) cut_path(surface, ends, axis, optima$angle[i], optima$side[i], reach, type = type)
+  cut <- function(i) cut_path(surface, ends, axis, optima$angle[i], optima$side[i], reach,
+                              type = type)
   path <- cut(1)
   other <- first_elsewhere(path, nrow(optima), cut, distinct)
   if (type == "plane") optima$criterion <- optima$length
@@ -93,7 +100,8 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
 #' @return Data frame `angle`, `side`, `length`, `end`.
 #' @noRd
 measure_cuts <- function(surface, ends, axis, angle, side, reach) {
-  found <- cpp_plane_cuts(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, angle), side,
+  found <- cpp_plane_cuts(surface$vb, surface$it, surface$twin, ends$from, ends$to,
+                          plane_normal(axis, angle), side,
                           reach * axis$span)
   frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
 }
@@ -105,7 +113,8 @@ measure_cuts <- function(surface, ends, axis, angle, side, reach) {
 #' @noRd
 cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
   if (nrow(found) == 0) return(numeric())
-  at <- cpp_cut_weights(surface$vb, surface$it, surface$twin, ends$from, ends$to, plane_normal(axis, found$angle),
+  at <- cpp_cut_weights(surface$vb, surface$it, surface$twin, ends$from, ends$to,
+                        plane_normal(axis, found$angle),
                         found$side, reach * axis$span, step)
   vertex <- unique(at$vertex)
   value <- strength(vertex)[match(at$vertex, vertex)]
@@ -116,8 +125,8 @@ cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
 #'
 #' @param measure Function of angles and sides, as [measure_cuts()].
 #' @param rate Function of measured cuts that gives their criterion.
-#' @param digits Criteria that agree to this many significant digits are equal: on a straight feature many
-#'   planes cut one line. Of equal cuts the shortest counts, then the straightest in.
+#' @param digits Criteria that agree to this many significant digits are equal: on a straight
+#'   feature many planes cut one line. Of equal cuts the shortest counts, then the straightest in.
 #' @noRd
 cut_optima <- function(measure, rate, angles, refined, longest, tie, digits = 8) {
   step <- pi / angles
@@ -130,18 +139,21 @@ cut_optima <- function(measure, rate, angles, refined, longest, tie, digits = 8)
     vapply(circular_peaks(coarse$level[side]), function(run) best_cut(coarse, side[run]), 0L)
   }), use.names = FALSE)
   around <- step * seq(-1, 1, length.out = refined)
-  fine <- rated(measure(rep(coarse$angle[peaks], each = refined) + around, rep(coarse$side[peaks], each = refined)))
+  fine <- rated(measure(rep(coarse$angle[peaks], each = refined) + around,
+                        rep(coarse$side[peaks], each = refined)))
   all <- Map(c, lapply(coarse, `[`, peaks), fine)
   of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = refined))
   best <- vapply(split(seq_along(of_peak), of_peak), function(near) best_cut(all, near), 0L)
   all$angle <- wrap_angle(all$angle)
   tied <- all$level[best] >= max(all$level[best]) - tie * abs(max(all$level[best]))
-  best <- best[order(!tied, ifelse(tied, 0, -all$level[best]), all$extent[best], -all$level[best], abs(all$angle[best]))]
+  best <- best[order(!tied, ifelse(tied, 0, -all$level[best]), all$extent[best], -all$level[best],
+                     abs(all$angle[best]))]
   best <- best[!duplicated(round(cbind(all$angle, all$side)[best, , drop = FALSE], 6))]
   frame_of(lapply(all[c("angle", "side", "criterion", "length")], `[`, best))
 }
 
-#' A function that gives measured cuts, as a list, their criterion, and the rounded criterion and length they are compared by
+#' A function that gives measured cuts, as a list, their criterion, and the rounded criterion and
+#' length they are compared by
 #' @noRd
 rater <- function(rate, limit, digits) {
   function(found) {
@@ -157,7 +169,8 @@ rater <- function(rate, limit, digits) {
 
 #' Of some cuts the one with the greatest criterion, least length, smallest angle
 #' @noRd
-best_cut <- function(found, at) at[order(-found$level[at], found$extent[at], abs(found$angle[at]))[1]]
+best_cut <- function(found,
+                     at) at[order(-found$level[at], found$extent[at], abs(found$angle[at]))[1]]
 
 #' Runs of equal values round a circle that are higher than what lies on both sides
 #'
@@ -178,7 +191,8 @@ circular_peaks <- function(x) {
 # Into (-pi/2, pi/2].
 wrap_angle <- function(angle) angle - pi * ceiling(angle / pi - 0.5)
 
-#' Strength of the principal curvature as a function of vertices, 0 where it is not known or not wanted
+#' Strength of the principal curvature as a function of vertices, 0 where it is not known or not
+#' wanted
 #'
 #' @param curvature As of [known_curvature()].
 #' @noRd
@@ -194,7 +208,8 @@ path_strength <- function(curvature, type, keep_away, specimen) {
   }
 }
 
-#' Curvature as a function of vertices: the one that was given, after a check, or estimated where it is asked for
+#' Curvature as a function of vertices: the one that was given, after a check, or estimated where it
+#' is asked for
 #' @noRd
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
   # A source of curvature, as of curvature_source(), not any function.
@@ -206,7 +221,8 @@ known_curvature <- function(curvature, specimen, radius, threads, order = "adapt
 
 abort_no_cut <- function(end, ends, id) {
   crestline_abort(
-    sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1], ends$names[2], end),
+    sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1], ends$names[2],
+            end),
     "Look for a hole between the landmarks, or raise `reach` if the feature bends far out.",
     stage = "reference path", id = id, class = "crestline_path_error"
   )
@@ -231,7 +247,8 @@ warn_rival <- function(two, ends, id) {
   degrees <- two$angle * 180 / pi
   crestline_warn(
     sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
-            ends$names[1], ends$names[2], degrees[1], degrees[2], two$criterion[1], two$criterion[2]),
+            ends$names[1], ends$names[2], degrees[1], degrees[2], two$criterion[1],
+            two$criterion[2]),
     "Look at both with plane_path(); keep_away() or keep_side() rules one out.",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )

@@ -21,13 +21,15 @@ chord_settings <- function(tolerance = 1e-10, iterations = 200, slowest = 0.2) {
 
 # Positions at arc lengths, n x 3.
 points_along <- function(path, s) {
-  vapply(c("x", "y", "z"), function(a) stats::approx(path$s, path[[a]], s, rule = 2, ties = "ordered")$y, s)
+  vapply(c("x", "y", "z"),
+         function(a) stats::approx(path$s, path[[a]], s, rule = 2, ties = "ordered")$y, s)
 }
 
 #' Points of a path at given arc lengths, each in the triangle of its segment
 #' @noRd
 place_along <- function(mesh, path, s) {
-  placed <- cpp_place_along(mesh$vb, mesh$it, columns_of(path, c("x", "y", "z")), path$s, path$face, s)
+  placed <- cpp_place_along(mesh$vb, mesh$it, columns_of(path, c("x", "y", "z")), path$s, path$face,
+                            s)
   ends <- which(s %in% range(path$s))
   if (length(ends)) placed[ends, ] <- columns_of(path)[ifelse(s[ends] == 0, 1, nrow(path)), ]
   columns <- stats::setNames(c(list(s), lapply(1:7, function(i) placed[, i])), c("s", mesh_columns))

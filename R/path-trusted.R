@@ -40,9 +40,11 @@ trusted_path <- function(trust, specimen, path) {
 }
 
 check_trusted <- function(trust, call = rlang::caller_env()) {
-  if (!is.numeric(trust) || length(trust) != 2 || !all(is.finite(trust)) || trust[1] < 0 || trust[2] > 1 || trust[1] >= trust[2]) {
+  if (!is.numeric(trust) || length(trust) != 2 || !all(is.finite(trust)) || trust[1] < 0 ||
+      trust[2] > 1 || trust[1] >= trust[2]) {
     crestline_abort(sprintf("`trust` is %s.", describe_value(trust)),
-                    "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments", call = call)
+                    "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments",
+                    call = call)
   }
   trust
 }

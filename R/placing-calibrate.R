@@ -8,13 +8,15 @@
 #' those of a symmetric template stay symmetric.
 #'
 #' @param template A [landmark_template()], or a [specimen()] with landmarks.
-#' @param specimens List of [specimen()]s (or one) with landmarks placed or corrected by hand; NA where missing.
+#' @param specimens List of [specimen()]s (or one) with landmarks placed or corrected by hand; NA
+#'   where missing.
 #' @param rounds How often the landmarks are moved by the mean of what they are off.
 #' @inheritParams find_landmarks
-#' @return The `landmark_template`, its landmarks moved; `calibration`: data frame `landmark`, `specimens` (number that
-#'   have it), `moved` (how far on the template), `spread` (RMS of what is left, over the specimens), in the template's
-#'   unit.
-#' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the template.
+#' @return The `landmark_template`, its landmarks moved; `calibration`: data frame `landmark`,
+#'   `specimens` (number that have it), `moved` (how far on the template), `spread` (RMS of what is
+#'   left, over the specimens), in the template's unit.
+#' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the
+#'   template.
 #' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [find_landmarks()]
 #' @section Warnings: of class `crestline_unused_landmarks`, as [fit_shape()].
@@ -36,7 +38,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
   rounds <- check_count(rounds, "rounds")
   if (inherits(specimens, "specimen")) specimens <- list(specimens)
   if (!is.list(specimens) || !length(specimens)) {
-    crestline_abort(sprintf("`specimens` is %s.", describe_value(specimens)), "Give a list of specimens with landmarks.",
+    crestline_abort(sprintf("`specimens` is %s.", describe_value(specimens)),
+                    "Give a list of specimens with landmarks.",
                     stage = "arguments")
   }
   for (one in specimens) check_class(one, "specimen", "specimens", "specimen() or read_specimen()")
@@ -51,7 +54,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
     template$landmarks <- moved_landmarks(template, off)
   }
   template$predicted <- calibrated_prediction(template, fits)
-  template$calibration <- calibration_table(before, template, landmark_offsets(prepared, template, fits))
+  template$calibration <- calibration_table(before, template,
+                                            landmark_offsets(prepared, template, fits))
   template
 }
 
@@ -59,7 +63,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
 #' @noRd
 calibration_fit <- function(specimen, prepared, template, settings, threads) {
   at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
-  if (!nrow(at)) refuse_landmarks("it has no landmarks.", "Give specimens whose landmarks you have placed.", specimen$id)
+  if (!nrow(at)) refuse_landmarks("it has no landmarks.",
+                                  "Give specimens whose landmarks you have placed.", specimen$id)
   laid <- laid_template(prepared, template, specimen, settings, threads)
   local <- cloud_in_frame(laid$cloud, laid$pose)
   bent <- fit_warp(prepared, local, prepared$settings, prepared$settings$weight)
@@ -67,7 +72,8 @@ calibration_fit <- function(specimen, prepared, template, settings, threads) {
        at = structure(into_frame(at, laid), dimnames = list(rownames(at), NULL)))
 }
 
-#' The template with landmarks that only the specimens have: begun at its point that is carried nearest to them
+#' The template with landmarks that only the specimens have: begun at its point that is carried
+#' nearest to them
 #' @noRd
 with_new_landmarks <- function(template, prepared, fits) {
   known <- c(rownames(template$landmarks), rownames(template$predicted))
@@ -75,7 +81,8 @@ with_new_landmarks <- function(template, prepared, fits) {
     new <- setdiff(rownames(fit$at), known)
     for (name in new) {
       nearest <- which.min(row_lengths(fit$moved - rep(fit$at[name, ], each = nrow(fit$moved))))
-      template$landmarks <- rbind(template$landmarks, matrix(prepared$xyz[, nearest], 1, dimnames = list(name, NULL)))
+      template$landmarks <- rbind(template$landmarks,
+                                  matrix(prepared$xyz[, nearest], 1, dimnames = list(name, NULL)))
     }
     known <- c(known, new)
   }
@@ -90,7 +97,9 @@ landmark_offsets <- function(prepared, template, fits) {
   prepared <- with_landmarks(prepared, own)
   basis <- lapply(prepared$basis, function(b) b[-seq_len(ncol(prepared$xyz)), , drop = FALSE])
   carried <- function(fit) own + displaced(basis, fit$coefficients)
-  each <- lapply(fits, function(fit) fit$at[match(rownames(own), rownames(fit$at)), , drop = FALSE] - carried(fit))
+  each <- lapply(fits,
+                 function(fit) fit$at[match(rownames(own), rownames(fit$at)), , drop = FALSE] -
+                 carried(fit))
   array(unlist(each), c(nrow(own), 3, length(fits)), list(rownames(own), NULL, NULL))
 }
 
@@ -121,7 +130,8 @@ mirrored_mean <- function(at) {
   mean
 }
 
-#' Predicted landmarks at the mean of where the specimens have them, by similarities fitted to the others
+#' Predicted landmarks at the mean of where the specimens have them, by similarities fitted to the
+#' others
 #' @noRd
 calibrated_prediction <- function(template, fits) {
   own <- template$predicted
@@ -130,7 +140,8 @@ calibrated_prediction <- function(template, fits) {
     back <- lapply(seen, function(fit) {
       common <- intersect(rownames(fit$at), rownames(template$landmarks))
       if (length(common) < 4) return(NULL)
-      apply_similarity(fit$at[name, , drop = FALSE], similarity(fit$at[common, ], template$landmarks[common, ]))
+      apply_similarity(fit$at[name, , drop = FALSE],
+                       similarity(fit$at[common, ], template$landmarks[common, ]))
     })
     back <- do.call(rbind, back)
     if (!is.null(back)) own[name, ] <- colMeans(back)
@@ -140,7 +151,9 @@ calibrated_prediction <- function(template, fits) {
 
 calibration_table <- function(before, after, off) {
   known <- match(rownames(after$landmarks), rownames(before$landmarks))
-  data.frame(landmark = rownames(after$landmarks), specimens = apply(!is.na(off[, 1, , drop = FALSE]), 1, sum),
+  data.frame(landmark = rownames(after$landmarks),
+             specimens = apply(!is.na(off[, 1, , drop = FALSE]), 1, sum),
              moved = row_lengths(after$landmarks - before$landmarks[known, , drop = FALSE]),
-             spread = sqrt(apply(off^2, 1, function(x) mean(colSums(matrix(x, 3)), na.rm = TRUE))), row.names = NULL)
+             spread = sqrt(apply(off^2, 1, function(x) mean(colSums(matrix(x, 3)), na.rm = TRUE))),
+             row.names = NULL)
 }

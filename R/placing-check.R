@@ -4,17 +4,17 @@
 #'
 #' Measurements from wrong landmarks look normal. This function stops with an error that names the
 #' specimen, and saves a picture of its landmarks if `picture` asks for one. [fit_shapes()] calls it
-#' for meshes that come without landmarks.
-#' `plot_placing()` draws the picture: found and placed landmarks in green, doubtful ones in red, predicted ones, where they lie on
-#' the scan, in blue.
+#' for meshes that come without landmarks. `plot_placing()` draws the picture: found and placed
+#' landmarks in green, doubtful ones in red, predicted ones, where they lie on the scan, in blue.
 #'
 #' @param specimen A [specimen()] of [find_landmarks()].
 #' @param least Least confidence of a landmark that is found.
 #' @param doubtful Greatest share of the found landmarks that may have less.
 #' @param picture Path of a `.png` file that is written where the specimen is refused; NULL: none.
-#' @return `check_placing()`: the specimen. Those of its landmarks that are doubtful are in it still.
-#' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's name, the landmarks, and
-#'   the picture's path.
+#' @return `check_placing()`: the specimen. Those of its landmarks that are doubtful are in it
+#'   still.
+#' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's
+#'   name, the landmarks, and the picture's path.
 #' @seealso [find_landmarks()]; [review_landmarks()] to correct them by hand
 #' @examples
 #' \donttest{
@@ -35,16 +35,20 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
   if (any(found) && sum(low) <= doubtful * sum(found)) return(specimen)
   if (!is.null(picture)) write_placing(specimen, picture, least)
   named <- paste0(placing$landmark[low], " (", round(placing$confidence[low], 2), ")")
-  problem <- if (any(found)) sprintf("%d of %d found landmarks are doubtful: %s.", sum(low), sum(found), shorten(named)) else
+  problem <- if (any(found)) sprintf("%d of %d found landmarks are doubtful: %s.", sum(low),
+                                     sum(found), shorten(named)) else
     "none of its landmarks was found."
   remedy <- "Correct them (review_landmarks()), calibrate the template (calibrate_template()), or allow more (`doubtful`)."
-  crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture), remedy), stage = "landmarks",
-                  id = specimen$id, class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
+  crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture), remedy),
+                  stage = "landmarks",
+                  id = specimen$id, class = c("crestline_placing_error",
+                                              "crestline_landmark_error"), call = NULL)
 }
 
 #' @noRd
 warn_doubtful <- function(doubt, specimen) {
-  said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence", length(doubt$names), doubt$of) else
+  said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence",
+                                length(doubt$names), doubt$of) else
     "no landmark was found"
   crestline_warn(
     sprintf("the template %s lies badly on it: %s.", specimen$match$template, said),
@@ -57,15 +61,16 @@ warn_doubtful <- function(doubt, specimen) {
 placing_of <- function(specimen, call = rlang::caller_env()) {
   check_class(specimen, "specimen", "specimen", "find_landmarks()", call = call)
   if (is.null(specimen$placing)) {
-    crestline_abort("the landmarks of `specimen` were not found but given.", "Give a specimen of find_landmarks().", stage = "landmarks",
+    crestline_abort("the landmarks of `specimen` were not found but given.",
+                    "Give a specimen of find_landmarks().", stage = "landmarks",
                     id = specimen$id, call = call)
   }
   specimen$placing
 }
 
 #' @rdname check_placing
-#' @param views Directions to look from: how far the viewer goes round to the subject's left, in radians, in the frame of
-#'   the template.
+#' @param views Directions to look from: how far the viewer goes round to the subject's left, in
+#'   radians, in the frame of the template.
 #' @param ... Passed to [draw_surface()].
 #' @return `plot_placing()`: the specimen, invisibly.
 #' @export
@@ -81,11 +86,14 @@ plot_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
   colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#108040", "#C02020"))
   for (round in views) {
     turn <- rbind(c(cos(round), 0, -sin(round)), c(0, 1, 0), c(sin(round), 0, cos(round)))
-    scene <- draw_surface(specimen$mesh, "#E3CDB8", turn %*% t(specimen$match$rotation), "picture", ...)
+    scene <- draw_surface(specimen$mesh, "#E3CDB8", turn %*% t(specimen$match$rotation), "picture",
+                          ...)
     for (one in unique(colour)) {
-      draw_points(scene, at[colour == one, , drop = FALSE], one, halo = "white", labels = placing$landmark[colour == one])
+      draw_points(scene, at[colour == one, , drop = FALSE], one, halo = "white",
+                  labels = placing$landmark[colour == one])
     }
-    if (round == views[1]) graphics::title(sprintf("%s: score %.2f", specimen$id, specimen$match$score), adj = 0)
+    if (round == views[1]) graphics::title(sprintf("%s: score %.2f", specimen$id,
+                                                   specimen$match$score), adj = 0)
   }
   invisible(specimen)
 }

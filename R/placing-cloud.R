@@ -1,4 +1,5 @@
-# A scan as a cloud of representative vertices with normals and curvature, and its anchors: the strongest caps and cups.
+# A scan as a cloud of representative vertices with normals and curvature, and its anchors: the
+# strongest caps and cups.
 
 #' One vertex for each cell of a grid in the cloud's own principal axes
 #'
@@ -27,9 +28,9 @@ cell_vertices <- function(vertex, cell) {
 #' @param specimen A specimen.
 #' @param scale Factor on its lengths: to the template's unit.
 #' @param settings Of [find_settings()], in the template's unit.
-#' @return List: `xyz`, `normal` (3 x n), `k1`, `k2` (n, in balls of `feature`), `border` (n, logical), `coarse` (indices
-#'   among n of a thinner cloud), `spacing` (lengths, of the cloud and of the thinner one), `anchors` (see
-#'   [cloud_anchors()]).
+#' @return List: `xyz`, `normal` (3 x n), `k1`, `k2` (n, in balls of `feature`), `border` (n,
+#'   logical), `coarse` (indices among n of a thinner cloud), `spacing` (lengths, of the cloud and
+#'   of the thinner one), `anchors` (see [cloud_anchors()]).
 #' @noRd
 scan_cloud <- function(specimen, scale, settings, threads) {
   mesh <- specimen$mesh
@@ -37,15 +38,18 @@ scan_cloud <- function(specimen, scale, settings, threads) {
   vertex <- cell_vertices(t(mesh$vb[1:3, ]), settings$cluster)
   fine <- curvature(mesh, settings$feature, "adaptive cubic", threads, vertex)
   broad <- curvature(mesh, settings$bend, "quadratic", threads, vertex)
-  anchors <- cloud_anchors(mesh$vb[1:3, vertex, drop = FALSE], lapply(unclass(broad), rows_at, vertex), settings)
+  anchors <- cloud_anchors(mesh$vb[1:3, vertex, drop = FALSE],
+                           lapply(unclass(broad), rows_at, vertex), settings)
   points <- list(xyz = mesh$vb[1:3, ], normal = mesh$normals[1:3, ], k1 = fine$k1, k2 = fine$k2,
                  border = seq_len(ncol(mesh$vb)) %in%
                    border_vertices(mesh$it, specimen$geometry$twin))
   sparse <- sum(row_lengths(face_normals(mesh))) / 2 > ncol(mesh$vb) * settings$cluster^2
-  points <- if (sparse) with_centres(points, mesh$it, settings$cluster) else at_points(points, vertex)
+  points <- if (sparse) with_centres(points, mesh$it, settings$cluster) else
+    at_points(points, vertex)
   points[c("k1", "k2")] <- lapply(points[c("k1", "k2")], function(k) ifelse(is.na(k), 0, k))
   coarse <- cell_vertices(t(points$xyz), settings$coarse)
-  c(points, list(coarse = coarse, spacing = c(settings$cluster, settings$coarse), anchors = anchors))
+  c(points, list(coarse = coarse, spacing = c(settings$cluster, settings$coarse),
+                 anchors = anchors))
 }
 
 at_points <- function(points, at) {
@@ -58,7 +62,8 @@ with_centres <- function(points, it, cell) {
     (corner(1) + corner(2) + corner(3)) / 3
   }
   centre <- lapply(points, mean)
-  centre$normal <- centre$normal / rep(pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin), each = 3)
+  centre$normal <- centre$normal / rep(pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin),
+                                       each = 3)
   centre$border <- centre$border >= 2 / 3
   all <- Map(function(a, b) if (is.matrix(a)) cbind(a, b) else c(a, b), points, centre)
   at_points(all, cell_vertices(t(all$xyz), cell))
@@ -70,12 +75,13 @@ rows_at <- function(x, i) if (is.matrix(x)) x[i, , drop = FALSE] else x[i]
 #'
 #' @param xyz 3 x n, vertices.
 #' @param broad Curvature at them.
-#' @return Data frame: `point` (column of `xyz`), `kind` ("cap", "cup"), `size` (the smaller curvature's); strongest first
-#'   of each; with attributes `frames` (list of 3 x 3 matrices: columns first direction, second, normal) and `places` (3 x
-#'   anchors).
+#' @return Data frame: `point` (column of `xyz`), `kind` ("cap", "cup"), `size` (the smaller
+#'   curvature's); strongest first of each; with attributes `frames` (list of 3 x 3 matrices:
+#'   columns first direction, second, normal) and `places` (3 x anchors).
 #' @noRd
 cloud_anchors <- function(xyz, broad, settings) {
-  found <- rbind(strongest_points(xyz, -broad$k1, "cap", settings), strongest_points(xyz, broad$k2, "cup", settings))
+  found <- rbind(strongest_points(xyz, -broad$k1, "cap", settings),
+                 strongest_points(xyz, broad$k2, "cup", settings))
   frames <- lapply(found$point, function(i) {
     normal <- broad$normal[i, ]
     first <- broad$direction1[i, ]
@@ -104,6 +110,7 @@ inverted_cloud <- function(cloud) {
   cloud$k1 <- -cloud$k2
   cloud$k2 <- -k1
   cloud$anchors$kind <- ifelse(cloud$anchors$kind == "cap", "cup", "cap")
-  attr(cloud$anchors, "frames") <- lapply(attr(cloud$anchors, "frames"), function(f) cbind(f[, 2], f[, 1], -f[, 3]))
+  attr(cloud$anchors, "frames") <- lapply(attr(cloud$anchors, "frames"),
+                                          function(f) cbind(f[, 2], f[, 1], -f[, 3]))
   cloud
 }

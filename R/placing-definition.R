@@ -8,12 +8,15 @@
 #' @param pairs Pairs of landmarks: data frame `left`, `right`.
 #' @param curvature Function of a radius that gives a [curvature_source()].
 #' @param settings List: `window`, `apart` (shares of the radius), `faint`, `share`, `ridge`.
-#' @return List `at` (not exactly on the mesh), `value` (what is greatest there, NA where nothing is); or `reason`.
+#' @return List `at` (not exactly on the mesh), `value` (what is greatest there, NA where nothing
+#'   is); or `reason`.
 #' @noRd
 defined_place <- function(specimen, definition, start, pairs, curvature, settings) {
-  find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile, turn = place_of_turn,
+  find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile,
+                 turn = place_of_turn,
                  end = place_of_end, crossing = place_of_crossing)
-  tryCatch(find(specimen, definition, start, pairs, curvature, settings), crestline_error = function(e) {
+  tryCatch(find(specimen, definition, start, pairs, curvature, settings),
+           crestline_error = function(e) {
     if (inherits(e, "crestline_wrong_mesh")) rlang::cnd_signal(e)
     list(reason = sub("\n.*", "", conditionMessage(e)))
   })
@@ -24,7 +27,8 @@ defined_place <- function(specimen, definition, start, pairs, curvature, setting
 peak_near <- function(field, definition, start, settings) {
   radius <- definition$radius
   peak <- if (nrow(field$at) > 0) {
-    strongest_peak(field, start, definition$reach, settings$apart * radius, settings$window * radius,
+    strongest_peak(field, start, definition$reach, settings$apart * radius,
+                   settings$window * radius,
                    settings$faint / radius)
   }
   if (is.null(peak)) list(reason = "nothing near") else peak
@@ -36,7 +40,8 @@ place_of_summit <- function(specimen, definition, start, pairs, curvature, setti
   near <- near_vertices(specimen$mesh, start, definition$reach + definition$radius)
   curved <- curvature(definition$radius)(near)
   value <- if (definition$kind == "cap") -curved$k1 else curved$k2
-  peak_near(field_at(t(specimen$mesh$vb[1:3, near, drop = FALSE]), value, 2, curved$normal), definition, start, settings)
+  peak_near(field_at(t(specimen$mesh$vb[1:3, near, drop = FALSE]), value, 2, curved$normal),
+            definition, start, settings)
 }
 
 field_at <- function(at, value, dimensions, normal = NULL) {
@@ -75,14 +80,16 @@ place_of_profile <- function(specimen, definition, start, pairs, curvature, sett
   peak_near(field_at(as.matrix(section[c("x", "y", "z")]), value, 1), definition, foot, settings)
 }
 
-#' The plane of a profile: the mirror of pairs of landmarks, or that straight into the surface through two landmarks
+#' The plane of a profile: the mirror of pairs of landmarks, or that straight into the surface
+#' through two landmarks
 #' @return List `origin`, `normal`.
 #' @noRd
 definition_plane <- function(specimen, definition, pairs) {
   if (!is.na(definition$mirror)) {
     left <- mirror_names(definition$mirror)
     right <- pairs$right[match(left, pairs$left)]
-    return(landmark_mirror(specimen$landmarks[left, , drop = FALSE], specimen$landmarks[right, , drop = FALSE]))
+    return(landmark_mirror(specimen$landmarks[left, , drop = FALSE],
+                           specimen$landmarks[right, , drop = FALSE]))
   }
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, definition$across_from, definition$across_to)
@@ -97,17 +104,20 @@ landmark_mirror <- function(left, right) {
 }
 
 #' Where a plane cuts the edges between some vertices
-#' @return Data frame, a row an edge: `a`, `b` (vertices), `share` (of the way from a to b), `x`, `y`, `z`.
+#' @return Data frame, a row an edge: `a`, `b` (vertices), `share` (of the way from a to b), `x`,
+#'   `y`, `z`.
 #' @noRd
 plane_section <- function(mesh, vertices, plane) {
   inside <- logical(ncol(mesh$vb))
   inside[vertices] <- TRUE
   faces <- which(colSums(matrix(inside[mesh$it], 3)) == 3)
   it <- mesh$it[, faces, drop = FALSE]
-  edges <- rbind(t(it[1:2, , drop = FALSE]), t(it[2:3, , drop = FALSE]), t(it[c(3, 1), , drop = FALSE]))
+  edges <- rbind(t(it[1:2, , drop = FALSE]), t(it[2:3, , drop = FALSE]),
+                 t(it[c(3, 1), , drop = FALSE]))
   edges <- unique(cbind(pmin(edges[, 1], edges[, 2]), pmax(edges[, 1], edges[, 2])))
   height <- numeric(ncol(mesh$vb))
-  height[vertices] <- drop(crossprod(mesh$vb[1:3, vertices, drop = FALSE] - plane$origin, plane$normal))
+  height[vertices] <- drop(crossprod(mesh$vb[1:3, vertices, drop = FALSE] - plane$origin,
+                                     plane$normal))
   edges <- edges[(height[edges[, 1]] > 0) != (height[edges[, 2]] > 0), , drop = FALSE]
   share <- height[edges[, 1]] / (height[edges[, 1]] - height[edges[, 2]])
   from <- t(mesh$vb[1:3, edges[, 1], drop = FALSE])
@@ -119,8 +129,10 @@ plane_section <- function(mesh, vertices, plane) {
 #' @noRd
 definition_path <- function(specimen, definition, from, to, type, curvature, settings) {
   curve <- suppressWarnings(
-    ridge_curve(specimen, from, to, type, radius = definition$radius, width = definition$width, n = 2,
-                settings = settings$ridge, curvature = if (type != "plane") curvature(definition$radius)),
+    ridge_curve(specimen, from, to, type, radius = definition$radius, width = definition$width,
+                n = 2,
+                settings = settings$ridge,
+                curvature = if (type != "plane") curvature(definition$radius)),
     classes = "crestline_warning"
   )
   curve$path
@@ -129,19 +141,23 @@ definition_path <- function(specimen, definition, from, to, type, curvature, set
 #' Crossing of a curve with a mirror plane or another curve: that nearest to the landmark
 #' @noRd
 place_of_crossing <- function(specimen, definition, start, pairs, curvature, settings) {
-  path <- definition_path(specimen, definition, definition$from, definition$to, definition$type, curvature, settings)
+  path <- definition_path(specimen, definition, definition$from, definition$to, definition$type,
+                          curvature, settings)
   at <- columns_of(path, c("x", "y", "z"))
   side <- if (!is.na(definition$mirror)) {
     plane <- definition_plane(specimen, definition, pairs)
     drop((at - rep(plane$origin, each = nrow(at))) %*% plane$normal)
   } else {
-    other <- without_stubs(definition_path(specimen, definition, definition$across_from, definition$across_to,
+    other <- without_stubs(definition_path(specimen, definition, definition$across_from,
+                                           definition$across_to,
                                            definition$across_type, curvature, settings))
-    cpp_path_coordinates(t(at), t(columns_of(other, c("x", "y", "z"))), path_normals(specimen$mesh, other))$d
+    cpp_path_coordinates(t(at), t(columns_of(other, c("x", "y", "z"))),
+                         path_normals(specimen$mesh, other))$d
   }
   before <- which(side[-1] * side[-length(side)] <= 0 & side[-1] != side[-length(side)])
   share <- side[before] / (side[before] - side[before + 1])
-  place <- at[before, , drop = FALSE] + share * (at[before + 1, , drop = FALSE] - at[before, , drop = FALSE])
+  place <- at[before, ,
+              drop = FALSE] + share * (at[before + 1, , drop = FALSE] - at[before, , drop = FALSE])
   gap <- row_lengths(place - rep(start, each = nrow(place)))
   if (!any(gap <= definition$reach)) return(list(reason = "nothing near"))
   list(at = place[which.min(gap), ], value = NA_real_)
@@ -150,7 +166,8 @@ place_of_crossing <- function(specimen, definition, start, pairs, curvature, set
 #' Extreme of the geodesic curvature along a curve
 #' @noRd
 place_of_turn <- function(specimen, definition, start, pairs, curvature, settings) {
-  path <- definition_path(specimen, definition, definition$from, definition$to, definition$type, curvature, settings)
+  path <- definition_path(specimen, definition, definition$from, definition$to, definition$type,
+                          curvature, settings)
   turning <- path_turning(specimen$mesh, path, definition$radius)
   value <- if (definition$bend == "left") turning$value else -turning$value
   peak_near(field_at(turning$at, value, 1), definition, start, settings)
@@ -158,10 +175,12 @@ place_of_turn <- function(specimen, definition, start, pairs, curvature, setting
 
 #' Geodesic curvature of a path, positive where it turns to the left seen from outside
 #'
-#' A parabola in the tangent plane is fitted to the path within a radius, weights falling smoothly to 0.
+#' A parabola in the tangent plane is fitted to the path within a radius, weights falling smoothly
+#' to 0.
 #'
 #' @param spacing Distance of the points, as a share of the radius.
-#' @return List `at` (n x 3), `value` (n; NA within half a radius of the ends, where a parabola is not held).
+#' @return List `at` (n x 3), `value` (n; NA within half a radius of the ends, where a parabola is
+#'   not held).
 #' @noRd
 path_turning <- function(mesh, path, radius, spacing = 0.1) {
   n <- max(ceiling(attr(path, "length") / (spacing * radius)), 2)
@@ -185,16 +204,19 @@ path_turning <- function(mesh, path, radius, spacing = 0.1) {
   list(at = at, value = value)
 }
 
-#' End of a ridge or valley that comes from another landmark: where its strength has fallen to a share of its greatest
+#' End of a ridge or valley that comes from another landmark: where its strength has fallen to a
+#' share of its greatest
 #' @noRd
 place_of_end <- function(specimen, definition, start, pairs, curvature, settings) {
   beyond <- beyond_landmark(specimen, definition, start)
-  path <- definition_path(specimen, definition, definition$from, beyond, definition$type, curvature, settings)
+  path <- definition_path(specimen, definition, definition$from, beyond, definition$type, curvature,
+                          settings)
   fading <- path_strength_along(specimen, path, definition, curvature, settings$window)
   most <- which.max(fading$value)
   level <- settings$share * fading$value[most]
   fallen <- which(fading$value <= level & seq_along(fading$s) > most)
-  if (level * definition$radius < settings$share * settings$faint || !length(fallen)) return(list(reason = "nothing near"))
+  if (level * definition$radius < settings$share * settings$faint ||
+      !length(fallen)) return(list(reason = "nothing near"))
   i <- fallen[1]
   share <- (fading$value[i - 1] - level) / (fading$value[i - 1] - fading$value[i])
   at <- drop(points_along(path, fading$s[i - 1] + share * (fading$s[i] - fading$s[i - 1])))
@@ -202,7 +224,8 @@ place_of_end <- function(specimen, definition, start, pairs, curvature, settings
   list(at = at, value = level)
 }
 
-#' A place on the surface beyond a landmark, as far as the definition reaches, straight on from where its curve begins
+#' A place on the surface beyond a landmark, as far as the definition reaches, straight on from
+#' where its curve begins
 #' @noRd
 beyond_landmark <- function(specimen, definition, start) {
   from <- specimen$landmarks[definition$from, ]

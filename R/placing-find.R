@@ -1,4 +1,5 @@
-# Landmarks found on a raw scan: the template laid on it, bent onto it, and its landmarks carried over.
+# Landmarks found on a raw scan: the template laid on it, bent onto it, and its landmarks carried
+# over.
 
 #' Find the landmarks of a raw scan
 #'
@@ -10,33 +11,34 @@
 #' [crestline-package] has a glossary.
 #'
 #' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
-#' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by default that of the
-#'   face.
+#' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by
+#'   default that of the face.
 #' @param id Name of the specimen, where a mesh is given.
 #' @param settings Of [find_settings()].
-#' @param unit Factor from the mesh's unit to the template's; `NULL`: the power of ten that brings their diagonals nearest
-#'   to each other, which is wrong where the scan is three times as large as the object, or a third of it.
+#' @param unit Factor from the mesh's unit to the template's; `NULL`: the power of ten that brings
+#'   their diagonals nearest to each other, which is wrong where the scan is three times as large as
+#'   the object, or a third of it.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (so marked
 #'     in the template: placed by the positions of the others, perhaps off the mesh) or "absent"
-#'     (the scan has no surface there);
-#'     `confidence`, from 0 to 1, doubtful below 0.5: 1 / (1 + (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with
-#'     a, b and c the settings `moved`, `off` and `vague`, times (1 - score) / (1 - `poor`) where the score is poor;
-#'     `moved`, distance between the answers with and without curvature; `sd`, standard deviation that is added by what
-#'     the scan lacks; `residual`, mean distance of the bent template from the scan about the landmark; `lost`, share of
-#'     the template about it that has no counterpart; `x`, `y`, `z`, the place, of absent ones too. Lengths in the unit of
-#'     the mesh;
-#'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor to the template's
-#'     unit), `scale` (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (the triangles
-#'     faced the other way), `doubtful` (the share of found landmarks with little confidence is above the setting `wrong`),
-#'     `template`.
-#' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like the template (score
-#'   above the setting `refuse`).
-#' @section Warnings: of class `crestline_doubtful_placing`, where most landmarks have little confidence (settings `low`,
-#'   `wrong`): most likely the scan is not the object, or not whole enough. [quality()] then grades
-#'   nothing green. `print()` names a single landmark with little confidence. [quality()] grades it,
-#'   and the curves that end there, amber.
+#'     (the scan has no surface there); `confidence`, from 0 to 1, doubtful below 0.5: 1 / (1 +
+#'     (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with a, b and c the settings `moved`,
+#'     `off` and `vague`, times (1 - score) / (1 - `poor`) where the score is poor; `moved`,
+#'     distance between the answers with and without curvature; `sd`, standard deviation that is
+#'     added by what the scan lacks; `residual`, mean distance of the bent template from the scan
+#'     about the landmark; `lost`, share of the template about it that has no counterpart; `x`, `y`,
+#'     `z`, the place, of absent ones too. Lengths in the unit of the mesh;
+#'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor
+#'     to the template's unit), `scale` (of the template), `rotation` (3 x 3, from the template to
+#'     the scan), `inverted` (the triangles faced the other way), `doubtful` (the share of found
+#'     landmarks with little confidence is above the setting `wrong`), `template`.
+#' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like
+#'   the template (score above the setting `refuse`).
+#' @section Warnings: of class `crestline_doubtful_placing`, where most landmarks have little
+#'   confidence (settings `low`, `wrong`): most likely the scan is not the object, or not whole
+#'   enough. [quality()] then grades nothing green. `print()` names a single landmark with little
+#'   confidence. [quality()] grades it, and the curves that end there, amber.
 #' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
@@ -47,7 +49,8 @@
 #' plot(face, "plain", engine = "picture", labels = TRUE)
 #' }
 #' @export
-find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(), unit = NULL,
+find_landmarks <- function(mesh, template = face_template(), id = NULL, settings = find_settings(),
+                           unit = NULL,
                            threads = getOption("crestline.threads", 1L)) {
   check_given()
   check_surface(mesh, "mesh")
@@ -55,18 +58,23 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   check_class(settings, "find_settings", "settings", "find_settings()")
   template <- check_template(template)
   scan <- validate(mesh)
-  if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
+  if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id),
+                                                            classes = "crestline_warning")
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads, unit)
   placed <- carried_landmarks(prepared, template, scan, laid)
   if (laid$inverted) {
-    turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id, outward = "keep")
+    turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id,
+                       outward = "keep")
     scan <- with_fields(turned, file = scan$file)
   }
   doubt <- placing_doubt(placed, settings$low)
-  found <- with_placing(scan, placed, list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
-                                           rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
-                                           doubtful = doubt$share > settings$wrong, template = template$id))
+  found <- with_placing(scan, placed,
+                        list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
+                                           rotation = matrix(laid$pose[1:9], 3),
+                             inverted = laid$inverted,
+                                           doubtful = doubt$share > settings$wrong,
+                             template = template$id))
   if (found$match$doubtful) warn_doubtful(doubt, found)
   found
 }
@@ -80,10 +88,12 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }
-  cloud <- in_context(scan_cloud(scan, unit, prepared$settings, threads), scan$id, "looking for landmarks")
+  cloud <- in_context(scan_cloud(scan, unit, prepared$settings, threads), scan$id,
+                      "looking for landmarks")
   laid <- settled_pose(prepared, cloud, prepared$settings)
   if (laid$score > settings$refuse) {
-    unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).", template$id, laid$score,
+    unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
+                      template$id, laid$score,
                       settings$refuse)
     remedy <- sprintf("Is it the object, and whole enough? Its lengths were multiplied by %g: else give `unit`, or place the landmarks by hand.",
                       unit)
@@ -125,21 +135,26 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   length <- laid$unit / laid$pose[13]
   moved <- row_lengths(at - as.matrix(places(plain)[1:3])) * length
   here <- local_evidence(prepared, local, bent, settings)
-  residual <- pmax(here$residual, row_lengths(at - to_scan(bent$moved[-seq_len(n), , drop = FALSE])) * length)
+  residual <- pmax(here$residual,
+                   row_lengths(at - to_scan(bent$moved[-seq_len(n), , drop = FALSE])) * length)
   state <- ifelse(here$lost > settings$lost, "absent", "found")
   sd <- sqrt(pmax(bent$sd^2 - prepared$sd^2, 0))
-  confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 + (sd / settings$vague)^2)
+  confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 +
+                     (sd / settings$vague)^2)
   confidence <- confidence * min(1, (1 - laid$score) / (1 - settings$poor))
   confidence[is.na(confidence)] <- 0
-  found <- data.frame(landmark = rownames(own), state = state, confidence = ifelse(state == "absent", NA, confidence),
-                      moved = moved / length, sd = sd / length, residual = residual / length, lost = here$lost,
+  found <- data.frame(landmark = rownames(own), state = state,
+                      confidence = ifelse(state == "absent", NA, confidence),
+                      moved = moved / length, sd = sd / length, residual = residual / length,
+                      lost = here$lost,
                       x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
   if (!nrow(template$predicted)) return(found)
   rbind(found, predicted_landmarks(template, found, to_scan))
 }
 
 #' How well the bent template agrees with the scan about each landmark
-#' @return Data frame: `residual` (mean distance across the surface), `lost` (share of points without counterpart).
+#' @return Data frame: `residual` (mean distance across the surface), `lost` (share of points
+#'   without counterpart).
 #' @noRd
 local_evidence <- function(prepared, cloud, fit, settings) {
   n <- ncol(prepared$xyz)
@@ -152,7 +167,8 @@ local_evidence <- function(prepared, cloud, fit, settings) {
   each <- apply(prepared$landmarks, 1, function(landmark) {
     gap <- row_lengths(xyz - rep(landmark, each = n))
     about <- gap < max(settings$near, sort(gap)[settings$about])
-    c(residual = if (all(gone[about])) NA else mean(across[about & !gone]), lost = mean(gone[about]))
+    c(residual = if (all(gone[about])) NA else mean(across[about & !gone]),
+      lost = mean(gone[about]))
   })
   as.data.frame(t(each))
 }
@@ -167,8 +183,10 @@ predicted_landmarks <- function(template, found, to_scan) {
     from <- template$landmarks[on, , drop = FALSE]
     apply_similarity(own, similarity(from, to))
   }
-  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_, sd = NA_real_,
-             residual = NA_real_, lost = NA_real_, x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
+  data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_,
+             sd = NA_real_,
+             residual = NA_real_, lost = NA_real_, x = at[, 1], y = at[, 2], z = at[, 3],
+             row.names = NULL)
 }
 
 #' Rotation, scale and shift that take points nearest to others
@@ -179,7 +197,8 @@ similarity <- function(from, to) {
   turn <- nearest_rotation(a, b)
   rotation <- t(turn$rotation)
   scale <- sum(turn$d) / sum(a^2)
-  list(rotation = rotation, scale = scale, shift = colMeans(to) - scale * drop(rotation %*% colMeans(from)))
+  list(rotation = rotation, scale = scale,
+       shift = colMeans(to) - scale * drop(rotation %*% colMeans(from)))
 }
 
 apply_similarity <- function(xyz, by) {

@@ -4,17 +4,19 @@
 #'
 #' @param specimen A specimen.
 #' @param name Name of the landmark.
-#' @param point One-row data frame `x, y, z, face, w1, w2, w3`, a place on the specimen's mesh; NULL: the landmark is not
-#'   on this specimen.
-#' @return The specimen. Where it has `placing`, the landmark's state there is "placed" or "absent", and what was measured
-#'   of its finding is NA.
+#' @param point One-row data frame `x, y, z, face, w1, w2, w3`, a place on the specimen's mesh;
+#'   NULL: the landmark is not on this specimen.
+#' @return The specimen. Where it has `placing`, the landmark's state there is "placed" or "absent",
+#'   and what was measured of its finding is NA.
 #' @noRd
 move_landmark <- function(specimen, name, point) {
   if (is.null(point)) point <- surface_points(specimen$mesh, rep(NA_real_, 3))
   there <- isTRUE(!is.na(specimen$landmarks[match(name, rownames(specimen$landmarks)), 1]))
-  same <- there && identical(unname(specimen$landmarks[name, ]), unname(unlist(point[c("x", "y", "z")])))
+  same <- there && identical(unname(specimen$landmarks[name, ]),
+                             unname(unlist(point[c("x", "y", "z")])))
   specimen <- with_landmark_at(specimen, name, point)
-  specimen <- with_origin(specimen, name, if (there && !same) "moved" else "placed", time = time_stamp())
+  specimen <- with_origin(specimen, name, if (there && !same) "moved" else "placed",
+                          time = time_stamp())
   if (!is.null(specimen$placing)) {
     specimen$placing <- moved_placing(specimen$placing, name, unlist(point[c("x", "y", "z")]))
   }
@@ -34,7 +36,8 @@ with_landmark_at <- function(specimen, name, point) {
   specimen
 }
 
-with_named_row <- function(x, values, name) with_row(x, match(name, rownames(x), nrow(x) + 1), values, name)
+with_named_row <- function(x, values, name) with_row(x, match(name, rownames(x), nrow(x) + 1),
+                                                     values, name)
 
 #' The same table with the place of a landmark that a definition moved; its confidence stays
 #' @noRd

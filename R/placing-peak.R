@@ -1,17 +1,21 @@
-# Where a quantity known at points of a surface, or of a curve on it, is greatest, finer than between its points.
+# Where a quantity known at points of a surface, or of a curve on it, is greatest, finer than
+# between its points.
 
 #' The strongest peak of a field near a place
 #'
-#' Points that no other within `apart` exceeds are tried from the strongest on; each is settled by local fits, so that the
-#' peak does not depend on which points there are, nor on where the search began.
+#' Points that no other within `apart` exceeds are tried from the strongest on; each is settled by
+#' local fits, so that the peak does not depend on which points there are, nor on where the search
+#' began.
 #'
-#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a curve), `normal` (n x 3;
-#'   NULL: the points' own main plane or line is taken, which fails in a deep cup).
+#' @param field List: `at` (n x 3), `value` (n), `dimensions` (2: points of a surface, 1: of a
+#'   curve), `normal` (n x 3; NULL: the points' own main plane or line is taken, which fails in a
+#'   deep cup).
 #' @param start The place, and how far from it (`reach`) the peak may lie.
 #' @param apart Distance within which only the greatest point is tried.
 #' @param width Half width of the local fits.
 #' @param least Value that a peak must exceed.
-#' @return List `at` (a place on the fitted field, near the surface), `value`; NULL where there is no peak.
+#' @return List `at` (a place on the fitted field, near the surface), `value`; NULL where there is
+#'   no peak.
 #' @noRd
 strongest_peak <- function(field, start, reach, apart, width, least) {
   gap <- row_lengths(field$at - rep(start, each = nrow(field$at)))
@@ -19,7 +23,8 @@ strongest_peak <- function(field, start, reach, apart, width, least) {
   tried <- tried[vapply(tried, is_greatest, NA, field, apart)]
   for (row in tried[order(-field$value[tried])]) {
     peak <- settled_peak(field, field$at[row, ], width)
-    if (!is.null(peak) && peak$value > least && sqrt(sum((peak$at - start)^2)) <= reach) return(peak)
+    if (!is.null(peak) && peak$value > least &&
+        sqrt(sum((peak$at - start)^2)) <= reach) return(peak)
   }
   NULL
 }
@@ -69,8 +74,9 @@ wide_enough <- function(field, at, width, count = c(curve = 5, surface = 13), sl
 #'
 #' Weights fall smoothly to 0 at `width`, so that the fit changes smoothly with the place.
 #'
-#' @return List: `frame` (3 x 3, the columns across the plane last), `value`, `gradient`, `hessian`, `peaked` (the Hessian is
-#'   negative), `offset` (function of a step in the plane: offsets across it). NULL where there are too few points.
+#' @return List: `frame` (3 x 3, the columns across the plane last), `value`, `gradient`, `hessian`,
+#'   `peaked` (the Hessian is negative), `offset` (function of a step in the plane: offsets across
+#'   it). NULL where there are too few points.
 #' @noRd
 local_fit <- function(field, at, width) {
   apart <- field$at - rep(at, each = nrow(field$at))
@@ -86,11 +92,13 @@ local_fit <- function(field, at, width) {
     qr.Q(qr(cbind(colSums(weight * field$normal[near, , drop = FALSE]), diag(3))))[, 3:1]
   }
   local <- apart %*% frame
-  fit <- stats::lm.wfit(quadratic_terms(local[, 1:d, drop = FALSE]), cbind(field$value[near], local[, -(1:d), drop = FALSE]),
+  fit <- stats::lm.wfit(quadratic_terms(local[, 1:d, drop = FALSE]),
+                        cbind(field$value[near], local[, -(1:d), drop = FALSE]),
                         weight)
   terms <- fit$coefficients
   if (anyNA(terms)) return(NULL)
-  hessian <- if (d == 1) matrix(2 * terms[3, 1]) else matrix(terms[c(4, 5, 5, 6), 1] * c(2, 1, 1, 2), 2)
+  hessian <- if (d == 1) matrix(2 * terms[3, 1]) else
+    matrix(terms[c(4, 5, 5, 6), 1] * c(2, 1, 1, 2), 2)
   list(frame = frame, value = terms[1, 1], gradient = terms[1 + seq_len(d), 1], hessian = hessian,
        peaked = all(eigen(hessian, symmetric = TRUE, only.values = TRUE)$values < 0),
        offset = function(move) drop(quadratic_terms(matrix(move, 1)) %*% terms[, -1, drop = FALSE]))

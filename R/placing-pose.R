@@ -1,6 +1,7 @@
 # Where the template lies in a scan: rotation, shift and scale, from anchors in many turns.
 
-#' Starts: each of the template's anchors on each of the scan's of its kind, in turns about the normal
+#' Starts: each of the template's anchors on each of the scan's of its kind, in turns about the
+#' normal
 #'
 #' @param own Which of the template's anchors.
 #' @return 13 x s: a column a pose.
@@ -25,8 +26,8 @@ anchor_starts <- function(template, cloud, own, settings) {
 
 #' The best pose of a template in a cloud
 #'
-#' All starts go some steps on thin clouds; the better go on, the best that differ on the whole, and the one with the
-#' least misfit is fitted again with a free scale.
+#' All starts go some steps on thin clouds; the better go on, the best that differ on the whole, and
+#' the one with the least misfit is fitted again with a free scale.
 #'
 #' @return List: `pose` (13 numbers: rotation, shift, scale), `score`, `misfit`.
 #' @noRd
@@ -34,13 +35,16 @@ best_pose <- function(template, cloud, own, scale, settings) {
   starts <- anchor_starts(template, cloud, own, settings)
   if (!ncol(starts)) return(list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf))
   middle <- exp(mean(log(settings$reach)))
-  first <- fit_poses(template, cloud, starts, c(settings$reach[1], middle), scale, settings, thin = TRUE)
+  first <- fit_poses(template, cloud, starts, c(settings$reach[1], middle), scale, settings,
+                     thin = TRUE)
   better <- utils::head(order(first$score), settings$followed)
-  second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE], c(middle, settings$reach[2]), scale, settings,
+  second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE],
+                      c(middle, settings$reach[2]), scale, settings,
                       thin = TRUE)
   chosen <- distinct_poses(second, template, settings)
   last <- c(1, 0.5) * settings$reach[2]
-  tight <- fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale, settings)
+  tight <- fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale,
+                        settings)
   best <- tight[[which.min(vapply(tight, `[[`, 0, "misfit"))]]
   free <- fitted_poses(template, cloud, cbind(best$pose), last, settings$loose, settings)[[1]]
   if (free$misfit < best$misfit) free else best
@@ -52,34 +56,41 @@ best_pose <- function(template, cloud, own, scale, settings) {
 fitted_poses <- function(template, cloud, starts, reach, scale, settings) {
   fits <- fit_poses(template, cloud, starts, reach, scale, settings, thin = FALSE)
   lapply(seq_along(fits$score), function(i) {
-    list(pose = fits$poses[, i], score = fits$score[i], misfit = pose_misfit(template, cloud, fits$poses[, i], settings))
+    list(pose = fits$poses[, i], score = fits$score[i],
+         misfit = pose_misfit(template, cloud, fits$poses[, i], settings))
   })
 }
 
-#' What speaks against a pose: the template's points without a like in the scan, in place and curvature, and the share of
-#' the scan without a like in the template
+#' What speaks against a pose: the template's points without a like in the scan, in place and
+#' curvature, and the share of the scan without a like in the template
 #' @noRd
 pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$saturation) {
   local <- cloud_in_frame(cloud, pose)
   of <- function(x) settings$weight * rbind(x$k1, x$k2)
-  found <- match_points(t(template$xyz), template$normal, of(template), local, of(local), settings$warp_reach[1],
+  found <- match_points(t(template$xyz), template$normal, of(template), local, of(local),
+                        settings$warp_reach[1],
                         settings$cosine)
-  gap <- sqrt(pmax(found$distance^2 - local$spacing[1]^2, 0) + colSums((of(template) - of(local)[, found$index])^2))
+  gap <- sqrt(pmax(found$distance^2 - local$spacing[1]^2, 0) +
+              colSums((of(template) - of(local)[, found$index])^2))
   gap[is.na(gap) | local$border[found$index]] <- reach
   thin <- cloud$coarse
   none <- function(n) matrix(0, 0, n)
-  back <- match_points(t(local$xyz[, thin]), local$normal[, thin], none(length(thin)), template, none(ncol(template$xyz)),
+  back <- match_points(t(local$xyz[, thin]), local$normal[, thin], none(length(thin)), template,
+                       none(ncol(template$xyz)),
                        settings$warp_reach[1], settings$cosine)$distance
-  apart <- ifelse(is.na(back), 1, pmin(pmax(back - template$spacing[1], 0) / settings$saturation, 1))
+  apart <- ifelse(is.na(back), 1,
+                  pmin(pmax(back - template$spacing[1], 0) / settings$saturation, 1))
   mean(pmin(gap / reach, 1)) + settings$left_over * mean(apart)
 }
 
 fit_poses <- function(template, cloud, starts, reach, scale, settings, thin) {
   own <- if (thin) template$coarse else seq_len(ncol(template$xyz))
   at <- if (thin) cloud$coarse else seq_len(ncol(cloud$xyz))
-  rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine, kept = settings$kept,
+  rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine,
+                kept = settings$kept,
                 scale = scale, saturation = settings$saturation, spacing = cloud$spacing[1 + thin])
-  cpp_fit_poses(template$xyz[, own, drop = FALSE], template$normal[, own, drop = FALSE], cloud$xyz[, at, drop = FALSE],
+  cpp_fit_poses(template$xyz[, own, drop = FALSE], template$normal[, own, drop = FALSE],
+                cloud$xyz[, at, drop = FALSE],
                 cloud$normal[, at, drop = FALSE], starts, rigid)
 }
 
@@ -99,15 +110,18 @@ distinct_poses <- function(fits, template, settings) {
   chosen
 }
 
-#' The pose: by the template's strongest anchor, else by all of them, inside out, with a freer scale, until it is good
-#' @return List: `pose`, `score`, `misfit`, `inverted`, `cloud` (perhaps inverted); of all that were tried the one with
-#'   the least misfit.
+#' The pose: by the template's strongest anchor, else by all of them, inside out, with a freer
+#' scale, until it is good
+#' @return List: `pose`, `score`, `misfit`, `inverted`, `cloud` (perhaps inverted); of all that were
+#'   tried the one with the least misfit.
 #' @noRd
 settled_pose <- function(template, cloud, settings) {
   all <- seq_len(nrow(template$anchors))
-  tries <- list(list(1, FALSE, settings$tight), list(all, FALSE, settings$tight), list(1, TRUE, settings$tight),
+  tries <- list(list(1, FALSE, settings$tight), list(all, FALSE, settings$tight),
+                list(1, TRUE, settings$tight),
                 list(all, FALSE, settings$loose), list(all, TRUE, settings$loose))
-  best <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, inverted = FALSE, cloud = cloud)
+  best <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, inverted = FALSE,
+               cloud = cloud)
   for (one in tries) {
     seen <- if (one[[2]]) inverted_cloud(cloud) else cloud
     found <- best_pose(template, seen, one[[1]], one[[3]], settings)

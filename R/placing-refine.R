@@ -15,33 +15,37 @@
 #' distance also serves as a flag: a landmark much farther from its defined place than those of
 #' other specimens was probably misplaced.
 #'
-#' Landmarks whose definitions build on others (the mirror plane of pairs, the ends of a curve) are found from the
-#' defined places of these, until none changes.
+#' Landmarks whose definitions build on others (the mirror plane of pairs, the ends of a curve) are
+#' found from the defined places of these, until none changes.
 #'
 #' @param specimen A [specimen()] with landmarks.
 #' @param scheme A [curve_scheme()] with definitions.
 #' @param move Whether to take the moves: FALSE, TRUE, or the names of the landmarks that are moved.
-#' @param window Half width of the local fits by which a peak is settled between vertices, as a share of the radius
-#'   (wider where the vertices are far apart).
-#' @param apart Distance within which only the greatest of several peaks is tried, as a share of the radius.
+#' @param window Half width of the local fits by which a peak is settled between vertices, as a
+#'   share of the radius (wider where the vertices are far apart).
+#' @param apart Distance within which only the greatest of several peaks is tried, as a share of the
+#'   radius.
 #' @param faint Peaks of curvature below this, times 1 / radius, do not count.
 #' @param share A ridge ends where its strength has fallen to this share of its greatest.
 #' @param order Of the curvature, see [curvature()].
-#' @param tolerance Definitions that build on others are taken again until none of these moves by more than this share of the
-#'   radius; `rounds`: most times.
+#' @param tolerance Definitions that build on others are taken again until none of these moves by
+#'   more than this share of the radius; `rounds`: most times.
 #' @param rounds See `tolerance`.
-#' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh, where that is known, as for
-#'   many sets of landmarks on one mesh; NULL: it is estimated where it is needed.
+#' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh, where
+#'   that is known, as for many sets of landmarks on one mesh; NULL: it is estimated where it is
+#'   needed.
 #' @param unit As in [fit_shape()].
 #' @param threads Number of threads of [curvature()].
-#' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`; `state`: "found",
-#'   "none" (`reason` says why: it is left alone) or "missing" (the specimen lacks the landmark, or one that the
-#'   definition builds on); `distance`, how far the landmark would move; `value`, the curvature that is extreme there
-#'   (NA for a crossing); `moved`; `given_x`, `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`,
-#'   `w1`, `w2`, `w3`, the defined place, on the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its
-#'   `landmarks` are moved, and their places in `placing`, where it has that: what was doubted before still is.
-#' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any of their
-#'   landmarks, `move` that names others.
+#' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`;
+#'   `state`: "found", "none" (`reason` says why: it is left alone) or "missing" (the specimen lacks
+#'   the landmark, or one that the definition builds on); `distance`, how far the landmark would
+#'   move; `value`, the curvature that is extreme there (NA for a crossing); `moved`; `given_x`,
+#'   `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`, the
+#'   defined place, on the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its
+#'   `landmarks` are moved, and their places in `placing`, where it has that: what was doubted
+#'   before still is.
+#' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any
+#'   of their landmarks, `move` that names others.
 #' @references The paper, sections 1 and 7, proposes crossings of curves and places of extreme
 #'   geodesic curvature. Ends of curves, caps, cups and extremes of a profile are added here.
 #' @seealso [curve_scheme()], [find_landmarks()]
@@ -53,13 +57,17 @@
 #' face$refinement[c("landmark", "kind", "state", "distance")]
 #' moved <- refine_landmarks(face, face_scheme(), move = c("chL", "chR"))
 #' @export
-refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05, share = 0.5,
-                             order = "adaptive cubic", tolerance = 1e-3, rounds = 10, curvature = NULL,
+refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5,
+                             faint = 0.05, share = 0.5,
+                             order = "adaptive cubic", tolerance = 1e-3, rounds = 10,
+                             curvature = NULL,
                              unit = NULL, threads = getOption("crestline.threads", 1L)) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  settings <- list(window = check_number(window, "window", 0, open = TRUE), apart = check_number(apart, "apart", 0),
-                   faint = check_number(faint, "faint", 0), share = check_number(share, "share", 0, 1, open = TRUE),
+  settings <- list(window = check_number(window, "window", 0, open = TRUE),
+                   apart = check_number(apart, "apart", 0),
+                   faint = check_number(faint, "faint", 0),
+                   share = check_number(share, "share", 0, 1, open = TRUE),
                    ridge = ridge_settings(error = FALSE))
   tolerance <- check_number(tolerance, "tolerance", 0)
   rounds <- check_count(rounds, "rounds")
@@ -71,14 +79,16 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   specimen$refinement <- NULL
   curvature <- curvature_by_radius(specimen, curvature, order, threads)
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
-  places <- refined_places(specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
+  places <- refined_places(specimen, definitions, pairs, curvature, settings,
+                           check_number(tolerance, "tolerance", 0),
                            check_count(rounds, "rounds"))
   refinement <- refinement_table(specimen, definitions, places)
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
   for (i in which(refinement$moved)) {
     specimen <- with_landmark_at(specimen, refinement$landmark[i], refinement[i, mesh_columns])
     if (!is.null(specimen$placing)) {
-      specimen$placing <- placing_at(specimen$placing, refinement$landmark[i], refinement[i, c("x", "y", "z")])
+      specimen$placing <- placing_at(specimen$placing, refinement$landmark[i],
+                                     refinement[i, c("x", "y", "z")])
     }
   }
   specimen$refinement <- refinement
@@ -106,7 +116,8 @@ check_move <- function(move, names, call = rlang::caller_env()) {
   if (isFALSE(move)) return(character())
   wrong <- if (is.character(move)) setdiff(move, names) else describe_value(move)
   if (length(wrong)) {
-    crestline_abort(sprintf("`move` is %s.", shorten(wrong)), sprintf("Give TRUE, FALSE or some of %s.", shorten(names, 30)),
+    crestline_abort(sprintf("`move` is %s.", shorten(wrong)),
+                    sprintf("Give TRUE, FALSE or some of %s.", shorten(names, 30)),
                     stage = "arguments", call = call)
   }
   move
@@ -121,19 +132,22 @@ curvature_by_radius <- function(specimen, given, order, threads) {
   function(radius) {
     key <- format(radius, digits = 15)
     if (is.null(known[[key]])) {
-      known[[key]] <<- known_curvature(if (!is.null(given)) given(radius), specimen, radius, threads, order)
+      known[[key]] <<- known_curvature(if (!is.null(given)) given(radius), specimen, radius,
+                                       threads, order)
     }
     known[[key]]
   }
 }
 
 #' The places of all definitions, taken again while those that they build on move
-#' @return List with an entry for each definition: as of [defined_place()], with `point` (one row of [surface_points()]).
+#' @return List with an entry for each definition: as of [defined_place()], with `point` (one row of
+#'   [surface_points()]).
 #' @noRd
 refined_places <- function(specimen, definitions, pairs, curvature, settings, tolerance, rounds) {
   given <- specimen$landmarks
   current <- with_located(specimen)
-  inputs <- lapply(seq_len(nrow(definitions)), function(i) definition_inputs(definitions[i, ], pairs))
+  inputs <- lapply(seq_len(nrow(definitions)),
+                   function(i) definition_inputs(definitions[i, ], pairs))
   places <- vector("list", nrow(definitions))
   seen <- vector("list", nrow(definitions))
   order <- order(lengths(inputs) > 0)
@@ -157,7 +171,8 @@ refined_places <- function(specimen, definitions, pairs, curvature, settings, to
 #' @noRd
 definition_inputs <- function(definition, pairs) {
   left <- if (!is.na(definition$mirror)) mirror_names(definition$mirror)
-  names <- c(left, pairs$right[match(left, pairs$left)], unlist(definition[c("from", "to", "across_from", "across_to")]))
+  names <- c(left, pairs$right[match(left, pairs$left)],
+             unlist(definition[c("from", "to", "across_from", "across_to")]))
   unname(names[!is.na(names)])
 }
 
@@ -165,16 +180,20 @@ landmarks_at <- function(specimen, names) {
   specimen$landmarks[match(names, rownames(specimen$landmarks)), , drop = FALSE]
 }
 
-unmoved <- function(at, before, least) !is.null(before) && (nrow(at) == 0 || isTRUE(max(row_lengths(at - before)) <= least))
+unmoved <- function(at, before,
+                    least) !is.null(before) && (nrow(at) == 0 ||
+                                                isTRUE(max(row_lengths(at - before)) <= least))
 
 #' The place of one definition with the point of the mesh, or why there is none
 #' @noRd
 located_place <- function(specimen, definition, given, inputs, pairs, curvature, settings) {
   start <- landmarks_at(list(landmarks = given), definition$landmark)[1, ]
-  if (anyNA(start) || anyNA(inputs)) return(list(state = "missing", reason = "a landmark is missing"))
+  if (anyNA(start) || anyNA(inputs)) return(list(state = "missing",
+                                                 reason = "a landmark is missing"))
   place <- defined_place(specimen, definition, start, pairs, curvature, settings)
   if (!is.null(place$reason)) {
-    return(list(state = "none", reason = place$reason, point = surface_points(specimen$mesh, matrix(start, 1))))
+    return(list(state = "none", reason = place$reason,
+                point = surface_points(specimen$mesh, matrix(start, 1))))
   }
   place$state <- "found"
   place$point <- surface_points(specimen$mesh, matrix(place$at, 1))
@@ -187,13 +206,15 @@ refinement_table <- function(specimen, definitions, places) {
   state <- vapply(places, `[[`, "", "state")
   found <- state == "found"
   given <- landmarks_at(specimen, definitions$landmark)
-  points <- surface_points(specimen$mesh, given[0, , drop = FALSE])[rep(NA_integer_, nrow(definitions)), ]
+  points <- surface_points(specimen$mesh,
+                           given[0, , drop = FALSE])[rep(NA_integer_, nrow(definitions)), ]
   for (i in which(found)) points[i, ] <- places[[i]]$point
   text <- vapply(places, function(x) if (is.null(x$reason)) NA_character_ else x$reason, "")
   value <- vapply(places, function(x) if (is.null(x$value)) NA_real_ else as.numeric(x$value), 0)
   colnames(given) <- paste0("given_", c("x", "y", "z"))
   distance <- row_lengths(as.matrix(points[c("x", "y", "z")]) - given)
-  data.frame(landmark = definitions$landmark, kind = definitions$kind, state = state, distance = distance, value = value,
+  data.frame(landmark = definitions$landmark, kind = definitions$kind, state = state,
+             distance = distance, value = value,
              moved = FALSE, given, points, reason = text, row.names = NULL)
 }
 
@@ -202,8 +223,8 @@ refinement_table <- function(specimen, definitions, places) {
 #' @param labels Whether to write the landmarks' names.
 #' @param main Title; NULL: the specimen's name.
 #' @param ... Passed to [draw_surface()].
-#' @details `plot_refinement()` draws the landmarks as they were given in black, their defined places in orange, and lines
-#'   between.
+#' @details `plot_refinement()` draws the landmarks as they were given in black, their defined
+#'   places in orange, and lines between.
 #' @return `plot_refinement()`: the scene of [draw_surface()], invisibly.
 #' @export
 plot_refinement <- function(specimen, view = "front", labels = TRUE, main = NULL, ...) {
@@ -213,7 +234,8 @@ plot_refinement <- function(specimen, view = "front", labels = TRUE, main = NULL
   check_class(specimen, "specimen", "specimen", "refine_landmarks()")
   table <- specimen$refinement
   if (is.null(table)) {
-    crestline_abort("the landmarks of `specimen` were not refined.", "Give a specimen of refine_landmarks().", stage = "picture",
+    crestline_abort("the landmarks of `specimen` were not refined.",
+                    "Give a specimen of refine_landmarks().", stage = "picture",
                     id = specimen$id)
   }
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
@@ -222,7 +244,8 @@ plot_refinement <- function(specimen, view = "front", labels = TRUE, main = NULL
   table <- table[table$state == "found", ]
   given <- as.matrix(table[paste0("given_", c("x", "y", "z"))])
   place <- as.matrix(table[c("x", "y", "z")])
-  for (i in seq_len(nrow(table))) draw_lines(scene, rbind(given[i, ], place[i, ]), "#C04000", width = 2)
+  for (i in seq_len(nrow(table))) draw_lines(scene, rbind(given[i, ], place[i, ]), "#C04000",
+                                             width = 2)
   draw_points(scene, given, "black", halo = "white")
   draw_points(scene, place, "#FF7A00", halo = "white", labels = if (labels) table$landmark)
   graphics::title(if (is.null(main)) specimen$id else main)

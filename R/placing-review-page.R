@@ -1,13 +1,18 @@
-# The page of a review: the face that turns, the list of landmarks, the buttons; and what answers them.
+# The page of a review: the face that turns, the list of landmarks, the buttons; and what answers
+# them.
 
 review_page <- function(title) {
   shiny::fillPage(
-    title = title, shiny::tags$head(shiny::includeCSS(review_file("review.css"))), rgl::registerSceneChange(),
+    title = title, shiny::tags$head(shiny::includeCSS(review_file("review.css"))),
+    rgl::registerSceneChange(),
     shiny::tags$div(
-      id = "review", shiny::tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
+      id = "review", shiny::tags$div(id = "view",
+                                     rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
       shiny::tags$div(
-        id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"), review_buttons(), shiny::uiOutput("list"),
-        shiny::tags$p(class = "help", "Click on the surface: the chosen landmark goes there. Click on another's ball: that",
+        id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"), review_buttons(),
+        shiny::uiOutput("list"),
+        shiny::tags$p(class = "help",
+                      "Click on the surface: the chosen landmark goes there. Click on another's ball: that",
                       "one is chosen. Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
       )
     ),
@@ -18,10 +23,12 @@ review_page <- function(title) {
 review_buttons <- function() {
   button <- function(id, label, title) shiny::actionButton(id, label, title = title)
   shiny::tags$div(
-    id = "buttons", button("keep", "It is right", "The chosen landmark stays where it is and counts as placed"),
+    id = "buttons", button("keep", "It is right",
+                           "The chosen landmark stays where it is and counts as placed"),
     button("absent", "Not on this scan", "The chosen landmark is missing on this scan"),
     button("undo", "Undo", "Take the last step back"),
-    button("cancel", "Cancel", "End without any change"), button("done", "Done", "End with the landmarks as they are")
+    button("cancel", "Cancel", "End without any change"),
+    button("done", "Done", "End with the landmarks as they are")
   )
 }
 
@@ -44,7 +51,8 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
       review(change(review()))
       change <- redraw(scene, drawn, review_items(review()))
       drawn <<- change$drawn
-      session$sendCustomMessage("sceneChange", rgl::sceneChange("face", delete = change$delete, add = change$add))
+      session$sendCustomMessage("sceneChange",
+                                rgl::sceneChange("face", delete = change$delete, add = change$add))
     }
     output$face <- rgl::renderRglwidget({
       rgl::set3d(scene$device)
@@ -66,7 +74,8 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
 answer_steps <- function(input, step, frame, progress) {
   # The scene is in the browser: now landmarks and curves can be sent to it.
   shiny::observeEvent(input$ready, step(function(now) {
-    if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen, progress = progress)
+    if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen,
+                                                           progress = progress)
     now
   }))
   shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
@@ -122,20 +131,26 @@ chosen_html <- function(review) {
   tags <- shiny::tags
   name <- review$selected
   waiting <- sum(is_open(review))
-  left <- if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else "No landmark is missing or doubtful"
+  left <- if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else
+    "No landmark is missing or doubtful"
   mirrored <- if (looks_mirrored(review$specimen)) {
-    tags$p(class = "warning", "Left and right look mirrored: names that end in L belong to the subject's own left.")
+    tags$p(class = "warning",
+           "Left and right look mirrored: names that end in L belong to the subject's own left.")
   }
   if (!length(name)) {
-    return(tags$div(tags$p(class = "where", "Choose a landmark: in the list, or its ball."), tags$p(left), mirrored))
+    return(tags$div(tags$p(class = "where", "Choose a landmark: in the list, or its ball."),
+                    tags$p(left), mirrored))
   }
   row <- match(name, review$about$landmark)
   curves <- curves_at(review, name)
-  said <- paste0(curves$curve, ": ", curves$kind, ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
+  said <- paste0(curves$curve, ": ", curves$kind,
+                 ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
                  ifelse(is.na(curves$reason), "", paste0("; ", curves$reason)))
-  tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]), tags$p(class = "where", review$about$where[row]),
+  tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]),
+           tags$p(class = "where", review$about$where[row]),
            tags$p(left), mirrored,
-           if (nrow(curves)) tags$details(tags$summary(amount(nrow(curves), "curve")), tags$ul(lapply(said, tags$li))))
+           if (nrow(curves)) tags$details(tags$summary(amount(nrow(curves), "curve")),
+                                          tags$ul(lapply(said, tags$li))))
 }
 
 looks_mirrored <- function(specimen) specimen_slips(specimen)$mirrored
@@ -144,7 +159,8 @@ looks_mirrored <- function(specimen) specimen_slips(specimen)$mirrored
 #' @noRd
 specimen_slips <- function(specimen) {
   known <- specimen$geometry
-  slips_by_name(known$landmarks, known$located, specimen$mesh, eval(formals(crestline::specimen)$midline))
+  slips_by_name(known$landmarks, known$located, specimen$mesh,
+                eval(formals(crestline::specimen)$midline))
 }
 
 #' The list of landmarks: a row a landmark, with its state
@@ -152,16 +168,19 @@ specimen_slips <- function(specimen) {
 list_html <- function(review) {
   tags <- shiny::tags
   colours <- review_colours()$state
-  confidence <- review$specimen$placing$confidence[match(review$about$landmark, review$specimen$placing$landmark)]
+  confidence <- review$specimen$placing$confidence[match(review$about$landmark,
+                                                         review$specimen$placing$landmark)]
   state <- ifelse(is_doubtful(review), "doubtful", review$state)
-  told <- if (is.null(confidence)) state else ifelse(is.na(confidence), state, sprintf("%s %.2f", state, confidence))
+  told <- if (is.null(confidence)) state else
+    ifelse(is.na(confidence), state, sprintf("%s %.2f", state, confidence))
   rows <- lapply(seq_along(state), function(i) {
     name <- review$about$landmark[i]
     colour <- if (state[i] %in% names(colours)) colours[[state[i]]] else "transparent"
     chosen <- if (identical(name, review$selected)) "chosen"
     tags$button(type = "button", class = paste("row", state[i], chosen), `data-landmark` = name,
                 tags$span(class = "dot", style = paste0("background:", colour)), tags$b(name),
-                tags$span(class = "long", review$about$name[i]), tags$span(class = "state", told[i]))
+                tags$span(class = "long", review$about$name[i]),
+                tags$span(class = "state", told[i]))
   })
   tags$div(id = "landmarks", rows)
 }

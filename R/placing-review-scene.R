@@ -1,16 +1,18 @@
 # What the page of a review shows, as an rgl scene, and what has changed in it since.
 
-#' Colours of landmarks by state, as in [plot_placing()], and of curves by kind, as in [plot.shape()]
+#' Colours of landmarks by state, as in [plot_placing()], and of curves by kind, as in
+#' [plot.shape()]
 #' @noRd
 review_colours <- function() {
-  list(state = c(found = "#108040", doubtful = "#C02020", predicted = "#3060C0", placed = "#6A3D9A", given = "#202020"),
+  list(state = c(found = "#108040", doubtful = "#C02020", predicted = "#3060C0", placed = "#6A3D9A",
+                 given = "#202020"),
        selected = "#E08A00", curve = eval(formals(plot.shape)$colour))
 }
 
 #' The frame of the scene: the middle of the mesh's box, and a diagonal of 200
 #'
-#' rgl works in single precision, and paints balls black whose radius is far below 1: neither a scan in metres nor one far
-#' from its origin is to suffer.
+#' rgl works in single precision, and paints balls black whose radius is far below 1: neither a scan
+#' in metres nor one far from its origin is to suffer.
 #' @noRd
 scene_frame <- function(mesh, diagonal = 200) {
   range <- apply(mesh$vb[1:3, ], 1, range)
@@ -65,10 +67,12 @@ landmark_items <- function(review, size = 1.6, larger = 1.25) {
   at <- review$specimen$landmarks
   names <- intersect(review$about$landmark, rownames(at)[!is.na(at[, 1])])
   if (!length(names)) return(list())
-  state <- ifelse(is_doubtful(review), "doubtful", review$state)[match(names, review$about$landmark)]
+  state <- ifelse(is_doubtful(review), "doubtful",
+                  review$state)[match(names, review$about$landmark)]
   items <- Map(function(name, state) {
     chosen <- identical(name, review$selected)
-    list(landmark = name, at = at[name, ], colour = if (chosen) colours$selected else colours$state[[state]],
+    list(landmark = name, at = at[name, ],
+         colour = if (chosen) colours$selected else colours$state[[state]],
          size = size * if (chosen) larger else 1)
   }, names, state)
   stats::setNames(items, paste("landmark", names))
@@ -80,7 +84,8 @@ curve_items <- function(review, width = 3) {
   curves <- review$fitting$scheme$curves
   colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
   items <- Map(function(fit, colour) {
-    list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]), colour = colour, width = width)
+    list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]),
+         colour = colour, width = width)
   }, fits, unname(colour))
   stats::setNames(items, paste("curve", names(fits)))
 }
@@ -100,7 +105,8 @@ redraw <- function(scene, drawn, items) {
   drawn <- drawn[same]
   new <- setdiff(names(items), names(drawn))
   drawn[new] <- lapply(items[new], function(item) list(item = item, ids = draw_item(scene, item)))
-  list(drawn = drawn, delete = delete, add = unlist(lapply(drawn[new], `[[`, "ids"), use.names = FALSE))
+  list(drawn = drawn, delete = delete,
+       add = unlist(lapply(drawn[new], `[[`, "ids"), use.names = FALSE))
 }
 
 draw_item <- function(scene, item) {

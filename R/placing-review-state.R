@@ -1,21 +1,25 @@
-# What a review knows and does, without a page: which landmark is meant, where it goes, what follows, and the way back.
+# What a review knows and does, without a page: which landmark is meant, where it goes, what
+# follows, and the way back.
 
 #' Begin a review
 #'
 #' @param specimen,scheme,least,settings,bridge,threads As in [review_landmarks()].
-#' @return List: `specimen`; `fitting` as of [begin_fitting()], NULL without a scheme; `about` (data frame: `landmark`,
-#'   `name`, `where`); `state` by landmark ("found", "predicted", "given", "placed", "absent", or "missing": neither placed
-#'   nor said to be absent); `selected` (name, or none: `character()`); `history` (list of earlier reviews).
+#' @return List: `specimen`; `fitting` as of [begin_fitting()], NULL without a scheme; `about` (data
+#'   frame: `landmark`, `name`, `where`); `state` by landmark ("found", "predicted", "given",
+#'   "placed", "absent", or "missing": neither placed nor said to be absent); `selected` (name, or
+#'   none: `character()`); `history` (list of earlier reviews).
 #' @noRd
 begin_review <- function(specimen, scheme, least, settings, bridge, threads) {
   specimen <- with_located(specimen)
   about <- described_landmarks(specimen, scheme)
   fitting <- if (!is.null(scheme)) begin_fitting(specimen, scheme, settings, bridge, threads)
-  list(specimen = specimen, fitting = fitting, about = about, state = landmark_states(specimen, about$landmark),
+  list(specimen = specimen, fitting = fitting, about = about,
+       state = landmark_states(specimen, about$landmark),
        least = least, selected = character(), history = list())
 }
 
-#' The landmarks of a scheme, in its order, and those that only the specimen has, with words for the reader
+#' The landmarks of a scheme, in its order, and those that only the specimen has, with words for the
+#' reader
 #'
 #' Where a table says "as enL" the words are those of enL.
 #' @noRd
@@ -23,7 +27,8 @@ described_landmarks <- function(specimen, scheme) {
   known <- scheme$landmarks
   names <- union(known$landmark, rownames(specimen$landmarks))
   words <- function(column) {
-    text <- if (is.null(known[[column]])) NA_character_ else known[[column]][match(names, known$landmark)]
+    text <- if (is.null(known[[column]])) NA_character_ else
+      known[[column]][match(names, known$landmark)]
     ifelse(is.na(text), "", text)
   }
   where <- words("where")
@@ -57,7 +62,8 @@ select_landmark <- function(review, name) {
 
 #' Which landmarks wait for the person: missing or doubtful
 #' @noRd
-is_open <- function(review) stats::setNames(review$state == "missing" | is_doubtful(review), review$about$landmark)
+is_open <- function(review) stats::setNames(review$state == "missing" | is_doubtful(review),
+                                            review$about$landmark)
 
 #' Put the selected landmark on a place of the mesh, and fit its curves anew
 #'
@@ -68,11 +74,13 @@ place_selected <- function(review, point, progress = function(n) function() NULL
   name <- review$selected
   if (!length(name)) return(review)
   after <- with_landmark(review, name, point)
-  if (!is.null(after$fitting)) after$fitting <- refit_curves(after$fitting, after$specimen, name, progress)
+  if (!is.null(after$fitting)) after$fitting <- refit_curves(after$fitting, after$specimen, name,
+                                                             progress)
   after
 }
 
-#' A review with one landmark settled, from which the way back leads to what it was; one that waited is followed by the next
+#' A review with one landmark settled, from which the way back leads to what it was; one that waited
+#' is followed by the next
 #' @noRd
 with_landmark <- function(review, name, point) {
   after <- review
@@ -83,7 +91,8 @@ with_landmark <- function(review, name, point) {
   after
 }
 
-#' Say that the selected landmark is right where it is; one that is not on the mesh (predicted) stays what it was
+#' Say that the selected landmark is right where it is; one that is not on the mesh (predicted)
+#' stays what it was
 #' @noRd
 keep_selected <- function(review, progress = function(n) function() NULL) {
   point <- if (length(review$selected)) known_point(review$specimen, review$selected)
@@ -96,7 +105,8 @@ undo_review <- function(review) {
   c(review$history[[last]], review[c("about", "least")], list(history = review$history[-last]))
 }
 
-#' The next landmark after the selected one, round the list, that waits; the selected one where none does
+#' The next landmark after the selected one, round the list, that waits; the selected one where none
+#' does
 #' @noRd
 next_open <- function(review) {
   open <- is_open(review)
@@ -105,11 +115,13 @@ next_open <- function(review) {
   if (length(waiting)) waiting[1] else review$selected
 }
 
-#' What a ray means: a landmark other than the selected one whose ball it meets, else a place on the surface
+#' What a ray means: a landmark other than the selected one whose ball it meets, else a place on the
+#' surface
 #'
 #' @param from,towards As in [mesh_on_ray()].
 #' @param reach Radius of the landmarks' balls, in the unit of the mesh.
-#' @return List with `landmark` (name) or `point` (one row, as of [mesh_on_ray()]); empty where the ray misses.
+#' @return List with `landmark` (name) or `point` (one row, as of [mesh_on_ray()]); empty where the
+#'   ray misses.
 #' @noRd
 aimed_at <- function(review, from, towards, reach) {
   point <- mesh_on_ray(review$specimen$mesh, from, towards)
@@ -131,7 +143,8 @@ curves_at <- function(review, name) {
   curves <- review$fitting$scheme$curves
   own <- which(curves$from == name | curves$to == name)
   fits <- review$fitting$fits[own]
-  value <- function(field, none) vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  value <- function(field, none) vapply(fits,
+                                        function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
   data.frame(curve = curves$curve[own], kind = curves$kind[own], length = value("length", NA_real_),
              reason = value("reason", NA_character_), row.names = NULL)
 }

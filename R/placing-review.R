@@ -15,28 +15,31 @@
 #' `review_landmarks()` to continue with a specimen that has some landmarks.
 #'
 #' @param specimen A [specimen()], with landmarks that were found or given.
-#' @param scheme A [curve_scheme()]: its landmarks, with their words `name` and `where`, and its curves; NULL: the landmarks
-#'   of the specimen alone.
+#' @param scheme A [curve_scheme()]: its landmarks, with their words `name` and `where`, and its
+#'   curves; NULL: the landmarks of the specimen alone.
 #' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
 #' @param least Least confidence of a found landmark that is not doubtful, as in [check_placing()].
 #' @param settings [ridge_settings()] of the curves.
-#' @param view Where to look from, see [draw_surface()]; NULL: from the front, as [find_landmarks()] has it where the
-#'   landmarks were found.
+#' @param view Where to look from, see [draw_surface()]; NULL: from the front, as [find_landmarks()]
+#'   has it where the landmarks were found.
 #' @param radius Of the curvature that `surface` shows, as in [plot.specimen()].
-#' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for the browser; landmarks
-#'   are put on the mesh as it is.
+#' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for
+#'   the browser; landmarks are put on the mesh as it is.
 #' @param bridge,unit As in [fit_shape()].
-#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `quiet`, `launch.browser` (a function gets the address of the page).
+#' @param ... Passed to [shiny::runApp()]: `port`, `host`, `quiet`, `launch.browser` (a function
+#'   gets the address of the page).
 #' @inheritParams curvature
-#' @details The address of the page has a random token. R answers nobody who does not know it, and no page of another site.
-#'   With `launch.browser = FALSE` the address is printed.
-#' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed) or as they were
-#'   ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks have the state "placed", those said
-#'   not to be there "absent", both without confidence: [check_placing()] has no doubts about them.
-#'   `place_landmarks()`: a specimen with a row for each landmark of the scheme, NA where it was not placed. A warning
-#'   of class `crestline_mirrored` tells where left and right look mirrored, one of class `crestline_exchanged` which landmarks
+#' @details The address of the page has a random token. R answers nobody who does not know it, and
+#'   no page of another site. With `launch.browser = FALSE` the address is printed.
+#' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed)
+#'   or as they were ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks
+#'   have the state "placed", those said not to be there "absent", both without confidence:
+#'   [check_placing()] has no doubts about them. `place_landmarks()`: a specimen with a row for each
+#'   landmark of the scheme, NA where it was not placed. A warning of class `crestline_mirrored`
+#'   tells where left and right look mirrored, one of class `crestline_exchanged` which landmarks
 #'   look exchanged.
-#' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they should be.
+#' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they
+#'   should be.
 #' @references The paper takes landmarks as given (sections 1 and 7).
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)
@@ -46,9 +49,11 @@
 #' mine <- calibrate_template(face_template(), list(face))
 #' again <- place_landmarks(humface, face_scheme(), id = "humface")
 #' @export
-review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natural", "shape index", "curvature", "plain"),
+review_landmarks <- function(specimen, scheme = face_scheme(),
+                             surface = c("natural", "shape index", "curvature", "plain"),
                              least = 0.5, settings = ridge_settings(error = FALSE), view = NULL,
-                             radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL, bridge = 0.2,
+                             radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL,
+                             bridge = 0.2,
                              threads = getOption("crestline.threads", 1L), ...) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
@@ -70,7 +75,8 @@ review_landmarks <- function(specimen, scheme = face_scheme(), surface = c("natu
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
   shown <- shown_surface(specimen, surface, radius, faces)
-  reviewed <- run_review(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view), ...)
+  reviewed <- run_review(review_page(paste("Landmarks of", specimen$id)),
+                         review_server(review, shown, view), ...)
   warn_exchanged(specimen_slips(reviewed), reviewed$id)
   reviewed
 }

@@ -2,24 +2,27 @@
 
 #' A template that landmarks are found by
 #'
-#' `landmark_template()` makes one of any specimen with landmarks; `face_template()` is the package's own, for faces.
+#' `landmark_template()` makes one of any specimen with landmarks; `face_template()` is the
+#' package's own, for faces.
 #'
-#' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and `humface` (S. Schlager,
-#' GPL), made symmetric; `data-raw/face-template.R` of the sources makes it, and describes how its
-#' landmarks were placed.
+#' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and
+#' `humface` (S. Schlager, GPL), made symmetric; `data-raw/face-template.R` of the sources makes it,
+#' and describes how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
 #' @param predicted Names of landmarks for which the surface has no evidence, such as those at ears
 #'   that most scans lack. They are not searched for, but placed by the positions of the others.
-#' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of a face, are multiplied
-#'   by; the default makes a template's diagonal 280 of them, as that of a face is.
-#' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are partners, and the
-#'   displacements that are tried are mostly symmetric. `NA`: where there are at least two such pairs.
-#' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where there is a mirror,
-#'   left is at positive x and the mirror is x = 0), `landmarks` (k x 3, those that are found), `predicted` (k x 3),
-#'   `unit`, `mirror`.
-#' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or `predicted` that name none
-#'   of them.
+#' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of
+#'   a face, are multiplied by; the default makes a template's diagonal 280 of them, as that of a
+#'   face is.
+#' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are
+#'   partners, and the displacements that are tried are mostly symmetric. `NA`: where there are at
+#'   least two such pairs.
+#' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where
+#'   there is a mirror, left is at positive x and the mirror is x = 0), `landmarks` (k x 3, those
+#'   that are found), `predicted` (k x 3), `unit`, `mirror`.
+#' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or
+#'   `predicted` that name none of them.
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examples
 #' face_template()
@@ -28,7 +31,8 @@
 #' face <- specimen(humface, read_landmarks(file), id = "humface")
 #' landmark_template(face, predicted = c("tL", "tR", "oiL", "oiR"))
 #' @export
-landmark_template <- function(specimen, predicted = character(), unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA) {
+landmark_template <- function(specimen, predicted = character(),
+                              unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   predicted <- check_names(predicted, "predicted")
@@ -42,19 +46,22 @@ landmark_template <- function(specimen, predicted = character(), unit = mesh_dia
   }
   if (nrow(at) - length(predicted) < 4) {
     refuse_landmarks(sprintf("it has %d landmarks to be found.", nrow(at) - length(predicted)),
-                     "A template needs four or more: place them, or give fewer `predicted`.", specimen$id)
+                     "A template needs four or more: place them, or give fewer `predicted`.",
+                     specimen$id)
   }
   pairs <- side_pairs(rownames(at))
   if (is.na(mirror)) mirror <- nrow(pairs) >= 2
   if (mirror && !nrow(pairs)) {
-    refuse_landmarks("it has no pair of landmarks whose names end in L and R.", "Name the sides so, or give mirror = FALSE.",
+    refuse_landmarks("it has no pair of landmarks whose names end in L and R.",
+                     "Name the sides so, or give mirror = FALSE.",
                      specimen$id)
   }
   if (mirror) specimen <- turned_specimen(specimen, at, pairs)
   at <- specimen$landmarks[rownames(at), , drop = FALSE]
   found <- !rownames(at) %in% predicted
   structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE],
-                 predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror), class = "landmark_template")
+                 predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror),
+            class = "landmark_template")
 }
 
 #' @export
@@ -78,7 +85,8 @@ turned_specimen <- function(specimen, at, pairs) {
   axis <- eigen(crossprod(across), symmetric = TRUE)$vectors[, 1]
   axis <- axis * sign(sum(across %*% axis))
   sided <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
-  middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2, at[!sided, , drop = FALSE])
+  middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
+                  at[!sided, , drop = FALSE])
   origin <- colMeans(middle)
   moved_specimen(specimen, least_rotation(axis), origin)
 }
@@ -98,10 +106,12 @@ moved_specimen <- function(specimen, rotation, origin) {
   mesh <- specimen$mesh
   mesh$vb[1:3, ] <- rotation %*% (mesh$vb[1:3, ] - origin)
   mesh$normals[1:3, ] <- rotation %*% mesh$normals[1:3, ]
-  landmarks <- structure(t(rotation %*% (t(specimen$landmarks) - origin)), dimnames = dimnames(specimen$landmarks))
+  landmarks <- structure(t(rotation %*% (t(specimen$landmarks) - origin)),
+                         dimnames = dimnames(specimen$landmarks))
   geometry <- specimen$geometry
   geometry[c("landmarks", "located")] <- list(landmarks[0, , drop = FALSE], geometry$located[0, ])
-  with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key, landmarks = landmarks, geometry = geometry)
+  with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key,
+              landmarks = landmarks, geometry = geometry)
 }
 
 #' A template with what matching needs: its cloud, anchors and displacements
@@ -109,8 +119,9 @@ moved_specimen <- function(specimen, rotation, origin) {
 #' That of the template used last is kept, as it takes half a second and a sample's scans share it.
 #'
 #' @param settings Of [find_settings()], as given.
-#' @return List: as [scan_cloud()]'s, with `settings` (in the template's unit), `landmarks` (k x 3), `basis` (see
-#'   [warp_basis()]), `sd` (of the landmarks where every point has a match, see [warp_sd()]).
+#' @return List: as [scan_cloud()]'s, with `settings` (in the template's unit), `landmarks` (k x 3),
+#'   `basis` (see [warp_basis()]), `sd` (of the landmarks where every point has a match, see
+#'   [warp_sd()]).
 #' @noRd
 prepared_template <- function(template, settings, threads) {
   asked <- list(template[c("specimen", "landmarks", "unit", "mirror")], settings)
@@ -141,7 +152,8 @@ prepare_template <- function(template, settings, threads) {
 with_landmarks <- function(prepared, landmarks) {
   prepared$landmarks <- landmarks
   n <- ncol(prepared$xyz)
-  prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), n, prepared$mirror, prepared$settings)
+  prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), n, prepared$mirror,
+                               prepared$settings)
   weight <- rep(1 / prepared$settings$error^2, n)
   root <- warp_root(prepared$basis, seq_len(n), prepared$normal, weight, prepared$settings)
   prepared$sd <- warp_sd(lapply(prepared$basis, function(b) b[-seq_len(n), , drop = FALSE]), root)
@@ -172,5 +184,6 @@ check_template <- function(template, call = rlang::caller_env()) {
     check_class(template, "specimen", "template", "specimen() or read_specimen()", call)
     return(landmark_template(template))
   }
-  check_class(template, "landmark_template", "template", "landmark_template() or face_template()", call)
+  check_class(template, "landmark_template", "template", "landmark_template() or face_template()",
+              call)
 }

@@ -1,26 +1,31 @@
-# The displacement of a template onto a scan: a low-rank Gaussian process, fitted to nearest points in place and curvature.
+# The displacement of a template onto a scan: a low-rank Gaussian process, fitted to nearest points
+# in place and curvature.
 
 #' Basis of the displacements of a template
 #'
-#' The process is the sum of Gaussian kernels, split into a part that is its own mirror image in x and one that is turned
-#' by the mirror, of smaller standard deviation. Each component of a displacement is then a process of functions even or
-#' odd in x.
+#' The process is the sum of Gaussian kernels, split into a part that is its own mirror image in x
+#' and one that is turned by the mirror, of smaller standard deviation. Each component of a
+#' displacement is then a process of functions even or odd in x.
 #'
-#' @param xyz n x 3, the template's points in its own frame (mirror: x to -x), those that the functions are chosen by
-#'   first.
+#' @param xyz n x 3, the template's points in its own frame (mirror: x to -x), those that the
+#'   functions are chosen by first.
 #' @param m How many of them the functions are chosen by; the rest are landmarks.
 #' @param symmetric Whether the template has a mirror.
 #' @return List by component of n x k matrices whose coefficients are independent standard normal.
 #' @noRd
 warp_basis <- function(xyz, m, symmetric, settings) {
-  affine <- settings$affine * cbind(1, sweep(xyz, 2, colMeans(xyz[seq_len(m), ])) / settings$kernel_length[1])
+  affine <- settings$affine * cbind(1,
+                                    sweep(xyz, 2, colMeans(xyz[seq_len(m), ])) /
+                                    settings$kernel_length[1])
   if (!symmetric) {
     own <- process_basis(xyz, m, function(a, b) gauss_kernel(a, b, settings), settings$rank / 3)
     each <- cbind(own$functions, affine)
     return(list(each, each, each))
   }
   mirror <- function(a) cbind(-a[, 1], a[, 2:3, drop = FALSE])
-  part <- function(sign) function(a, b) (gauss_kernel(a, b, settings) + sign * gauss_kernel(a, mirror(b), settings)) / 2
+  part <- function(sign) function(a,
+                                  b) (gauss_kernel(a, b, settings) + sign *
+                                      gauss_kernel(a, mirror(b), settings)) / 2
   even <- process_basis(xyz, m, part(1), settings$rank / 3)
   odd <- process_basis(xyz, m, part(-1), settings$rank / 3)
   across <- joined_basis(odd, even, settings$uneven, settings$rank / 3)
@@ -39,19 +44,23 @@ gauss_kernel <- function(a, b, settings) {
 
 #' Principal functions of a process: pivoted Cholesky, then turned to the axes of its variance
 #'
-#' @param least Variance that is left, as a share of the greatest, at which no more functions are taken.
+#' @param least Variance that is left, as a share of the greatest, at which no more functions are
+#'   taken.
 #' @return List: `functions` (n x k), `variance` (k, of each over the points).
 #' @noRd
 process_basis <- function(xyz, m, kernel, rank, least = 1e-12) {
   many <- min(m, ceiling(2 * rank))
   root <- matrix(0, nrow(xyz), many)
-  left <- vapply(seq_len(nrow(xyz)), function(i) kernel(xyz[i, , drop = FALSE], xyz[i, , drop = FALSE]), 0)
+  left <- vapply(seq_len(nrow(xyz)),
+                 function(i) kernel(xyz[i, , drop = FALSE], xyz[i, , drop = FALSE]), 0)
   least <- least * max(left[seq_len(m)])
   for (j in seq_len(many)) {
     pivot <- which.max(left[seq_len(m)])
     if (left[pivot] <= least) break
     used <- seq_len(j - 1)
-    column <- drop(kernel(xyz, xyz[pivot, , drop = FALSE])) - drop(root[, used, drop = FALSE] %*% root[pivot, used])
+    column <- drop(kernel(xyz,
+                          xyz[pivot, , drop = FALSE])) - drop(root[, used, drop = FALSE] %*%
+                                                              root[pivot, used])
     root[, j] <- column / sqrt(left[pivot])
     left <- pmax(left - root[, j]^2, 0)
   }
@@ -68,8 +77,9 @@ joined_basis <- function(full, share, factor, rank) {
 #' Fit the displacement of a template's points to a cloud in the template's frame
 #'
 #' @param weight Of curvature in the matches.
-#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see [warp_sd()]); of the n
-#'   points `index` (of the nearest in the cloud, or NA) and `residual` (the distance to it).
+#' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see
+#'   [warp_sd()]); of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
+#'   distance to it).
 #' @noRd
 fit_warp <- function(template, cloud, settings, weight) {
   xyz <- t(template$xyz)
@@ -81,16 +91,19 @@ fit_warp <- function(template, cloud, settings, weight) {
   reach <- ends[1] * (ends[2] / ends[1])^seq(0, 1, length.out = settings$warp_steps)
   coefficients <- solved <- NULL
   for (step in seq_along(reach)) {
-    found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step], settings$cosine)
+    found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step],
+                          settings$cosine)
     used <- which(!is.na(found$index) & !cloud$border[found$index])
     if (length(used) < settings$fewest) break
     solved <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
     coefficients <- solved$coefficients
     moved <- xyz + displaced(basis, coefficients)
   }
-  near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), ends[1], settings$cosine)
+  near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), ends[1],
+                       settings$cosine)
   own <- lapply(template$basis, function(b) b[-seq_len(n), , drop = FALSE])
-  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients), coefficients = coefficients,
+  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients),
+       coefficients = coefficients,
        sd = warp_sd(own, solved$root), index = near$index, residual = near$distance)
 }
 
@@ -102,10 +115,12 @@ displaced <- function(basis, coefficients) {
   if (is.null(coefficients)) return(0)
   sizes <- vapply(basis, ncol, 0L)
   end <- cumsum(sizes)
-  vapply(1:3, function(k) drop(basis[[k]] %*% coefficients[(end[k] - sizes[k] + 1):end[k]]), numeric(nrow(basis[[1]])))
+  vapply(1:3, function(k) drop(basis[[k]] %*% coefficients[(end[k] - sizes[k] + 1):end[k]]),
+         numeric(nrow(basis[[1]])))
 }
 
-#' Coefficients by penalised least squares: distances across the scan's surface count in full, along it by a share
+#' Coefficients by penalised least squares: distances across the scan's surface count in full, along
+#' it by a share
 #' @return List: `coefficients`, `root` (Cholesky factor of their precision).
 #' @noRd
 solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
@@ -114,7 +129,8 @@ solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
   across <- row_products(to - moved[used, , drop = FALSE], normal)
   weight <- 1 / ((1 + (across / settings$robust)^2) * settings$error^2)
   gap <- to - xyz[used, , drop = FALSE]
-  pull <- weight * ((1 - settings$along) * row_products(gap, normal) * normal + settings$along * gap)
+  pull <- weight * ((1 - settings$along) * row_products(gap, normal) * normal + settings$along *
+                    gap)
   right <- unlist(lapply(1:3, function(k) {
     crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
   }))

@@ -2,21 +2,22 @@
 
 #' Plot curves on their specimen
 #'
-#' The estimated curve is drawn as a line, its points as dots, and a band of two standard errors to each side. The band lies
-#' across the curve, in the direction normal x tangent at every point.
+#' The estimated curve is drawn as a line, its points as dots, and a band of two standard errors to
+#' each side. The band lies across the curve, in the direction normal x tangent at every point.
 #'
 #' @param x A `curve`, as [ridge_curve()] returns it.
 #' @param curves A list of curves, or one curve.
 #' @param specimen The `specimen` it lies on.
 #' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
-#' @param colour The colour of the curves, one for all or one for each; NULL for one a type: ridges dark red, valleys dark blue, plane curves black.
+#' @param colour The colour of the curves, one for all or one for each; NULL for one a type: ridges
+#'   dark red, valleys dark blue, plane curves black.
 #' @param band Whether to draw the band.
 #' @param points Whether to draw the curve's points.
 #' @param width Line width.
 #' @param landmarks Whether to draw the specimen's landmarks.
 #' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
-#' @param engine,... As in [plot.specimen()], which the rest is passed to: `view`, `curvature`, `radius`, `main`, and the
-#'   settings of the picture: `around = x$path` shows the curve from near.
+#' @param engine,... As in [plot.specimen()], which the rest is passed to: `view`, `curvature`,
+#'   `radius`, `main`, and the settings of the picture: `around = x$path` shows the curve from near.
 #' @return The scene of [draw_surface()], invisibly.
 #' @examples
 #' \donttest{
@@ -46,21 +47,26 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
-  if (band) for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+  if (band) for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh,
+                                                     key$colours[i])
   if (engine == "picture") for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
   for (i in each) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
-  if (points) for (i in each) scene <- draw_points(scene, curves[[i]]$points, key$colours[i], 0.28 * width, "white")
+  if (points) for (i in each) scene <- draw_points(scene, curves[[i]]$points, key$colours[i],
+                                                   0.28 * width, "white")
   if (legend && engine == "picture" && length(key$names)) {
-    on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width,
+                                     bty = "n", cex = 0.8))
   }
   invisible(scene)
 }
 
-# The colour of each curve, and what the legend says of them: colours named by type, or by curve where the user chose them.
+# The colour of each curve, and what the legend says of them: colours named by type, or by curve
+# where the user chose them.
 curve_key <- function(curves, colour, ridge = "#A0002A", valley = "#16218C", plane = "#202020") {
   if (!is.null(colour)) {
     colours <- rep_len(colour, length(curves))
-    return(list(colours = colours, names = stats::setNames(colours, names(curves))[!is.null(names(curves))]))
+    return(list(colours = colours,
+                names = stats::setNames(colours, names(curves))[!is.null(names(curves))]))
   }
   of_type <- c(ridge = ridge, valley = valley, plane = plane)
   type <- vapply(curves, function(curve) curve$type, "", USE.NAMES = FALSE)
@@ -105,7 +111,8 @@ path_tangents <- function(xyz) {
 
 curve_label <- function(curves, i) {
   name <- c(names(curves)[i], "")[1]
-  if (nzchar(name)) sprintf("curve \"%s\"", name) else sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
+  if (nzchar(name)) sprintf("curve \"%s\"", name) else
+    sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
 }
 
 check_curves <- function(curves, call = rlang::caller_env()) {

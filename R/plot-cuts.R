@@ -2,8 +2,8 @@
 
 #' Plot plane cuts between two landmarks
 #'
-#' The paths that planes through both landmarks cut from the surface, one a plane: Fig. 2 of the paper, from which
-#' [reference_path()] chooses.
+#' The paths that planes through both landmarks cut from the surface, one a plane: Fig. 2 of the
+#' paper, from which [reference_path()] chooses.
 #'
 #' @param specimen A `specimen`.
 #' @param from,to Names of two of its landmarks.
@@ -13,7 +13,8 @@
 #' @param width Line width.
 #' @param engine,... As in [plot.specimen()], which the rest is passed to.
 #' @return The paths, invisibly: a list with a `mesh_path` for each angle at which there is one.
-#' @section Warnings: of class `crestline_warning`, when a cut comes to a border of the mesh and is left out; when all do, that is an error.
+#' @section Warnings: of class `crestline_warning`, when a cut comes to a border of the mesh and is
+#'   left out; when all do, that is an error.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 2.
 #' @examples
 #' \donttest{
@@ -40,23 +41,28 @@ plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surfac
   paths <- arrived_cuts(paths, specimen$id)
   colour <- rep_len(colour, length(angles))[match(vapply(paths, attr, 0, "angle"), angles)]
   scene <- plot(specimen, surface, engine = engine, landmarks = FALSE, ...)
-  for (i in seq_along(paths)) scene <- draw_lines(scene, paths[[i]], colour[i], width, halo = "white")
-  scene <- draw_points(scene, specimen$landmarks[c(from, to), , drop = FALSE], "black", 1.2, halo = "white", labels = c(from, to))
+  for (i in seq_along(paths)) scene <- draw_lines(scene, paths[[i]], colour[i], width,
+                                                  halo = "white")
+  scene <- draw_points(scene, specimen$landmarks[c(from, to), , drop = FALSE], "black", 1.2,
+                       halo = "white", labels = c(from, to))
   if (engine == "picture") {
     key <- vapply(paths, function(path) {
       sprintf("%.0f degrees, length %.3g", attr(path, "angle") * 180 / pi, attr(path, "length"))
     }, "")
-    on_scene(scene, graphics::legend("bottomleft", key, col = colour, lwd = width, bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend("bottomleft", key, col = colour, lwd = width, bty = "n",
+                                     cex = 0.8))
   }
   invisible(paths)
 }
 
-# The cuts that arrived at the second landmark; a warning says why others did not, an error when none did.
+# The cuts that arrived at the second landmark; a warning says why others did not, an error when
+# none did.
 arrived_cuts <- function(paths, id) {
   failed <- vapply(paths, inherits, NA, "error")
   if (all(failed)) rlang::cnd_signal(paths[[1]])
   if (any(failed)) {
-    crestline_warn(sprintf("%d of %d cuts are left out: %s", sum(failed), length(paths), paths[failed][[1]]$problem),
+    crestline_warn(sprintf("%d of %d cuts are left out: %s", sum(failed), length(paths),
+                           paths[failed][[1]]$problem),
                    "Choose other angles.", stage = "path", id = id)
   }
   paths[!failed]

@@ -1,9 +1,10 @@
 # A shape coloured by how its parts are graded.
 
-#' Draw a shape with the colours of its grades, from several sides, beside each other on the current device
+#' Draw a shape with the colours of its grades, from several sides, beside each other on the current
+#' device
 #'
-#' Curves are lines, points of patches dots; without the specimen the shape's own surface. Curves that are not green
-#' have their names beside them.
+#' Curves are lines, points of patches dots; without the specimen the shape's own surface. Curves
+#' that are not green have their names beside them.
 #'
 #' @param shape A `shape`.
 #' @param graded Its rows of [quality()].
@@ -12,14 +13,16 @@
 #' @param width Line width of green curves; the others are half as wide again.
 #' @param colour Colour of the surface.
 #' @noRd
-draw_grades <- function(shape, graded, specimen, round = c(-0.9, 0, 0.9), width = 1.6, colour = "#DDD6CD") {
+draw_grades <- function(shape, graded, specimen, round = c(-0.9, 0, 0.9), width = 1.6,
+                        colour = "#DDD6CD") {
   view <- shape_view(shape)
   mesh <- if (is.null(specimen)) own_surface(shape) else specimen$mesh
   known <- shape$points[!is.na(shape$points$x), ]
   old <- graphics::par(mfrow = c(1, length(round)), mar = rep(0.2, 4))
   on.exit(graphics::par(old))
   for (turn in round) {
-    scene <- draw_surface(mesh, colour, turned_view(view, turn), "picture", around = known, gloss = 0, margin = 0.04)
+    scene <- draw_surface(mesh, colour, turned_view(view, turn), "picture", around = known,
+                          gloss = 0, margin = 0.04)
     draw_graded_points(scene, known[known$level == "surface", ], graded)
     draw_graded_curves(scene, shape, graded, width)
   }
@@ -51,7 +54,8 @@ draw_graded_curves <- function(scene, shape, graded, width, most = 12, seen = 0.
   grade <- grade_of(graded, "curves", names(paths))
   for (name in names(grade_colours)) {
     for (path in paths[grade == name]) {
-      draw_lines(scene, path, grade_colours[[name]], width * if (name == "green") 1 else 1.5, halo = "white")
+      draw_lines(scene, path, grade_colours[[name]], width * if (name == "green") 1 else 1.5,
+                 halo = "white")
     }
   }
   doubtful <- names(paths)[grade != "green"]
@@ -65,7 +69,8 @@ draw_graded_curves <- function(scene, shape, graded, width, most = 12, seen = 0.
 draw_label <- function(scene, at, text, colour, size = 0.8) {
   at <- drop(view_points(scene, at))
   on_scene(scene, {
-    half <- c(1.05 * graphics::strwidth(text, cex = size, font = 2), 1.6 * graphics::strheight(text, cex = size)) / 2
+    half <- c(1.05 * graphics::strwidth(text, cex = size, font = 2),
+              1.6 * graphics::strheight(text, cex = size)) / 2
     at[2] <- at[2] - 2 * graphics::strheight(text, cex = size)
     at[1:2] <- pmax(pmin(at[1:2], scene$usr[c(2, 4)] - half), scene$usr[c(1, 3)] + half)
     graphics::rect(at[1] - half[1], at[2] - half[2], at[1] + half[1], at[2] + half[2],
@@ -76,15 +81,16 @@ draw_label <- function(scene, at, text, colour, size = 0.8) {
 
 #' The rotation that shows a shape from its front: the mean of its surface's normals to the viewer
 #'
-#' Upright and level by the left-right pairs of its landmarks (left on the viewer's right); without pairs the longest direction across
-#' is up, towards positive y.
+#' Upright and level by the left-right pairs of its landmarks (left on the viewer's right); without
+#' pairs the longest direction across is up, towards positive y.
 #' @noRd
 shape_view <- function(shape) {
   points <- as.matrix(shape$points[!is.na(shape$points$x), c("x", "y", "z")])
   out <- shape_outward(shape, points)
   landmarks <- coords(shape, "landmarks")
   pairs <- shape$scheme$pairs[shape$scheme$pairs$level == "landmarks", ]
-  across <- colMeans(landmarks[pairs$left, , drop = FALSE] - landmarks[pairs$right, , drop = FALSE], na.rm = TRUE)
+  across <- colMeans(landmarks[pairs$left, , drop = FALSE] - landmarks[pairs$right, , drop = FALSE],
+                     na.rm = TRUE)
   if (all(is.finite(across)) && any(across != 0)) {
     across <- unit_vector(across)
     up <- unit_vector(cross_product(out, across))
@@ -96,7 +102,8 @@ shape_view <- function(shape) {
   unname(rbind(cross_product(up, out), up, out))
 }
 
-#' Mean normal of the shape's surface; without one, the normal of the plane through its points, to positive z
+#' Mean normal of the shape's surface; without one, the normal of the plane through its points, to
+#' positive z
 #' @noRd
 shape_outward <- function(shape, points) {
   mesh <- own_surface(shape)
@@ -107,5 +114,6 @@ shape_outward <- function(shape, points) {
 }
 
 turned_view <- function(view, round) {
-  rbind(cos(round) * view[1, ] - sin(round) * view[3, ], view[2, ], sin(round) * view[1, ] + cos(round) * view[3, ])
+  rbind(cos(round) * view[1, ] - sin(round) * view[3, ], view[2, ],
+        sin(round) * view[1, ] + cos(round) * view[3, ])
 }

@@ -3,28 +3,27 @@
 #' Plot a comparison of groups
 #'
 #' @param x A `group_comparison`, as [compare_groups()] returns it.
-#' @param what "boxes": boxplots of centroid size and of scores by group, all specimens as points, the means as diamonds
-#'   (the paper's Fig. 9, upper); "means": the two mean shapes laid over each other, of equal size, transparent in two
-#'   colours
-#'   (lower); "map": the signed distance between the means along the normal, the second's outside the first's positive,
-#'   as colours on
-#'   the mean surface, points where it is significant outlined.
+#' @param what "boxes": boxplots of centroid size and of scores by group, all specimens as points,
+#'   the means as diamonds (the paper's Fig. 9, upper); "means": the two mean shapes laid over each
+#'   other, of equal size, transparent in two colours (lower); "map": the signed distance between
+#'   the means along the normal, the second's outside the first's positive, as colours on the mean
+#'   surface, points where it is significant outlined.
 #' @param level Level; the first with what the picture needs. "means" and "map" need a surface.
 #' @param colour Colours of the groups.
 #' @param components Of "boxes": which components.
 #' @param significance Of "map": family-wise level of the outline.
-#' @param limits,palette Of "map": range of distances (unit of the meshes) and colours; by default symmetric about 0.
-#' @param opacity Of "means": how much of a pixel's colour is that of the nearer surface, 0.5 to 1 ("picture"), or the
-#'   surfaces'
-#'   opacity ("rgl").
-#' @param engine,view,... As in [plot.specimen()] and [draw_surface()] ("map" with more `ambient` light, so that shade
-#'   hides no
-#'   colour); for "boxes" `...` goes to [graphics::boxplot()].
+#' @param limits,palette Of "map": range of distances (unit of the meshes) and colours; by default
+#'   symmetric about 0.
+#' @param opacity Of "means": how much of a pixel's colour is that of the nearer surface, 0.5 to 1
+#'   ("picture"), or the surfaces' opacity ("rgl").
+#' @param engine,view,... As in [plot.specimen()] and [draw_surface()] ("map" with more `ambient`
+#'   light, so that shade hides no colour); for "boxes" `...` goes to [graphics::boxplot()].
 #' @param legend Whether to draw a legend ("picture" only).
 #' @param main Title; `NULL` for the p-value.
-#' @return "boxes": what [graphics::boxplot()] returns, a list by panel; "means", "map": the scene of [draw_surface()];
-#'   invisibly.
-#' @section Errors: of class `crestline_error`: a level without a surface, means of more than two groups.
+#' @return "boxes": what [graphics::boxplot()] returns, a list by panel; "means", "map": the scene
+#'   of [draw_surface()]; invisibly.
+#' @section Errors: of class `crestline_error`: a level without a surface, means of more than two
+#'   groups.
 #' @references The paper, Fig. 9.
 #' @seealso [compare_groups()]
 #' @examples
@@ -39,7 +38,8 @@
 #' plot(compared)
 #' plot(compared, "map", engine = "picture", view = c(0.4, 0.3))
 #' @export
-plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = NULL, colour = c("#2F7FD1", "#E0553F"),
+plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = NULL,
+                                  colour = c("#2F7FD1", "#E0553F"),
                                   components = 1:3, significance = 0.05, limits = NULL,
                                   palette = grDevices::hcl.colors(21, "Blue-Red"), opacity = 0.8,
                                   engine = if (interactive()) "rgl" else "picture", view = "front",
@@ -49,11 +49,13 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   level <- level_to_plot(x, level, what)
   groups <- nlevels(x$group)
-  colour <- if (length(colour) >= groups) colour[seq_len(groups)] else grDevices::hcl.colors(groups, "Dark 3")
+  colour <- if (length(colour) >= groups) colour[seq_len(groups)] else
+    grDevices::hcl.colors(groups, "Dark 3")
   drawn <- switch(what,
                   boxes = plot_boxes(x, level, colour, components, main, ...),
                   means = plot_means(x, level, colour, opacity, engine, view, legend, main, ...),
-                  map = plot_map(x, level, significance, limits, palette, engine, view, legend, main, ...))
+                  map = plot_map(x, level, significance, limits, palette, engine, view, legend,
+                                 main, ...))
   invisible(drawn)
 }
 
@@ -61,11 +63,13 @@ level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
   surfaces <- names(Filter(function(one) !is.null(one$triangles), x$aligned))
   possible <- if (what == "boxes") names(x$aligned) else surfaces
   if (!length(possible)) {
-    crestline_abort("no level has a surface.", "Compare the level \"surface\", or give align() `triangles`.",
+    crestline_abort("no level has a surface.",
+                    "Compare the level \"surface\", or give align() `triangles`.",
                     stage = "picture", call = call)
   }
   if (what != "boxes" && nlevels(x$group) != 2) {
-    crestline_abort(sprintf("there are %d groups.", nlevels(x$group)), "Compare two, or plot \"boxes\".",
+    crestline_abort(sprintf("there are %d groups.", nlevels(x$group)),
+                    "Compare two, or plot \"boxes\".",
                     stage = "picture", call = call)
   }
   if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
@@ -80,10 +84,12 @@ plot_boxes <- function(x, level, colour, components, main, ...) {
               stats::setNames(lapply(components, function(j) pca$x[, j]),
                               sprintf("PC%d (%.0f %%)", components, 100 * pca$share[components])))
   tests <- c(intersect(c("size t", "size F"), x$tests$test)[1], paste0("PC", components))
-  old <- graphics::par(mfrow = grDevices::n2mfrow(length(panels))[2:1], mar = c(2.5, 3, 2.8, 0.6), mgp = c(2, 0.6, 0))
+  old <- graphics::par(mfrow = grDevices::n2mfrow(length(panels))[2:1], mar = c(2.5, 3, 2.8, 0.6),
+                       mgp = c(2, 0.6, 0))
   on.exit(graphics::par(old))
   invisible(Map(function(y, name, test) {
-    title <- paste(c(if (is.null(main)) name else paste(main, name, sep = ": "), p_value_of(x, level, test)),
+    title <- paste(c(if (is.null(main)) name else paste(main, name, sep = ": "),
+                     p_value_of(x, level, test)),
                    collapse = ", ")
     box_panel(y, x$design$group, title, colour, ...)
   }, panels, names(panels), tests))
@@ -91,13 +97,16 @@ plot_boxes <- function(x, level, colour, components, main, ...) {
 
 # One boxplot: points beside each other where they would hide each other, the means as diamonds.
 box_panel <- function(y, group, title, colour, ...) {
-  drawn <- graphics::boxplot(y ~ group, outline = FALSE, ylim = range(y), col = grDevices::adjustcolor(colour, 0.25),
+  drawn <- graphics::boxplot(y ~ group, outline = FALSE, ylim = range(y),
+                             col = grDevices::adjustcolor(colour, 0.25),
                              border = colour,
                              xlab = "", ylab = "", las = 1, boxwex = 0.55, ...)
   graphics::title(title, font.main = 1, cex.main = 1)
-  shift <- stats::ave(rank(y, ties.method = "first"), group, FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)
+  shift <- stats::ave(rank(y, ties.method = "first"), group,
+                      FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)
   graphics::points(as.integer(group) + shift, y, pch = 16, cex = 0.9,
                    col = grDevices::adjustcolor(colour[as.integer(group)], 0.7))
-  graphics::points(seq_len(nlevels(group)), tapply(y, group, mean), pch = 23, cex = 1.5, bg = "white", col = colour, lwd = 2)
+  graphics::points(seq_len(nlevels(group)), tapply(y, group, mean), pch = 23, cex = 1.5,
+                   bg = "white", col = colour, lwd = 2)
   drawn
 }

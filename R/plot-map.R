@@ -1,10 +1,12 @@
 # Where two means differ: signed distance as colours, the significant region outlined.
 
-plot_map <- function(x, level, significance, limits, palette, engine, view, legend, main, ambient = 0.6, gloss = 0.03, ...) {
+plot_map <- function(x, level, significance, limits, palette, engine, view, legend, main,
+                     ambient = 0.6, gloss = 0.03, ...) {
   significance <- check_number(significance, "significance", 0, 1)
   points <- x$points[x$points$level == level, ]
   if (is.null(points) || !nrow(points)) {
-    crestline_abort("points were not compared.", "Give compare_groups() `tests` with \"points\".", stage = "picture",
+    crestline_abort("points were not compared.", "Give compare_groups() `tests` with \"points\".",
+                    stage = "picture",
                     call = NULL)
   }
   mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), x$aligned[[level]]$triangles)
@@ -16,14 +18,16 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
     old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
     on.exit(graphics::par(old))
   }
-  scene <- if (engine == "picture") draw_surface(mesh, colours, view, engine, ambient = ambient, gloss = gloss, ...) else
+  scene <- if (engine == "picture") draw_surface(mesh, colours, view, engine, ambient = ambient,
+                                                 gloss = gloss, ...) else
     draw_surface(mesh, colours, view, engine, ...)
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
     if (legend) map_legend(palette, limits)
     found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
-    words <- sprintf("%s less %s along the normal; outlined: p < %g (%d of %d points)", levels(x$group)[2],
+    words <- sprintf("%s less %s along the normal; outlined: p < %g (%d of %d points)",
+                     levels(x$group)[2],
                      levels(x$group)[1], significance,
                      found, nrow(points))
     graphics::title(if (is.null(main)) words else main, font.main = 1, cex.main = 0.9)
@@ -57,7 +61,8 @@ level_lines <- function(mesh, value, at) {
     i <- cbind(alone, seq_along(alone))
     j <- cbind(other, seq_along(alone))
     share <- corner[i] / (corner[i] - corner[j])
-    t(mesh$vb[1:3, it[i], drop = FALSE]) * (1 - share) + t(mesh$vb[1:3, it[j], drop = FALSE]) * share
+    t(mesh$vb[1:3, it[i], drop = FALSE]) * (1 -
+                                            share) + t(mesh$vb[1:3, it[j], drop = FALSE]) * share
   }
   a <- cut(1)
   segments <- array(NA_real_, c(3, nrow(a), 3))

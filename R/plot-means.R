@@ -21,7 +21,8 @@ plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ..
   graphics::title(title, font.main = 1, cex.main = 1)
   if (legend) {
     words <- paste(names(meshes), "in front")
-    on_scene(scene, graphics::legend("bottomleft", words, fill = front_colours(colour, opacity), bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend("bottomleft", words, fill = front_colours(colour, opacity),
+                                     bty = "n", cex = 0.8))
   }
   invisible(scene)
 }
@@ -35,10 +36,12 @@ front_colours <- function(colour, opacity) {
 #' Both surfaces in one picture: of every pixel the nearer one has the greater share
 #' @noRd
 picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
-  frame <- picture_frame(rotation %*% do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])), settings)
+  frame <- picture_frame(rotation %*% do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])),
+                         settings)
   seen <- Map(function(mesh, colour) {
     turned <- rotation %*% mesh$vb[1:3, ]
-    xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel, (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
+    xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel,
+                 (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
     rgb <- shade_vertices(rep(colour, ncol(xyz)), rotation %*% mesh$normals[1:3, ], settings)
     cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
   }, meshes, colour)
@@ -48,7 +51,8 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
                         frame$usr[4])
   depth <- pmax(seen[[1]]$depth, seen[[2]]$depth)
   structure(list(rotation = rotation, pixel = frame$pixel, depth = depth, usr = frame$usr,
-                 plt = graphics::par("plt"), tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
+                 plt = graphics::par("plt"),
+                 tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
             class = "picture_scene")
 }
 
@@ -57,7 +61,8 @@ blend_by_depth <- function(a, b, opacity) {
   of_a[a$rgba[, , 4] == 0] <- 0
   of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
   out <- a$rgba
-  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, , channel] + (1 - of_a) * b$rgba[, , channel]
+  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, ,
+                                                         channel] + (1 - of_a) * b$rgba[, , channel]
   out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
   out
 }
@@ -65,7 +70,8 @@ blend_by_depth <- function(a, b, opacity) {
 rgl_overlay <- function(meshes, colour, opacity, view, ...) {
   scene <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
   second <- meshes[[2]]
-  ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]), indices = second$it, color = colour[2],
+  ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]),
+                          indices = second$it, color = colour[2],
                           alpha = opacity, specular = "#202020")
   add_ids(scene, ids)
 }

@@ -8,8 +8,8 @@
 #'
 #' @param file Where to write, ending in ".html".
 #' @param specimen A `specimen`.
-#' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in the table. Or a
-#'   `shape`, as [fit_shape()] returns it.
+#' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in
+#'   the table. Or a `shape`, as [fit_shape()] returns it.
 #' @param table A data frame to show below, NULL for none.
 #' @param title Heading of the page.
 #' @param caption A sentence below the picture.
@@ -17,7 +17,8 @@
 #' @param selfcontained Whether to put all into one file; else a folder
 #'   named after the file, ending in `_files`, stands beside it.
 #' @param size Width and height of the picture in the browser's pixels.
-#' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`, `view`, `band`.
+#' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`,
+#'   `view`, `band`.
 #' @return The path of the file, invisibly.
 #' @examples
 #' \donttest{
@@ -32,7 +33,8 @@
 #' }
 #' @export
 write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
-                       title = paste("Specimen", specimen$id), caption = NULL, surface = "shape index",
+                       title = paste("Specimen", specimen$id), caption = NULL,
+                       surface = "shape index",
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
@@ -43,7 +45,8 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
   width <- check_number(width, "width", lower = 0)
   check_flags(selfcontained)
   size <- check_size(size)
-  curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves", "fit_shape()") else check_curves(curves)
+  curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves",
+                                                       "fit_shape()") else check_curves(curves)
   table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
@@ -54,14 +57,18 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
   plot(specimen, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
   layers <- page_layers(curves, specimen, surface, colour, width, ...)
   tags <- htmltools::tags
-  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-                   page_scene(layers, size), page_legend(surface), tags$p(caption), html_table(table),
-                   provenance_block(provenance_of(if (inherits(curves, "shape")) curves else specimen)))
+  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
+                   tags$h2(title),
+                   page_scene(layers, size), page_legend(surface), tags$p(caption),
+                   html_table(table),
+                   provenance_block(provenance_of(if (inherits(curves,
+                                                               "shape")) curves else specimen)))
   save_page(page, file, selfcontained)
   invisible(file)
 }
 
-#' Make a page in a folder of our own, then put it where it belongs: what stands there may be the user's
+#' Make a page in a folder of our own, then put it where it belongs: what stands there may be the
+#' user's
 #' @noRd
 save_page <- function(page, file, selfcontained) {
   made <- tempfile("page")
@@ -83,7 +90,8 @@ save_page <- function(page, file, selfcontained) {
   write_html(html, file)
 }
 
-#' Copy the files that a page needs into a folder, which may be there already; none of another content is written over
+#' Copy the files that a page needs into a folder, which may be there already; none of another
+#' content is written over
 #' @noRd
 place_files <- function(from, to) {
   files <- list.files(from, recursive = TRUE, all.files = TRUE)
@@ -93,19 +101,23 @@ place_files <- function(from, to) {
   if (any(there & !same %in% TRUE)) {
     crestline_abort(sprintf("`file` needs the folder %s, where %s is another file already.", to,
                             shorten(files[there & !same %in% TRUE])),
-                    "Give another name to the page, or move that folder.", stage = "page", call = NULL)
+                    "Give another name to the page, or move that folder.", stage = "page",
+                    call = NULL)
   }
   new <- which(!there)
-  for (folder in unique(dirname(target[new]))) dir.create(folder, recursive = TRUE, showWarnings = FALSE)
+  for (folder in unique(dirname(target[new]))) dir.create(folder, recursive = TRUE,
+                                                          showWarnings = FALSE)
   if (!all(suppressWarnings(file.copy(file.path(from, files[new]), target[new])))) refuse_page(to)
 }
 
 write_html <- function(html, file) {
-  tryCatch(suppressWarnings(writeLines(enc2utf8(html), file, useBytes = TRUE)), error = function(e) refuse_page(file))
+  tryCatch(suppressWarnings(writeLines(enc2utf8(html), file, useBytes = TRUE)),
+           error = function(e) refuse_page(file))
 }
 
 refuse_page <- function(path) {
-  crestline_abort(sprintf("`file`: %s cannot be written.", path), "Check the folder, and the right to write there.",
+  crestline_abort(sprintf("`file`: %s cannot be written.", path),
+                  "Check the folder, and the right to write there.",
                   stage = "page", call = NULL)
 }
 
@@ -115,11 +127,13 @@ safe_scripts <- function(html, opening = '<script type="application/json"') {
   part <- strsplit(html, opening, fixed = TRUE)[[1]]
   end <- regexpr("</script>", part, fixed = TRUE)
   data <- seq_along(part) > 1 & end > 0
-  part[data] <- paste0(script_json(substr(part[data], 1, end[data] - 1)), substr(part[data], end[data], nchar(part[data])))
+  part[data] <- paste0(script_json(substr(part[data], 1, end[data] - 1)),
+                       substr(part[data], end[data], nchar(part[data])))
   paste(part, collapse = opening)
 }
 
-#' JSON as it may stand between script tags: `<!--<script>` and the line ends of JavaScript are written as escapes
+#' JSON as it may stand between script tags: `<!--<script>` and the line ends of JavaScript are
+#' written as escapes
 #' @noRd
 script_json <- function(json) {
   json <- enc2utf8(json)
@@ -129,11 +143,13 @@ script_json <- function(json) {
   json
 }
 
-# Every reference to a file, as `pattern` finds it in the page, replaced by an element that holds the file's text.
+# Every reference to a file, as `pattern` finds it in the page, replaced by an element that holds
+# the file's text.
 inline_files <- function(html, folder, pattern, element, closing) {
   for (reference in unique(regmatches(html, gregexpr(pattern, html))[[1]])) {
     name <- utils::URLdecode(sub(pattern, "\\1", reference))
-    text <- paste(readLines(file.path(folder, name), encoding = "UTF-8", warn = FALSE), collapse = "\n")
+    text <- paste(readLines(file.path(folder, name), encoding = "UTF-8", warn = FALSE),
+                  collapse = "\n")
     text <- gsub(closing, sub("/", "\\/", closing, fixed = TRUE), text, fixed = TRUE)
     parts <- strsplit(html, reference, fixed = TRUE)[[1]]
     html <- paste(parts, collapse = paste0("<", element, ">\n", text, "\n</", element, ">"))
@@ -149,17 +165,20 @@ check_page_file <- function(file, call = rlang::caller_env()) {
 #' Draw what a page shows on the specimen
 #' @return Named list of the ids of what belongs together.
 #' @noRd
-page_layers <- function(curves, specimen, surface, colour, width, ..., edges = "#505050", raised = 0.004) {
+page_layers <- function(curves, specimen, surface, colour, width, ..., edges = "#505050",
+                        raised = 0.004) {
   of_shape <- inherits(curves, "shape")
   scene <- if (of_shape) {
     chosen <- if (is.null(colour)) list() else list(colour = colour)
-    do.call(plot, c(list(curves, specimen, surface = surface, width = width, engine = "rgl", patches = FALSE), chosen, list(...)))
+    do.call(plot, c(list(curves, specimen, surface = surface, width = width, engine = "rgl",
+                         patches = FALSE), chosen, list(...)))
   } else {
     plot_curves(check_curves(curves), specimen, surface, colour, width = width, engine = "rgl", ...)
   }
   layers <- stats::setNames(list(scene$ids[1], scene$ids[-1]), c(surface, "curves"))
   if (of_shape && any(curves$status$level == "surface" & curves$status$ok)) {
-    layers[["surface model"]] <- draw_edges(scene, shape_mesh(curves), edges, width / 4, raised)$ids[-seq_along(scene$ids)]
+    layers[["surface model"]] <- draw_edges(scene, shape_mesh(curves), edges, width / 4,
+                                            raised)$ids[-seq_along(scene$ids)]
   }
   Filter(length, layers)
 }
@@ -167,7 +186,8 @@ page_layers <- function(curves, specimen, surface, colour, width, ..., edges = "
 # The turning scene, with a button that hides each of its layers.
 page_scene <- function(layers, size) {
   scene <- rgl::rglwidget(width = size[1], height = size[2], elementId = "crestline")
-  buttons <- Map(function(ids, label) rgl::toggleWidget("crestline", ids = ids, label = label), layers, names(layers))
+  buttons <- Map(function(ids, label) rgl::toggleWidget("crestline", ids = ids, label = label),
+                 layers, names(layers))
   htmltools::tagList(scene, htmltools::tags$div(style = "display:flex;gap:8px", unname(buttons)))
 }
 
@@ -190,21 +210,28 @@ html_table <- function(table, digits = 3) {
     ifelse(is.na(column), "", vapply(column, format, "", USE.NAMES = FALSE))
   }, character(nrow(table)))
   shown <- matrix(shown, nrow(table))
-  rows <- apply(shown, 1, function(row) htmltools::tags$tr(lapply(row, htmltools::tags$td, style = cell)), simplify = FALSE)
+  rows <- apply(shown, 1,
+                function(row) htmltools::tags$tr(lapply(row, htmltools::tags$td, style = cell)),
+                simplify = FALSE)
   htmltools::tags$table(style = "border-collapse:collapse;font:13px sans-serif",
-                        htmltools::tags$tr(lapply(names(table), htmltools::tags$th, style = cell)), rows)
+                        htmltools::tags$tr(lapply(names(table), htmltools::tags$th, style = cell)),
+                        rows)
 }
 
 # One row a curve: what it is, how long, how strong, how sure.
 curve_table <- function(curves) {
   if (inherits(curves, "shape")) {
-    return(curves$status[curves$status$level == "curves", c("part", "kind", "length", "strength", "se", "competing", "reason")])
+    return(curves$status[curves$status$level == "curves",
+                         c("part", "kind", "length", "strength", "se", "competing", "reason")])
   }
   curves <- check_curves(curves)
-  pick <- function(name, type) vapply(curves, function(curve) type(curve[[name]]), type(NA), USE.NAMES = FALSE)
+  pick <- function(name, type) vapply(curves, function(curve) type(curve[[name]]), type(NA),
+                                      USE.NAMES = FALSE)
   name <- if (is.null(names(curves))) character(length(curves)) else names(curves)
-  table <- data.frame(curve = name, kind = pick("type", as.character), from = pick("from", as.character),
-                      to = pick("to", as.character), length = pick("length", as.numeric), strength = pick("strength", as.numeric))
+  table <- data.frame(curve = name, kind = pick("type", as.character),
+                      from = pick("from", as.character),
+                      to = pick("to", as.character), length = pick("length", as.numeric),
+                      strength = pick("strength", as.numeric))
   table$se <- pick("se", as.numeric)
   table$converged <- pick("converged", as.logical)
   table[if (all(name == "")) -1 else TRUE]

@@ -15,8 +15,10 @@
 #' @param colour Colour of the ridge and its band.
 #' @param main Title; the ends of the curve where NULL.
 #' @param ... Passed to [graphics::image()].
-#' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
-#' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they have no panel.
+#' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`,
+#'   NA beyond the data.
+#' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they
+#'   have no panel.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 3.
 #' @examples
 #' data(humface, package = "Rvcg")
@@ -25,7 +27,8 @@
 #' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
 #' plot_panel(lip)
 #' @export
-plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
+plot_panel <- function(x, points = TRUE, grid = c(300, 200),
+                       palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
                        contours = 8, colour = "#16218C", main = NULL, ...) {
   check_given()
   check_flags(points)
@@ -42,10 +45,13 @@ plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices
   x$coordinates <- x$coordinates[x$coordinates$inside, ]
   panel <- panel_grid(x, grid)
   if (is.null(main)) main <- paste0(x$type, ", ", x$from, " to ", x$to)
-  graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE, main = main, xlab = "", ylab = "", ...)
+  graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE,
+                  main = main, xlab = "", ylab = "", ...)
   panel_axes(panel)
-  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25, col = "#00000060")
-  graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE, drawlabels = FALSE, col = "#8B5A2B")
+  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25,
+                               col = "#00000060")
+  graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE,
+                    drawlabels = FALSE, col = "#8B5A2B")
   graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
   draw_panel_ridge(x, colour)
   invisible(panel)
@@ -53,16 +59,20 @@ plot_panel <- function(x, points = TRUE, grid = c(300, 200), palette = grDevices
 
 # Axes that stand at the panel's edges, wherever equal scale leaves room in the plot.
 panel_axes <- function(panel) {
-  line <- c(diff(graphics::grconvertX(0:1, "lines", "user")), diff(graphics::grconvertY(0:1, "lines", "user")))
+  line <- c(diff(graphics::grconvertX(0:1, "lines", "user")),
+            diff(graphics::grconvertY(0:1, "lines", "user")))
   left <- min(panel$s)
   bottom <- min(panel$d)
   graphics::axis(1, pretty(panel$s), pos = bottom)
   graphics::axis(2, pretty(panel$d), pos = left, las = 1)
-  graphics::text(mean(range(panel$s)), bottom - 3 * line[2], "s, along the reference path", xpd = NA)
-  graphics::text(left - 3 * line[1], mean(range(panel$d)), "d, distance from it", srt = 90, xpd = NA)
+  graphics::text(mean(range(panel$s)), bottom - 3 * line[2], "s, along the reference path",
+                 xpd = NA)
+  graphics::text(left - 3 * line[1], mean(range(panel$d)), "d, distance from it", srt = 90,
+                 xpd = NA)
 }
 
-# The smoothed strength on a grid, NA where the data do not reach: beyond their least and greatest d near the same s.
+# The smoothed strength on a grid, NA where the data do not reach: beyond their least and greatest d
+# near the same s.
 panel_grid <- function(x, grid) {
   s <- seq(0, max(x$line$s), length.out = grid[1])
   d <- seq(min(x$coordinates$d), max(x$coordinates$d), length.out = grid[2])
@@ -73,7 +83,8 @@ panel_grid <- function(x, grid) {
   list(s = s, d = d, strength = strength)
 }
 
-# Least and greatest d of the data about each s, from equal stretches of s that hold `each` vertices in the mean, at most `most`.
+# Least and greatest d of the data about each s, from equal stretches of s that hold `each` vertices
+# in the mean, at most `most`.
 data_reach <- function(coordinates, s, each = 15, most = 30) {
   stretches <- min(max(nrow(coordinates) %/% each, 2), most)
   breaks <- seq(min(s), max(s), length.out = stretches + 1)
@@ -81,13 +92,15 @@ data_reach <- function(coordinates, s, each = 15, most = 30) {
   ends <- vapply(split(coordinates$d, factor(stretch, seq_len(stretches))),
                  function(d) if (length(d)) range(d) else c(0, 0), numeric(2))
   middle <- (breaks[-1] + breaks[-length(breaks)]) / 2
-  list(low = stats::approx(middle, ends[1, ], s, rule = 2)$y, high = stats::approx(middle, ends[2, ], s, rule = 2)$y)
+  list(low = stats::approx(middle, ends[1, ], s, rule = 2)$y,
+       high = stats::approx(middle, ends[2, ], s, rule = 2)$y)
 }
 
 draw_panel_ridge <- function(x, colour, multiple = 2, opacity = 0.25) {
   line <- x$line
   if (!is.null(line$se) && !anyNA(line$se)) {
-    graphics::polygon(c(line$s, rev(line$s)), c(line$alpha + multiple * line$se, rev(line$alpha - multiple * line$se)),
+    graphics::polygon(c(line$s, rev(line$s)),
+                      c(line$alpha + multiple * line$se, rev(line$alpha - multiple * line$se)),
                       col = grDevices::adjustcolor(colour, opacity), border = colour, lwd = 0.7)
   }
   graphics::lines(line$s, line$alpha, col = colour, lwd = 2.5)

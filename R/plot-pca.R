@@ -5,12 +5,14 @@
 #' Draws the scores of the specimens on two components, or the shapes at both ends of one.
 #'
 #' @param x A `shape_pca`.
-#' @param what "scores" or "shapes": the surfaces at `-sd` and `sd` standard deviations, side by side ("picture").
+#' @param what "scores" or "shapes": the surfaces at `-sd` and `sd` standard deviations, side by
+#'   side ("picture").
 #' @param component Two components for "scores", one for "shapes".
 #' @param group Factor, one value a specimen, as in [compare_groups()], or `NULL`.
 #' @param colour Colours of the groups, or of the surfaces.
 #' @param sd Standard deviations.
-#' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to [graphics::plot.default()].
+#' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to
+#'   [graphics::plot.default()].
 #' @return The scores that are drawn, or the two scenes; invisibly.
 #' @seealso [shape_pca()], [write_pca_page()]
 #' @examples
@@ -18,7 +20,8 @@
 #' pca <- shape_pca(align(shapes + rnorm(120, sd = 0.05)))
 #' plot(pca)
 #' @export
-plot.shape_pca <- function(x, what = c("scores", "shapes"), component = if (what[1] == "scores") 1:2 else 1, group = NULL,
+plot.shape_pca <- function(x, what = c("scores", "shapes"),
+                           component = if (what[1] == "scores") 1:2 else 1, group = NULL,
                            colour = c("#2F7FD1", "#E0553F"), sd = 3, view = "front", ...) {
   validate(x)
   what <- check_choice(what, c("scores", "shapes"), "what")
@@ -30,13 +33,16 @@ plot.shape_pca <- function(x, what = c("scores", "shapes"), component = if (what
 
 plot_scores <- function(pca, component, group, colour, ...) {
   group <- if (is.null(group)) factor(rep("", nrow(pca$x))) else check_group(group, rownames(pca$x))
-  colour <- if (length(colour) >= nlevels(group)) colour else grDevices::hcl.colors(nlevels(group), "Dark 3")
+  colour <- if (length(colour) >= nlevels(group)) colour else
+    grDevices::hcl.colors(nlevels(group), "Dark 3")
   names <- sprintf("PC%d (%.1f %%)", component, 100 * pca$share[component])
   at <- pca$x[, rep_len(component, 2)]
-  graphics::plot(at, asp = 1, pch = 16, col = grDevices::adjustcolor(colour[as.integer(group)], 0.8), xlab = names[1],
+  graphics::plot(at, asp = 1, pch = 16,
+                 col = grDevices::adjustcolor(colour[as.integer(group)], 0.8), xlab = names[1],
                  ylab = names[length(names)], las = 1, ...)
   graphics::abline(h = 0, v = 0, col = "grey80", lwd = 0.6)
-  if (nlevels(group) > 1) graphics::legend("topright", levels(group), pch = 16, col = colour, bty = "n")
+  if (nlevels(group) > 1) graphics::legend("topright", levels(group), pch = 16, col = colour,
+                                           bty = "n")
   at
 }
 
@@ -47,7 +53,8 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
   on.exit(graphics::par(old))
   Map(function(mesh, at, colour) {
     scene <- draw_surface(mesh, colour, view, "picture", around = around, ...)
-    graphics::title(sprintf("PC%d (%.0f %%), %+g sd", component, 100 * pca$share[component], at), font.main = 1,
+    graphics::title(sprintf("PC%d (%.0f %%), %+g sd", component, 100 * pca$share[component], at),
+                    font.main = 1,
                     cex.main = 1)
     scene
   }, meshes, c(-sd, sd), rep_len(colour, 2))
@@ -68,7 +75,8 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' @param view Where to look from at first, as in [draw_surface()].
 #' @param selfcontained As in [write_page()].
 #' @return The path of the file, invisibly.
-#' @section Errors: of class `crestline_error`: no surface, no such component, no folder to write to.
+#' @section Errors: of class `crestline_error`: no surface, no such component, no folder to write
+#'   to.
 #' @examplesIf requireNamespace("htmltools", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(2)
 #' xyz <- t(ball$vb[1:3, ])
@@ -79,8 +87,10 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' file.size(page)
 #' unlink(page)
 #' @export
-write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev))), sd = 3, colour = "#E3CDB8",
-                           title = "Principal components of shape", size = c(420, 460), view = "front",
+write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev))), sd = 3,
+                           colour = "#E3CDB8",
+                           title = "Principal components of shape", size = c(420, 460),
+                           view = "front",
                            selfcontained = TRUE) {
   check_given()
   colour <- check_colour(colour, "colour")
@@ -95,9 +105,12 @@ write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev
   sd <- check_number(sd, "sd", lower = 0, open = TRUE)
   blocks <- lapply(component, component_block, pca, sd, colour, size, view)
   tags <- htmltools::tags
-  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-                   tags$p(sprintf("%d specimens, %d points (%s). ", nrow(pca$x), nrow(pca$mean), pca$level),
-                          sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd, sd)),
+  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
+                   tags$h2(title),
+                   tags$p(sprintf("%d specimens, %d points (%s). ", nrow(pca$x), nrow(pca$mean),
+                                  pca$level),
+                          sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd,
+                                  sd)),
                    tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks),
                    provenance_block(pca$provenance))
   save_page(page, file, selfcontained)
@@ -119,15 +132,18 @@ component_block <- function(component, pca, sd, colour, size, view) {
   vertices <- rep(seq_len(ncol(values) / 6), 6)
   attributes <- rep(c("x", "y", "z", "nx", "ny", "nz"), each = ncol(values) / 6)
   id <- paste0("crestline-pc", component)
-  control <- rgl::vertexControl(value = 0, values = values, vertices = vertices, attributes = attributes,
+  control <- rgl::vertexControl(value = 0, values = values, vertices = vertices,
+                                attributes = attributes,
                                 objid = scene$ids[1],
                                 param = stops)
   steps <- seq(-sd, sd, length.out = 61)
-  player <- rgl::playwidget(id, control, start = -sd, stop = sd, step = sd / 30, components = c("Slider", "Label"),
+  player <- rgl::playwidget(id, control, start = -sd, stop = sd, step = sd / 30,
+                            components = c("Slider", "Label"),
                             labels = sprintf("%+.1f", steps))
   # It begins at the mean.
   player$x$value <- 0
   tags <- htmltools::tags
-  tags$div(tags$h4(style = "margin:4px 0", sprintf("PC%d, %.1f %% of the variance", component, 100 * pca$share[component])),
+  tags$div(tags$h4(style = "margin:4px 0",
+                   sprintf("PC%d, %.1f %% of the variance", component, 100 * pca$share[component])),
            rgl::rglwidget(width = size[1], height = size[2], elementId = id), player)
 }

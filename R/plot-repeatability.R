@@ -3,8 +3,8 @@
 #' Plot repeatability
 #'
 #' On the left the error of each part, in the unit of the mesh, with the standard deviation between
-#' specimens behind it (grey) and the intra-class correlation beside it; on the right where the error is: the mean
-#' points, coloured by it. Of one specimen there is the error alone.
+#' specimens behind it (grey) and the intra-class correlation beside it; on the right where the
+#' error is: the mean points, coloured by it. Of one specimen there is the error alone.
 #'
 #' @param x A `repeatability`, as [repeatability()] returns it.
 #' @param view Where to look from at the mean points, as in [draw_surface()].
@@ -23,7 +23,8 @@
 #' plot(repeatability(arcs, specimen))
 #' @export
 plot.repeatability <- function(x, view = "front", most = 40,
-                               palette = grDevices::hcl.colors(64, "YlOrRd", rev = TRUE)[10:64], size = 0.9, ...) {
+                               palette = grDevices::hcl.colors(64, "YlOrRd", rev = TRUE)[10:64],
+                               size = 0.9, ...) {
   check_most(most)
   old <- graphics::par("mar", "mgp", "las")
   on.exit({
@@ -47,7 +48,8 @@ plot_part_errors <- function(x, most, palette, ...) {
   graphics::par(mar = c(3.2, name_width, 1.5, 3), mgp = c(2, 0.6, 0), las = 1)
   several <- x$counts[["specimens"]] > 1
   top <- max(parts$error, if (several) parts$specimen)
-  graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n", ylab = "", xaxs = "i", bty = "n",
+  graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n",
+                 ylab = "", xaxs = "i", bty = "n",
                  xlab = "standard deviation of a point", ...)
   if (several) graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
   colour <- error_colours(parts$error, x, palette)
@@ -57,7 +59,8 @@ plot_part_errors <- function(x, most, palette, ...) {
   if (!several) return(invisible())
   graphics::axis(4, at, sprintf("%.2f", parts$icc), tick = FALSE, cex.axis = scale, line = -0.6)
   graphics::mtext("ICC", 4, line = 0.4, at = nrow(parts) + 1, cex = 0.8)
-  graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA, inset = c(0, -0.05),
+  graphics::legend("topleft", c("error", "between specimens"), horiz = TRUE, xpd = NA,
+                   inset = c(0, -0.05),
                    pch = c(21, 15), pt.bg = palette[length(palette) / 2],
                    col = c("grey20", "grey88"), pt.cex = c(1, 1.6), bty = "n", cex = 0.8)
 }
@@ -69,9 +72,11 @@ plot_point_errors <- function(x, rotation, palette, size) {
   flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(rotation)
   graphics::plot.new()
   graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
-  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2, drop = FALSE], col = "grey70")
+  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2,
+                                                           drop = FALSE], col = "grey70")
   front <- order(x$points$error)
-  graphics::points(flat[front, 1:2], pch = 16, cex = size, col = error_colours(x$points$error, x, palette)[front])
+  graphics::points(flat[front, 1:2], pch = 16, cex = size,
+                   col = error_colours(x$points$error, x, palette)[front])
   colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2))
 }
 

@@ -8,9 +8,11 @@
 #'
 #' @param curvedness Curvedness of the little surfaces times half their side: how bent they are.
 #' @param spacing Distance between the surfaces' centres, in halves of their side.
-#' @param turn,tilt How far they are turned about their normal, and the normal tilted to the viewer, in radians.
+#' @param turn,tilt How far they are turned about their normal, and the normal tilted to the viewer,
+#'   in radians.
 #' @param ... Passed to [picture_settings()].
-#' @return The scale, invisibly: a data frame with nine rows and columns `category`, `index`, `colour`.
+#' @return The scale, invisibly: a data frame with nine rows and columns `category`, `index`,
+#'   `colour`.
 #' @inherit shape_index references
 #' @examples
 #' plot_shape_scale()
@@ -27,18 +29,22 @@ plot_shape_scale <- function(curvedness = 0.45, spacing = 3, turn = 0.35, tilt =
   patches <- lapply(seq_len(nrow(scale)), function(i) {
     patch <- shape_patch(scale$index[i], curvedness)
     placed <- function(x) sweep(x %*% t(rotation), 2, c(centres[i], 0, 0), "+")
-    list(vertices = placed(patch$vertices), it = patch$it + nrow(patch$vertices) * (i - 1L), lines = placed(patch$lines))
+    list(vertices = placed(patch$vertices), it = patch$it + nrow(patch$vertices) * (i - 1L),
+         lines = placed(patch$lines))
   })
-  mesh <- rgl::tmesh3d(t(do.call(rbind, lapply(patches, `[[`, "vertices"))), do.call(cbind, lapply(patches, `[[`, "it")), homogeneous = FALSE)
+  mesh <- rgl::tmesh3d(t(do.call(rbind, lapply(patches, `[[`, "vertices"))),
+                       do.call(cbind, lapply(patches, `[[`, "it")), homogeneous = FALSE)
   old <- graphics::par(mar = c(6, 0.5, 0.5, 0.5))
   on.exit(graphics::par(old))
-  scene <- draw_surface(mesh, rep(scale$colour, each = nrow(patches[[1]]$vertices)), engine = "picture", ...)
+  scene <- draw_surface(mesh, rep(scale$colour, each = nrow(patches[[1]]$vertices)),
+                        engine = "picture", ...)
   for (patch in patches) draw_lines(scene, patch$lines, "#00000080", width = 0.6)
   scale_bar(scale, centres)
   invisible(scale)
 }
 
-# The square of side 2 of z = (k1 x^2 + k2 y^2) / 2 with the given shape index, its normals to z > 0, and every `every`th line of its grid.
+# The square of side 2 of z = (k1 x^2 + k2 y^2) / 2 with the given shape index, its normals to z >
+# 0, and every `every`th line of its grid.
 shape_patch <- function(index, curvedness, cells = 32, every = 4) {
   k1 <- curvedness * (cos(index * pi / 2) - sin(index * pi / 2))
   k2 <- curvedness * (-cos(index * pi / 2) - sin(index * pi / 2))
@@ -46,8 +52,10 @@ shape_patch <- function(index, curvedness, cells = 32, every = 4) {
   side <- seq(-1, 1, length.out = cells + 1)
   grid <- expand.grid(x = side, y = side)
   corner <- which(grid$x < 1 & grid$y < 1)
-  it <- cbind(rbind(corner, corner + 1L, corner + cells + 2L), rbind(corner, corner + cells + 2L, corner + cells + 1L))
-  lines <- lapply(side[seq(1, cells + 1, by = every)], function(at) rbind(surface(side, at), NA, surface(at, side), NA))
+  it <- cbind(rbind(corner, corner + 1L, corner + cells + 2L),
+              rbind(corner, corner + cells + 2L, corner + cells + 1L))
+  lines <- lapply(side[seq(1, cells + 1, by = every)],
+                  function(at) rbind(surface(side, at), NA, surface(at, side), NA))
   list(vertices = surface(grid$x, grid$y), it = it, lines = do.call(rbind, lines))
 }
 
@@ -59,6 +67,7 @@ scale_bar <- function(scale, x, below = 1.3, height = 0.4) {
   ramp <- shape_colours(seq(-1, 1, length.out = 400))
   graphics::rasterImage(t(as.matrix(ramp)), min(x), low, max(x), low + height)
   graphics::rect(min(x), low, max(x), low + height, border = "grey40", lwd = 0.5)
-  graphics::text(x, low + 1.6 * height, gsub(" ", "\n", scale$category), cex = 0.8, pos = 3, offset = 0)
+  graphics::text(x, low + 1.6 * height, gsub(" ", "\n", scale$category), cex = 0.8, pos = 3,
+                 offset = 0)
   graphics::text(x, low, format(scale$index), cex = 0.8, pos = 1)
 }

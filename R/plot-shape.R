@@ -9,8 +9,9 @@
 #' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.
 #' @param parts Parts of the surface, as in [shape_mesh()].
 #' @param colour Colours of ridges, valleys and plane curves.
-#' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the shape's own surface:
-#'   its colour, one for each vertex of [shape_mesh()], a number for each, or "patch" for a colour a patch.
+#' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the
+#'   shape's own surface: its colour, one for each vertex of [shape_mesh()], a number for each, or
+#'   "patch" for a colour a patch.
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
 #' @param points Whether to draw the points of the curves.
@@ -32,7 +33,8 @@
 #' @export
 plot.shape <- function(x, specimen = NULL, parts = "model",
                        colour = c(ridge = "#A0002A", valley = "#16218C", plane = "#202020"),
-                       surface = if (is.null(specimen)) "#E3CDB8" else "shape index", edges = "#00000070", band = TRUE,
+                       surface = if (is.null(specimen)) "#E3CDB8" else "shape index",
+                       edges = "#00000070", band = TRUE,
                        points = TRUE, patches = points, width = 2, legend = TRUE,
                        engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
   check_class(x, "shape", "x", "fit_shape()")
@@ -44,7 +46,8 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
     plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, legend = legend, ...)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
-  if (patches && !is.null(specimen) && nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
+  if (patches && !is.null(specimen) &&
+      nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
   kind <- stats::setNames(x$scheme$curves$kind, x$scheme$curves$curve)
   for (name in names(Filter(Negate(is.null), x$paths))) {
     scene <- draw_shape_curve(scene, x, name, specimen, colour[[kind[[name]]]], band, points, width)
@@ -52,7 +55,8 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
   if (legend && engine == "picture" && !is.null(specimen)) {
-    on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = width, bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = width,
+                                     bty = "n", cex = 0.8))
   }
   invisible(scene)
 }
@@ -61,7 +65,8 @@ draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, wid
   path <- x$paths[[name]]
   own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
   if (band && !is.null(specimen)) {
-    s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE], 1e-6 * mesh_diagonal(specimen$mesh))
+    s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
+                        1e-6 * mesh_diagonal(specimen$mesh))
     on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
     scene <- draw_curve_band(scene, on_curve, specimen$mesh, colour)
   }
@@ -76,7 +81,8 @@ draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, wid
 #' @noRd
 draw_model <- function(mesh, colour, edges, engine, view, ..., inside = "#8C7F76") {
   colour <- surface_colours(mesh, colour)
-  # A model is open: what is seen of its inside is drawn, or one would look through it at the far side's edges.
+  # A model is open: what is seen of its inside is drawn, or one would look through it at the far
+  # side's edges.
   scene <- if (engine == "picture") {
     draw_surface(mesh, colour, view, engine, inside = inside, ...)
   } else {
@@ -87,8 +93,8 @@ draw_model <- function(mesh, colour, edges, engine, view, ..., inside = "#8C7F76
 
 #' The edges of the triangles of a mesh, each once
 #'
-#' @param raised How far along the normals they are drawn, as a share of the mesh's diagonal: long edges run below the
-#'   surface that their ends lie on.
+#' @param raised How far along the normals they are drawn, as a share of the mesh's diagonal: long
+#'   edges run below the surface that their ends lie on.
 #' @noRd
 draw_edges <- function(scene, mesh, colour, width, raised = 0) {
   side <- cbind(mesh$it[1:2, ], mesh$it[2:3, ], mesh$it[c(3, 1), ])

@@ -6,12 +6,15 @@
 #' its landmarks.
 #'
 #' @param x A `specimen`.
-#' @param colour What the colours show: "natural" (the colours of the scan, plain where it has none), "shape index" (see
-#'   [plot_shape_scale()]), "curvature" (the principal curvature greater in size: valleys blue, ridges red, in full at the 95 % quantile of its size) or "plain".
-#' @param curvature The `curvature` of the specimen's mesh, for "shape index" and "curvature"; NULL to compute it.
-#' @param radius Where curvature is computed: the radius of its neighbourhood, in the mesh's unit. The default, 1/25 of the diagonal of
-#'   the mesh's box, is about 10 mm on a face.
-#' @param engine "rgl" to turn it by hand, "picture" for base graphics on the current device. See [draw_surface()].
+#' @param colour What the colours show: "natural" (the colours of the scan, plain where it has
+#'   none), "shape index" (see [plot_shape_scale()]), "curvature" (the principal curvature greater
+#'   in size: valleys blue, ridges red, in full at the 95 % quantile of its size) or "plain".
+#' @param curvature The `curvature` of the specimen's mesh, for "shape index" and "curvature"; NULL
+#'   to compute it.
+#' @param radius Where curvature is computed: the radius of its neighbourhood, in the mesh's unit.
+#'   The default, 1/25 of the diagonal of the mesh's box, is about 10 mm on a face.
+#' @param engine "rgl" to turn it by hand, "picture" for base graphics on the current device. See
+#'   [draw_surface()].
 #' @param view Where to look from, see [draw_surface()].
 #' @param landmarks Whether to draw the landmarks.
 #' @param labels Whether to write their names too.
@@ -48,7 +51,8 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   scene <- draw_surface(x$mesh, scale$colours, view, engine, ...)
   placed <- x$landmarks[stats::complete.cases(x$landmarks), , drop = FALSE]
   if (landmarks && nrow(placed) > 0) {
-    scene <- draw_points(scene, placed, "black", halo = "white", labels = if (labels) rownames(placed))
+    scene <- draw_points(scene, placed, "black", halo = "white",
+                         labels = if (labels) rownames(placed))
   }
   if (engine == "picture") {
     graphics::title(main)
@@ -57,7 +61,8 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   invisible(scene)
 }
 
-# An upright bar of colours in the right margin, from the first at the bottom; labels at shares `at` of its height.
+# An upright bar of colours in the right margin, from the first at the bottom; labels at shares `at`
+# of its height.
 colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8) {
   line <- diff(graphics::grconvertX(0:1, "lines", "user"))
   usr <- graphics::par("usr")
@@ -66,7 +71,10 @@ colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8) {
   half <- share * (usr[4] - usr[3]) / 2
   old <- graphics::par(xpd = NA)
   on.exit(graphics::par(old))
-  graphics::rasterImage(as.matrix(rev(ramp)), left, middle - half, left + width * line, middle + half)
-  graphics::rect(left, middle - half, left + width * line, middle + half, border = "grey40", lwd = 0.5)
-  graphics::text(left + width * line, middle - half + 2 * half * at, labels, pos = 4, offset = 0.3, cex = 0.75)
+  graphics::rasterImage(as.matrix(rev(ramp)), left, middle - half, left + width * line,
+                        middle + half)
+  graphics::rect(left, middle - half, left + width * line, middle + half, border = "grey40",
+                 lwd = 0.5)
+  graphics::text(left + width * line, middle - half + 2 * half * at, labels, pos = 4, offset = 0.3,
+                 cex = 0.75)
 }

@@ -1,4 +1,5 @@
-# Where a value came from: one question to specimens, shapes and meshes, answered by each class in its own file.
+# Where a value came from: one question to specimens, shapes and meshes, answered by each class in
+# its own file.
 
 #' What a value says of where it came from, NULL where it says nothing
 #' @noRd

@@ -1,6 +1,7 @@
 # Random numbers that leave the session's stream alone.
 
-#' Evaluate with the random stream started at a seed, and leave the user's stream and its kind as they were
+#' Evaluate with the random stream started at a seed, and leave the user's stream and its kind as
+#' they were
 #'
 #' The kind is R's own whatever the user has set, since parallel workers have others.
 #' @noRd
@@ -10,7 +11,8 @@ with_seed <- function(seed, code) {
   kind <- RNGkind()
   on.exit({
     do.call(RNGkind, as.list(kind))
-    if (is.null(old)) rm(".Random.seed", envir = globalenv()) else assign(".Random.seed", old, envir = globalenv())
+    if (is.null(old)) rm(".Random.seed", envir = globalenv()) else
+      assign(".Random.seed", old, envir = globalenv())
   })
   set.seed(seed, "Mersenne-Twister", "Inversion", "Rejection")
   code

@@ -5,7 +5,8 @@
 report_sum <- function(table, counts) {
   tags <- htmltools::tags
   share <- function(name) sum(table$grade == name)
-  said <- sprintf("%s, %s: %d green, %d amber, %d red.", amount(nrow(counts), "specimen"), amount(nrow(table), "part"),
+  said <- sprintf("%s, %s: %d green, %d amber, %d red.", amount(nrow(counts), "specimen"),
+                  amount(nrow(table), "part"),
                   share("green"), share("amber"), share("red"))
   tags$div(class = "sum", report_bar(share("green"), share("amber"), share("red")), tags$p(said))
 }
@@ -15,9 +16,11 @@ report_sum <- function(table, counts) {
 report_bar <- function(green, amber, red) {
   total <- max(green + amber + red, 1)
   piece <- function(class, n) {
-    if (n > 0) htmltools::tags$span(class = class, style = sprintf("width:%.3f%%", 100 * n / total), title = paste(n, class))
+    if (n > 0) htmltools::tags$span(class = class, style = sprintf("width:%.3f%%", 100 * n / total),
+                                    title = paste(n, class))
   }
-  htmltools::tags$div(class = "bar", piece("red", red), piece("amber", amber), piece("green", green))
+  htmltools::tags$div(class = "bar", piece("red", red), piece("amber", amber),
+                      piece("green", green))
 }
 
 #' The specimens with their counts, the worst first; nothing for one
@@ -28,11 +31,13 @@ report_overview <- function(counts) {
   counts <- counts[order(-counts$red, -counts$amber), ]
   rows <- lapply(seq_len(nrow(counts)), function(i) {
     one <- counts[i, ]
-    tags$tr(tags$td(tags$a(href = "#parts", `data-specimen` = one$specimen, one$specimen)), tags$td(class = "n", one$red),
+    tags$tr(tags$td(tags$a(href = "#parts", `data-specimen` = one$specimen, one$specimen)),
+            tags$td(class = "n", one$red),
             tags$td(class = "n", one$amber), tags$td(class = "n", one$green),
             tags$td(class = "wide", report_bar(one$green, one$amber, one$red)))
   })
-  head <- tags$tr(tags$th("specimen"), lapply(c("red", "amber", "green"), tags$th, class = "n"), tags$th())
+  head <- tags$tr(tags$th("specimen"), lapply(c("red", "amber", "green"), tags$th, class = "n"),
+                  tags$th())
   tags$section(tags$h2("Specimens"), tags$div(
     class = "scroll", tags$table(class = "overview", tags$thead(head), tags$tbody(rows))
   ))
@@ -47,7 +52,8 @@ report_matrix <- function(counts) {
                  tags$option(value = "landmarks", "landmarks"))
   tags$section(
     tags$h2("Specimens by ", tags$select(id = "matrix-level", `aria-label` = "level", levels)),
-    tags$p(class = "note", "Rest the pointer on a cell for its reason; a click lists it below. A cross: not there."),
+    tags$p(class = "note",
+           "Rest the pointer on a cell for its reason; a click lists it below. A cross: not there."),
     tags$div(class = "scroll", tags$table(id = "matrix"))
   )
 }
@@ -55,7 +61,8 @@ report_matrix <- function(counts) {
 report_figure <- function(name, picture, graded, open) {
   tags <- htmltools::tags
   counts <- table(graded$grade)
-  label <- tags$summary(tags$b(paste0(name, ":")), paste(rev(counts), rev(names(counts)), collapse = ", "))
+  label <- tags$summary(tags$b(paste0(name, ":")),
+                        paste(rev(counts), rev(names(counts)), collapse = ", "))
   shown <- if (is.null(picture)) tags$p("Nothing to draw.") else {
     tags$img(src = picture, alt = sprintf("%s from three sides, coloured by grade", name))
   }
@@ -65,8 +72,10 @@ report_figure <- function(name, picture, graded, open) {
 report_figures <- function(figures) {
   if (!length(figures)) return(NULL)
   tags <- htmltools::tags
-  key <- lapply(names(grade_colours), function(grade) tags$span(class = paste("chip", grade), grade))
-  tags$section(tags$h2("Pictures"), tags$p(class = "note", "Curves and surface points by grade: ", key), figures)
+  key <- lapply(names(grade_colours),
+                function(grade) tags$span(class = paste("chip", grade), grade))
+  tags$section(tags$h2("Pictures"),
+               tags$p(class = "note", "Curves and surface points by grade: ", key), figures)
 }
 
 #' The place of the table of parts with its filters, which the script fills
@@ -78,23 +87,28 @@ report_parts <- function(table) {
   tick <- function(grade) {
     ticked <- if (grade != "green" || !doubtful) NA
     tags$label(class = paste("chip", grade),
-               tags$input(type = "checkbox", class = "grade", value = grade, checked = ticked), grade)
+               tags$input(type = "checkbox", class = "grade", value = grade, checked = ticked),
+               grade)
   }
   specimens <- unique(table$specimen)
   tags$section(
     id = "parts", tags$h2("Parts"),
     tags$div(
       class = "filters", lapply(rev(names(grade_colours)), tick),
-      tags$select(id = "level", `aria-label` = "level", choice("", "all levels"), choice("landmarks"), choice("curves"),
+      tags$select(id = "level", `aria-label` = "level", choice("", "all levels"),
+                  choice("landmarks"), choice("curves"),
                   choice("surface", "patches")),
       if (length(specimens) > 1) {
-        tags$select(id = "specimen", `aria-label` = "specimen", choice("", "all specimens"), lapply(specimens, choice))
+        tags$select(id = "specimen", `aria-label` = "specimen", choice("", "all specimens"),
+                    lapply(specimens, choice))
       },
-      tags$input(id = "search", type = "search", placeholder = "part or reason", `aria-label` = "search"),
+      tags$input(id = "search", type = "search", placeholder = "part or reason",
+                 `aria-label` = "search"),
       tags$span(id = "found")
     ),
     tags$div(class = "scroll", tags$table(id = "table")), tags$button(id = "more", "show more"),
-    tags$p(class = "note", "Lengths and standard errors (se) in the unit of the mesh, strength in 1 / unit; z: robust",
+    tags$p(class = "note",
+           "Lengths and standard errors (se) in the unit of the mesh, strength in 1 / unit; z: robust",
            "z-score of the length against the other specimens; asymmetry: distance from the mirror image of the partner,",
            "as a share of the length; missing: share of its points. A click on a heading sorts.")
   )
@@ -105,7 +119,8 @@ report_limits <- function(limits) {
   pairs <- limits[lengths(limits) == 2]
   rows <- lapply(names(pairs), function(name) {
     side <- if (name %in% small_is_bad) "below" else "above"
-    shown <- ifelse(is.finite(pairs[[name]]), paste(side, format(pairs[[name]], trim = TRUE)), "never")
+    shown <- ifelse(is.finite(pairs[[name]]), paste(side, format(pairs[[name]], trim = TRUE)),
+                    "never")
     tags$tr(tags$td(name), tags$td(shown[1]), tags$td(shown[2]), tags$td(quality_meanings[[name]]))
   })
   head <- tags$tr(lapply(c("measure", "amber", "red", "what it is"), tags$th))
@@ -113,7 +128,8 @@ report_limits <- function(limits) {
     tags$summary("From what on a part is amber or red"),
     tags$table(class = "limits", tags$thead(head), tags$tbody(rows)),
     tags$p(sprintf("A curve that curvature does not determine is %s;", limits$undetermined),
-           sprintf("one whose way or length had to do without a landmark on the mesh is %s.", limits$guessed),
+           sprintf("one whose way or length had to do without a landmark on the mesh is %s.",
+                   limits$guessed),
            "A patch is at least amber where a curve that bounds it is not green.")
   ))
 }
@@ -137,9 +153,11 @@ quality_meanings <- list(
 #' The table as JSON, by column, for the script
 #' @noRd
 report_data <- function(table, digits = 3) {
-  columns <- c("specimen", "part", "level", "kind", "grade", "length", "strength", "contrast", "se", "competing", "z",
+  columns <- c("specimen", "part", "level", "kind", "grade", "length", "strength", "contrast", "se",
+               "competing", "z",
                "asymmetry", "missing", "why")
-  shown <- lapply(as.list(table)[columns], function(x) if (is.numeric(x)) signif(x, digits) else as.character(x))
+  shown <- lapply(as.list(table)[columns],
+                  function(x) if (is.numeric(x)) signif(x, digits) else as.character(x))
   shown <- lapply(shown, function(x) if (is.numeric(x)) ifelse(is.finite(x), x, NA) else x)
   json <- jsonlite::toJSON(shown, na = "null", digits = NA)
   htmltools::tags$script(id = "data", type = "application/json", htmltools::HTML(script_json(json)))

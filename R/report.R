@@ -9,14 +9,14 @@
 #'
 #' @inheritParams quality
 #' @param file Where to write, ending in ".html".
-#' @param specimens The `specimen`s that the shapes were measured on, for the pictures: one, or a list in any order
-#'   (matched by their `id`). Shapes without one are drawn as their own surface.
+#' @param specimens The `specimen`s that the shapes were measured on, for the pictures: one, or a
+#'   list in any order (matched by their `id`). Shapes without one are drawn as their own surface.
 #' @param title Heading of the page.
 #' @param pictures How many specimens are drawn: the worst first.
 #' @param size Width and height of a specimen's picture in pixels.
 #' @return The path of the file, invisibly.
-#' @section Errors: of class `crestline_error`, as [quality()]; when the file has another ending or its folder is not
-#'   there; when a specimen has no shape.
+#' @section Errors: of class `crestline_error`, as [quality()]; when the file has another ending or
+#'   its folder is not there; when a specimen has no shape.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -29,7 +29,8 @@
 #' }
 #' @export
 quality_report <- function(x, file, specimens = NULL, limits = quality_limits(), others = NULL,
-                           title = "Quality of measured specimens", pictures = 12, size = c(1500, 640)) {
+                           title = "Quality of measured specimens", pictures = 12,
+                           size = c(1500, 640)) {
   check_given()
   title <- check_text(title, "title")
   size <- check_size(size)
@@ -45,11 +46,13 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
   drawn <- utils::head(drawn[!vapply(shapes[drawn], is.null, NA)], pictures)
   figures <- lapply(drawn, function(name) {
     graded <- table[table$specimen == name, ]
-    report_figure(name, grade_picture(shapes[[name]], graded, specimens[[name]], size), graded, length(drawn) == 1)
+    report_figure(name, grade_picture(shapes[[name]], graded, specimens[[name]], size), graded,
+                  length(drawn) == 1)
   })
   tags <- htmltools::tags
   page <- tags$body(
-    tags$header(tags$h1(title), report_sum(table, counts)), report_overview(counts), report_matrix(counts),
+    tags$header(tags$h1(title), report_sum(table, counts)), report_overview(counts),
+    report_matrix(counts),
     report_figures(figures), report_parts(table), report_limits(limits),
     provenance_block(shapes_provenance(shapes)), report_data(table),
     tags$script(htmltools::HTML(report_text("quality.js")))
@@ -72,7 +75,8 @@ specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
                     stage = "page", call = call)
   }
   found <- stats::setNames(specimens[match(own, id)], names(shapes))
-  for (name in names(shapes)) if (!is.null(found[[name]])) check_shape_on(shapes[[name]], found[[name]])
+  for (name in names(shapes)) if (!is.null(found[[name]])) check_shape_on(shapes[[name]],
+                                                                          found[[name]])
   found
 }
 
@@ -97,7 +101,8 @@ report_text <- function(name) {
 write_report <- function(page, title, file) {
   lines <- c(
     "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\">",
-    "<meta name=\"viewport\" content=\"width=device-width\">", as.character(htmltools::tags$title(title)),
+    "<meta name=\"viewport\" content=\"width=device-width\">",
+    as.character(htmltools::tags$title(title)),
     "<style>", report_text("quality.css"), "</style>", "</head>", as.character(page), "</html>"
   )
   write_html(lines, file)

@@ -29,8 +29,10 @@
 #'     the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`;
 #'     lengths in the unit of the mesh; `as.data.frame()` gives it;
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
-#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane curve but the first);
-#'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the reference path;
+#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane
+#'     curve but the first);
+#'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the
+#'     reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
 #'   * `determined`: whether curvature determines the curve. It is `FALSE` when the median standard
 #'     error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, the
@@ -62,7 +64,8 @@
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
-                        reach = 0.5, threads = getOption("crestline.threads", 1L), trust = c(0, 1)) {
+                        reach = 0.5, threads = getOption("crestline.threads", 1L),
+                        trust = c(0, 1)) {
   check_given(if (identical(type, "plane")) c("radius", "width"))
   check_surface(specimen, "specimen")
   check_ends(from = from, to = to)
@@ -74,9 +77,11 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
-  about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from), to = end_name(to),
+  about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from),
+                to = end_name(to),
                 type = type, settings = settings, passes = passes)
-  in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to), code = {
+  in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to),
+             code = {
     if (type == "plane") {
       path <- reference_path(specimen, from, to, "plane", reach = reach)
       assembled_curve(specimen, path, path, n, about)
@@ -95,12 +100,14 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 
 #' The passes of a fit, each about the curve of the one before
 #'
-#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length in which curvature counts.
+#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
+#'   in which curvature counts.
 #' @noRd
 fit_passes <- function(specimen, path, curvature, keep_away, about) {
   trusted <- attr(path, "trusted") / attr(path, "length")
   for (pass in seq_len(about$passes)) {
-    fit <- fit_ridge(specimen, path, curvature, about$radius, about$width, about$type, keep_away, about$settings)
+    fit <- fit_ridge(specimen, path, curvature, about$radius, about$width, about$type, keep_away,
+                     about$settings)
     fit$reference <- path
     if (!fit$found) break
     path <- fit$path
@@ -114,9 +121,11 @@ fit_passes <- function(specimen, path, curvature, keep_away, about) {
 fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away, settings) {
   half <- min(width, settings$window * radius)
   coordinates <- path_coordinates(specimen, path, half, margin = radius)
-  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings, attr(path, "trusted"))
+  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings,
+                              attr(path, "trusted"))
   scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
-  stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE, path = path)
+  stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE,
+                 path = path)
   if (!is.finite(scale) || scale <= 0) {
     stages$reason <- sprintf("there is no %s curvature by the reference path", type)
     return(stages)
@@ -124,7 +133,8 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
   stages$surface <- curvature_surface(coordinates, strength$value, settings)
   stages$line <- ridge_line(stages$surface, scale, radius, settings)
   if (settings$error) {
-    stages$line$se <- ridge_error(specimen, coordinates, stages$surface, stages$line, strength, scale, radius, type,
+    stages$line$se <- ridge_error(specimen, coordinates, stages$surface, stages$line, strength,
+                                  scale, radius, type,
                                   settings)
   }
   lifted <- tryCatch(lift(specimen, coordinates, path, stages$line$s, stages$line$alpha),
@@ -140,38 +150,47 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
 
 #' Strength at the vertices inside a window as the settings define it
 #'
-#' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere; NULL: all of it.
-#' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated: `value` (also NA where
-#'   left out), `direction` (n x 3, across the path or principal), `sigma`; `rows` (where it was estimated), `cell` (of
-#'   every row, the place in `rows` of the one that stands for it, NA outside the window); and `cap`.
+#' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere;
+#'   NULL: all of it.
+#' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated:
+#'   `value` (also NA where left out), `direction` (n x 3, across the path or principal), `sigma`;
+#'   `rows` (where it was estimated), `cell` (of every row, the place in `rows` of the one that
+#'   stands for it, NA outside the window); and `cap`.
 #' @noRd
-window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings, trusted = NULL) {
+window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings,
+                            trusted = NULL) {
   thinned <- thinned_rows(coordinates, settings$vertices)
   rows <- thinned$rows
   curved <- curvature(coordinates$vertex[rows])
-  across <- cross_rows(curved$normal, columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
+  across <- cross_rows(curved$normal,
+                       columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
   value <- strength_at(curved, type, across = if (!principal) across)
   # No direction is across a path where it runs along the normal, or stands still.
   value[is.nan(value)] <- NA
   if (!is.null(keep_away)) {
-    value[is_kept_away(keep_away, specimen, t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
+    value[is_kept_away(keep_away, specimen,
+                       t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
   }
-  if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] | coordinates$s[rows] > trusted[2]] <- 0
+  if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] |
+                               coordinates$s[rows] > trusted[2]] <- 0
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
   cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
   own <- if (type == "ridge") curved$direction2 else curved$direction1
   direction <- matrix(NA_real_, nrow(coordinates), 3)
   direction[rows, ] <- if (principal) own else across
   all_rows <- function(x) replace(rep(NA_real_, nrow(coordinates)), rows, x)
-  list(value = all_rows(pmin(value, cap)), direction = direction, sigma = all_rows(curved$sigma), rows = rows,
+  list(value = all_rows(pmin(value, cap)), direction = direction, sigma = all_rows(curved$sigma),
+       rows = rows,
        cell = thinned$cell, cap = cap)
 }
 
-#' The rows inside a window; where there are more than `most`, the one nearest to the centre of each of as many square cells
+#' The rows inside a window; where there are more than `most`, the one nearest to the centre of each
+#' of as many square cells
 #'
-#' @return List: `rows`; `cell`, for every row of `coordinates` the place in `rows` of the one that stands for it, NA outside.
+#' @return List: `rows`; `cell`, for every row of `coordinates` the place in `rows` of the one that
+#'   stands for it, NA outside.
 #' @noRd
 thinned_rows <- function(coordinates, most) {
   inside <- which(coordinates$inside)
@@ -217,32 +236,41 @@ assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
   placed <- resample_path(as_mesh(specimen), path, n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
-    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, n) else stats::approx(fit$line$s, values, along, rule = 2)$y
+    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, n) else
+      stats::approx(fit$line$s, values, along, rule = 2)$y
   }
   d <- if (about$type == "plane") numeric(n) else on_line(fit$line$alpha)
   points <- frame_of(c(list(point = seq_len(n)), unclass(placed)[c("s", "x", "y", "z")],
-                       list(d = d, se = on_line(fit$line$se)), unclass(placed)[c("face", "w1", "w2", "w3")]))
+                       list(d = d, se = on_line(fit$line$se)),
+                       unclass(placed)[c("face", "w1", "w2", "w3")]))
   new_curve(points, path, reference, about, judge_curve(about, fit), mesh_of(specimen)$key,
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
             strength = mean_strength(specimen, path, fit), scale = fit$scale,
-            converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged), even = attr(placed, "converged"))
+            converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
+            even = attr(placed, "converged"))
 }
 
 #' A curve from its parts: all its fields are declared here
 #'
-#' @param points,path,reference,coordinates,surface,line,strength,scale,converged As in the value of [ridge_curve()].
-#' @param about List of `id`, `from`, `to`, `type`, `settings`, `passes`; of ridges and valleys `radius` and `width`.
+#' @param points,path,reference,coordinates,surface,line,strength,scale,converged As in the value of
+#'   [ridge_curve()].
+#' @param about List of `id`, `from`, `to`, `type`, `settings`, `passes`; of ridges and valleys
+#'   `radius` and `width`.
 #' @param verdict List of `se`, `determined`, `reason`.
 #' @param key Of the mesh that its faces are numbers of.
 #' @param even Whether its points stand at equal chords.
 #' @noRd
-new_curve <- function(points, path, reference, about, verdict, key, coordinates = NULL, surface = NULL, line = NULL,
+new_curve <- function(points, path, reference, about, verdict, key, coordinates = NULL,
+                      surface = NULL, line = NULL,
                       strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE) {
   structure(
-    list(points = points, path = path, length = attr(path, "length"), reference = reference, coordinates = coordinates,
+    list(points = points, path = path, length = attr(path, "length"), reference = reference,
+         coordinates = coordinates,
          surface = surface, line = line, strength = strength, scale = scale, se = verdict$se,
-         determined = verdict$determined, reason = verdict$reason, id = about$id, from = about$from, to = about$to,
-         type = about$type, settings = about$settings, passes = about$passes, radius = about$radius, width = about$width,
+         determined = verdict$determined, reason = verdict$reason, id = about$id, from = about$from,
+         to = about$to,
+         type = about$type, settings = about$settings, passes = about$passes, radius = about$radius,
+         width = about$width,
          key = key, converged = converged, even = even),
     class = "curve"
   )
@@ -252,11 +280,13 @@ new_curve <- function(points, path, reference, about, verdict, key, coordinates 
 #' @noRd
 validate_curve <- function(x) {
   path <- if (is.list(x)) x$path
-  right <- inherits(path, "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
+  right <- inherits(path,
+                    "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
     is.numeric(x$points$s) && is_error(x$points$se)
   if (right) return(validate_mesh_path(path))
   crestline_abort("the curve lacks its path, or points with co-ordinates, faces, weights and errors.",
-                  "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve", id = if (is.list(x)) x$id,
+                  "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve",
+                  id = if (is.list(x)) x$id,
                   call = NULL)
 }
 
@@ -280,7 +310,8 @@ check_curve_on <- function(curve, mesh, name) {
 #' @noRd
 judge_curve <- function(about, fit) {
   if (about$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
-  se <- if (is.null(fit$line$se)) NA_real_ else stats::median(fit$line$se[-c(1, length(fit$line$se))])
+  se <- if (is.null(fit$line$se)) NA_real_ else
+    stats::median(fit$line$se[-c(1, length(fit$line$se))])
   limit <- about$settings$undetermined * about$radius
   reason <- if (!fit$found) {
     fit$reason
@@ -296,12 +327,14 @@ judge_curve <- function(about, fit) {
   }
   if (!is.na(reason)) {
     crestline_warn(
-      sprintf("the %s from %s to %s is not determined by curvature: %s.", about$type, about$from, about$to, reason),
+      sprintf("the %s from %s to %s is not determined by curvature: %s.", about$type, about$from,
+              about$to, reason),
       "Use the shortest plane cut (type = \"plane\"), or another radius.",
       stage = "ridge curve", id = about$id, class = "crestline_undetermined"
     )
   }
-  list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE, reason = reason)
+  list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
+       reason = reason)
 }
 
 #' Length-weighted mean along a path of the strength that the curve was fitted to
@@ -331,10 +364,12 @@ as.data.frame.curve <- function(x, ...) {
 print.curve <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("%s from %s to %s%s\n", switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
+    cat(sprintf("%s from %s to %s%s\n",
+                switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
                 x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
     cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
-    if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
+    if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g",
+                                        x$strength, x$se))
     cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
                 if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
     invisible(x)

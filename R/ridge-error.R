@@ -2,13 +2,13 @@
 
 #' Standard error of a ridge line
 #'
-#' The offset depends on the smooth strength, that on the strength at the vertices of the
-#' window, that on the local fits, and those on the heights of the vertices, which
-#' neighbouring fits share. The chain of derivatives is followed through all of them; the
-#' heights' errors are independent with the residual standard deviation of each local fit. The
-#' result is inflated by `settings$inflation`, and the change of the line when lambda is
-#' divided by ten stands for its bias. Near an end, which is fixed, the offset is at most as large as the way from there,
-#' and so is its error.
+#' The offset depends on the smooth strength, that on the strength at the vertices of the window,
+#' that on the local fits, and those on the heights of the vertices, which neighbouring fits share.
+#' The chain of derivatives is followed through all of them; the heights' errors are independent
+#' with the residual standard deviation of each local fit. The result is inflated by
+#' `settings$inflation`, and the change of the line when lambda is divided by ten stands for its
+#' bias. Near an end, which is fixed, the offset is at most as large as the way from there, and so
+#' is its error.
 #'
 #' @param specimen The mesh.
 #' @param coordinates,surface,line The stages of the fit.
@@ -16,7 +16,8 @@
 #' @param scale,radius,type,settings As in [ridge_line()] and [ridge_curve()].
 #' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
 #' @noRd
-ridge_error <- function(specimen, coordinates, surface, line, strength, scale, radius, type, settings) {
+ridge_error <- function(specimen, coordinates, surface, line, strength, scale, radius, type,
+                        settings) {
   problem <- ridge_problem(surface, scale, radius, settings)
   alpha <- line$alpha[-c(1, length(line$alpha))]
   slope <- strength_jacobian(problem, surface, alpha)

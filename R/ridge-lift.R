@@ -11,10 +11,10 @@
 #' @param path The reference path.
 #' @param s,alpha The curve: offsets at increasing arc lengths from 0 to the length of the path.
 #' @return A `mesh_path` from the first to the last point of `path`. Attribute `lifted` is `FALSE`
-#'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts between
-#'   the places of the curve.
-#' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class `crestline_wrong_mesh`, when
-#'   the path or its co-ordinates belong to another mesh.
+#'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts
+#'   between the places of the curve.
+#' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class
+#'   `crestline_wrong_mesh`, when the path or its co-ordinates belong to another mesh.
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
 #'   3.3. There each place is looked up in the triangles of (s, d), those of the scan or, where
 #'   there are none, a Delaunay triangulation. Here the curve is walked through the scan's own
@@ -34,8 +34,10 @@ lift <- function(specimen, coordinates, path, s, alpha) {
   s <- check_numbers(s, "s")
   alpha <- check_numbers(alpha, "alpha")
   if (length(s) < 2 || is.unsorted(s, strictly = TRUE) || length(alpha) != length(s)) {
-    crestline_abort(sprintf("`s` (%s) and `alpha` (%s) are no line.", describe_value(s), describe_value(alpha)),
-                    "Give two places or more, in order, and an offset for each.", stage = "arguments")
+    crestline_abort(sprintf("`s` (%s) and `alpha` (%s) are no line.", describe_value(s),
+                            describe_value(alpha)),
+                    "Give two places or more, in order, and an offset for each.",
+                    stage = "arguments")
   }
   surface <- walkable(specimen)
   check_path_on(path, specimen, "`path`")
@@ -43,7 +45,8 @@ lift <- function(specimen, coordinates, path, s, alpha) {
   ends <- lift_ends(path, surface)
   level <- level_at_vertices(surface, coordinates, s, alpha, ends)
   towards <- first_direction(specimen, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
-  walked <- cpp_level_path(surface$vb, surface$it, surface$twin, ends$from[1], ends$to[1], level, towards)
+  walked <- cpp_level_path(surface$vb, surface$it, surface$twin, ends$from[1], ends$to[1], level,
+                           towards)
   if (walked$end == "arrived") return(new_path(walked$points, ends, surface, lifted = TRUE))
   piece_together(specimen, surface, coordinates, path, s, alpha)
 }
@@ -87,16 +90,19 @@ piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
   places <- places_in_plane(surface, coordinates, path, s, alpha)
   if (is.null(places)) {
     crestline_abort("no triangle near the reference path holds the ridge line.",
-                    "Give a smaller `width`, or use the plane cut.", stage = "lift", id = surface$id,
+                    "Give a smaller `width`, or use the plane cut.", stage = "lift",
+                    id = surface$id,
                     class = "crestline_path_error", call = NULL)
   }
   at <- columns_of(path)
   knots <- rbind(at[1, ], columns_of(places), at[nrow(at), ])
   knots <- knots[c(TRUE, row_lengths(diff(knots[, 1:3])) > 0), ]
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
-    columns_of(reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf, rival = 0))
+    columns_of(reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf,
+                              rival = 0))
   })
-  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))), surface, lifted = FALSE)
+  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))),
+               surface, lifted = FALSE)
 }
 
 places_in_plane <- function(surface, coordinates, path, s, alpha) {

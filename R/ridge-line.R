@@ -15,8 +15,9 @@
 #' @param settings [ridge_settings()]: `lambda`, `lambda_scale`, `grid`, `bound`, `step`,
 #'   `iterations`, `tolerance`.
 #' @return Object of class `ridge_line`, a list: `s` and `alpha` (unit of the mesh) at the grid;
-#'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the
-#'   interior of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the window).
+#'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the interior
+#'   of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the
+#'   window).
 #' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
 #'   3.2.
 #' @examples
@@ -59,7 +60,8 @@ ridge_problem <- function(surface, scale, radius, settings) {
   lambda <- switch(settings$lambda_scale, feature = settings$lambda / (scale * radius),
                    grid = settings$lambda * radius^2 / (scale * (grid - 1)^3))
   list(u = u, lambda = lambda, roughness = crossprod(second) / (grid - 1),
-       across = surface$margins$across, width = surface$width, limit = settings$bound * surface$width,
+       across = surface$margins$across, width = surface$width,
+       limit = settings$bound * surface$width,
        interior = profile[-c(1, grid), ], weight = rep(1 / (grid - 1), grid - 2) / scale,
        ends = sum(at_ends) / (2 * (grid - 1) * scale))
 }
@@ -77,7 +79,8 @@ ridge_criterion <- function(problem, alpha) {
 }
 
 ridge_gradient <- function(problem, alpha) {
-  problem$weight * profile_at(problem, alpha, 1) - 2 * problem$lambda * as.vector(problem$roughness %*% alpha)
+  problem$weight * profile_at(problem, alpha,
+                              1) - 2 * problem$lambda * as.vector(problem$roughness %*% alpha)
 }
 
 #' Hessian, or with `convex` its negative-definite stand-in
@@ -114,7 +117,8 @@ climb <- function(problem, settings) {
     value <- risen$value
   }
   free <- abs(alpha) < problem$limit
-  list(alpha = alpha, value = value, iterations = round, converged = converged, at_bound = any(!free),
+  list(alpha = alpha, value = value, iterations = round, converged = converged,
+       at_bound = any(!free),
        gradient = max(0, abs(ridge_gradient(problem, alpha)[free])))
 }
 
@@ -134,7 +138,8 @@ rise <- function(problem, alpha, value, step, small) {
 print.ridge_line <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s), min(x$alpha),
+    cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
+                min(x$alpha),
                 max(x$alpha), if (x$converged) "converged" else "NOT converged", x$iterations,
                 if (x$at_bound) ", along the edge of the window" else ""))
     invisible(x)

@@ -12,11 +12,13 @@
 #'   `penalty` (the smoothing parameter), `df` (reached), `converged`, and the spline
 #'   margins. `predict(x, s, d, derivative)` gives the strength, or its
 #'   derivative of the given order by `d`, at places (s, d).
-#' @section Errors: of class `crestline_error`, when fewer vertices are left than the fit has degrees of freedom.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.2.
+#' @section Errors: of class `crestline_error`, when fewer vertices are left than the fit has
+#'   degrees of freedom.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
+#'   3.2.
 #'
-#'   Eilers, P. H. C. and Marx, B. D. (1996) Flexible smoothing with B-splines and penalties. *Statistical
-#'   Science* 11(2), 89-121. Bases and penalties are those of the package mgcv.
+#'   Eilers, P. H. C. and Marx, B. D. (1996) Flexible smoothing with B-splines and penalties.
+#'   *Statistical Science* 11(2), 89-121. Bases and penalties are those of the package mgcv.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
@@ -43,8 +45,10 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
   factor <- surface_factor(moments$matrix + chosen$value * penalty)
   beta <- backsolve(factor, backsolve(factor, moments$right, transpose = TRUE))
   structure(
-    list(coefficients = matrix(beta, settings$basis[2]), length = length, width = width, rows = rows,
-         strength = strength[rows], penalty = chosen$value, df = chosen$df, converged = chosen$converged,
+    list(coefficients = matrix(beta, settings$basis[2]), length = length, width = width,
+         rows = rows,
+         strength = strength[rows], penalty = chosen$value, df = chosen$df,
+         converged = chosen$converged,
          margins = margins, design = design, factor = factor),
     class = "curvature_surface"
   )
@@ -62,7 +66,8 @@ surface_factor <- function(moments) {
 
 abort_few_vertices <- function(count, df) {
   crestline_abort(
-    sprintf("only %d vertices of the window have a curvature, fewer than %g degrees of freedom.", count, df),
+    sprintf("only %d vertices of the window have a curvature, fewer than %g degrees of freedom.",
+            count, df),
     "Give a larger `width` or `radius`, or fewer degrees of freedom: ridge_settings(df = ).",
     stage = "curvature surface"
   )
@@ -128,7 +133,8 @@ predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
   s <- check_numbers(s, "s")
   d <- check_numbers(d, "d")
   derivative <- check_count(derivative, "derivative", lower = 0, upper = 3)
-  along <- margin_design(object$margins$along, rep_len(s, max(length(s), length(d))) / object$length)
+  along <- margin_design(object$margins$along,
+                         rep_len(s, max(length(s), length(d))) / object$length)
   across <- margin_design(object$margins$across, rep_len(d, nrow(along)) / object$width, derivative)
   rowSums(across * tcrossprod(along, object$coefficients)) / object$width^derivative
 }

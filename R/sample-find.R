@@ -1,10 +1,12 @@
-# Specimens of a batch that come without landmarks: found where that was asked for, never mixed with placed ones in silence.
+# Specimens of a batch that come without landmarks: found where that was asked for, never mixed with
+# placed ones in silence.
 
 #' Jobs without landmarks, with what finds them, or refused
 #'
 #' @param dir Folder of the results, NULL for memory: pictures of refused specimens go there.
-#' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with `template`, which all jobs of a
-#'   worker have in common), `doubtful`, `picture` (path) and `key`; or with `refusal`.
+#' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with
+#'   `template`, which all jobs of a worker have in common), `doubtful`, `picture` (path) and `key`;
+#'   or with `refusal`.
 #' @noRd
 with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rlang::caller_env()) {
   doubtful <- check_number(doubtful, "doubtful", 0, 1, call = call)
@@ -74,7 +76,8 @@ found_specimen <- function(one, finder) {
   without_doubted(find_landmarks(one, finder$shared$template), finder)
 }
 
-#' The same without the landmarks that are doubted; where most are, an error that names the picture of them
+#' The same without the landmarks that are doubted; where most are, an error that names the picture
+#' of them
 #' @noRd
 without_doubted <- function(found, finder) {
   most <- max(find_settings()$wrong, finder$doubtful)

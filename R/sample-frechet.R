@@ -2,24 +2,26 @@
 
 #' The mean of points on a surface
 #'
-#' The point of the surface whose weighted sum of squared geodesic distances to the given points is least (Frechet mean).
+#' The point of the surface whose weighted sum of squared geodesic distances to the given points is
+#' least (Frechet mean).
 #'
-#' Geodesic distances are worked out triangle by triangle (see References): exact on a plane, about 1 % too long where
-#' they bend round a hole; on spheres of 642, 2,562 and 10,242 vertices 0.6, 0.3 and 0.1 % short on average, 2.6, 1.4
-#' and 0.8 % at most. (Paths over edges alone, as of `Rvcg::vcgDijkstra()`, are 7 % too long on all of them and 23 % at
-#' most, differently so by direction, so that they do not determine a mean.) The vertex with the least sum is found, and
-#' from there the least of a quadratic in the tangent plane: on these spheres within a tenth of an edge of the true
-#' mean.
+#' Geodesic distances are worked out triangle by triangle (see References): exact on a plane, about
+#' 1 % too long where they bend round a hole; on spheres of 642, 2,562 and 10,242 vertices 0.6, 0.3
+#' and 0.1 % short on average, 2.6, 1.4 and 0.8 % at most. (Paths over edges alone, as of
+#' `Rvcg::vcgDijkstra()`, are 7 % too long on all of them and 23 % at most, differently so by
+#' direction, so that they do not determine a mean.) The vertex with the least sum is found, and
+#' from there the least of a quadratic in the tangent plane: on these spheres within a tenth of an
+#' edge of the true mean.
 #'
 #' @param mesh A `mesh3d` of triangles, or a [specimen()].
 #' @param points k x 3 matrix, in the unit of the mesh; taken to the closest places of the surface.
 #' @param weights k numbers of at least 0; `NULL`: all the same.
 #' @param rings Rings of vertices about the least one that the quadratic is fitted to.
-#' @return Data frame of one row: `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (a place on the mesh), and `variance`
-#'   (weighted mean of squared geodesic distances at the least vertex, unit squared). Where several places have the same
-#'   least sum, one of them.
-#' @section Errors: of class `crestline_error`: points that are no k x 3 matrix of numbers or lie on separate pieces of
-#'   the mesh; weights that are negative, all 0, or of another number.
+#' @return Data frame of one row: `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (a place on the mesh), and
+#'   `variance` (weighted mean of squared geodesic distances at the least vertex, unit squared).
+#'   Where several places have the same least sum, one of them.
+#' @section Errors: of class `crestline_error`: points that are no k x 3 matrix of numbers or lie on
+#'   separate pieces of the mesh; weights that are negative, all 0, or of another number.
 #' @references The paper, section 3, names it as an example; neither its curves nor ours use it.
 #'   Novotni and Klein (2002) Computing geodesic distances on triangular meshes,
 #'   *Journal of WSCG* 10, 341-347.
@@ -38,7 +40,8 @@ frechet_mean <- function(mesh, points, weights = NULL, rings = 3) {
   rings <- check_count(rings, "rings", upper = 1000)
   total <- as.vector(geodesic_distances(mesh, surface_points(mesh, points))^2 %*% weights)
   if (!any(is.finite(total))) {
-    crestline_abort("the points lie on separate pieces of the mesh.", "Give points that a path on the surface can join.",
+    crestline_abort("the points lie on separate pieces of the mesh.",
+                    "Give points that a path on the surface can join.",
                     stage = "mean")
   }
   best <- which.min(total)
@@ -48,8 +51,10 @@ frechet_mean <- function(mesh, points, weights = NULL, rings = 3) {
 }
 
 check_mean_points <- function(points, call = rlang::caller_env()) {
-  if (!is.matrix(points) || !is.numeric(points) || ncol(points) != 3 || !nrow(points) || !all(is.finite(points))) {
-    crestline_abort(sprintf("`points` is %s.", describe_value(points)), "Give a k x 3 matrix of finite numbers.",
+  if (!is.matrix(points) || !is.numeric(points) || ncol(points) != 3 || !nrow(points) ||
+      !all(is.finite(points))) {
+    crestline_abort(sprintf("`points` is %s.", describe_value(points)),
+                    "Give a k x 3 matrix of finite numbers.",
                     stage = "arguments", call = call)
   }
   points
@@ -59,9 +64,11 @@ check_mean_points <- function(points, call = rlang::caller_env()) {
 #' @noRd
 check_weights <- function(weights, k, call = rlang::caller_env()) {
   if (is.null(weights)) weights <- rep(1, k)
-  if (!is.numeric(weights) || length(weights) != k || !all(is.finite(weights)) || any(weights < 0) || !any(weights > 0)) {
+  if (!is.numeric(weights) || length(weights) != k || !all(is.finite(weights)) ||
+      any(weights < 0) || !any(weights > 0)) {
     crestline_abort(sprintf("`weights` is %s.", describe_value(weights)),
-                    sprintf("Give %s of at least 0, not all 0.", amount(k, "number")), stage = "arguments", call = call)
+                    sprintf("Give %s of at least 0, not all 0.", amount(k, "number")),
+                    stage = "arguments", call = call)
   }
   weights / sum(weights)
 }
@@ -78,8 +85,8 @@ vertices_within <- function(mesh, vertex, rings) {
 
 #' Where the quadratic of least squares through values at points of a surface is least
 #'
-#' In the plane of the points' two largest axes about the best one; that point itself where there is no least within the
-#' points' reach.
+#' In the plane of the points' two largest axes about the best one; that point itself where there is
+#' no least within the points' reach.
 #'
 #' @param xyz k x 3.
 #' @param value k numbers.

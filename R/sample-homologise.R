@@ -15,12 +15,12 @@
 #' Where the scheme has left-right pairs, the template is made symmetric in every round
 #' ([symmetrise()]).
 #'
-#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different `id`s, or a `shape_batch`
-#'   of [fit_shapes()]. Failed specimens are left out. Of a batch in files one scan at a time is in
-#'   memory. Ends of curves that are cut off are homologous only if all shapes were measured with
-#'   the same `cut_scale`.
-#' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the most points,
-#'   symmetrised.
+#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different
+#'   `id`s, or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. Of a batch in files
+#'   one scan at a time is in memory. Ends of curves that are cut off are homologous only if all
+#'   shapes were measured with the same `cut_scale`.
+#' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the
+#'   most points, symmetrised.
 #' @param settings [slide_settings()].
 #' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
 #'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
@@ -28,23 +28,27 @@
 #' @param tolerance The rounds end when no point of the mean moves further than this share of its
 #'   RMS radius (2e-4: about
 #'   0.01 mm on a face).
-#' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens of an old sample.
+#' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens
+#'   of an old sample.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `shape_sample`, a list:
 #'   * `shapes`: the slid shapes, named by id, each as of [slide()] (without its specimen);
-#'   * `template`: the `shape` that they were slid against: `slide(shape, template)` gives the shape again;
-#'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the template), `largest`
-#'     (unit of the mesh), `energy` (mean over specimens of the sum over curves), `slide` (RMS distance that curve
-#'     points have slid);
-#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`, `points`;
+#'   * `template`: the `shape` that they were slid against: `slide(shape, template)` gives the shape
+#'     again;
+#'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the
+#'     template), `largest` (unit of the mesh), `energy` (mean over specimens of the sum over
+#'     curves), `slide` (RMS distance that curve points have slid);
+#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`,
+#'     `points`;
 #'   * `provenance`: what it came from, see [summary.shape_sample()].
 #'
 #'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample].
 #'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
-#' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a specimen that is
-#'   not there, or has another mesh than the shape was measured on.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last round; of class
-#'   `crestline_cut_scale`, when curves were cut off at different shares (`cut_scale`), with the one to measure all by.
+#' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a
+#'   specimen that is not there, or has another mesh than the shape was measured on.
+#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last
+#'   round; of class `crestline_cut_scale`, when curves were cut off at different shares
+#'   (`cut_scale`), with the one to measure all by.
 #' @references The paper, section 4; departures: [slide_settings()], and the spacing of the mean
 #'   curves.
 #' @examples
@@ -68,7 +72,8 @@
 #' dim(as.array(sample, "curves"))
 #' }
 #' @export
-homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL, tolerance = 2e-4, rounds = 20,
+homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL,
+                       tolerance = 2e-4, rounds = 20,
                        progress = interactive()) {
   check_given()
   check_flags(progress)
@@ -99,15 +104,18 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     shape$specimen <- NULL
     shape
   })
-  provenance <- sample_provenance(found$template, plan, list(tolerance = tolerance, rounds = rounds))
+  provenance <- sample_provenance(found$template, plan,
+                                  list(tolerance = tolerance, rounds = rounds))
   validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
   if (inherits(shapes, "shape_batch")) shapes <- measured(shapes)
   if (inherits(shapes, "shape")) shapes <- list(shapes)
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise", call = call)
-  if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise",
+                                                    call = call)
+  if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)),
+                                                "Give a list of shapes.")
   wrong <- which(!vapply(shapes, inherits, NA, "shape"))
   if (length(wrong)) {
     fail(sprintf("element %d of `shapes` is %s.", wrong[1], describe_value(shapes[[wrong[1]]])),
@@ -116,13 +124,15 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
   for (shape in shapes) check_class(shape, "shape", "shapes", "fit_shape()", call)
   ids <- vapply(shapes, `[[`, "", "id")
   if (anyDuplicated(ids)) {
-    fail(sprintf("two shapes have the id \"%s\".", ids[anyDuplicated(ids)]), "Give every specimen an `id` of its own.")
+    fail(sprintf("two shapes have the id \"%s\".", ids[anyDuplicated(ids)]),
+         "Give every specimen an `id` of its own.")
   }
   for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
   stats::setNames(shapes, ids)
 }
 
-#' The shapes of a batch; of one in files without their specimens, which are read again when they are needed
+#' The shapes of a batch; of one in files without their specimens, which are read again when they
+#' are needed
 #' @noRd
 measured <- function(batch) {
   bare <- !is.null(specimens_in_files(batch))
@@ -135,7 +145,8 @@ measured <- function(batch) {
 }
 
 specimens_in_files <- function(x) {
-  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
+  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA,
+                                                   "kept_shape"))
   if (kept) function(id) x[[id]]$specimen
 }
 
@@ -156,7 +167,8 @@ specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
 check_specimens <- function(specimens, call = rlang::caller_env()) {
   if (is.null(specimens) || is.function(specimens)) return(invisible())
   specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
-  if (is.null(names(specimens))) refuse_argument("specimens", NULL, "Name each by its id.", call, "a list without names")
+  if (is.null(names(specimens))) refuse_argument("specimens", NULL, "Name each by its id.", call,
+                                                 "a list without names")
 }
 
 has_pairs <- function(scheme) any(scheme$pairs$level != "surface")
@@ -170,20 +182,23 @@ first_template <- function(shapes, template, rounds, call = rlang::caller_env())
     return(template)
   }
   if (rounds == 0) {
-    crestline_abort("there is no `template`, and `rounds` is 0.", "Give the template of the old sample, or let it be found.",
+    crestline_abort("there is no `template`, and `rounds` is 0.",
+                    "Give the template of the old sample, or let it be found.",
                     stage = "homologise", call = call)
   }
   first <- shapes[[which.max(vapply(shapes, function(shape) sum(!is.na(shape$points$x)), 0L))]]
-  if (has_pairs(first$scheme)) symmetrise(first) else template_shape(first, places_of(first), first$id)
+  if (has_pairs(first$scheme)) symmetrise(first) else
+    template_shape(first, places_of(first), first$id)
 }
 
 #' Rounds of sliding curves and taking their mean as the template
 #'
-#' On noisy scans a point may have two places of least energy and take one and the other in turn, and the mean with it:
-#' then half a step is made.
+#' On noisy scans a point may have two places of least energy and take one and the other in turn,
+#' and the mean with it: then half a step is made.
 #'
 #' @param states List of [slide_state()]s.
-#' @param stalled Half a step where the largest movement is still this share of that of the round before.
+#' @param stalled Half a step where the largest movement is still this share of that of the round
+#'   before.
 #' @return List: `template`, `convergence`.
 #' @noRd
 mean_curves <- function(states, template, settings, tolerance, rounds, stalled = 0.9) {
@@ -198,8 +213,10 @@ mean_curves <- function(states, template, settings, tolerance, rounds, stalled =
     moved <- sqrt(rowSums((after - before)^2))
     moved <- moved[!is.na(moved)]
     if (max(moved) >= stalled * last) after <- (before + after) / 2
-    table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
-                                 energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
+    table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)),
+                                 largest = max(moved),
+                                 energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after),
+                                                      0)),
                                  slide = distance_slid(states, slid))
     template <- template_shape(template, after, "mean", mean_error(states))
     if (max(moved) <= tolerance * plan$radius) break
@@ -218,7 +235,8 @@ mean_error <- function(states) {
 
 warn_moving <- function(rounds, moved) {
   crestline_warn(sprintf("after %d rounds the mean still moves, by %.2g at most.", rounds, moved),
-                 "Give more `rounds`, or a larger `tolerance`.", stage = "homologise", class = "crestline_not_converged")
+                 "Give more `rounds`, or a larger `tolerance`.", stage = "homologise",
+                 class = "crestline_not_converged")
 }
 
 distance_slid <- function(states, slid) {
@@ -227,10 +245,11 @@ distance_slid <- function(states, slid) {
   sqrt(mean(unlist(off)^2))
 }
 
-#' Positions of landmarks and curve points, every curve re-parametrised by the sample's mean share of arc length
+#' Positions of landmarks and curve points, every curve re-parametrised by the sample's mean share
+#' of arc length
 #'
-#' Shares are counted from the curve's last point, of the length that the scheme keeps, so that a cut end has its mean
-#' place too.
+#' Shares are counted from the curve's last point, of the length that the scheme keeps, so that a
+#' cut end has its mean place too.
 #' @return List of matrices, a row a place.
 #' @noRd
 gauge_fixed <- function(states, slid) {
@@ -288,7 +307,8 @@ mean_template <- function(before, x, scheme) {
 
 only_rows <- function(x, rows) replace(x, !rows, NA)
 
-#' The template with the mean of the specimens' surface points, each laid onto it by landmarks and curves
+#' The template with the mean of the specimens' surface points, each laid onto it by landmarks and
+#' curves
 #' @noRd
 with_mean_surface <- function(template, stores) {
   xyz <- places_of(template)
@@ -300,7 +320,9 @@ with_mean_surface <- function(template, stores) {
   })
   mean <- mean_of(laid)
   mean[core, ] <- xyz[core, ]
-  if (has_pairs(template$scheme)) mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
+  if (has_pairs(template$scheme)) mean <- symmetric_mean(mean, mirror_places(template$scheme),
+                                                         "mean", by = core)
   mean[core, ] <- xyz[core, ]
-  template_shape(template, mean, "mean", template$points$se[!duplicated(template$scheme$points$place)])
+  template_shape(template, mean, "mean",
+                 template$points$se[!duplicated(template$scheme$points$place)])
 }

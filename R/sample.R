@@ -308,7 +308,8 @@ print.shape_sample <- function(x, ...) {
     points <- x$template$points
     count <- vapply(c("landmarks", "curves", "surface"), function(level) sum(points$level == level),
                     0L)
-    cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ", x$template$scheme$name,
+    cat("<shape_sample> ", amount(length(x), "specimen"), ", by the scheme ",
+        x$template$scheme$name,
         "\n", sep = "")
     cat("  ", count[["landmarks"]], " landmarks, ", count[["curves"]], " curve points, ",
         count[["surface"]],

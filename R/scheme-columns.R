@@ -2,7 +2,8 @@
 
 #' What a column holds
 #'
-#' @param type "name" (text that must be there), "text", "number", "count" (whole number), or "choice".
+#' @param type "name" (text that must be there), "text", "number", "count" (whole number), or
+#'   "choice".
 #' @param required Whether the column must be there; a required column has no empty cell.
 #' @param default Value where the column is absent.
 #' @param lower,upper,open Range of a number; `open`: bounds excluded.
@@ -10,7 +11,8 @@
 #' @noRd
 column <- function(type, required = FALSE, default = NA, lower = -Inf, upper = Inf, open = FALSE,
                    choices = NULL) {
-  list(type = type, required = required, default = default, lower = lower, upper = upper, open = open,
+  list(type = type, required = required, default = default, lower = lower, upper = upper,
+       open = open,
        choices = choices)
 }
 
@@ -26,14 +28,19 @@ scheme_columns <- list(
   curves = list(
     curve = column("text", TRUE), from = column("text", TRUE), to = column("text", TRUE),
     kind = column("choice", TRUE, choices = c("ridge", "valley", "plane")),
-    radius = column("number", lower = 0, open = TRUE), width = column("number", lower = 0, open = TRUE),
+    radius = column("number", lower = 0, open = TRUE),
+    width = column("number", lower = 0, open = TRUE),
     n = column("count", TRUE, lower = 2, upper = most_points),
-    cut_share = column("number", lower = 0, open = TRUE), cut_from = column("text"), cut_to = column("text"),
+    cut_share = column("number", lower = 0, open = TRUE), cut_from = column("text"),
+    cut_to = column("text"),
     keep_away_from = column("text"), keep_away_to = column("text"),
-    keep_away_radius = column("number", lower = 0, open = TRUE), keep_away_extension = column("number", lower = 0),
-    keep_side_from = column("text"), keep_side_to = column("text"), keep_side_towards = column("text"),
+    keep_away_radius = column("number", lower = 0, open = TRUE),
+    keep_away_extension = column("number", lower = 0),
+    keep_side_from = column("text"), keep_side_to = column("text"),
+    keep_side_towards = column("text"),
     side_of = column("text"), side = column("choice", choices = c("left", "right")),
-    trust_from = column("number", lower = 0, upper = 1), trust_to = column("number", lower = 0, upper = 1),
+    trust_from = column("number", lower = 0, upper = 1),
+    trust_to = column("number", lower = 0, upper = 1),
     angle_limit = column("number", lower = 0, upper = pi / 2), note = column("text")
   ),
   patches = list(
@@ -42,7 +49,8 @@ scheme_columns <- list(
     rows = column("count", TRUE, lower = 1, upper = most_points), rows_kept = column("text", TRUE),
     curve_a = column("text", TRUE), resample_a = column("count", lower = 2, upper = most_points),
     curve_b = column("text"), resample_b = column("count", lower = 2, upper = most_points),
-    first_column = column("text"), outward = column("choice", choices = c("columns", "rows")), note = column("text")
+    first_column = column("text"), outward = column("choice", choices = c("columns", "rows")),
+    note = column("text")
   ),
   pairs = list(
     level = column("choice", TRUE, choices = c("landmarks", "curves", "surface")),
@@ -57,17 +65,21 @@ scheme_columns <- list(
   definitions = list(
     landmark = column("text", TRUE),
     kind = column("choice", TRUE, choices = c("cap", "cup", "profile", "turn", "end", "crossing")),
-    radius = column("number", TRUE, lower = 0, open = TRUE), reach = column("number", TRUE, lower = 0, open = TRUE),
+    radius = column("number", TRUE, lower = 0, open = TRUE),
+    reach = column("number", TRUE, lower = 0, open = TRUE),
     bend = column("choice", choices = c("out", "in", "left", "right")), mirror = column("text"),
-    from = column("text"), to = column("text"), type = column("choice", choices = c("ridge", "valley", "plane")),
-    width = column("number", lower = 0, open = TRUE), across_from = column("text"), across_to = column("text"),
+    from = column("text"), to = column("text"),
+    type = column("choice", choices = c("ridge", "valley", "plane")),
+    width = column("number", lower = 0, open = TRUE), across_from = column("text"),
+    across_to = column("text"),
     across_type = column("choice", choices = c("ridge", "valley", "plane")), note = column("text")
   )
 )
 
 #' A table with all its columns, each of its type, and the problems on the way
 #'
-#' @param table Data frame, cells perhaps text; other columns than the known ones are kept behind them.
+#' @param table Data frame, cells perhaps text; other columns than the known ones are kept behind
+#'   them.
 #' @param columns List of [column()]s.
 #' @return List: `table`; `problems` (data frame: `row`, NA for a whole column; `column`; `text`).
 #' @noRd
@@ -75,13 +87,16 @@ typed_table <- function(table, columns) {
   names(table) <- trimws(names(table))
   given <- intersect(names(columns), names(table))
   missing <- Filter(function(name) columns[[name]]$required, setdiff(names(columns), given))
-  problems <- problem(rep(NA, length(missing)), missing, sprintf("missing; the columns are %s", toString(names(table))))
+  problems <- problem(rep(NA, length(missing)), missing,
+                      sprintf("missing; the columns are %s", toString(names(table))))
   typed <- lapply(names(columns), function(name) {
     cells <- if (name %in% given) table[[name]] else rep(columns[[name]]$default, nrow(table))
     typed_cells(cells, name, columns[[name]])
   })
-  problems <- rbind(problems, do.call(rbind, lapply(typed[names(columns) %in% given], `[[`, "problems")))
-  known <- as.data.frame(stats::setNames(lapply(typed, `[[`, "cells"), names(columns)), stringsAsFactors = FALSE)
+  problems <- rbind(problems,
+                    do.call(rbind, lapply(typed[names(columns) %in% given], `[[`, "problems")))
+  known <- as.data.frame(stats::setNames(lapply(typed, `[[`, "cells"), names(columns)),
+                         stringsAsFactors = FALSE)
   list(table = cbind(known, table[setdiff(names(table), names(columns))]), problems = problems)
 }
 
@@ -101,11 +116,13 @@ typed_cells <- function(cells, name, column) {
   kind <- if (column$type == "count") "a whole number" else "a number"
   range <- describe_range(column$lower, column$upper, column$open)
   list(cells = if (column$type == "count") as.integer(replace(number, wrong, NA)) else number,
-       problems = rbind(problems, problem(wrong, name, sprintf("%s is not %s %s", text[wrong], kind, range))))
+       problems = rbind(problems,
+                        problem(wrong, name, sprintf("%s is not %s %s", text[wrong], kind, range))))
 }
 
 in_range <- function(x, column) {
-  inside <- if (column$open) x > column$lower & x < column$upper else x >= column$lower & x <= column$upper
+  inside <- if (column$open) x > column$lower & x < column$upper else
+    x >= column$lower & x <= column$upper
   !is.na(x) & is.finite(x) & inside & (column$type != "count" | x == round(x))
 }
 
@@ -129,9 +146,11 @@ refuse_table <- function(problems, label, names, most = 8) {
   shown <- utils::head(problems, most)
   row <- ifelse(is.na(shown$row), "", sprintf("row %d (%s), ", shown$row, names[shown$row]))
   more <- nrow(problems) - nrow(shown)
-  lines <- c(sprintf("%scolumn %s: %s", row, shown$column, shown$text), if (more > 0) sprintf("and %d more", more))
+  lines <- c(sprintf("%scolumn %s: %s", row, shown$column, shown$text),
+             if (more > 0) sprintf("and %d more", more))
   crestline_abort(
-    sprintf("table %s has %d problem%s.\n%s", label, nrow(problems), if (nrow(problems) > 1) "s" else "",
+    sprintf("table %s has %d problem%s.\n%s", label, nrow(problems),
+            if (nrow(problems) > 1) "s" else "",
             paste0("- ", lines, collapse = "\n")),
     "Mend the table; rows are counted below the header. `?curve_scheme` says what each column holds.",
     stage = "scheme", class = "crestline_scheme_error", call = NULL
@@ -140,7 +159,8 @@ refuse_table <- function(problems, label, names, most = 8) {
 
 unknown_names <- function(x, known, column, what) {
   wrong <- which(!is.na(x) & !x %in% known)
-  nearest <- function(name) if (length(known)) known[which.min(utils::adist(name, known, ignore.case = TRUE))] else "none"
+  nearest <- function(name) if (length(known)) known[which.min(utils::adist(name, known,
+                                                                            ignore.case = TRUE))] else "none"
   near <- vapply(x[wrong], nearest, "")
   problem(wrong, column, sprintf("there is no %s \"%s\" (nearest: %s)", what, x[wrong], near))
 }

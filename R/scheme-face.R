@@ -7,12 +7,13 @@
 #' 1,602 triangles (36 more close the nose from below, 38 the eyes). Copy the folder to make a
 #' scheme of your own. Lengths in mm.
 #'
-#' The landmarks are pn, acL, acR, sn, se, n, exL, exR, enL, enR, tL, tR, ls, cphL, cphR, chL, chR, st, li, sl, gn, oiL and oiR;
-#' `as.data.frame(face_scheme(), "landmarks")` has their full names, and where they lie.
+#' The landmarks are pn, acL, acR, sn, se, n, exL, exR, enL, enR, tL, tR, ls, cphL, cphR, chL, chR,
+#' st, li, sl, gn, oiL and oiR; `as.data.frame(face_scheme(), "landmarks")` has their full names,
+#' and where they lie.
 #'
-#' Left is the subject's own left. The five curves on each side that start at the ear (`t`, `oi`) are cut off at a
-#' multiple of the distance between the inner corners of the eyes. Where this model finds a curve in another way than
-#' its authors do (`authors_kind`), `note` says why.
+#' Left is the subject's own left. The five curves on each side that start at the ear (`t`, `oi`)
+#' are cut off at a multiple of the distance between the inner corners of the eyes. Where this model
+#' finds a curve in another way than its authors do (`authors_kind`), `note` says why.
 #'
 #' @return A [curve_scheme()].
 #' @references The paper: 23 landmarks and 467 curve points (Fig. 1), 922 surface points (Fig. 6).
@@ -22,6 +23,7 @@
 #' @export
 face_scheme <- function() {
   once("face scheme", function() {
-    read_scheme(system.file("extdata", "face_scheme", package = "crestline", mustWork = TRUE), name = "face")
+    read_scheme(system.file("extdata", "face_scheme", package = "crestline", mustWork = TRUE),
+                name = "face")
   })
 }

@@ -1,10 +1,13 @@
-# Left and right: partners of landmarks, curves and patches, and whether what belongs together is alike.
+# Left and right: partners of landmarks, curves and patches, and whether what belongs together is
+# alike.
 
 check_scheme_pairs <- function(pairs, scheme) {
-  sides <- data.frame(row = rep(seq_len(nrow(pairs)), 2), side = rep(c("left", "right"), each = nrow(pairs)),
+  sides <- data.frame(row = rep(seq_len(nrow(pairs)), 2),
+                      side = rep(c("left", "right"), each = nrow(pairs)),
                       level = rep(pairs$level, 2), name = c(pairs$left, pairs$right))
   sides <- sides[order(sides$row), ]
-  known <- list(landmark = scheme$landmarks$landmark, curve = scheme$curves$curve, patch = scheme$patches$patch)
+  known <- list(landmark = scheme$landmarks$landmark, curve = scheme$curves$curve,
+                patch = scheme$patches$patch)
   level <- c(landmark = "landmarks", curve = "curves", patch = "surface")
   problems <- lapply(names(known), function(what) {
     here <- sides[sides$level == level[[what]], ]
@@ -13,7 +16,8 @@ check_scheme_pairs <- function(pairs, scheme) {
   })
   twice <- sides[duplicated(sides[c("level", "name")]), ]
   problems <- rbind(do.call(rbind, problems),
-                    problem(twice$row, twice$side, sprintf("\"%s\" has a partner already", twice$name)))
+                    problem(twice$row, twice$side,
+                            sprintf("\"%s\" has a partner already", twice$name)))
   if (nrow(problems) || !nrow(pairs)) return(problems)
   rbind(unlike_curves(pairs, scheme$curves), unlike_patches(pairs, scheme$patches))
 }
@@ -23,14 +27,16 @@ check_scheme_pairs <- function(pairs, scheme) {
 unlike_curves <- function(pairs, curves) {
   swap <- function(x, level) partner_of(x, pairs, level)
   mirror <- curves
-  landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to", "keep_side_from",
+  landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to",
+                        "keep_side_from",
                         "keep_side_to", "keep_side_towards")
   for (column in landmark_columns) {
     mirror[[column]] <- swap(curves[[column]], "landmarks")
   }
   mirror$side_of <- swap(curves$side_of, "curves")
   mirror$side <- unname(c(left = "right", right = "left")[curves$side])
-  columns <- c("from", "to", "kind", "radius", "width", "n", "cut_share", "keep_away_radius", "keep_away_extension",
+  columns <- c("from", "to", "kind", "radius", "width", "n", "cut_share", "keep_away_radius",
+               "keep_away_extension",
                "keep_side_towards", "side_of", "side", "trust_from", "trust_to", "angle_limit")
   found <- unlike_pairs(pairs, "curves", curves$curve, curves, mirror, columns)
   for (axis in c("cut", "keep_away", "keep_side")) {
@@ -41,7 +47,8 @@ unlike_curves <- function(pairs, curves) {
   ends <- c("from", "to")
   unlike <- unordered(curves, ends)[[1]] != unordered(mirror, ends)[[1]]
   alone <- curves$curve[swap(curves$curve, "curves") == curves$curve & unlike]
-  rbind(found, problem(rep(NA, length(alone)), "left", sprintf("the curve \"%s\" has no partner, but its ends have", alone)))
+  rbind(found, problem(rep(NA, length(alone)), "left",
+                       sprintf("the curve \"%s\" has no partner, but its ends have", alone)))
 }
 
 # The ends of an axis, whichever comes first.
@@ -57,14 +64,16 @@ unlike_patches <- function(pairs, patches) {
   mirror[sides] <- lapply(patches[sides], mirrored_side, pairs = pairs)
   mirror$outward <- unname(c(columns = "rows", rows = "columns")[patches$outward])
   patches[sides] <- lapply(patches[sides], mirrored_side, pairs = pairs[0, ])
-  columns <- c("block", "n", "columns", "rows", "rows_kept", "curve_a", "resample_a", "curve_b", "resample_b",
+  columns <- c("block", "n", "columns", "rows", "rows_kept", "curve_a", "resample_a", "curve_b",
+               "resample_b",
                "first_column", "outward")
   own <- partner_of(patches$patch, pairs, "surface") == patches$patch
   alike <- Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]])))
   alone <- patches$patch[own & !alike]
   block <- ifelse(is.na(patches$block), "", paste0("|", patches$block))
   rbind(unlike_pairs(pairs, "surface", paste0(patches$patch, block), patches, mirror, columns),
-        problem(rep(NA, length(alone)), "left", sprintf("the patch \"%s\" has no partner, but its curves have", alone)))
+        problem(rep(NA, length(alone)), "left",
+                sprintf("the patch \"%s\" has no partner, but its curves have", alone)))
 }
 
 #' A bounding curve with every curve's partner in its place, written in one way
@@ -73,7 +82,8 @@ mirrored_side <- function(text, pairs) {
   vapply(text, function(x) {
     if (is.na(x)) return(NA_character_)
     parts <- curve_parts(x)
-    paste0(partner_of(parts$curve, pairs, "curves"), "[", parts$from, ":", parts$to, "]", collapse = "+")
+    paste0(partner_of(parts$curve, pairs, "curves"), "[", parts$from, ":", parts$to, "]",
+           collapse = "+")
   }, "", USE.NAMES = FALSE)
 }
 
@@ -89,11 +99,15 @@ unlike_pairs <- function(pairs, level, name, table, mirror, columns) {
     left <- which(owner == pairs$left[row])
     right <- which(owner == pairs$right[row])
     if (length(left) != length(right)) {
-      return(problem(row, "right", sprintf("has %d blocks, its partner %d", length(right), length(left))))
+      return(problem(row, "right",
+                     sprintf("has %d blocks, its partner %d", length(right), length(left))))
     }
-    unlike <- Filter(function(column) !all(same(mirror[[column]][left], table[[column]][right])), columns)
-    cells <- function(table, rows) vapply(unlike, function(column) toString(table[[column]][rows]), "")
-    problem(rep(row, length(unlike)), "right", sprintf("is no mirror image: %s is %s, the partner's %s", unlike,
+    unlike <- Filter(function(column) !all(same(mirror[[column]][left], table[[column]][right])),
+                     columns)
+    cells <- function(table, rows) vapply(unlike, function(column) toString(table[[column]][rows]),
+                                          "")
+    problem(rep(row, length(unlike)), "right",
+            sprintf("is no mirror image: %s is %s, the partner's %s", unlike,
                                                        cells(table, right), cells(mirror, left)))
   })
   do.call(rbind, c(list(problem(integer())), each))

@@ -3,8 +3,8 @@
 #' Parts of a bounding curve: "upper lip left[1:8]+philtrum lip left[2]"
 #'
 #' @param text One string.
-#' @return Data frame `curve`, `from`, `to` (first and last point), one row a part; `NULL` where the text cannot be
-#'   read.
+#' @return Data frame `curve`, `from`, `to` (first and last point), one row a part; `NULL` where the
+#'   text cannot be read.
 #' @noRd
 curve_parts <- function(text) {
   pattern <- "^([^][+|]+)\\[([0-9]{1,6})(:([0-9]{1,6}))?\\]$"
@@ -37,8 +37,8 @@ number_list <- function(text) {
 #' The surface points of one row of the patches table: by column, then by row
 #'
 #' @param block One row of the table.
-#' @return Data frame `part`, `point` (the index: block where there are several, column, row where there are several),
-#'   `column` (position along the bounding curves), `row`.
+#' @return Data frame `part`, `point` (the index: block where there are several, column, row where
+#'   there are several), `column` (position along the bounding curves), `row`.
 #' @noRd
 block_points <- function(block) {
   columns <- number_list(block$columns)
@@ -50,14 +50,15 @@ block_points <- function(block) {
   } else {
     as.character(at$column)
   }
-  frame_of(list(part = rep(block$patch, length(index)), point = index, column = columns[at$column], row = at$row))
+  frame_of(list(part = rep(block$patch, length(index)), point = index, column = columns[at$column],
+                row = at$row))
 }
 
 #' Where the points of a block that lie on points of a bounding curve lie
 #'
 #' @param column Position along the curve.
-#' @param text,resample The bounding curve and its number of points if it is resampled (then only its ends are
-#'   points of the curves).
+#' @param text,resample The bounding curve and its number of points if it is resampled (then only
+#'   its ends are points of the curves).
 #' @return Character: the place (as of [curve_places()]), NA where the point is no point of a curve.
 #' @noRd
 side_places <- function(column, text, resample, curves) {
@@ -83,12 +84,15 @@ curve_places <- function(curve, point, curves) {
 #' @return Data frame `level`, `part`, `point`, `place`: points of one place have one name of it.
 #' @noRd
 scheme_points <- function(landmarks, curves, patches) {
-  on_curve <- data.frame(part = rep(curves$curve, curves$n), point = unlist(lapply(curves$n, seq_len)))
+  on_curve <- data.frame(part = rep(curves$curve, curves$n),
+                         point = unlist(lapply(curves$n, seq_len)))
   surface <- lapply(seq_len(nrow(patches)), function(i) block_surface(patches[i, ], curves))
   rbind(
     data.frame(level = rep("landmarks", nrow(landmarks)), part = landmarks$landmark,
-               point = rep("1", nrow(landmarks)), place = paste("landmarks", landmarks$landmark, sep = "|")),
-    data.frame(level = rep("curves", nrow(on_curve)), part = on_curve$part, point = as.character(on_curve$point),
+               point = rep("1", nrow(landmarks)),
+               place = paste("landmarks", landmarks$landmark, sep = "|")),
+    data.frame(level = rep("curves", nrow(on_curve)), part = on_curve$part,
+               point = as.character(on_curve$point),
                place = curve_places(on_curve$part, on_curve$point, curves)),
     do.call(rbind, surface)
   )
@@ -97,16 +101,19 @@ scheme_points <- function(landmarks, curves, patches) {
 block_surface <- function(block, curves) {
   points <- block_points(block)
   place <- paste("surface", points$part, points$point, sep = "|")
-  on_a <- ifelse(points$row == 1, side_places(points$column, block$curve_a, block$resample_a, curves), NA)
+  on_a <- ifelse(points$row == 1,
+                 side_places(points$column, block$curve_a, block$resample_a, curves), NA)
   place <- first_not_na(on_a, place)
   if (!is.na(block$curve_b)) {
-    on_b <- ifelse(points$row == block$rows, side_places(points$column, block$curve_b, block$resample_b, curves), NA)
+    on_b <- ifelse(points$row == block$rows,
+                   side_places(points$column, block$curve_b, block$resample_b, curves), NA)
     place <- first_not_na(on_b, place)
   }
   if (!is.na(block$first_column)) {
     resample <- if (nrow(side_points(block$first_column)) != block$rows) block$rows else NA
     inside <- points$column == 1 & !points$row %in% c(1, block$rows)
-    place[inside] <- first_not_na(side_places(points$row, block$first_column, resample, curves), place)[inside]
+    place[inside] <- first_not_na(side_places(points$row, block$first_column, resample, curves),
+                                  place)[inside]
   }
   data.frame(level = "surface", part = points$part, point = points$point, place = place)
 }

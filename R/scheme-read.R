@@ -2,14 +2,14 @@
 
 #' Read a scheme from a folder
 #'
-#' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`, `pairs.csv`,
-#'   `strips.csv` and `definitions.csv`: a header line, commas, semicolons (then with decimal points
-#'   or commas) or tabs between, the columns of [curve_scheme()], empty cells for what is not given.
-#'   A row with more or fewer cells than the header is refused.
+#' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`,
+#'   `pairs.csv`, `strips.csv` and `definitions.csv`: a header line, commas, semicolons (then with
+#'   decimal points or commas) or tabs between, the columns of [curve_scheme()], empty cells for
+#'   what is not given. A row with more or fewer cells than the header is refused.
 #' @param name Name of the scheme; the folder's unless given.
 #' @return As [curve_scheme()].
-#' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or file that is
-#'   not there or cannot be read.
+#' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or
+#'   file that is not there or cannot be read.
 #' @section Warnings: of class `crestline_unread_table`, when a file has nearly the name of a table
 #'   that is not there (`pair.csv`).
 #' @examples
@@ -27,7 +27,8 @@ read_scheme <- function(dir, name = basename(dir)) {
   tables <- names(scheme_columns)
   file <- vapply(tables, scheme_file, "", dir)
   warn_near_tables(dir, file)
-  build_scheme(lapply(file, read_scheme_table), name, labels = stats::setNames(basename(file), tables))
+  build_scheme(lapply(file, read_scheme_table), name,
+               labels = stats::setNames(basename(file), tables))
 }
 
 #' The file of a table, in any case of its letters

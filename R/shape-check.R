@@ -8,11 +8,13 @@
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on.
 #' @param parts Parts of the surface, as in [shape_mesh()].
-#' @return Data frame, a row a fault (none: no fault): `fault` ("flipped": the triangle's normal is more than 90 degrees
-#'   from the specimen's normals at its corners; "doubled"; "crossing"), `group` (the patch or strip of the triangle, as in the
-#'   scheme's `triangles`), `v1`, `v2`, `v3` (rows of the surface points), and for crossings `other` (group of the
-#'   triangle that it passes through).
-#' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another mesh.
+#' @return Data frame, a row a fault (none: no fault): `fault` ("flipped": the triangle's normal is
+#'   more than 90 degrees from the specimen's normals at its corners; "doubled"; "crossing"),
+#'   `group` (the patch or strip of the triangle, as in the scheme's `triangles`), `v1`, `v2`, `v3`
+#'   (rows of the surface points), and for crossings `other` (group of the triangle that it passes
+#'   through).
+#' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another
+#'   mesh.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -45,7 +47,8 @@ surface_faults <- function(x, specimen, parts = "model") {
     data.frame(fault = rep(name, length(rows)), triangles[rows, c("group", "v1", "v2", "v3")],
                other = rep(other, length.out = length(rows)))
   }
-  found <- rbind(fault(flipped_triangles(xyz, it, normals), "flipped"), fault(which(duplicated(sorted)), "doubled"),
+  found <- rbind(fault(flipped_triangles(xyz, it, normals), "flipped"),
+                 fault(which(duplicated(sorted)), "doubled"),
                  fault(pairs[, 1], "crossing", triangles$group[pairs[, 2]]))
   rownames(found) <- NULL
   found
@@ -57,7 +60,8 @@ flipped_triangles <- function(xyz, it, normals) {
   which(rowSums(own * (corner(normals, 1) + corner(normals, 2) + corner(normals, 3))) < 0)
 }
 
-#' Pairs of triangles of which an edge of one passes through the other; those that share an edge are not looked at
+#' Pairs of triangles of which an edge of one passes through the other; those that share an edge are
+#' not looked at
 #'
 #' @param xyz n x 3.
 #' @param it 3 x m.
@@ -68,8 +72,10 @@ crossing_pairs <- function(xyz, it) {
   pairs <- overlapping_boxes(do.call(pmin, corner), do.call(pmax, corner))
   shared <- Reduce(`+`, lapply(1:3, function(i) is_corner(it, it[i, pairs[, 1]], pairs[, 2])))
   pairs <- pairs[shared < 2, , drop = FALSE]
-  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]) & straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
-  pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
+  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]) &
+                 straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
+  pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), ,
+        drop = FALSE]
 }
 
 #' Pairs of boxes that overlap, found along the first axis
@@ -85,7 +91,8 @@ overlapping_boxes <- function(low, high) {
   second <- first + sequence(count)
   pairs <- cbind(along[first], along[second])
   for (axis in 2:3) {
-    apart <- low[pairs[, 1], axis] > high[pairs[, 2], axis] | low[pairs[, 2], axis] > high[pairs[, 1], axis]
+    apart <- low[pairs[, 1], axis] > high[pairs[, 2],
+                                          axis] | low[pairs[, 2], axis] > high[pairs[, 1], axis]
     pairs <- pairs[!apart, , drop = FALSE]
   }
   cbind(pmin(pairs[, 1], pairs[, 2]), pmax(pairs[, 1], pairs[, 2]))
@@ -116,7 +123,8 @@ pierces <- function(xyz, it, one, other) {
     q <- xyz[it[j, one], , drop = FALSE]
     above <- rowSums(normal * (p - a))
     below <- rowSums(normal * (q - a))
-    meets <- !is_corner(it, it[i, one], other) & !is_corner(it, it[j, one], other) & above * below < 0
+    meets <- !is_corner(it, it[i, one], other) & !is_corner(it, it[j, one],
+                                                            other) & above * below < 0
     place <- p + (above / (above - below)) * (q - p)
     meets & !is.na(foot_in_triangles(place, a, b, c)[, 1])
   }

@@ -6,13 +6,14 @@
 #' @param scheme,settings,passes,threads,cut_scale As in [fit_shape()].
 #' @param given Fits of curves that are not to be found, see [given_fits()].
 #' @param tick Called after every curve.
-#' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA
-#'   where the mesh ends before), `path`, `length`, `strength`, `contrast`, `se`, `se_max`, `competing`, `determined`, `cut` (of curves
-#'   that are cut off: their share of the length asked for), `guessed` (of these: whether way or length did without a
-#'   landmark on the mesh), `reason` (NA where there is nothing to say) or, where it
-#'   failed, of `reason` alone.
+#' @return List by name of curve; each a list of `points` (data frame of n rows: x, y, z, face, w1,
+#'   w2, w3, s, se; NA where the mesh ends before), `path`, `length`, `strength`, `contrast`, `se`,
+#'   `se_max`, `competing`, `determined`, `cut` (of curves that are cut off: their share of the
+#'   length asked for), `guessed` (of these: whether way or length did without a landmark on the
+#'   mesh), `reason` (NA where there is nothing to say) or, where it failed, of `reason` alone.
 #' @noRd
-fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick) {
+fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads, cut_scale, given,
+                              tick) {
   curves <- scheme$curves
   sources <- scheme_curvatures(scan, curves, settings, threads)
   whole <- stats::setNames(vector("list", nrow(curves)), curves$curve)
@@ -31,7 +32,8 @@ fit_scheme_curves <- function(specimen, scan, scheme, settings, passes, threads,
 fit_whole_curves <- function(fits, open, specimen, scheme, sources, settings, passes, tick) {
   curves <- scheme$curves
   fit <- function(row) {
-    suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes), classes = "crestline_warning")
+    suppressWarnings(fit_scheme_curve(row, specimen, sources, fits, settings, passes),
+                     classes = "crestline_warning")
   }
   for (i in fitting_order(curves)) {
     if (!open[i]) next
@@ -131,8 +133,10 @@ fit_scheme_curve <- function(row, specimen, sources, fits, settings, passes) {
     fit_curved(row, specimen, sources[[as.character(row$radius)]], fits, settings, passes)
   }
   list(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
-       strength = curve$strength, contrast = curve_contrast(curve), se = curve$se, se_max = largest(curve$points$se),
-       competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined, reason = curve$reason)
+       strength = curve$strength, contrast = curve_contrast(curve), se = curve$se,
+       se_max = largest(curve$points$se),
+       competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined,
+       reason = curve$reason)
 }
 
 #' A ridge or valley with the constraints of its row
@@ -142,11 +146,13 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
   if (!is.na(row$side_of)) curvature <- on_side(curvature, row, specimen, fits[[row$side_of]])
   free <- is.na(row$angle_limit) && row$trust_from == 0 && row$trust_to == 1
   if (free) {
-    return(ridge_curve(specimen, row$from, row$to, row$kind, row$radius, row$width, row$n, away, settings, passes,
+    return(ridge_curve(specimen, row$from, row$to, row$kind, row$radius, row$width, row$n, away,
+                       settings, passes,
                        curvature))
   }
   path <- if (is.na(row$angle_limit)) {
-    reference_path(specimen, row$from, row$to, row$kind, row$radius, away, curvature, longest = settings$longest)
+    reference_path(specimen, row$from, row$to, row$kind, row$radius, away, curvature,
+                   longest = settings$longest)
   } else {
     limited_reference(row, specimen, curvature, away, settings)
   }
@@ -160,12 +166,15 @@ fit_curved <- function(row, specimen, curvature, fits, settings, passes) {
 #' @noRd
 kept_away <- function(row) {
   c(if (!is.na(row$keep_away_from)) {
-    list(keep_away(row$keep_away_from, row$keep_away_to, row$keep_away_radius, row$keep_away_extension))
-  }, if (!is.na(row$keep_side_from)) list(keep_side(row$keep_side_from, row$keep_side_to, row$keep_side_towards)))
+    list(keep_away(row$keep_away_from, row$keep_away_to, row$keep_away_radius,
+                   row$keep_away_extension))
+  }, if (!is.na(row$keep_side_from)) list(keep_side(row$keep_side_from, row$keep_side_to,
+                                                    row$keep_side_towards)))
 }
 
 about_curve <- function(row, specimen, settings, passes) {
-  list(id = specimen$id, from = end_name(row$from), to = row$to, type = row$kind, settings = settings, passes = passes,
+  list(id = specimen$id, from = end_name(row$from), to = row$to, type = row$kind,
+       settings = settings, passes = passes,
        radius = row$radius, width = row$width)
 }
 
@@ -174,12 +183,14 @@ about_curve <- function(row, specimen, settings, passes) {
 #' @param angles Number of angles.
 #' @param reach,spacing As in [reference_path()].
 #' @noRd
-limited_reference <- function(row, specimen, curvature, away, settings, angles = 61, reach = 0.5, spacing = 0.25) {
+limited_reference <- function(row, specimen, curvature, away, settings, angles = 61, reach = 0.5,
+                              spacing = 0.25) {
   surface <- walkable(specimen)
   ends <- path_ends(specimen, surface, row$from, row$to)
   if (is.null(curvature)) return(limited_cut(surface, ends, row$angle_limit, angles, reach))
   strength <- path_strength(curvature, row$kind, away, specimen)
-  rate <- function(axis, found) cut_strength(surface, ends, axis, found, reach, spacing * row$radius, strength)
+  rate <- function(axis, found) cut_strength(surface, ends, axis, found, reach,
+                                             spacing * row$radius, strength)
   limited_cut(surface, ends, row$angle_limit, angles, reach, rate, settings$longest)
 }
 
@@ -188,7 +199,8 @@ limited_reference <- function(row, specimen, curvature, away, settings, angles =
 on_side <- function(curvature, row, specimen, other) {
   if (is.null(other$path)) {
     crestline_abort(sprintf("the curve whose side it keeps to, %s, was not found.", row$side_of),
-                    "Mend that curve first.", stage = "curves", id = specimen$id, class = "crestline_path_error")
+                    "Mend that curve first.", stage = "curves", id = specimen$id,
+                    class = "crestline_path_error")
   }
   reach <- attr(other$path, "length") / 2 + row$radius
   near <- path_coordinates(specimen, other$path, reach, margin = row$radius)
@@ -217,5 +229,6 @@ without_bridges <- function(fit, faces) {
   lost <- which(fit$points$face > faces)
   if (!length(lost)) return(fit)
   fit$points[lost, setdiff(names(fit$points), "s")] <- NA
-  add_note(fit, sprintf("%d of %d points missing: they lie in a hole of the mesh", length(lost), nrow(fit$points)))
+  add_note(fit, sprintf("%d of %d points missing: they lie in a hole of the mesh", length(lost),
+                        nrow(fit$points)))
 }

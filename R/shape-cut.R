@@ -1,17 +1,19 @@
-# Curves of which a scheme keeps the part next to one end: how much that is, and what to do where the other end is not
-# on the mesh or cannot be reached.
+# Curves of which a scheme keeps the part next to one end: how much that is, and what to do where
+# the other end is not on the mesh or cannot be reached.
 
 #' Cut off the curves that a scheme cuts, all of one specimen by one factor
 #'
-#' Where a curve between two landmarks is shorter than its share the factor is lowered until all are long enough, so
-#' that no two curves from one landmark keep it both. A curve that the mesh's edge ends before its far landmark costs
-#' only its own points.
+#' Where a curve between two landmarks is shorter than its share the factor is lowered until all are
+#' long enough, so that no two curves from one landmark keep it both. A curve that the mesh's edge
+#' ends before its far landmark costs only its own points.
 #' @noRd
 cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
   cut <- which(!is.na(curves$cut_share))
   spans <- lapply(cut, function(i) cut_span(curves[i, ], specimen, pairs))
   wanted <- curves$cut_share[cut] * vapply(spans, `[[`, 0, "length")
-  whole <- vapply(fits[cut], function(fit) if (is.null(fit$followed) && !is.null(fit$path)) fit$length else NA_real_, 0)
+  whole <- vapply(fits[cut],
+                  function(fit) if (is.null(fit$followed) &&
+                                    !is.null(fit$path)) fit$length else NA_real_, 0)
   factor <- min(cut_scale, whole / wanted, na.rm = TRUE)
   shared <- if (factor < cut_scale) sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
   for (k in seq_along(cut)) {
@@ -53,7 +55,8 @@ warn_cut_scales <- function(shapes, stage, apart = 0.02) {
   if (length(scale) < 2 || min(scale) >= (1 - apart) * max(scale)) return(invisible())
   far <- order(-abs(log(scale / stats::median(scale))))
   crestline_warn(
-    sprintf("the curves were cut off by different factors (`cut_scale`): %s.", shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
+    sprintf("the curves were cut off by different factors (`cut_scale`): %s.",
+            shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
     sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.3g), then homologise().", min(scale)),
     stage = stage, class = "crestline_cut_scale"
   )
@@ -77,8 +80,12 @@ cut_span <- function(row, specimen, pairs) {
   known <- !is.na(at[, 1])
   if (all(known)) return(list(length = sqrt(sum((at[1, ] - at[2, ])^2))))
   gone <- c(row$cut_from, row$cut_to)[!known]
-  plane <- if (any(known) && partner_of(row$cut_from, pairs, "landmarks") == row$cut_to) mirror_plane(specimen, pairs)
-  if (is.null(plane)) return(list(length = NA_real_, note = sprintf("%s is missing: where to cut it is not known", toString(gone))))
+  plane <- if (any(known) &&
+               partner_of(row$cut_from, pairs,
+                          "landmarks") == row$cut_to) mirror_plane(specimen, pairs)
+  if (is.null(plane)) return(list(length = NA_real_,
+                                  note = sprintf("%s is missing: where to cut it is not known",
+                                                 toString(gone))))
   list(length = 2 * abs(sum(at[known, ] * plane$normal) - plane$offset),
        note = sprintf("%s is missing: cut by the distance of its pair from the mirror plane", gone))
 }
@@ -91,10 +98,10 @@ landmark_places <- function(specimen, names) {
 
 #' The plane of symmetry of a specimen's landmarks
 #'
-#' Its normal is the mean direction from right to left of the pairs; without a whole pair that of the plane through
-#' the landmarks of the middle.
-#' @param flat Without a pair: greatest spread of the middle landmarks across their plane, as a share of their least
-#'   spread in it. More of it, or fewer than three landmarks, give no plane.
+#' Its normal is the mean direction from right to left of the pairs; without a whole pair that of
+#' the plane through the landmarks of the middle.
+#' @param flat Without a pair: greatest spread of the middle landmarks across their plane, as a
+#'   share of their least spread in it. More of it, or fewer than three landmarks, give no plane.
 #' @return List: `normal`, `offset`; NULL where there is none.
 #' @noRd
 mirror_plane <- function(specimen, pairs, flat = 0.5) {
@@ -121,8 +128,8 @@ mirror_plane <- function(specimen, pairs, flat = 0.5) {
 #' What stands in for a far end that is not on the mesh or cannot be reached
 #'
 #' @param row Row of the curves table, a list.
-#' @return List: `end`, the place where the way towards the landmark leaves the mesh, one row; `name`, what it leads to.
-#'   `NULL` where nothing is known of it.
+#' @return List: `end`, the place where the way towards the landmark leaves the mesh, one row;
+#'   `name`, what it leads to. `NULL` where nothing is known of it.
 #' @noRd
 far_end <- function(row, specimen, pairs) {
   near <- known_point(specimen, row$to)
@@ -146,14 +153,14 @@ far_target <- function(name, specimen, pairs) {
 
 #' The farthest place of the mesh on the way to a point in space
 #'
-#' Of the cuts through both the shortest, what the mesh lacks counted in, followed to where it comes nearest to the
-#' point.
+#' Of the cuts through both the shortest, what the mesh lacks counted in, followed to where it comes
+#' nearest to the point.
 #' @param near One row, a place on the mesh.
 #' @param target Three co-ordinates.
 #' @param angles Number of planes, over a half turn.
-#' @param bend Length of what the mesh lacks, as a multiple of the straight distance. A quarter of a circle has 1.11, half of
-#'   one 1.57. With less than 1.3 cuts win that end early (on a face with its ear cut off), with more those that run
-#'   along the edge.
+#' @param bend Length of what the mesh lacks, as a multiple of the straight distance. A quarter of a
+#'   circle has 1.11, half of one 1.57. With less than 1.3 cuts win that end early (on a face with
+#'   its ear cut off), with more those that run along the edge.
 #' @param inside As in [path_ends()].
 #' @return One row, a place on the mesh; NULL where no cut comes nearer than `near` is.
 #' @noRd
@@ -164,7 +171,8 @@ way_out <- function(specimen, near, target, angles = 121, bend = 1.35, inside = 
   at <- as.vector(xyz[, surface$it[, near$face]] %*% weight) / sum(weight)
   axis <- unit_vector(target - at)
   across <- unit_vector(cross_product(axis, path_normals(specimen$mesh, near)[, 1]))
-  normals <- plane_normal(list(axis = axis, across = across), seq(-pi / 2, pi / 2, length.out = angles)[-1])
+  normals <- plane_normal(list(axis = axis, across = across),
+                          seq(-pi / 2, pi / 2, length.out = angles)[-1])
   ways <- lapply(seq_len(ncol(normals)), function(i) {
     level <- as.vector(normals[, i] %*% xyz) - sum(normals[, i] * at)
     walk <- cpp_level_path(surface$vb, surface$it, surface$twin, near$face, 0, level, axis)$points
@@ -176,7 +184,8 @@ way_out <- function(specimen, near, target, angles = 121, bend = 1.35, inside = 
   stats::setNames(as.data.frame(t(best$end)), mesh_columns)
 }
 
-#' How far a walk leads towards a point: length to the place nearest to it and from there on, and that place
+#' How far a walk leads towards a point: length to the place nearest to it and from there on, and
+#' that place
 #' @noRd
 way_towards <- function(walk, at, target, bend) {
   gap <- row_lengths(sweep(rbind(at, walk[, 1:3]), 2, target))
@@ -186,21 +195,26 @@ way_towards <- function(walk, at, target, bend) {
   list(length = sum(steps) + bend * gap[best], end = walk[best - 1, ])
 }
 
-#' The last part of a curve, of a given length, as n points; where the curve is shorter, those of them that it has
+#' The last part of a curve, of a given length, as n points; where the curve is shorter, those of
+#' them that it has
 #' @noRd
 cut_curve <- function(mesh, fit, length, n) {
   step <- length / (n - 1)
   placed <- min(n, floor(fit$length / step * (1 + sqrt(.Machine$double.eps))) + 1)
-  ended <- sprintf("it ends after %.3g of %.3g: %d of %d points missing", fit$length, length, n - placed, n)
-  if (placed < 2) return(list(reason = paste(c(stats::na.omit(fit$reason), ended), collapse = "; ")))
+  ended <- sprintf("it ends after %.3g of %.3g: %d of %d points missing", fit$length, length,
+                   n - placed, n)
+  if (placed < 2) return(list(reason = paste(c(stats::na.omit(fit$reason), ended),
+                                             collapse = "; ")))
   start <- max(fit$length - (placed - 1) * step, 0)
   path <- part_of_path(mesh, fit$path, start, fit$length)
   at <- resample_path(mesh, path, placed)
   se <- rep(NA_real_, placed)
-  if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
+  if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start,
+                                                         rule = 2)$y
   points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
   rownames(points) <- NULL
-  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se), se_max = largest(se),
+  cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se),
+              se_max = largest(se),
               track = list(path = fit$path, start = start, kept = length))
   fit[names(cut)] <- cut
   add_note(fit, if (placed < n) ended)

@@ -1,19 +1,23 @@
-# The surface of a shape with more points than its scheme has: its quads divided, the new points on the scan.
+# The surface of a shape with more points than its scheme has: its quads divided, the new points on
+# the scan.
 
-#' Quads of a shape's surface divided into factor^2 each, with their new points on the specimen's mesh
+#' Quads of a shape's surface divided into factor^2 each, with their new points on the specimen's
+#' mesh
 #'
-#' Every side gets factor - 1 points, at equal chords: along the curve that it is part of, unless that turns a triangle over,
-#' else along the shortest plane cut between its ends. A side is divided once, whatever quads share it, so that no crack can
-#' open. Inside a quad cuts join matching points of two opposite sides, those that are bowed more, since lines
-#' between the other two might cross them.
+#' Every side gets factor - 1 points, at equal chords: along the curve that it is part of, unless
+#' that turns a triangle over, else along the shortest plane cut between its ends. A side is divided
+#' once, whatever quads share it, so that no crack can open. Inside a quad cuts join matching points
+#' of two opposite sides, those that are bowed more, since lines between the other two might cross
+#' them.
 #'
 #' @param x A `shape`.
 #' @param specimen The `specimen` it was measured on.
 #' @param quads Of [scheme_quads()]; all corners there; a triangle has one corner twice.
 #' @param factor Whole number, at least 2.
 #' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`.
-#' @return List: `points` (data frame of mesh_columns and `row`: of the surface points, NA of new ones; the given ones
-#'   first; those to which no cut leads are NA), `it` (3 x m), `quad` (the row of the quad each triangle is from).
+#' @return List: `points` (data frame of mesh_columns and `row`: of the surface points, NA of new
+#'   ones; the given ones first; those to which no cut leads are NA), `it` (3 x m), `quad` (the row
+#'   of the quad each triangle is from).
 #' @noRd
 divide_quads <- function(x, specimen, quads, factor, column) {
   corners <- as.matrix(quads[c("a", "b", "c", "d")])
@@ -23,21 +27,25 @@ divide_quads <- function(x, specimen, quads, factor, column) {
   sides <- quad_sides(corners)
   lattice <- quad_lattice(corners, sides, factor, length(row))
   triangles <- lattice_triangles(lattice, quads$outward == "columns", factor)
-  cutter <- list(specimen = specimen, surface = walkable(specimen), column = column, factor = factor)
-  points <- matrix(NA_real_, max(lattice), length(mesh_columns), dimnames = list(NULL, mesh_columns))
+  cutter <- list(specimen = specimen, surface = walkable(specimen), column = column,
+                 factor = factor)
+  points <- matrix(NA_real_, max(lattice), length(mesh_columns),
+                   dimnames = list(NULL, mesh_columns))
   points[seq_along(row), ] <- at
   along <- divide_sides(x$paths, at, sides$ends, cutter)
   points[length(row) + seq_len(nrow(along$points)), ] <- along$points
   points <- fill_quads(points, lattice, cutter)
   points <- straighten_folds(points, lattice, triangles, sides, along, cutter)
   new <- nrow(points) - length(row)
-  list(points = data.frame(points, row = c(row, rep(NA_integer_, new)), row.names = NULL), it = triangles$it,
+  list(points = data.frame(points, row = c(row, rep(NA_integer_, new)), row.names = NULL),
+       it = triangles$it,
        quad = triangles$quad)
 }
 
 #' Cuts in place of curves about quads in which a triangle is turned over
 #'
-#' So it is where a curve swings aside between two points of the model, or where two curves all but meet.
+#' So it is where a curve swings aside between two points of the model, or where two curves all but
+#' meet.
 #'
 #' @param along Of [divide_sides()].
 #' @return `points`, those of such sides and of the quads beside them changed.
@@ -56,8 +64,9 @@ straighten_folds <- function(points, lattice, triangles, sides, along, cutter) {
 
 #' The sides of quads, each once
 #'
-#' @return List: `ends` (e x 2, the smaller first), `side` and `forward` (m x 4, for the sides from a to b, d to c, a to d
-#'   and b to c: which one it is, NA where its ends are one point, and whether it runs that way).
+#' @return List: `ends` (e x 2, the smaller first), `side` and `forward` (m x 4, for the sides from
+#'   a to b, d to c, a to d and b to c: which one it is, NA where its ends are one point, and
+#'   whether it runs that way).
 #' @noRd
 quad_sides <- function(corners) {
   from <- corners[, c("a", "d", "a", "b"), drop = FALSE]
@@ -65,7 +74,8 @@ quad_sides <- function(corners) {
   ends <- cbind(pmin(as.vector(from), as.vector(to)), pmax(as.vector(from), as.vector(to)))
   key <- ifelse(ends[, 1] == ends[, 2], NA, paste(ends[, 1], ends[, 2]))
   first <- !duplicated(key) & !is.na(key)
-  list(ends = ends[first, , drop = FALSE], side = matrix(match(key, key[first]), ncol = 4), forward = from < to)
+  list(ends = ends[first, , drop = FALSE], side = matrix(match(key, key[first]), ncol = 4),
+       forward = from < to)
 }
 
 #' Numbers of the points of divided quads: corners, then points of sides, then those inside
@@ -77,7 +87,8 @@ quad_lattice <- function(corners, sides, factor, count) {
   inner <- seq_len(factor - 1)
   on_side <- function(which, k, corner) {
     step <- ifelse(sides$forward[, which], k, factor - k)
-    ifelse(is.na(sides$side[, which]), corners[, corner], count + (sides$side[, which] - 1) * (factor - 1) + step)
+    ifelse(is.na(sides$side[, which]), corners[, corner],
+           count + (sides$side[, which] - 1) * (factor - 1) + step)
   }
   m <- nrow(corners)
   lattice <- array(0, c(m, factor + 1, factor + 1))
@@ -99,8 +110,10 @@ quad_lattice <- function(corners, sides, factor, count) {
 #' The points of all sides, by side, from its smaller end to its greater
 #'
 #' @param cutter List of `specimen`, `surface`, `column`, `factor`.
-#' @param tolerance A point is on a curve that is no farther away, as a share of the mesh's diagonal.
-#' @return List: `points`; `cuts`, those that cuts alone would give; `curved`, by side, whether it follows a curve.
+#' @param tolerance A point is on a curve that is no farther away, as a share of the mesh's
+#'   diagonal.
+#' @return List: `points`; `cuts`, those that cuts alone would give; `curved`, by side, whether it
+#'   follows a curve.
 #' @noRd
 divide_sides <- function(paths, at, ends, cutter, tolerance = 1e-6) {
   mesh <- cutter$specimen$mesh
@@ -129,11 +142,13 @@ divide_sides <- function(paths, at, ends, cutter, tolerance = 1e-6) {
 #' @noRd
 cut_points <- function(points, ends, cutter) {
   inner <- seq_len(cutter$factor - 1)
-  found <- matrix(NA_real_, nrow(ends) * length(inner), length(mesh_columns), dimnames = list(NULL, mesh_columns))
+  found <- matrix(NA_real_, nrow(ends) * length(inner), length(mesh_columns),
+                  dimnames = list(NULL, mesh_columns))
   there <- which(!is.na(points[ends[, 1], "x"]) & !is.na(points[ends[, 2], "x"]))
   if (!length(there)) return(found)
   outside <- matrix(NA_real_, 3, length(there))
-  cuts <- column_points(points[ends[there, 1], , drop = FALSE], points[ends[there, 2], , drop = FALSE], outside,
+  cuts <- column_points(points[ends[there, 1], , drop = FALSE],
+                        points[ends[there, 2], , drop = FALSE], outside,
                         cutter$factor + 1, cutter$surface, cutter$column)
   rows <- outer(inner, (there - 1) * length(inner), "+")
   found[rows, ] <- do.call(rbind, lapply(cuts, function(cut) cut[inner + 1, , drop = FALSE]))
@@ -173,7 +188,8 @@ edges_on_curves <- function(paths, at, ends, tolerance) {
 fill_quads <- function(points, lattice, cutter) {
   lines <- inner_lines(lattice, points, cutter$factor)
   inner <- seq_len(cutter$factor - 1) + 1
-  points[t(lines[, inner]), ] <- cut_points(points, lines[, c(1, cutter$factor + 1), drop = FALSE], cutter)
+  points[t(lines[, inner]), ] <- cut_points(points, lines[, c(1, cutter$factor + 1), drop = FALSE],
+                                            cutter)
   points
 }
 
@@ -186,7 +202,8 @@ inner_lines <- function(lattice, points, factor) {
   side <- function(i, j) matrix(lattice[, i, j], nrow(lattice))
   normal <- quad_normals(lattice, points, factor)
   bow <- function(i, j) side_bow(side(i, j), points, normal)
-  bowed <- pmax(bow(steps, 1), bow(steps, factor + 1)) >= pmax(bow(1, steps), bow(factor + 1, steps))
+  bowed <- pmax(bow(steps, 1),
+                bow(steps, factor + 1)) >= pmax(bow(1, steps), bow(factor + 1, steps))
   inner <- steps[-c(1, factor + 1)]
   down <- lapply(inner, function(k) side(k, steps)[bowed, , drop = FALSE])
   across <- lapply(inner, function(k) side(steps, k)[!bowed, , drop = FALSE])
@@ -196,12 +213,15 @@ inner_lines <- function(lattice, points, factor) {
 quad_normals <- function(lattice, points, factor) {
   xyz <- points[, c("x", "y", "z")]
   last <- factor + 1
-  normal <- cross_rows(xyz[lattice[, last, last], , drop = FALSE] - xyz[lattice[, 1, 1], , drop = FALSE],
-                       xyz[lattice[, 1, last], , drop = FALSE] - xyz[lattice[, last, 1], , drop = FALSE])
+  normal <- cross_rows(xyz[lattice[, last, last], , drop = FALSE] -
+                       xyz[lattice[, 1, 1], , drop = FALSE],
+                       xyz[lattice[, 1, last], , drop = FALSE] -
+                       xyz[lattice[, last, 1], , drop = FALSE])
   normal / pmax(row_lengths(normal), .Machine$double.xmin)
 }
 
-#' Greatest distance of a side's points from the straight line, as seen along the normal of the quad; 0 where unknown
+#' Greatest distance of a side's points from the straight line, as seen along the normal of the
+#' quad; 0 where unknown
 #' @noRd
 side_bow <- function(side, points, normal) {
   xyz <- points[, c("x", "y", "z")]
@@ -226,7 +246,8 @@ lattice_triangles <- function(lattice, columns, factor) {
   c <- corner(low + 1, low + 1)
   d <- corner(low, low + 1)
   columns <- rep(columns, factor^2)
-  it <- cbind(rbind(a, ifelse(columns, b, c), ifelse(columns, c, b)), rbind(a, ifelse(columns, c, d), ifelse(columns, d, c)))
+  it <- cbind(rbind(a, ifelse(columns, b, c), ifelse(columns, c, b)),
+              rbind(a, ifelse(columns, c, d), ifelse(columns, d, c)))
   quad <- rep(seq_len(nrow(lattice)), length.out = ncol(it))
   proper <- it[1, ] != it[2, ] & it[2, ] != it[3, ] & it[3, ] != it[1, ]
   list(it = unname(it[, proper, drop = FALSE]), quad = quad[proper])

@@ -23,7 +23,8 @@
 #'
 #' @param specimen A [specimen()].
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
-#' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard errors.
+#' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard
+#'   errors.
 #' @param passes As in [ridge_curve()].
 #' @param curves Curves drawn by hand or found by other software: a named list (names of the
 #'   scheme's curves) of n x 3 matrices, data frames with columns x, y, z, or values of
@@ -35,50 +36,59 @@
 #' @param cut_scale Multiplies the length at which trimmed curves are cut (no unit). Use one value
 #'   below 1 for all specimens if some scans are too short. It is lowered where a curve is too short
 #'   for it.
-#' @param bridge Holes up to this size (diagonal of the bounding box, as a share of the object's size) are bridged by
-#'   flat triangles, so that curves and columns run on where the surface would be. Their points
-#'   there are missing. Curves and columns run round larger holes, and with 0 round all.
-#' @param column_angle Greatest angle in radians between a column's plane and that of the mean of the surface normals
-#'   at its ends (the programs of the paper's authors: 45 degrees).
+#' @param bridge Holes up to this size (diagonal of the bounding box, as a share of the object's
+#'   size) are bridged by flat triangles, so that curves and columns run on where the surface would
+#'   be. Their points there are missing. Curves and columns run round larger holes, and with 0 round
+#'   all.
+#' @param column_angle Greatest angle in radians between a column's plane and that of the mean of
+#'   the surface normals at its ends (the programs of the paper's authors: 45 degrees).
 #' @param column_angles Number of planes that are tried for a column (there: 51).
-#' @param column_reach A column stays within this share of the distance of its ends from the straight line between
-#'   them (there: 1).
-#' @param unit Factor from the mesh's unit to that of the scheme's lengths: 1000 for a scan in metres and [face_scheme()].
-#'   NULL: that of [find_landmarks()] where the landmarks were found, else 1.
+#' @param column_reach A column stays within this share of the distance of its ends from the
+#'   straight line between them (there: 1).
+#' @param unit Factor from the mesh's unit to that of the scheme's lengths: 1000 for a scan in
+#'   metres and [face_scheme()]. NULL: that of [find_landmarks()] where the landmarks were found,
+#'   else 1.
 #' @param progress Whether to show a progress bar.
 #' @inheritParams curvature
 #' @return Object of class `shape`, a list:
 #'   * `id`: of the specimen;
-#'   * `points`: data frame, a row a point in the order of the scheme: `level` ("landmarks", "curves", "surface"), `part`,
-#'     `point` (text), `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (all NA where missing), `se` (standard error
-#'     across the curve, in the unit of the mesh; NA where there is none: landmarks, plane curves, insides of patches);
-#'   * `status`: data frame, a row a landmark, curve and patch: `part`, `level`, `kind` ("landmark", "ridge",
-#'     "valley", "plane", "patch"), `ok` (whether all its points are there), `reason` (text, NA where all is well), and
-#'     of curves `length` (as cut off), `strength` (mean, as found, 1 / unit), `contrast` (strength over the mean strength
-#'     beside the curve, in its window but farther than `settings$core` radii from it: 1, no more than its surroundings),
-#'     `se` (median), `competing` (how good the best other reference path is, as a share of the one chosen: near 1, a
-#'     rival; NA: none), `se_max` (largest standard error at its points);
-#'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`, `level`, `missing`
-#'     (share of the points); of curves `determined` (by curvature, see [ridge_curve()]; NA where there is no point but
-#'     landmarks), `cut` (what was left of a curve that the scheme cuts off, as a share of what was asked for), `guessed`
-#'     (TRUE if a trimmed curve had to be directed or measured without one of its landmarks, see
-#'     below), `bridged`
-#'     (share of its length that lies over holes); of patches `faults` (number of them, see [surface_faults()]); of both
-#'     `size` (a curve's length; of a patch the diameter of a disc with points as far from their centroid), `roughness`
-#'     (mean angle in degrees between the normals of its triangles and those at their corners), `edge` (mean edge of its
-#'     triangles), `border` (distance to the nearest border that is not bridged, but for the ends of a curve), `spike`
-#'     (distance within which there are four triangles with such an angle above 30 degrees); lengths in the unit of the
-#'     mesh, Inf where there is none; of landmarks `state` and `confidence` (of [find_landmarks()], NA where they were
-#'     given) and `exchanged` (what other landmark it looks exchanged with, text);
-#'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim; `NULL` where it failed;
+#'   * `points`: data frame, a row a point in the order of the scheme: `level` ("landmarks",
+#'     "curves", "surface"), `part`, `point` (text), `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (all NA
+#'     where missing), `se` (standard error across the curve, in the unit of the mesh; NA where
+#'     there is none: landmarks, plane curves, insides of patches);
+#'   * `status`: data frame, a row a landmark, curve and patch: `part`, `level`, `kind` ("landmark",
+#'     "ridge", "valley", "plane", "patch"), `ok` (whether all its points are there), `reason`
+#'     (text, NA where all is well), and of curves `length` (as cut off), `strength` (mean, as
+#'     found, 1 / unit), `contrast` (strength over the mean strength beside the curve, in its window
+#'     but farther than `settings$core` radii from it: 1, no more than its surroundings), `se`
+#'     (median), `competing` (how good the best other reference path is, as a share of the one
+#'     chosen: near 1, a rival; NA: none), `se_max` (largest standard error at its points);
+#'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`,
+#'     `level`, `missing` (share of the points); of curves `determined` (by curvature, see
+#'     [ridge_curve()]; NA where there is no point but landmarks), `cut` (what was left of a curve
+#'     that the scheme cuts off, as a share of what was asked for), `guessed` (TRUE if a trimmed
+#'     curve had to be directed or measured without one of its landmarks, see below), `bridged`
+#'     (share of its length that lies over holes); of patches `faults` (number of them, see
+#'     [surface_faults()]); of both `size` (a curve's length; of a patch the diameter of a disc with
+#'     points as far from their centroid), `roughness` (mean angle in degrees between the normals of
+#'     its triangles and those at their corners), `edge` (mean edge of its triangles), `border`
+#'     (distance to the nearest border that is not bridged, but for the ends of a curve), `spike`
+#'     (distance within which there are four triangles with such an angle above 30 degrees); lengths
+#'     in the unit of the mesh, Inf where there is none; of landmarks `state` and `confidence` (of
+#'     [find_landmarks()], NA where they were given) and `exchanged` (what other landmark it looks
+#'     exchanged with, text);
+#'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim;
+#'     `NULL` where it failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
 #'   * `provenance`: what it came from, see [summary.shape()];
-#'   * `key`: of the specimen's mesh, see [specimen()]; what takes a shape and a specimen refuses another mesh, and one whose
-#'     vertices or triangles stand in another order, by name (an error of class `crestline_wrong_mesh`);
-#'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else (`shape$specimen <- NULL` makes the
-#'     shape small).
+#'   * `key`: of the specimen's mesh, see [specimen()]; what takes a shape and a specimen refuses
+#'     another mesh, and one whose vertices or triangles stand in another order, by name (an error
+#'     of class `crestline_wrong_mesh`);
+#'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else
+#'     (`shape$specimen <- NULL` makes the shape small).
 #'
-#'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and [plot.shape()].
+#'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and
+#'   [plot.shape()].
 #' @section Missing parts: If a landmark or curve is missing, only the points that depend on it are
 #'   NA. `status` gives the reason.
 #'   * Where a landmark is absent or NA, the curves that end there and the columns that begin on
@@ -96,12 +106,14 @@
 #'     through the landmarks of the middle.
 #'   * The points inside a hole are missing, see `bridge`. Take triangles that you do not trust out
 #'     of the mesh beforehand, such as long ones over unseen parts: then they are a hole.
-#' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be; of class
-#'   `crestline_unit_error`, when the landmarks are not about as far apart as those of the scheme, with the `unit` to give.
-#' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged (`crestline_mirrored`: left
-#'   and right of all pairs). [quality()] grades them, and the curves that end there, red. Of class
-#'   `crestline_unused_landmarks`, when a landmark of the scheme is missing and the specimen has one of another name that may
-#'   be meant (`prn` for `pn`, `CHL` for `chL`).
+#' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be;
+#'   of class `crestline_unit_error`, when the landmarks are not about as far apart as those of the
+#'   scheme, with the `unit` to give.
+#' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged
+#'   (`crestline_mirrored`: left and right of all pairs). [quality()] grades them, and the curves
+#'   that end there, red. Of class `crestline_unused_landmarks`, when a landmark of the scheme is
+#'   missing and the specimen has one of another name that may be meant (`prn` for `pn`, `CHL` for
+#'   `chL`).
 #' @references The paper, section 4.
 #' @examples
 #' \donttest{
@@ -113,7 +125,8 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL, cut_scale = 1, bridge = 0.2,
+fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL,
+                      cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_given()
@@ -134,21 +147,27 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   scan <- with_located(specimen)
   if (!is.null(scan$placing)) scan$placing <- current_placing(scan)
   specimen <- bridge_holes(scan, column$bridge)
-  tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id)
+  tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches),
+                         specimen$id)
   landmarks <- fit_scheme_landmarks(scan, scheme)
   given <- given_fits(specimen, scan, scheme, curves, column)
   slips <- scheme_slips(scan, scheme)
-  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given, tick)
+  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given,
+                            tick)
   store <- place_store(scheme, landmarks$points, fits)
   patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
                      shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
-                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column, specimen = scan,
-                     provenance = shape_provenance(scan, named, unit, measured_with(settings, passes, cut_scale, column, curves)))
+                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column,
+                     specimen = scan,
+                     provenance = shape_provenance(scan, named, unit,
+                                                   measured_with(settings, passes, cut_scale,
+                                                                 column, curves)))
   faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
   shape <- note_slips(note_faults(shape, faults), slips)
-  shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults), landmark_checks(shape, scan$placing, slips))
+  shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults),
+                        landmark_checks(shape, scan$placing, slips))
   shape
 }
 
@@ -156,8 +175,10 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
 #' @noRd
 measured_with <- function(settings, passes, cut_scale, column, curves) {
   list(ridge = lapply(unclass(settings), identity),
-       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge, column_angle = column$angle,
-                  column_angles = column$angles, column_reach = column$reach, given = as.character(names(curves))))
+       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge,
+                  column_angle = column$angle,
+                  column_angles = column$angles, column_reach = column$reach,
+                  given = as.character(names(curves))))
 }
 
 progress_ticks <- function(progress, n, id) {
@@ -171,12 +192,15 @@ progress_ticks <- function(progress, n, id) {
 #' @noRd
 fit_scheme_landmarks <- function(specimen, scheme) {
   names <- scheme$landmarks$landmark
-  points <- matrix(NA_real_, length(names), length(mesh_columns), dimnames = list(names, mesh_columns))
+  points <- matrix(NA_real_, length(names), length(mesh_columns),
+                   dimnames = list(names, mesh_columns))
   reason <- stats::setNames(rep(NA_character_, length(names)), names)
   for (name in names) {
-    found <- tryCatch(landmark_point(specimen, name), crestline_error = function(e) sub("\\.$", "", e$problem))
+    found <- tryCatch(landmark_point(specimen, name),
+                      crestline_error = function(e) sub("\\.$", "", e$problem))
     if (is.character(found)) found <- c(left_out_reason(specimen, name), found)[1]
-    if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else reason[name] <- found
+    if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else
+      reason[name] <- found
   }
   near <- attr(unused_names(specimen$landmarks, scheme), "near")
   reason[near] <- sprintf("%s; near: %s", reason[near], names(near))
@@ -193,8 +217,10 @@ place_store <- function(scheme, landmarks, fits) {
   store[paste0("landmarks|", rownames(landmarks)), mesh_columns] <- landmarks
   found <- Filter(function(fit) !is.null(fit$points), fits)
   if (!length(found)) return(store)
-  values <- do.call(rbind, lapply(found, function(fit) columns_of(fit$points, c(mesh_columns, "se"))))
-  place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part %in% names(found)]
+  values <- do.call(rbind,
+                    lapply(found, function(fit) columns_of(fit$points, c(mesh_columns, "se"))))
+  place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part %in%
+                               names(found)]
   first <- !duplicated(place)
   fill_store(store, place[first], values[first, , drop = FALSE])
 }
@@ -208,7 +234,8 @@ shape_points <- function(points, store) {
 
 shape_status <- function(scheme, landmark_reasons, fits, problems) {
   of_curve <- function(name) {
-    vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0, USE.NAMES = FALSE)
+    vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0,
+           USE.NAMES = FALSE)
   }
   blocks <- split(problems, factor(scheme$patches$patch, unique(scheme$patches$patch)))
   patch_reasons <- vapply(blocks, patch_reason, "")
@@ -220,14 +247,17 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
                se_max = rep(NA_real_, length(part)))
   }
   whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
-  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole, vapply(fits, `[[`, "", "reason"))
+  curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole,
+                  vapply(fits, `[[`, "", "reason"))
   measures <- c("length", "strength", "contrast", "se", "competing", "se_max")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
-    lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)), is.na(landmark_reasons),
+    lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)),
+          is.na(landmark_reasons),
           landmark_reasons),
     curves,
-    lines(names(blocks), "surface", rep("patch", length(blocks)), is.na(patch_reasons), patch_reasons)
+    lines(names(blocks), "surface", rep("patch", length(blocks)), is.na(patch_reasons),
+          patch_reasons)
   )
   rownames(status) <- NULL
   status

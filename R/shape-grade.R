@@ -20,7 +20,8 @@ grade_parts <- function(parts, scores, limits, scheme) {
   judged <- c(judged, list(bounds))
   level <- pmax(level, bounds$level)
   why <- vapply(seq_along(level), function(i) {
-    said <- vapply(judged, function(check) if (check$level[i] > 0) check$text[i] else NA_character_, "")
+    said <- vapply(judged, function(check) if (check$level[i] > 0) check$text[i] else NA_character_,
+                   "")
     said <- unique(stats::na.omit(sub("[.]$", "", c(parts$reason[i], said))))
     if (length(said)) paste(said, collapse = "; ") else NA_character_
   }, "")
@@ -31,8 +32,8 @@ grade_parts <- function(parts, scores, limits, scheme) {
 
 #' Every check of the parts of one specimen
 #'
-#' @return List of checks, each a list of `level` (0 green, 1 amber, 2 red) and `text`, both by part; the text is NA
-#'   where the part's own reason says it.
+#' @return List of checks, each a list of `level` (0 green, 1 amber, 2 red) and `text`, both by
+#'   part; the text is NA where the part's own reason says it.
 #' @noRd
 judge_parts <- function(parts, limits, scheme) {
   judge <- function(name, text, value = parts[[name]]) {
@@ -40,29 +41,38 @@ judge_parts <- function(parts, limits, scheme) {
          text = rep_len(as.character(text), nrow(parts)))
   }
   flag <- function(bad, name) {
-    list(level = ifelse(bad, match(limits[[name]], grades) - 1, 0), text = rep(NA_character_, nrow(parts)))
+    list(level = ifelse(bad, match(limits[[name]], grades) - 1, 0),
+         text = rep(NA_character_, nrow(parts)))
   }
   own <- function(values) ifelse(parts$free, values, NA)
   curved <- parts$kind %in% c("ridge", "valley")
   its <- ifelse(parts$level == "curves", "length", "extent")
   partner <- partner_of(parts$part, scheme$pairs, "curves")
-  partner <- ifelse(partner == parts$part, "its own mirror image", paste("the mirror image of", partner))
+  partner <- ifelse(partner == parts$part, "its own mirror image",
+                    paste("the mirror image of", partner))
   list(
     judge("missing", NA),
     flag(parts$determined %in% FALSE, "undetermined"),
     flag(parts$guessed %in% TRUE, "guessed"),
-    judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius), own(parts$se / parts$radius)),
-    se_max = judge("se_max", sprintf("its standard error is %.2g radii at one place", parts$se_max / parts$radius),
+    judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius),
+          own(parts$se / parts$radius)),
+    se_max = judge("se_max",
+                   sprintf("its standard error is %.2g radii at one place",
+                           parts$se_max / parts$radius),
           own(parts$se_max / parts$radius)),
-    judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing), own(parts$competing)),
-    judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast), own(parts$contrast)),
+    judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing),
+          own(parts$competing)),
+    judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast),
+          own(parts$contrast)),
     judge("z", sprintf("its length is off the others' (z = %.1f)", parts$z), abs(parts$z)),
-    judge("asymmetry", sprintf("it is off %s by %.0f %% of its length", partner, 100 * parts$asymmetry)),
+    judge("asymmetry", sprintf("it is off %s by %.0f %% of its length", partner,
+                               100 * parts$asymmetry)),
     judge("roughness", sprintf("the surface is rough there: %.0f degrees", parts$roughness)),
     judge("coarse", sprintf("the mesh is coarse there: edges of %.2g radii", parts$coarse),
           ifelse(curved, own(parts$coarse), NA)),
     judge("bridged", sprintf("it runs over a hole for %s of its length", per_cent(parts$bridged))),
-    judge("border", sprintf("it runs by a border or hole, %s of its %s away", per_cent(parts$border), its)),
+    judge("border", sprintf("it runs by a border or hole, %s of its %s away",
+                            per_cent(parts$border), its)),
     judge("spike", sprintf("it runs by a spike, %s of its %s away", per_cent(parts$spike), its)),
     judge("cut", NA),
     judge("faults", NA)
@@ -78,8 +88,10 @@ judge_landmarks <- function(parts, limits, scheme) {
   as_level <- function(bad, name) ifelse(bad, match(limits[[name]], grades) - 1, 0)
   low <- level_beyond(parts$confidence, limits$confidence, TRUE) * (parts$state %in% "found")
   checks <- list(
-    exchanged = list(level = as_level(!is.na(parts$exchanged), "exchanged"), text = parts$exchanged),
-    low = list(level = low, text = sprintf("it was found with a confidence of %.2f only", parts$confidence)),
+    exchanged = list(level = as_level(!is.na(parts$exchanged), "exchanged"),
+                     text = parts$exchanged),
+    low = list(level = low,
+               text = sprintf("it was found with a confidence of %.2f only", parts$confidence)),
     predicted = list(level = as_level(parts$state %in% "predicted", "predicted"),
                      text = rep("it is predicted by the other landmarks", nrow(parts)))
   )
@@ -87,7 +99,8 @@ judge_landmarks <- function(parts, limits, scheme) {
   of <- sum(parts$state %in% c("found", "placed"))
   share <- if (any(parts$state %in% "found")) sum(low > 0) / of else 0
   all <- list(level = rep(level_beyond(share, limits$doubtful, FALSE), nrow(parts)),
-              text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0), of), nrow(parts)))
+              text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0),
+                                 of), nrow(parts)))
   # A landmark's own reason says already that it looks exchanged.
   checks$exchanged$text[marks] <- NA
   unname(c(checks, ends, list(all)))
@@ -134,12 +147,15 @@ judge_bounds <- function(parts, level, scheme) {
 }
 
 bounding_curves <- function(patch, scheme) {
-  sides <- unlist(scheme$patches[scheme$patches$patch == patch, c("curve_a", "curve_b", "first_column")])
+  sides <- unlist(scheme$patches[scheme$patches$patch == patch,
+                                 c("curve_a", "curve_b", "first_column")])
   unique(unlist(lapply(stats::na.omit(sides), function(side) curve_parts(side)$curve)))
 }
 
 grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
 
-quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se", "competing", "z",
-                     "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse", "border", "spike", "grade",
+quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
+                     "competing", "z",
+                     "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse",
+                     "border", "spike", "grade",
                      "why")

@@ -2,10 +2,10 @@
 
 #' A patch of a shape with any number of columns and rows
 #'
-#' The bounding curves of the patch are spaced anew at equal chords, matching points joined by the shortest plane cut, as in
-#' [fit_shape()], and every cut divided at equal chords. The grid covers the whole patch, from one bounding curve to the
-#' other, also where the scheme leaves columns or rows to its neighbours. See [shape_mesh()] for denser patches that fit
-#' together.
+#' The bounding curves of the patch are spaced anew at equal chords, matching points joined by the
+#' shortest plane cut, as in [fit_shape()], and every cut divided at equal chords. The grid covers
+#' the whole patch, from one bounding curve to the other, also where the scheme leaves columns or
+#' rows to its neighbours. See [shape_mesh()] for denser patches that fit together.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on.
@@ -14,11 +14,13 @@
 #' @param rows Number of points in each column, both ends counted; the scheme's unless given.
 #' @param block Number of the block, where the patch has several with columns.
 #' @inheritParams shape_mesh
-#' @return A `mesh3d` with normals, outward: a vertex for every point, by column, then by row from the first bounding curve;
-#'   triangles with a missing point are left out. Attribute `points`: data frame `column`, `row`, `x`, `y`, `z`, `face`,
-#'   `w1`, `w2`, `w3` of all points on the specimen's mesh (NA where a column is missing; these have no vertex).
-#' @section Errors: of class `crestline_error`, when there is no such patch or block, it is a single row of points, a
-#'   bounding curve is missing, or no column is left; of class `crestline_wrong_mesh`, for a specimen with another mesh.
+#' @return A `mesh3d` with normals, outward: a vertex for every point, by column, then by row from
+#'   the first bounding curve; triangles with a missing point are left out. Attribute `points`: data
+#'   frame `column`, `row`, `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` of all points on the specimen's
+#'   mesh (NA where a column is missing; these have no vertex).
+#' @section Errors: of class `crestline_error`, when there is no such patch or block, it is a single
+#'   row of points, a bounding curve is missing, or no column is left; of class
+#'   `crestline_wrong_mesh`, for a specimen with another mesh.
 #' @seealso [shape_mesh()]
 #' @examples
 #' \donttest{
@@ -30,11 +32,13 @@
 #' draw_surface(nose, view = "left", engine = "picture")
 #' }
 #' @export
-patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = NULL, column_angle = pi / 4,
+patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = NULL,
+                       column_angle = pi / 4,
                        column_angles = 51, column_reach = 1) {
   check_given()
   patch <- check_text(patch, "patch")
-  if (!is.null(block) && !is.atomic(block)) refuse_argument("block", block, "Give a block's name.", rlang::current_env())
+  if (!is.null(block) && !is.atomic(block)) refuse_argument("block", block, "Give a block's name.",
+                                                            rlang::current_env())
   check_class(x, "shape", "x", "fit_shape()")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_shape_on(x, specimen)
@@ -42,15 +46,18 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   own <- if (is.na(block$resample_a)) nrow(side_points(block$curve_a)) else block$resample_a
   columns <- check_count(if (is.null(columns)) own else columns, "columns", 2, upper = 10000)
   rows <- check_count(if (is.null(rows)) block$rows else rows, "rows", 2, upper = 10000)
-  points <- block_grid(x, specimen, block, columns, rows, check_column(column_angle, column_angles, column_reach))
+  points <- block_grid(x, specimen, block, columns, rows,
+                       check_column(column_angle, column_angles, column_reach))
   place <- ifelse(is.na(points$x), NA, paste(points$x, points$y, points$z))
   vertex <- match(place, unique(place[!is.na(place)]))
   outward <- if (is.na(block$outward)) "columns" else block$outward
   triangles <- quad_triangles(matrix(vertex, columns, byrow = TRUE), outward, "model", block$patch)
   it <- t(as.matrix(triangles[stats::complete.cases(triangles), c("v1", "v2", "v3")]))
-  if (!length(it)) refuse_patch(x, "no two columns side by side were found", "See `status` for what is missing.")
+  if (!length(it)) refuse_patch(x, "no two columns side by side were found",
+                                "See `status` for what is missing.")
   first <- match(seq_len(max(vertex, na.rm = TRUE)), vertex)
-  mesh <- rgl::mesh3d(vertices = unname(rbind(t(as.matrix(points[first, c("x", "y", "z")])), 1)), triangles = unname(it))
+  mesh <- rgl::mesh3d(vertices = unname(rbind(t(as.matrix(points[first, c("x", "y", "z")])), 1)),
+                      triangles = unname(it))
   structure(with_normals(mesh), points = cbind(points, vertex = vertex))
 }
 
@@ -60,12 +67,14 @@ block_of <- function(x, patch, block) {
   patches <- x$scheme$patches
   known <- unique(patches$patch)
   if (!is.character(patch) || length(patch) != 1 || !patch %in% known) {
-    refuse_patch(x, sprintf("there is no patch %s", describe_value(patch)), near_names(patch, known))
+    refuse_patch(x, sprintf("there is no patch %s", describe_value(patch)),
+                 near_names(patch, known))
   }
   blocks <- patches[patches$patch == patch & !is.na(patches$curve_b), ]
   if (!is.null(block)) blocks <- blocks[blocks$block %in% block, ]
   if (nrow(blocks) == 0) {
-    refuse_patch(x, sprintf("%s has no such block with columns", patch), "Choose another patch or block.")
+    refuse_patch(x, sprintf("%s has no such block with columns", patch),
+                 "Choose another patch or block.")
   }
   if (nrow(blocks) > 1) {
     refuse_patch(x, sprintf("%s has several blocks", patch),
@@ -83,27 +92,34 @@ refuse_patch <- function(x, problem, remedy) {
 block_grid <- function(x, specimen, block, columns, rows, column) {
   surface <- walkable(specimen)
   fits <- shape_fits(x, specimen)
-  store <- as.matrix(x$points[match(unique(x$scheme$points$place), x$scheme$points$place), mesh_columns])
+  store <- as.matrix(x$points[match(unique(x$scheme$points$place), x$scheme$points$place),
+                              mesh_columns])
   rownames(store) <- unique(x$scheme$points$place)
-  side <- function(text, n) block_side(text, n, specimen, surface, x$scheme$curves, fits, store, column)
+  side <- function(text, n) block_side(text, n, specimen, surface, x$scheme$curves, fits, store,
+                                       column)
   a <- side(block$curve_a, columns)
   b <- side(block$curve_b, columns)
-  if (!is.null(c(a$problem, b$problem))) refuse_patch(x, c(a$problem, b$problem)[1], "See `status` for the reason.")
-  outside <- vapply(seq_len(columns), function(k) column_outside(a$points, b$points, k, block$outward), numeric(3))
+  if (!is.null(c(a$problem, b$problem))) refuse_patch(x, c(a$problem, b$problem)[1],
+                                                      "See `status` for the reason.")
+  outside <- vapply(seq_len(columns),
+                    function(k) column_outside(a$points, b$points, k, block$outward), numeric(3))
   grid <- column_points(a$points, b$points, outside, rows, surface, column)
   if (!is.na(block$first_column)) grid[[1]] <- side(block$first_column, rows)$points
-  data.frame(column = rep(seq_len(columns), each = rows), row = rep(seq_len(rows), columns), do.call(rbind, grid),
+  data.frame(column = rep(seq_len(columns), each = rows), row = rep(seq_len(rows), columns),
+             do.call(rbind, grid),
              row.names = NULL)
 }
 
-#' Columns as of [fit_columns()]: where the ends are the same point, that point; where there is no cut, the ends alone
+#' Columns as of [fit_columns()]: where the ends are the same point, that point; where there is no
+#' cut, the ends alone
 #' @return List of rows x 7 matrices.
 #' @noRd
 column_points <- function(from, to, outside, rows, surface, column) {
   found <- fit_columns(from, to, outside, rows, surface, column)
   for (k in which(!is.na(found$problem))) {
     same <- all(from[k, 1:3] == to[k, 1:3])
-    between <- matrix(if (same) from[k, ] else NA_real_, rows - 2, length(mesh_columns), byrow = TRUE)
+    between <- matrix(if (same) from[k, ] else NA_real_, rows - 2, length(mesh_columns),
+                      byrow = TRUE)
     found$points[[k]] <- rbind(from[k, ], between, to[k, ])
   }
   found$points
@@ -111,12 +127,14 @@ column_points <- function(from, to, outside, rows, surface, column) {
 
 #' The curves of a shape as [fit_scheme_curves()] gives them, as far as bounding curves need them
 #'
-#' @param tolerance Points farther from their curve's path (in shares of the mesh's diagonal) have no place on it.
+#' @param tolerance Points farther from their curve's path (in shares of the mesh's diagonal) have
+#'   no place on it.
 #' @noRd
 shape_fits <- function(x, specimen, tolerance = 1e-6) {
   lapply(stats::setNames(nm = names(Filter(Negate(is.null), x$paths))), function(name) {
     own <- x$points[x$points$level == "curves" & x$points$part == name, ]
-    s <- arc_lengths_on(x$paths[[name]], as.matrix(own[c("x", "y", "z")]), tolerance * mesh_diagonal(specimen$mesh))
+    s <- arc_lengths_on(x$paths[[name]], as.matrix(own[c("x", "y", "z")]),
+                        tolerance * mesh_diagonal(specimen$mesh))
     list(points = data.frame(s = s), path = x$paths[[name]])
   })
 }
@@ -136,7 +154,8 @@ arc_lengths_on <- function(path, xyz, tolerance) {
     share <- closest_on_segments(p, a, b)
     away <- row_lengths(p - a - share * (b - a))
     best <- which.min(away)
-    if (away[best] <= tolerance) s[i] <- path$s[best] + share[best] * (path$s[best + 1] - path$s[best])
+    if (away[best] <= tolerance) s[i] <- path$s[best] + share[best] * (path$s[best + 1] -
+                                                                       path$s[best])
   }
   s
 }

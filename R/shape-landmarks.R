@@ -7,7 +7,8 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
   if (!any(wanted %in% rownames(specimen$landmarks))) {
     near <- attr(unused_names(specimen$landmarks, scheme), "near")
     crestline_abort(
-      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name, shorten(wanted),
+      sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
+              shorten(wanted),
               if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
               if (length(near)) paste("; near:", shorten(near)) else ""),
       "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
@@ -40,7 +41,8 @@ check_scale <- function(specimen, scheme, unit = NULL, call = rlang::caller_env(
   nearest <- known[which.min(abs(log(known * scale)))]
   asked <- if (abs(log(nearest * scale)) < log(2)) nearest else signif(1 / scale, 2)
   crestline_abort(
-    sprintf("its landmarks are %.3g times as far apart as those of the scheme %s: another unit.", scale,
+    sprintf("its landmarks are %.3g times as far apart as those of the scheme %s: another unit.",
+            scale,
             scheme$name),
     sprintf("Give `unit = %.4g`, the factor from the mesh's unit to the scheme's.",
             asked * c(unit, specimen$match$unit, 1)[1]),
@@ -77,8 +79,10 @@ scheme_slips <- function(specimen, scheme) {
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", c("left", "right")]
   own <- intersect(rownames(specimen$landmarks), scheme$landmarks$landmark)
   midline <- setdiff(eval(formals(crestline::specimen)$midline), unlist(pairs))
-  located <- specimen$geometry$located[match(own, rownames(specimen$geometry$landmarks), nomatch = 0), ]
-  slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE], mean_front(specimen$mesh, located),
+  located <- specimen$geometry$located[match(own, rownames(specimen$geometry$landmarks),
+                                             nomatch = 0), ]
+  slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE],
+                               mean_front(specimen$mesh, located),
                                pairs, midline, typical_landmarks(scheme))
   if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
   slips$said <- exchange_reasons(slips, own, unlist(pairs))
@@ -111,7 +115,8 @@ landmark_checks <- function(shape, placing, slips) {
   name <- ifelse(shape$status$level == "landmarks", shape$status$part, NA)
   row <- match(name, placing$landmark, incomparables = NA)
   of <- function(values, none) if (is.null(values)) rep(none, length(name)) else values[row]
-  data.frame(state = of(placing$state, NA_character_), confidence = of(placing$confidence, NA_real_),
+  data.frame(state = of(placing$state, NA_character_),
+             confidence = of(placing$confidence, NA_real_),
              exchanged = unname(slips$said[name]))
 }
 

@@ -10,19 +10,22 @@
 #' decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber or red; of the
 #' parts of good whole faces, up to 4.3 %.
 #'
-#' @param ... Limits to change, by name, each `c(amber, red)`; print the defaults to see them. Bad is what is above
+#' @param ... Limits to change, by name, each `c(amber, red)`; print the defaults to see them. Bad
+#'   is what is above
 #'   * `missing`: share of the part's points that are not there;
-#'   * `se`: median standard error across a curve, in radii of its curvature estimate (0.2 is where [ridge_settings()]
-#'     calls a curve not determined);
+#'   * `se`: median standard error across a curve, in radii of its curvature estimate (0.2 is where
+#'     [ridge_settings()] calls a curve not determined);
 #'   * `se_max`: largest standard error across a curve, in radii;
-#'   * `doubtful`: share of the found landmarks whose confidence is below the first limit of `confidence`: of all parts of
-#'     a specimen;
+#'   * `doubtful`: share of the found landmarks whose confidence is below the first limit of
+#'     `confidence`: of all parts of a specimen;
 #'   * `competing`: how good the best other reference path is, as a share of the one chosen;
 #'   * `z`: size of the z-score of the length against other specimens;
-#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner, as a share of its length;
-#'   * `roughness`: mean angle in degrees between the normals of the triangles along the part and those at their corners
-#'     (good scans: below 10);
-#'   * `coarse`: mean edge of the triangles along a ridge or valley, in radii of its curvature estimate;
+#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner, as a share of
+#'     its length;
+#'   * `roughness`: mean angle in degrees between the normals of the triangles along the part and
+#'     those at their corners (good scans: below 10);
+#'   * `coarse`: mean edge of the triangles along a ridge or valley, in radii of its curvature
+#'     estimate;
 #'   * `bridged`: share of a curve's length that lies over holes;
 #'   * `faults`: number of flipped, doubled or crossing triangles of a patch;
 #'
@@ -30,10 +33,10 @@
 #'   * `confidence`: of a landmark that [find_landmarks()] found, and of the curves that end there;
 #'   * `contrast`: mean strength along a curve over that beside it;
 #'   * `cut`: what was left of a curve that the scheme cuts off, as a share of what was asked for;
-#'   * `border`: distance from a border of the mesh or of a hole, as a share of the part's size (a curve's length, the
-#'     diameter of a patch);
-#'   * `spike`: distance within which there are four crumpled triangles (bent by more than 30 degrees), as a share of the
-#'     part's size.
+#'   * `border`: distance from a border of the mesh or of a hole, as a share of the part's size (a
+#'     curve's length, the diameter of a patch);
+#'   * `spike`: distance within which there are four crumpled triangles (bent by more than 30
+#'     degrees), as a share of the part's size.
 #' @param undetermined Grade of curves that curvature does not determine: "green", "amber" or "red".
 #' @param guessed Grade of trimmed curves that had to be directed or measured without one of their
 #'   landmarks (see [fit_shape()]): "green", "amber" or "red".
@@ -42,26 +45,33 @@
 #' @param predicted Grade of landmarks that [find_landmarks()] predicts (those at the ears: 10 mm
 #'   off on average), and of the curves that end there: "green", "amber" or "red".
 #' @param others Fewest other specimens for a z-score.
-#' @param spread Least spread of a length across specimens (as a share of it) that z-scores count with, so that a
-#'   sample of nearly equal specimens flags nobody.
+#' @param spread Least spread of a length across specimens (as a share of it) that z-scores count
+#'   with, so that a sample of nearly equal specimens flags nobody.
 #' @return List of class `quality_limits`.
-#' @section Errors: of class `crestline_error`, for a name that is no limit, and for limits in the wrong order.
+#' @section Errors: of class `crestline_error`, for a name that is no limit, and for limits in the
+#'   wrong order.
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))
 #' @export
-quality_limits <- function(..., undetermined = "amber", guessed = "amber", exchanged = "red", predicted = "amber",
+quality_limits <- function(..., undetermined = "amber", guessed = "amber", exchanged = "red",
+                           predicted = "amber",
                            others = 10, spread = 0.01) {
-  limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), se_max = c(0.8, Inf), doubtful = c(0.6, Inf), confidence = c(0.5, -Inf),
+  limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), se_max = c(0.8, Inf),
+                 doubtful = c(0.6, Inf), confidence = c(0.5, -Inf),
                  competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
-                 roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2), faults = c(0, Inf),
-                 contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.07, 0.02))
+                 roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2),
+                 faults = c(0, Inf),
+                 contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005),
+                 spike = c(0.07, 0.02))
   change <- list(...)
   unknown <- setdiff(names(change), names(limits))
   if (length(unknown) || (length(change) && is.null(names(change)))) {
     crestline_abort(sprintf("there is no limit %s.", paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Limits are: ", paste(names(limits), collapse = ", "), "."), stage = "arguments")
+                    paste0("Limits are: ", paste(names(limits), collapse = ", "), "."),
+                    stage = "arguments")
   }
-  for (name in names(change)) limits[[name]] <- check_limit(change[[name]], name, name %in% small_is_bad)
+  for (name in names(change)) limits[[name]] <- check_limit(change[[name]], name,
+                                                            name %in% small_is_bad)
   structure(c(limits, list(undetermined = check_choice(undetermined, grades, "undetermined"),
                            guessed = check_choice(guessed, grades, "guessed"),
                            exchanged = check_choice(exchanged, grades, "exchanged"),
@@ -78,7 +88,8 @@ check_limit <- function(x, name, falling, call = rlang::caller_env()) {
   ordered <- is.numeric(x) && length(x) == 2 && !anyNA(x) && (if (falling) x[1] >= x[2] else x[1] <= x[2])
   if (!ordered) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)),
-                    sprintf("Give two numbers, c(amber, red), the second %s.", if (falling) "no greater" else "no smaller"),
+                    sprintf("Give two numbers, c(amber, red), the second %s.",
+                            if (falling) "no greater" else "no smaller"),
                     stage = "arguments", call = call)
   }
   as.numeric(x)
@@ -91,10 +102,13 @@ print.quality_limits <- function(x, ...) {
     cat("Quality limits: amber, red\n")
     pairs <- x[lengths(x) == 2]
     side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")
-    cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1), vapply(pairs, `[`, 0, 2)), sep = "")
-    cat(sprintf("  not determined by curvature: %s; without a landmark on the mesh: %s\n", x$undetermined, x$guessed))
+    cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1),
+                vapply(pairs, `[`, 0, 2)), sep = "")
+    cat(sprintf("  not determined by curvature: %s; without a landmark on the mesh: %s\n",
+                x$undetermined, x$guessed))
     cat(sprintf("  landmarks exchanged: %s; predicted: %s\n", x$exchanged, x$predicted))
-    cat(sprintf("  z-scores against at least %d others, with a spread of at least %g\n", x$others, x$spread))
+    cat(sprintf("  z-scores against at least %d others, with a spread of at least %g\n", x$others,
+                x$spread))
     invisible(x)
   })
 }

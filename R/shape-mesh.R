@@ -2,27 +2,30 @@
 
 #' The surface of a shape as a mesh
 #'
-#' The triangles of the scheme between the shape's surface points; on request denser, for a smooth picture of the
-#' specimen, with all new points on its mesh.
+#' The triangles of the scheme between the shape's surface points; on request denser, for a smooth
+#' picture of the specimen, with all new points on its mesh.
 #'
-#' With `dense` = k every side of the model's quads is divided into k pieces at equal chords: along the curve that it is part
-#' of (unless that would turn a triangle over), else along the shortest plane cut between its ends. Inside, cuts join
-#' opposite sides. So a patch of 19 x 5 points has 37 x 9 at 2, and the model's own points are among
-#' them. Neighbours share the points of their common sides: the surface has the borders of the model and no others. See
-#' [patch_mesh()] for a patch by itself, with any number of columns and rows.
+#' With `dense` = k every side of the model's quads is divided into k pieces at equal chords: along
+#' the curve that it is part of (unless that would turn a triangle over), else along the shortest
+#' plane cut between its ends. Inside, cuts join opposite sides. So a patch of 19 x 5 points has 37
+#' x 9 at 2, and the model's own points are among them. Neighbours share the points of their common
+#' sides: the surface has the borders of the model and no others. See [patch_mesh()] for a patch by
+#' itself, with any number of columns and rows.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param parts Which triangles of the scheme: "model", and names of optional parts.
 #' @param specimen The `specimen` it was measured on; needed where `dense` is above 1.
 #' @param dense Whole number: pieces that every side of a quad is divided into.
 #' @param column_angle,column_angles,column_reach Of the cuts, as in [fit_shape()].
-#' @return A `mesh3d` with normals: `vb` 4 x k, a vertex for every place that has triangles (the model's points first, in the
-#'   order of `coords(x, "surface")`), and `it` 3 x m, outward. Triangles with a missing point are left out. Attributes:
-#'   `row`, the row of every vertex among the shape's surface points, as in `coords(x, "surface")`, NA of the points
-#'   between them; `points`, data frame `x, y, z, face, w1, w2, w3` of the vertices on the specimen's mesh; `group`, the
-#'   patch or strip of every triangle, as in the scheme's `triangles`.
-#' @section Errors: of class `crestline_error`, when the scheme has no such part, no triangle is left, or `dense` lacks the
-#'   specimen. A warning of class `crestline_warning` tells how many triangles a hole of the specimen costs a denser surface.
+#' @return A `mesh3d` with normals: `vb` 4 x k, a vertex for every place that has triangles (the
+#'   model's points first, in the order of `coords(x, "surface")`), and `it` 3 x m, outward.
+#'   Triangles with a missing point are left out. Attributes: `row`, the row of every vertex among
+#'   the shape's surface points, as in `coords(x, "surface")`, NA of the points between them;
+#'   `points`, data frame `x, y, z, face, w1, w2, w3` of the vertices on the specimen's mesh;
+#'   `group`, the patch or strip of every triangle, as in the scheme's `triangles`.
+#' @section Errors: of class `crestline_error`, when the scheme has no such part, no triangle is
+#'   left, or `dense` lacks the specimen. A warning of class `crestline_warning` tells how many
+#'   triangles a hole of the specimen costs a denser surface.
 #' @seealso [fit_shape()]; [write_mesh()] to save it
 #' @examples
 #' \donttest{
@@ -34,14 +37,16 @@
 #' draw_surface(shape_mesh(shape, specimen = face, dense = 2), engine = "picture")
 #' }
 #' @export
-shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_angle = pi / 4, column_angles = 51,
+shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_angle = pi / 4,
+                       column_angles = 51,
                        column_reach = 1) {
   check_given()
   parts <- check_names(parts, "parts")
   check_class(x, "shape", "x", "fit_shape()")
   dense <- check_count(dense, "dense", upper = 1000)
   column <- check_column(column_angle, column_angles, column_reach)
-  if (!is.null(specimen)) check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  if (!is.null(specimen)) check_class(specimen, "specimen", "specimen",
+                                      "specimen() or read_specimen()")
   triangles <- whole_triangles(x, parts)
   check_memory(3 * nrow(triangles) * as.numeric(dense)^2 * 10, dense, "dense")
   corners <- as.matrix(triangles[c("v1", "v2", "v3")])
@@ -50,7 +55,8 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
     points <- x$points[x$points$level == "surface", mesh_columns][row, ]
     return(surface_mesh(points, row, matrix(match(t(corners), row), 3), triangles$group))
   }
-  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen(): a denser surface needs it")
+  check_class(specimen, "specimen", "specimen",
+              "specimen() or read_specimen(): a denser surface needs it")
   check_shape_on(x, specimen)
   quads <- whole_quads(x, parts)
   divided <- divide_quads(x, specimen, quads, dense, column)
@@ -58,7 +64,8 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
   whole <- colSums(matrix(there[divided$it], 3)) == 3
   if (!all(whole)) warn_left_out(sum(!whole), length(whole), x$id)
   used <- sort(unique(as.vector(divided$it[, whole])))
-  surface_mesh(divided$points[used, mesh_columns], divided$points$row[used], matrix(match(divided$it[, whole], used), 3),
+  surface_mesh(divided$points[used, mesh_columns], divided$points$row[used],
+               matrix(match(divided$it[, whole], used), 3),
                quads$group[divided$quad[whole]])
 }
 
@@ -71,7 +78,8 @@ whole_triangles <- function(x, parts) {
   triangles <- triangles[triangles$part %in% parts, ]
   triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
   if (nrow(triangles) == 0) {
-    crestline_abort("no triangle of the surface has all its points.", "See `status` for what is missing.",
+    crestline_abort("no triangle of the surface has all its points.",
+                    "See `status` for what is missing.",
                     stage = "shape", id = x$id)
   }
   triangles
@@ -91,7 +99,8 @@ whole_quads <- function(x, parts) {
 
 surface_mesh <- function(points, row, it, group) {
   rownames(points) <- NULL
-  mesh <- rgl::mesh3d(vertices = unname(rbind(t(as.matrix(points[c("x", "y", "z")])), 1)), triangles = it)
+  mesh <- rgl::mesh3d(vertices = unname(rbind(t(as.matrix(points[c("x", "y", "z")])), 1)),
+                      triangles = it)
   structure(with_normals(mesh), row = row, points = points, group = group)
 }
 

@@ -2,13 +2,15 @@
 
 #' Asymmetry of every curve of a shape
 #'
-#' The shape is reflected, left and right exchanged, and laid on itself by its landmarks (rotation and translation).
-#' Between the curve and its partner's image only what lies between the ends counts: the ends' own difference,
-#' interpolated along the curve, is taken off. A curve that is its own partner is compared with its own image.
+#' The shape is reflected, left and right exchanged, and laid on itself by its landmarks (rotation
+#' and translation). Between the curve and its partner's image only what lies between the ends
+#' counts: the ends' own difference, interpolated along the curve, is taken off. A curve that is its
+#' own partner is compared with its own image.
 #'
 #' @param shape A `shape`.
-#' @return Numeric by curve of the scheme, in the unit of the mesh: the greatest distance of corresponding points; NA
-#'   where one of the two is missing, the scheme has no pairs, or the landmarks do not fix the image.
+#' @return Numeric by curve of the scheme, in the unit of the mesh: the greatest distance of
+#'   corresponding points; NA where one of the two is missing, the scheme has no pairs, or the
+#'   landmarks do not fix the image.
 #' @noRd
 curve_asymmetry <- function(shape) {
   curves <- shape$scheme$curves
@@ -19,7 +21,8 @@ curve_asymmetry <- function(shape) {
   points <- shape$points[shape$points$level == "curves", ]
   own <- split.data.frame(as.matrix(points[c("x", "y", "z")]), factor(points$part, curves$curve))
   partner <- partner_of(curves$curve, pairs, "curves")
-  backwards <- partner_of(curves$from, pairs, "landmarks") != curves$from[match(partner, curves$curve)]
+  backwards <- partner_of(curves$from, pairs,
+                          "landmarks") != curves$from[match(partner, curves$curve)]
   for (i in seq_along(none)) {
     mirrored <- image(own[[partner[i]]])
     if (backwards[i]) mirrored <- mirrored[rev(seq_len(nrow(mirrored))), , drop = FALSE]
@@ -28,13 +31,15 @@ curve_asymmetry <- function(shape) {
   none
 }
 
-#' The map to the mirror image of landmarks, best laid on themselves; `NULL` where they do not fix it
+#' The map to the mirror image of landmarks, best laid on themselves; `NULL` where they do not fix
+#' it
 #'
 #' @param flat Landmarks on a line fix no image: the second singular value as a share of the first.
 #' @noRd
 mirror_image <- function(landmarks, pairs, flat = 1e-6) {
   flip <- diag(c(-1, 1, 1))
-  mirrored <- landmarks[partner_of(rownames(landmarks), pairs, "landmarks"), , drop = FALSE] %*% flip
+  mirrored <- landmarks[partner_of(rownames(landmarks), pairs, "landmarks"), ,
+                        drop = FALSE] %*% flip
   known <- stats::complete.cases(landmarks, mirrored)
   if (sum(known) < 3) return(NULL)
   from <- colMeans(mirrored[known, ])
@@ -44,7 +49,8 @@ mirror_image <- function(landmarks, pairs, flat = 1e-6) {
   function(xyz) sweep(sweep(xyz %*% flip, 2, from) %*% turn$rotation, 2, to, "+")
 }
 
-#' Greatest length of differences (n x 3) after those between their first and last are interpolated and taken off
+#' Greatest length of differences (n x 3) after those between their first and last are interpolated
+#' and taken off
 #' @noRd
 bow <- function(gap) {
   share <- seq(0, 1, length.out = nrow(gap))

@@ -6,11 +6,12 @@
 #' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
-#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`; and after sliding `follow`: whether bounding curves of
-#'   another number of points take them from their own points' places, slid ones, in place of equal chords.
+#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`; and after
+#'   sliding `follow`: whether bounding curves of another number of points take them from their own
+#'   points' places, slid ones, in place of equal chords.
 #' @param tick Called after every block.
-#' @return List: `store`, with the places of the patches; `problems`, for each row of the patches table a list of
-#'   `missing` and `n` (numbers of points) and `why` (character).
+#' @return List: `store`, with the places of the patches; `problems`, for each row of the patches
+#'   table a list of `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
 fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick) {
   surface <- walkable(specimen)
@@ -32,13 +33,16 @@ fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick
   list(store = store, problems = problems)
 }
 
-#' One block: its sides, its first column, and the cuts of the columns with points that are not there yet
+#' One block: its sides, its first column, and the cuts of the columns with points that are not
+#' there yet
 #' @noRd
 fit_block <- function(block, grid, specimen, surface, curves, fits, store, column) {
-  side <- function(text, resample) block_side(text, resample, specimen, surface, curves, fits, store, column)
+  side <- function(text, resample) block_side(text, resample, specimen, surface, curves, fits,
+                                              store, column)
   a <- side(block$curve_a, block$resample_a)
   b <- if (!is.na(block$curve_b)) side(block$curve_b, block$resample_b)
-  store <- fill_store(store, grid$place[grid$row == 1], a$points[grid$column[grid$row == 1], , drop = FALSE])
+  store <- fill_store(store, grid$place[grid$row == 1],
+                      a$points[grid$column[grid$row == 1], , drop = FALSE])
   why <- a$problem
   if (!is.null(b)) {
     last <- grid$row == block$rows
@@ -55,13 +59,19 @@ fit_block <- function(block, grid, specimen, surface, curves, fits, store, colum
   whole <- which(!is.na(a$points[, "x"]) & !is.na(b$points[, "x"]))
   at <- intersect(open$column, whole)
   if (!length(at)) return(list(store = store, why = why))
-  outside <- vapply(at, function(i) column_outside(a$points, b$points, i, block$outward), numeric(3))
-  cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], outside, block$rows, surface, column)
+  outside <- vapply(at, function(i) column_outside(a$points, b$points, i, block$outward),
+                    numeric(3))
+  cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], outside,
+                      block$rows, surface, column)
   failed <- !is.na(cuts$problem)
   rows <- open[open$column %in% at[!failed], ]
-  values <- do.call(rbind, cuts$points)[(match(rows$column, at[!failed]) - 1) * block$rows + rows$row, , drop = FALSE]
+  values <- do.call(rbind,
+                    cuts$points)[(match(rows$column, at[!failed]) - 1) * block$rows + rows$row, ,
+                                 drop = FALSE]
   store <- fill_store(store, rows$place, values)
-  list(store = store, why = c(why, if (any(failed)) paste0("column ", at[failed], ": ", cuts$problem[failed])))
+  list(store = store, why = c(why,
+                              if (any(failed)) paste0("column ", at[failed], ": ",
+                                                      cuts$problem[failed])))
 }
 
 #' Why a patch, of one or more blocks, has points missing; NA where it has none
@@ -73,12 +83,14 @@ patch_reason <- function(problems, most = 3) {
   if (total("missing") == 0) return(NA_character_)
   why <- unique(unlist(lapply(problems, `[[`, "why")))
   more <- if (length(why) > most) sprintf("and %d more", length(why) - most)
-  paste0(total("missing"), " of ", total("n"), " points missing: ", paste(c(utils::head(why, most), more), collapse = "; "))
+  paste0(total("missing"), " of ", total("n"), " points missing: ",
+         paste(c(utils::head(why, most), more), collapse = "; "))
 }
 
 #' Points of one bounding curve: its own, or spaced at equal chords
 #'
-#' @return List: `points` (K x 7 matrix, rows of NA where missing), `problem` (NULL or what is missing).
+#' @return List: `points` (K x 7 matrix, rows of NA where missing), `problem` (NULL or what is
+#'   missing).
 #' @noRd
 block_side <- function(text, resample, specimen, surface, curves, fits, store, column) {
   knots <- side_points(text)
@@ -104,11 +116,13 @@ block_side <- function(text, resample, specimen, surface, curves, fits, store, c
 lost_points <- function(knots, lost, fits) {
   vapply(unique(knots$curve[lost]), function(curve) {
     gone <- lost[knots$curve == curve]
-    if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
+    if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else
+      sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
   }, "", USE.NAMES = FALSE)
 }
 
-#' Places along a curve at even shares of the way from point to point, so that they go along when those slide
+#' Places along a curve at even shares of the way from point to point, so that they go along when
+#' those slide
 #' @noRd
 follow_points <- function(point, fit, n, mesh) {
   s <- stats::approx(seq_along(point), fit$points$s[point], seq(1, length(point), length.out = n))$y
@@ -124,7 +138,8 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
     at <- which(run == r)
     before <- at[1] - 1
     if (before > 0 && any(points[before, 1:3] != points[at[1], 1:3])) {
-      pieces <- c(pieces, list(cut_between(points[before, ], points[at[1], ], specimen, surface, column)))
+      pieces <- c(pieces, list(cut_between(points[before, ], points[at[1], ], specimen, surface,
+                                           column)))
     }
     if (length(at) > 1) {
       fit <- fits[[knots$curve[at[1]]]]
@@ -140,7 +155,8 @@ side_path <- function(knots, points, specimen, surface, fits, column) {
 #'
 #' @param a,b Points of both sides.
 #' @param at The column.
-#' @return Vector of 3; NA where the scheme does not say, or no neighbour tells the direction along the sides.
+#' @return Vector of 3; NA where the scheme does not say, or no neighbour tells the direction along
+#'   the sides.
 #' @noRd
 column_outside <- function(a, b, at, outward) {
   near <- intersect(at + -1:1, which(!is.na(a[, "x"]) & !is.na(b[, "x"])))
@@ -157,16 +173,19 @@ column_outside <- function(a, b, at, outward) {
 #' @param outside 3 x k: direction out of the surface, NA where it is not known.
 #' @param rows Points of a column, the ends among them.
 #' @param inside As in [path_ends()].
-#' @param rim Angle in radians between the normals at the ends and the outside above which the ends lie on a sharp rim.
-#' @return List: `points` (list of rows x 7 matrices), `cuts` (list of matrices s, x, y, z, face: what the points lie on),
-#'   `problem` (NA where the column is there).
+#' @param rim Angle in radians between the normals at the ends and the outside above which the ends
+#'   lie on a sharp rim.
+#' @return List: `points` (list of rows x 7 matrices), `cuts` (list of matrices s, x, y, z, face:
+#'   what the points lie on), `problem` (NA where the column is there).
 #' @noRd
 fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6, rim = pi / 4) {
   at <- c("face", "w1", "w2", "w3")
   same <- rowSums((from[, 1:3, drop = FALSE] - to[, 1:3, drop = FALSE])^2) == 0
   apart <- surface$piece[from[, "face"]] != surface$piece[to[, "face"]]
-  found <- cpp_fit_columns(surface$vb, surface$it, surface$twin, from[, at, drop = FALSE], to[, at, drop = FALSE],
-                           outside, rep(rows, nrow(from)), c(column, inside = inside, rim = rim), chord_settings())
+  found <- cpp_fit_columns(surface$vb, surface$it, surface$twin, from[, at, drop = FALSE],
+                           to[, at, drop = FALSE],
+                           outside, rep(rows, nrow(from)), c(column, inside = inside, rim = rim),
+                           chord_settings())
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
   why[same] <- "its ends are the same point"
@@ -175,7 +194,8 @@ fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6,
 
 column_problems <- c(
   arrived = NA, border = "the plane cut meets a border of the mesh",
-  round = "the plane cut does not come to the second point", "too far" = "the plane cut strays too far from the axis",
+  round = "the plane cut does not come to the second point",
+  "too far" = "the plane cut strays too far from the axis",
   "no axis" = "its ends are too near to each other"
 )
 

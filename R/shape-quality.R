@@ -22,29 +22,32 @@
 #' the order of landmarks show it. It does not see a smooth error of the scan, nor a curve along
 #' another feature than the one meant.
 #'
-#' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it has any, name the
-#'   specimens. `NULL` in the list is a specimen that could not be measured.
+#' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it
+#'   has any, name the specimens. `NULL` in the list is a specimen that could not be measured.
 #' @param limits [quality_limits()].
 #' @param others Further shapes of the same scheme, only to compare lengths with, such as those of
 #'   an old sample when `x` is one new specimen.
 #' @return Data frame of class `shape_quality`, a row for each specimen and part:
-#'   * `specimen`, `part`, `level` ("landmarks", "curves", "surface"), `kind`, `length`, `strength`, `contrast`, `se`,
-#'     `competing`: as in `status` of [fit_shape()];
-#'   * `z`: robust z-score of a curve's length, relative to the specimen's size, against the others (by their median and
-#'     MAD); NA with fewer than `limits$others` others, and for curves that the scheme cuts off;
-#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner (its own, where it has none) between
-#'     their ends, as a share of its length; NA where the scheme has no pairs;
-#'   * `missing`, `cut`, `bridged`, `faults`, `roughness` (degrees): as in `checks` of [fit_shape()];
-#'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate; `border`, `spike`:
-#'     distances as shares of the part's size;
+#'   * `specimen`, `part`, `level` ("landmarks", "curves", "surface"), `kind`, `length`, `strength`,
+#'     `contrast`, `se`, `competing`: as in `status` of [fit_shape()];
+#'   * `z`: robust z-score of a curve's length, relative to the specimen's size, against the others
+#'     (by their median and MAD); NA with fewer than `limits$others` others, and for curves that the
+#'     scheme cuts off;
+#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner (its own,
+#'     where it has none) between their ends, as a share of its length; NA where the scheme has no
+#'     pairs;
+#'   * `missing`, `cut`, `bridged`, `faults`, `roughness` (degrees): as in `checks` of
+#'     [fit_shape()];
+#'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
+#'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
 #'   * `why`: text, NA where the part is green.
 #'
 #'   A specimen that could not be measured is one row with level "specimen", red. A specimen with
-#'   warnings (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the
-#'   worst parts, and the specimens whose landmarks were found and not placed by hand; `summary()` a data frame with a row for each
-#'   specimen: `specimen`, the number of parts that are `green`, `amber`, `red`, and `landmarks` ("found" or "placed"; NA
-#'   where it could not be measured).
+#'   warnings (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the worst
+#'   parts, and the specimens whose landmarks were found and not placed by hand; `summary()` a data
+#'   frame with a row for each specimen: `specimen`, the number of parts that are `green`, `amber`,
+#'   `red`, and `landmarks` ("found" or "placed"; NA where it could not be measured).
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
 #' @seealso [quality_report()] for a page with pictures.
 #' @examples
@@ -65,7 +68,8 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   measured <- Filter(Negate(is.null), shapes)
   parts <- Map(part_measures, measured, names(measured))
   scores <- sample_scores(measured, if (!is.null(others)) named_shapes(others, "others"), limits)
-  parts <- Map(function(part, name) grade_parts(part, scores[name, ], limits, measured[[name]]$scheme), parts, names(parts))
+  parts <- Map(function(part, name) grade_parts(part, scores[name, ], limits,
+                                                measured[[name]]$scheme), parts, names(parts))
   noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
   lost <- lapply(setdiff(names(shapes), names(measured)), lost_specimen)
   table <- do.call(rbind, c(unname(parts), noted, lost))
@@ -75,7 +79,8 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   structure(table, found = names(measured)[found], class = c("shape_quality", "data.frame"))
 }
 
-#' Whether landmarks of a shape were found by [find_landmarks()], and not all corrected by hand since
+#' Whether landmarks of a shape were found by [find_landmarks()], and not all corrected by hand
+#' since
 #' @noRd
 has_found <- function(shape) any(shape$placing$state == "found")
 
@@ -94,9 +99,9 @@ named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
 
 #' What is known of every part of one shape, before it is judged
 #'
-#' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`, `guessed`,
-#'   `size`, `free` (whether a curve has points between its landmarks), `radius` (of a curve), `se_max`, and `state`,
-#'   `confidence` and `exchanged` (of a landmark).
+#' @return Data frame as [quality()] says, without `grade` and `why`, with `reason`, `determined`,
+#'   `guessed`, `size`, `free` (whether a curve has points between its landmarks), `radius` (of a
+#'   curve), `se_max`, and `state`, `confidence` and `exchanged` (of a landmark).
 #' @noRd
 part_measures <- function(shape, name) {
   status <- shape$status
@@ -110,21 +115,27 @@ part_measures <- function(shape, name) {
     status[c("part", "level", "kind", "length", "strength", "contrast", "se", "competing")],
     z = NA_real_, asymmetry = unname(asymmetry) / checks$size,
     checks[c("missing", "cut", "bridged", "faults", "roughness")],
-    coarse = checks$edge / radius, border = checks$border / checks$size, spike = checks$spike / checks$size,
-    reason = status$reason, checks[c("determined", "guessed", "size")], free = shape$scheme$curves$n[row] > 2,
-    radius = radius, se_max = recorded(status, "se_max", NA_real_), state = recorded(checks, "state", NA_character_),
-    confidence = recorded(checks, "confidence", NA_real_), exchanged = recorded(checks, "exchanged", NA_character_),
+    coarse = checks$edge / radius, border = checks$border / checks$size,
+    spike = checks$spike / checks$size,
+    reason = status$reason, checks[c("determined", "guessed", "size")],
+    free = shape$scheme$curves$n[row] > 2,
+    radius = radius, se_max = recorded(status, "se_max", NA_real_),
+    state = recorded(checks, "state", NA_character_),
+    confidence = recorded(checks, "confidence", NA_real_),
+    exchanged = recorded(checks, "exchanged", NA_character_),
     row.names = NULL
   )
 }
 
 #' A column of a table, or what stands for it in shapes of former versions
 #' @noRd
-recorded <- function(table, name, none) if (is.null(table[[name]])) rep(none, nrow(table)) else table[[name]]
+recorded <- function(table, name, none) if (is.null(table[[name]])) rep(none, nrow(table)) else
+  table[[name]]
 
 #' Scores of the lengths of curves, specimens x curves
 #'
-#' A curve that the scheme cuts off is as long as the landmarks that say so want it: it has no score.
+#' A curve that the scheme cuts off is as long as the landmarks that say so want it: it has no
+#' score.
 #' @noRd
 sample_scores <- function(shapes, others, limits) {
   others <- Filter(Negate(is.null), others)
@@ -134,7 +145,8 @@ sample_scores <- function(shapes, others, limits) {
     stats::setNames(ifelse(is.na(shape$scheme$curves$cut_share), curves$length, NA), curves$part)
   })
   curves <- unique(unlist(lapply(lengths, names)))
-  lengths <- matrix(vapply(lengths, function(x) x[curves], numeric(length(curves))), ncol = length(curves), byrow = TRUE)
+  lengths <- matrix(vapply(lengths, function(x) x[curves], numeric(length(curves))),
+                    ncol = length(curves), byrow = TRUE)
   scores <- length_scores(lengths, limits$others, limits$spread)
   dimnames(scores) <- list(c(names(shapes), rep("", length(others))), curves)
   scores[seq_along(shapes), , drop = FALSE]
@@ -147,12 +159,15 @@ lost_specimen <- function(name) specimen_row(name, "red", "it was not measured")
 #' What a specimen was warned of while it was measured; NULL where it was not
 #' @noRd
 noted_specimen <- function(name, warnings) {
-  if (NROW(warnings)) specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
+  if (NROW(warnings)) specimen_row(name, "amber",
+                                   paste(sub("[.]$", "", unique(warnings$problem)),
+                                         collapse = "; "))
 }
 
 specimen_row <- function(name, grade, why) {
   empty <- stats::setNames(as.list(rep(NA_real_, length(quality_columns))), quality_columns)
-  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen", why = why)
+  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen",
+               why = why)
   empty[names(said)] <- said
   empty$grade <- factor(grade, grades, ordered = TRUE)
   empty$faults <- NA_integer_
@@ -196,7 +211,8 @@ print.shape_quality <- function(x, most = 10, ...) {
         paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
     found <- attr(x, "found")
     if (length(found)) {
-      cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s", amount(length(found), "specimen"),
+      cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s",
+                          amount(length(found), "specimen"),
                           shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
     }
     if (nrow(counts) > 1) {

@@ -3,14 +3,16 @@
 #' Begin to fit the curves of a scheme again and again
 #'
 #' @param specimen,scheme,settings,bridge,threads As in [fit_shape()].
-#' @return List: `scheme`, `settings`, `faces` of the mesh, `bridged` (the specimen with its holes bridged), `sources` (of
-#'   curvature, which keep what they have estimated), `whole` and `fits` (by curve, before and after they are cut off; as
-#'   yet none).
+#' @return List: `scheme`, `settings`, `faces` of the mesh, `bridged` (the specimen with its holes
+#'   bridged), `sources` (of curvature, which keep what they have estimated), `whole` and `fits` (by
+#'   curve, before and after they are cut off; as yet none).
 #' @noRd
 begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
   none <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
-  list(scheme = scheme, settings = settings, faces = ncol(specimen$mesh$it), bridged = bridge_holes(specimen, bridge),
-       sources = scheme_curvatures(specimen, scheme$curves, settings, threads), whole = none, fits = none)
+  list(scheme = scheme, settings = settings, faces = ncol(specimen$mesh$it),
+       bridged = bridge_holes(specimen, bridge),
+       sources = scheme_curvatures(specimen, scheme$curves, settings, threads), whole = none,
+       fits = none)
 }
 
 #' Fit those curves anew that a moved landmark touches
@@ -18,15 +20,17 @@ begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
 #' @param fitting As of [begin_fitting()].
 #' @param specimen The specimen with its landmarks as they are now.
 #' @param moved Names of the landmarks that have moved, NULL for all curves.
-#' @param progress Function of the number of curves to be fitted, which gives a function that is called after each.
-#' @return `fitting`, with `fits` as [fit_shape()] has them for this specimen, and `refitted`, the names of the curves
-#'   that were fitted anew.
+#' @param progress Function of the number of curves to be fitted, which gives a function that is
+#'   called after each.
+#' @return `fitting`, with `fits` as [fit_shape()] has them for this specimen, and `refitted`, the
+#'   names of the curves that were fitted anew.
 #' @noRd
 refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n) function() NULL) {
   scheme <- fitting$scheme
   fitting$bridged <- with_landmarks_of(fitting$bridged, specimen)
   touched <- touched_curves(scheme$curves, moved, fitting$whole)
-  whole <- fit_whole_curves(fitting$whole, touched, fitting$bridged, scheme, fitting$sources, fitting$settings, 1,
+  whole <- fit_whole_curves(fitting$whole, touched, fitting$bridged, scheme, fitting$sources,
+                            fitting$settings, 1,
                             progress(sum(touched)))
   fitting$whole <- whole
   every <- rep(TRUE, nrow(scheme$curves))
@@ -43,14 +47,16 @@ with_landmarks_of <- function(bridged, specimen) {
 
 #' Which curves depend on landmarks that have moved
 #'
-#' By their ends, their regions and sides, and by the curve whose side they keep to. One that is followed towards a
-#' landmark that is not on the mesh depends on all of them: the mirror plane says where that is.
+#' By their ends, their regions and sides, and by the curve whose side they keep to. One that is
+#' followed towards a landmark that is not on the mesh depends on all of them: the mirror plane says
+#' where that is.
 #' @param whole Fits as they are, before they are cut off.
 #' @return Logical, by row of `curves`.
 #' @noRd
 touched_curves <- function(curves, moved, whole) {
   if (is.null(moved)) return(rep(TRUE, nrow(curves)))
-  by_name <- c("from", "to", "keep_away_from", "keep_away_to", "keep_side_from", "keep_side_to", "keep_side_towards")
+  by_name <- c("from", "to", "keep_away_from", "keep_away_to", "keep_side_from", "keep_side_to",
+               "keep_side_towards")
   named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved))
   unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.null(fit$followed), NA)
   touched <- named | unsettled & !is.na(curves$cut_share)

@@ -2,9 +2,9 @@
 
 #' Robust z-scores of lengths, relative to each specimen's size
 #'
-#' Tukey's median polish takes the specimen's size and the part's usual length off the logarithms, so that a large
-#' specimen is not flagged and one wrong curve does not change its size. What is left of a length is compared with the
-#' median and MAD of the others' (not its own).
+#' Tukey's median polish takes the specimen's size and the part's usual length off the logarithms,
+#' so that a large specimen is not flagged and one wrong curve does not change its size. What is
+#' left of a length is compared with the median and MAD of the others' (not its own).
 #'
 #' @param lengths Matrix, specimens x parts, NA where missing.
 #' @param others Fewest other specimens.

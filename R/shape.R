@@ -2,20 +2,25 @@
 
 #' A shape from its parts: all its fields are declared here, NULL until they are filled
 #'
-#' @param id,points,status,checks,paths,scheme,tracks,column,specimen As in the value of [fit_shape()].
-#' @param key Of [mesh_key()]: of the mesh that the faces of its points and paths are numbers of; NULL of a template, whose points
-#'   lie on no mesh.
+#' @param id,points,status,checks,paths,scheme,tracks,column,specimen As in the value of
+#'   [fit_shape()].
+#' @param key Of [mesh_key()]: of the mesh that the faces of its points and paths are numbers of;
+#'   NULL of a template, whose points lie on no mesh.
 #' @param placing Of its specimen; NULL where landmarks were placed by hand.
 #' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
 #' @param provenance List: what came from where.
 #' @param sliding,trace Of [slide()].
 #' @noRd
-new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL, column = NULL,
-                      specimen = NULL, key = if (!is.null(specimen)) specimen_key(specimen), placing = specimen$placing, warnings = no_warnings(),
+new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL,
+                      column = NULL,
+                      specimen = NULL, key = if (!is.null(specimen)) specimen_key(specimen),
+                      placing = specimen$placing, warnings = no_warnings(),
                       provenance = list(), sliding = NULL, trace = NULL) {
   structure(
-    list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme, tracks = tracks,
-         column = column, specimen = specimen, key = key, placing = placing, warnings = warnings, provenance = provenance,
+    list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme,
+         tracks = tracks,
+         column = column, specimen = specimen, key = key, placing = placing, warnings = warnings,
+         provenance = provenance,
          sliding = sliding, trace = trace),
     class = "shape"
   )
@@ -25,22 +30,30 @@ new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(),
 #' @noRd
 validate_shape <- function(x) {
   refuse <- function(problem) {
-    crestline_abort(problem, "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape",
-                    id = if (is.list(x) && is.character(x$id) && length(x$id) == 1) x$id, call = NULL)
+    crestline_abort(problem, "Give a shape as fit_shape() or slide() returns it, whole.",
+                    stage = "shape",
+                    id = if (is.list(x) && is.character(x$id) && length(x$id) == 1) x$id,
+                    call = NULL)
   }
   fields <- c("id", "points", "status", "paths", "scheme")
-  if (!is.list(x) || !all(fields %in% names(x))) refuse(sprintf("a shape has the fields %s.", shorten(fields)))
+  if (!is.list(x) || !all(fields %in%
+                          names(x))) refuse(sprintf("a shape has the fields %s.", shorten(fields)))
   if (!inherits(x$scheme, "curve_scheme")) refuse("the shape's `scheme` is none.")
   validate(x$scheme)
   points <- x$points
   named <- c("level", "part", "point")
-  table <- function(value) is.data.frame(value) && all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
+  table <- function(value) is.data.frame(value) && all(vapply(value, is.atomic, NA) &
+                                                       lengths(value) == nrow(value))
   own <- table(points) && !is.null(place_columns(points)) && is_error(points$se) &&
-    all(vapply(named, function(name) identical(as.vector(points[[name]]), as.vector(x$scheme$points[[name]])), NA))
+    all(vapply(named, function(name) identical(as.vector(points[[name]]),
+                                               as.vector(x$scheme$points[[name]])), NA))
   if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
-  if (!is.list(x$paths) || !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
+  if (!is.list(x$paths) ||
+      !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
   kept <- function(name, is) is.null(x[[name]]) || is(x[[name]])
-  right <- kept("checks", table) && kept("placing", table) && kept("warnings", table) && kept("provenance", is.list) &&
+  right <- kept("checks", table) && kept("placing",
+                                         table) && kept("warnings",
+                                                        table) && kept("provenance", is.list) &&
     (is.null(x$checks) || nrow(x$checks) == nrow(x$status))
   if (!right) refuse("its `checks`, `placing`, `warnings` or `provenance` are not what they were.")
   invisible(x)
@@ -49,7 +62,8 @@ validate_shape <- function(x) {
 #' @exportS3Method
 validate.shape <- function(x) validate_shape(x)
 
-#' Key of the mesh of a shape; of one that an older version kept worked out from its specimen, where it has that
+#' Key of the mesh of a shape; of one that an older version kept worked out from its specimen, where
+#' it has that
 #' @noRd
 shape_key <- function(x) {
   if (!is.null(x$key)) return(x$key)
@@ -61,7 +75,8 @@ shape_key <- function(x) {
 #' @noRd
 check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
   if (is.null(shape_key(shape)) && all(is.na(shape$points$face))) {
-    crestline_abort("its points lie on no mesh.", "Give a shape that fit_shape() measured, not a template or a mean.",
+    crestline_abort("its points lie on no mesh.",
+                    "Give a shape that fit_shape() measured, not a template or a mean.",
                     stage = "shape", id = shape$id, class = "crestline_wrong_mesh", call = call)
   }
   name <- paste("the shape", shape$id)
@@ -80,8 +95,8 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param level "landmarks", "curves" or "surface".
 #' @param ... Ignored.
-#' @return k x 3 matrix with columns x, y, z and row names "part point" (of landmarks: their names), NA where missing; in
-#'   the unit of the mesh.
+#' @return k x 3 matrix with columns x, y, z and row names "part point" (of landmarks: their names),
+#'   NA where missing; in the unit of the mesh.
 #' @section Errors: of class `crestline_error`, for another level.
 #' @seealso [fit_shape()]
 #' @examples
@@ -125,14 +140,16 @@ print.shape <- function(x, most = 8, ...) {
       points <- x$points[x$points$level == level, ]
       status <- x$status[x$status$level == level, ]
       what <- switch(level, surface = "patches", level)
-      if (nrow(status)) cat("  ", sum(status$ok), " of ", nrow(status), " ", what, if (level != "landmarks") {
+      if (nrow(status)) cat("  ", sum(status$ok), " of ", nrow(status), " ", what,
+                            if (level != "landmarks") {
         sprintf(" with %d of %d points", sum(!is.na(points$x)), nrow(points))
       }, "\n", sep = "")
     }
     print_placing(x$placing)
     said <- x$status[!is.na(x$status$reason), ]
     for (i in utils::head(seq_len(nrow(said)), most)) {
-      cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4), sep = "\n")
+      cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4),
+          sep = "\n")
     }
     if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
     unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)

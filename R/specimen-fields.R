@@ -12,7 +12,8 @@ validate_specimen <- function(x) {
   if (!is.null(x$key) && !identical(x$key, known$key)) {
     refuse_specimen("its mesh was changed since it was checked: landmarks and neighbours are those of the mesh before.", x$id)
   }
-  if (!fits_vertices(x$mesh$normals, ncol(known$vb))) refuse_specimen("its normals do not fit its vertices.", x$id)
+  if (!fits_vertices(x$mesh$normals,
+                     ncol(known$vb))) refuse_specimen("its normals do not fit its vertices.", x$id)
   if (!is_landmark_matrix(x$landmarks)) refuse_specimen("its landmarks are no k x 3 numeric matrix with row names.", x$id)
   validate_geometry(x$geometry, known, x$id)
   remember_passed(x, "specimen")
@@ -23,12 +24,14 @@ validate.specimen <- function(x) validate_specimen(x)
 
 refuse_specimen <- function(problem, id) {
   id <- if (is.character(id) && length(id) == 1) id
-  crestline_abort(problem, "Make it anew: specimen(mesh, landmarks, id).", stage = "specimen", id = id,
+  crestline_abort(problem, "Make it anew: specimen(mesh, landmarks, id).", stage = "specimen",
+                  id = id,
                   class = "crestline_changed_specimen", call = NULL)
 }
 
 is_landmark_matrix <- function(x) {
-  is.numeric(x) && is.matrix(x) && ncol(x) == 3 && (nrow(x) == 0 || !is.null(rownames(x)) && !anyDuplicated(rownames(x)))
+  is.numeric(x) && is.matrix(x) && ncol(x) == 3 && (nrow(x) == 0 || !is.null(rownames(x)) &&
+                                                    !anyDuplicated(rownames(x)))
 }
 
 #' @param known As of [passed_mesh()].
@@ -48,7 +51,8 @@ validate_geometry <- function(geometry, known, id) {
 }
 
 validate_topology <- function(geometry, it, id) {
-  right <- is.integer(geometry$twin) && identical(dim(geometry$twin), dim(it)) && is.numeric(geometry$piece) &&
+  right <- is.integer(geometry$twin) && identical(dim(geometry$twin),
+                                                  dim(it)) && is.numeric(geometry$piece) &&
     length(geometry$piece) == ncol(it)
   if (!right || cpp_twin_faults(it, geometry$twin) > 0) refuse_geometry(id)
 }
@@ -68,16 +72,17 @@ specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key el
 
 #' Change a field of a specimen
 #'
-#' `specimen$landmarks["tL", ] <- c(x, y, z)` moves or adds a landmark: it is put on the surface where it is used.
-#' `specimen$mesh <- other` passes [specimen()] again: other colours or normals are taken as they are, other vertices or
-#' triangles are checked, and the landmarks put on them or refused. `report`, `key` and the like follow.
+#' `specimen$landmarks["tL", ] <- c(x, y, z)` moves or adds a landmark: it is put on the surface
+#' where it is used. `specimen$mesh <- other` passes [specimen()] again: other colours or normals
+#' are taken as they are, other vertices or triangles are checked, and the landmarks put on them or
+#' refused. `report`, `key` and the like follow.
 #'
 #' @param x A [specimen()].
 #' @param name,i Name of a field.
 #' @param value What it shall be.
 #' @return The specimen.
-#' @section Errors: of class `crestline_error`: landmarks that are no k x 3 numeric matrix with row names, a mesh that
-#'   [specimen()] refuses, a field that specimens do not have.
+#' @section Errors: of class `crestline_error`: landmarks that are no k x 3 numeric matrix with row
+#'   names, a mesh that [specimen()] refuses, a field that specimens do not have.
 #' @seealso [specimen()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1)), id = "ball")
@@ -89,12 +94,14 @@ specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key el
 `$<-.specimen` <- function(x, name, value) {
   known <- union(names(formals(new_specimen)), names(unclass(x)))
   if (!name %in% known) {
-    crestline_abort(sprintf("a specimen has no field %s.", name), sprintf("Its fields are %s.", shorten(known, 20)),
+    crestline_abort(sprintf("a specimen has no field %s.", name),
+                    sprintf("Its fields are %s.", shorten(known, 20)),
                     stage = "specimen", id = x$id, call = NULL)
   }
   if (name == "mesh") return(with_other_mesh(x, value))
   if (name == "key") {
-    crestline_abort("the key of a specimen is worked out from its mesh.", "Change `mesh`, not `key`.", stage = "specimen",
+    crestline_abort("the key of a specimen is worked out from its mesh.",
+                    "Change `mesh`, not `key`.", stage = "specimen",
                     id = x$id, call = NULL)
   }
   if (name == "landmarks") value <- as_landmarks(value, x$id)
@@ -117,7 +124,8 @@ specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key el
   }
   if (is.numeric(i)) i <- names(unclass(x))[i]
   if (!is.character(i) || is.na(i)) {
-    crestline_abort("a specimen has no such field.", "Give the name of a field.", stage = "specimen", id = x$id, call = NULL)
+    crestline_abort("a specimen has no such field.", "Give the name of a field.",
+                    stage = "specimen", id = x$id, call = NULL)
   }
   `$<-.specimen`(x, i, value)
 }
@@ -130,7 +138,8 @@ specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key el
   x
 }
 
-#' A specimen with another mesh: dressed anew where its vertices and triangles are the same, else through the door again
+#' A specimen with another mesh: dressed anew where its vertices and triangles are the same, else
+#' through the door again
 #' @noRd
 with_other_mesh <- function(x, mesh) {
   known <- tryCatch(passed_mesh(mesh, x$id), crestline_mesh_error = function(e) NULL)

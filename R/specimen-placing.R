@@ -1,6 +1,7 @@
 # How the landmarks of a specimen were placed by machine, and how sure that is.
 
-#' The table of how landmarks were placed; those that were moved since, by `specimen$landmarks[...] <-`, are placed ones
+#' The table of how landmarks were placed; those that were moved since, by
+#' `specimen$landmarks[...] <-`, are placed ones
 #' @param tolerance As a share of the object's size.
 #' @return NULL where the landmarks were given.
 #' @noRd
@@ -9,7 +10,9 @@ current_placing <- function(specimen, tolerance = 1e-6) {
   if (is.null(placing)) return(NULL)
   now <- specimen$landmarks[match(placing$landmark, rownames(specimen$landmarks)), , drop = FALSE]
   off <- row_lengths(now - as.matrix(placing[c("x", "y", "z")]))
-  for (i in which(off > tolerance * specimen_size(specimen))) placing <- moved_placing(placing, placing$landmark[i], now[i, ])
+  for (i in which(off > tolerance *
+                  specimen_size(specimen))) placing <- moved_placing(placing, placing$landmark[i],
+                                                                     now[i, ])
   placing
 }
 
@@ -34,8 +37,8 @@ moved_placing <- function(placing, name, at) {
 #'
 #' @param placing Of a specimen.
 #' @param low Least confidence of a landmark that is not doubted.
-#' @return List: `names`, `confidence` (of the doubted ones), `of` (number of landmarks found or placed), `share` (1 where
-#'   there is none).
+#' @return List: `names`, `confidence` (of the doubted ones), `of` (number of landmarks found or
+#'   placed), `share` (1 where there is none).
 #' @noRd
 placing_doubt <- function(placing, low = find_settings()$low) {
   doubted <- which(placing$state == "found" & placing$confidence < low)
@@ -55,5 +58,6 @@ print_placing <- function(placing, wrong = find_settings()$wrong) {
   doubt <- placing_doubt(placing)
   if (!length(doubt$names) && doubt$of) return(invisible())
   if (doubt$share > wrong) line("- the template lies badly on it: nothing that follows from these landmarks is sure")
-  line("- little confidence: ", shorten(paste0(doubt$names, " (", round(doubt$confidence, 2), ")"), 20))
+  line("- little confidence: ",
+       shorten(paste0(doubt$names, " (", round(doubt$confidence, 2), ")"), 20))
 }

@@ -12,7 +12,8 @@ landmark_point <- function(specimen, name, tolerance = 0.01) {
   id <- specimen$id
   known <- rownames(specimen$landmarks)
   if (!is.character(name) || length(name) != 1 || is.na(name) || !name %in% known) {
-    refuse_landmarks(sprintf("there is no landmark %s.", describe_value(name)), near_names(name, known), id)
+    refuse_landmarks(sprintf("there is no landmark %s.", describe_value(name)),
+                     near_names(name, known), id)
   }
   at <- specimen$landmarks[name, ]
   if (anyNA(at)) {
@@ -24,18 +25,21 @@ landmark_point <- function(specimen, name, tolerance = 0.01) {
     return(specimen$geometry$located[before, ])
   }
   landmarks <- as_landmarks(specimen$landmarks[name, , drop = FALSE], id)
-  check_landmarks(landmarks, specimen$mesh, id, tolerance, character(), size = specimen_size(specimen))$located
+  check_landmarks(landmarks, specimen$mesh, id, tolerance, character(),
+                  size = specimen_size(specimen))$located
 }
 
 end_point <- function(mesh, at, name) {
   if (is.character(at) && inherits(mesh, "specimen")) {
     known <- rownames(mesh$landmarks)
     if (!all(at %in% known)) {
-      refuse_landmarks(sprintf("there is no landmark %s (`%s`).", describe_value(at), name), near_names(at, known), mesh$id)
+      refuse_landmarks(sprintf("there is no landmark %s (`%s`).", describe_value(at), name),
+                       near_names(at, known), mesh$id)
     }
     return(landmark_point(mesh, at))
   }
-  if (is.data.frame(at) && all(mesh_columns %in% names(at)) && nrow(at) == 1) return(checked_point(mesh, at, name))
+  if (is.data.frame(at) && all(mesh_columns %in% names(at)) &&
+      nrow(at) == 1) return(checked_point(mesh, at, name))
   if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
                     "Give the name of a landmark of a specimen, or three finite co-ordinates.",
@@ -65,7 +69,8 @@ checked_point <- function(mesh, at, name) {
   name <- sprintf("`%s`", name)
   if (!is.null(attr(at, "key"))) check_same_mesh(at, mesh, name)
   if (anyNA(at$face)) {
-    crestline_abort(sprintf("%s is missing (NA).", name), "Choose a point that is there.", stage = "path",
+    crestline_abort(sprintf("%s is missing (NA).", name), "Choose a point that is there.",
+                    stage = "path",
                     id = mesh_of(mesh)$id, class = "crestline_path_error", call = NULL)
   }
   check_places(at, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)

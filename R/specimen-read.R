@@ -23,7 +23,8 @@
 #'   are searched for the specimen `id`.
 #' @param id Name of the specimen. Unless given, the file's name without extension (and `.gz`).
 #' @param ... Further arguments of [specimen()].
-#' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to do.
+#' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to
+#'   do.
 #' @examples
 #' file <- tempfile(fileext = ".ply")
 #' Rvcg::vcgPlyWrite(Rvcg::vcgSphere(2), file)
@@ -38,6 +39,7 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   }
   if (is.null(id)) id <- sub("[.][^.]*$", "", unpacked_name(file))
   id <- check_id(id)
-  beside <- if (is.character(landmarks) && length(landmarks) == 1 && is.null(dim(landmarks))) landmarks else NA_character_
+  beside <- if (is.character(landmarks) && length(landmarks) == 1 &&
+                is.null(dim(landmarks))) landmarks else NA_character_
   from_files(specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...), file, beside)
 }

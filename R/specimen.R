@@ -6,19 +6,20 @@
 #' `report`. Any other fault is an error that names the specimen, the landmark and the remedy.
 #' Vertices and faces that are kept stay in their order. [crestline-package] has a glossary.
 #'
-#' @param mesh A `mesh3d` (as of `Rvcg::vcgImport()` or rgl): `vb` 4 x n, `it` 3 x m; quads (`ib`) are cut
-#'   in two, a point cloud without faces is triangulated by `Rvcg::vcgBallPivoting()`.
-#' @param landmarks k x 3 numeric matrix with row names, or a data frame with columns `name` (or `landmark`,
-#'   `label`), `x`, `y`, `z`; in the mesh's unit; NA: missing on this specimen.
+#' @param mesh A `mesh3d` (as of `Rvcg::vcgImport()` or rgl): `vb` 4 x n, `it` 3 x m; quads (`ib`)
+#'   are cut in two, a point cloud without faces is triangulated by `Rvcg::vcgBallPivoting()`.
+#' @param landmarks k x 3 numeric matrix with row names, or a data frame with columns `name` (or
+#'   `landmark`, `label`), `x`, `y`, `z`; in the mesh's unit; NA: missing on this specimen.
 #' @param id Name of the specimen, one string.
-#' @param outward Ridges and valleys swap when triangles face inwards. "detect" turns a piece round, with a
-#'   warning, when its triangles clearly face the middle of the mesh (the area-weighted mean cosine
-#'   between normal and direction away from the centroid is below -0.4; face scans have 0.55 to
-#'   0.85). "keep" leaves all pieces as they are (a small or hollow surface). "flip" turns all.
-#' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's size (0.01 is 3 to 4 mm
-#'   on a face). Nearer landmarks are put on the surface. Farther ones are an error. The size is
-#'   taken from where most of the surface lies, of the pieces that carry the landmarks. On a face it
-#'   is about the diagonal of the bounding box. A platform or a stray vertex does not change it.
+#' @param outward Ridges and valleys swap when triangles face inwards. "detect" turns a piece round,
+#'   with a warning, when its triangles clearly face the middle of the mesh (the area-weighted mean
+#'   cosine between normal and direction away from the centroid is below -0.4; face scans have 0.55
+#'   to 0.85). "keep" leaves all pieces as they are (a small or hollow surface). "flip" turns all.
+#' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's
+#'   size (0.01 is 3 to 4 mm on a face). Nearer landmarks are put on the surface. Farther ones are
+#'   an error. The size is taken from where most of the surface lies, of the pieces that carry the
+#'   landmarks. On a face it is about the diagonal of the bounding box. A platform or a stray vertex
+#'   does not change it.
 #' @param debris Pieces with less than this share of the mesh's faces are left out.
 #' @param midline Names of midline landmarks from top to bottom. Together with landmarks whose names
 #'   end in L and R they show whether left and right are mirrored (a warning of class
@@ -26,12 +27,13 @@
 #'   `crestline_exchanged`): left for right, two of the midline, or two of one side.
 #' @return An object of class `specimen`, a list:
 #'   * `id` (character);
-#'   * `mesh` (`mesh3d`; `vb` with fourth row 1, `it`, outward unit `normals` 4 x n, and `material$color`, one
-#'     colour a vertex, where there is natural colour);
+#'   * `mesh` (`mesh3d`; `vb` with fourth row 1, `it`, outward unit `normals` 4 x n, and
+#'     `material$color`, one colour a vertex, where there is natural colour);
 #'   * `landmarks` (k x 3 matrix with row names, exactly on the surface; perhaps no row);
-#'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing was found);
-#'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out: `values[!is.na(vertices)]`
-#'     belong to `vertices[!is.na(vertices)]`);
+#'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing
+#'     was found);
+#'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out:
+#'     `values[!is.na(vertices)]` belong to `vertices[!is.na(vertices)]`);
 #'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`,
 #'     `file`, `time`: where each landmark came from, see [summary.specimen()]);
 #'   * `key` (hash of the vertices and triangles, in their order): curves, shapes and curvatures of
@@ -40,23 +42,25 @@
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #'
 #'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
-#' @section Warnings: Of class `crestline_warning`, and each of a class of its own: triangles that were
-#'   made from points (`crestline_triangulated`); more than 1 % of the triangles left out
-#'   (`crestline_triangles_dropped`); vertices 50 times as far from the middle as half of the others, left
-#'   out (`crestline_far_vertices`); triangles that touch no other (`crestline_loose_triangles`); borders
-#'   that lie beside one another (`crestline_seam`); a surface that is there twice, one skin a hair from the
-#'   other (`crestline_double_skin`). Corners within 1e-6 of the size are joined, without a warning: both
-#'   sides of a seam, single triangles, vertices on the edge of another triangle.
-#' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no triangles and gives
-#'   none, faces name missing vertices; landmarks (class `crestline_landmark_error`) without names, named twice, off
-#'   the surface, in another unit.
+#' @section Warnings: Of class `crestline_warning`, and each of a class of its own: triangles that
+#'   were made from points (`crestline_triangulated`); more than 1 % of the triangles left out
+#'   (`crestline_triangles_dropped`); vertices 50 times as far from the middle as half of the
+#'   others, left out (`crestline_far_vertices`); triangles that touch no other
+#'   (`crestline_loose_triangles`); borders that lie beside one another (`crestline_seam`); a
+#'   surface that is there twice, one skin a hair from the other (`crestline_double_skin`). Corners
+#'   within 1e-6 of the size are joined, without a warning: both sides of a seam, single triangles,
+#'   vertices on the edge of another triangle.
+#' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no
+#'   triangles and gives none, faces name missing vertices; landmarks (class
+#'   `crestline_landmark_error`) without names, named twice, off the surface, in another unit.
 #' @seealso [read_specimen()], [read_landmarks()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
 #' ball
 #' ball$report
 #' @export
-specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01, debris = 0.001,
+specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01,
+                     debris = 0.001,
                      midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn")) {
   check_given()
   midline <- check_names(midline, "midline", null = TRUE)
@@ -68,7 +72,8 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
                origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
-                               landmarks = placed$landmarks, located = placed$located, size = placed$size,
+                               landmarks = placed$landmarks, located = placed$located,
+                               size = placed$size,
                                slips = placed$slips),
                vertices = door$vertices)
 }
@@ -76,21 +81,25 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
 #' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled
 #'
 #' @param id,mesh,landmarks,report As [specimen()] gives them.
-#' @param geometry List: `twin` and `piece` of [mesh_topology()]; `landmarks` and `located`: places that were worked out;
-#'   `size` of [mesh_size()]; `slips` of [exchanged_landmarks()] at the door.
+#' @param geometry List: `twin` and `piece` of [mesh_topology()]; `landmarks` and `located`: places
+#'   that were worked out; `size` of [mesh_size()]; `slips` of [exchanged_landmarks()] at the door.
 #' @param key Of [mesh_key()].
 #' @param file Path that the mesh was read from, NA where there is none.
-#' @param origin How each landmark came: data frame `landmark`, `how` ("file", "given", "found", "predicted", "placed",
-#'   "moved", "defined"), `file`, `time`.
+#' @param origin How each landmark came: data frame `landmark`, `how` ("file", "given", "found",
+#'   "predicted", "placed", "moved", "defined"), `file`, `time`.
 #' @param placing,match Of [find_landmarks()]; `refinement` of [refine_landmarks()].
 #' @param vertices For every vertex that was given, its number in `mesh`, NA where it was left out.
 #' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
 #' @noRd
-new_specimen <- function(id, mesh, landmarks, report, geometry, key = mesh_key(mesh), file = NA_character_, origin = NULL,
-                         placing = NULL, match = NULL, refinement = NULL, vertices = NULL, warnings = no_warnings()) {
+new_specimen <- function(id, mesh, landmarks, report, geometry, key = mesh_key(mesh),
+                         file = NA_character_, origin = NULL,
+                         placing = NULL, match = NULL, refinement = NULL, vertices = NULL,
+                         warnings = no_warnings()) {
   structure(
-    list(id = id, mesh = mesh, landmarks = landmarks, report = report, key = key, file = file, origin = origin,
-         placing = placing, match = match, refinement = refinement, vertices = vertices, warnings = warnings,
+    list(id = id, mesh = mesh, landmarks = landmarks, report = report, key = key, file = file,
+         origin = origin,
+         placing = placing, match = match, refinement = refinement, vertices = vertices,
+         warnings = warnings,
          geometry = geometry),
     class = "specimen"
   )
@@ -113,19 +122,22 @@ print.specimen <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     count <- function(n, what) paste0(format(n, big.mark = ","), " ", what)
-    cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "), count(ncol(x$mesh$it), "triangles"),
+    cat("<specimen> ", x$id, ": ", count(ncol(x$mesh$vb), "vertices, "),
+        count(ncol(x$mesh$it), "triangles"),
         if (!is.null(x$mesh$material$color)) ", natural colour", "\n", sep = "")
     size <- apply(x$mesh$vb[1:3, , drop = FALSE], 1, function(v) diff(range(v)))
     cat("size", paste(signif(size, 4), collapse = " x "), "\n")
     name <- rownames(x$landmarks)
     absent <- is.na(x$landmarks[, 1])
-    cat(strwrap(paste0(count(length(name), "landmarks"), if (length(name)) ": ", shorten(name[!absent], 40)),
+    cat(strwrap(paste0(count(length(name), "landmarks"), if (length(name)) ": ",
+                       shorten(name[!absent], 40)),
                 exdent = 2), sep = "\n")
     if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
     print_placing(x$placing)
     print_exchanged(x$geometry$slips)
     found <- x$report[x$report$count > 0, ]
-    for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ", found$action[i], "\n", sep = "")
+    for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ",
+                                        found$action[i], "\n", sep = "")
     invisible(x)
   })
 }
@@ -141,7 +153,8 @@ with_located <- function(specimen, tolerance = 0.01) {
   at <- specimen$landmarks
   known <- match(rownames(at), rownames(before$landmarks))
   changed <- which(vapply(seq_along(known), function(i) {
-    !anyNA(at[i, ]) && (is.na(known[i]) || !identical(unname(at[i, ]), unname(before$landmarks[known[i], ])))
+    !anyNA(at[i, ]) && (is.na(known[i]) ||
+                        !identical(unname(at[i, ]), unname(before$landmarks[known[i], ])))
   }, NA))
   if (!length(changed)) return(specimen)
   found <- surface_points(specimen$mesh, at[changed, , drop = FALSE])

@@ -1,20 +1,23 @@
-# Where the curvature of the surfaces of section 5.2 is greatest: not quite along their crest in height.
+# Where the curvature of the surfaces of section 5.2 is greatest: not quite along their crest in
+# height.
 
 #' Locus of greatest curvature of a simulated ridge
 #'
-#' The places beside the crest where the principal curvature `k2` of \eqn{z = -b (x - a y^3)^2} is least along its own
-#' direction, followed from the middle of the square outwards. The surface turns into itself with (x, y) to (-x, -y), so
-#' one half is enough.
+#' The places beside the crest where the principal curvature `k2` of \eqn{z = -b (x - a y^3)^2} is
+#' least along its own direction, followed from the middle of the square outwards. The surface turns
+#' into itself with (x, y) to (-x, -y), so one half is enough.
 #'
 #' @param a,b,end As in [simulate_ridge()].
-#' @param reach The locus is sought up to this distance from the crest along x, in the unit of the surface.
+#' @param reach The locus is sought up to this distance from the crest along x, in the unit of the
+#'   surface.
 #' @param step,rows Distance of the places that are looked at along x, and their number along y.
 #' @param n Number of points.
 #' @return Matrix n x 3, x, y, z from `y = -end` to `end`; NA from where the locus ends, if it does.
 #' @noRd
 ridge_crest <- function(a, b, end, reach = 0.5, step = 0.025, rows = 31, n = 401) {
   y <- seq(0, end, length.out = (n + 1) / 2)
-  u <- if (a == 0) 0 * y else crest_offset(a, b, y, seq(0, end, length.out = rows), seq(-reach, reach, by = step))
+  u <- if (a == 0) 0 * y else
+    crest_offset(a, b, y, seq(0, end, length.out = rows), seq(-reach, reach, by = step))
   x <- u + a * y^3
   half <- cbind(x = x, y = y, z = -b * u^2)
   mirrored <- half[rev(seq_along(y))[-length(y)], ] %*% diag(c(-1, -1, 1))
@@ -36,7 +39,8 @@ crest_offset <- function(a, b, y, coarse, at) {
 
 #' The same from 0 upwards where it is found
 #'
-#' @param at Places along x, as distances from the crest, where the slope of the curvature is looked at.
+#' @param at Places along x, as distances from the crest, where the slope of the curvature is looked
+#'   at.
 #' @noRd
 follow_crest <- function(a, b, y, at) {
   slope <- matrix(crest_slope(a, b, rep(at, length(y)), rep(y, each = length(at))), length(at))
@@ -96,5 +100,6 @@ simulated_curvature <- function(a, b, x, y) {
   other <- cbind(m - k2 * f, k2 * e - l)
   longer <- which(rowSums(other^2) > rowSums(direction^2))
   direction[longer, ] <- other[longer, ]
-  list(k2 = k2, direction2 = direction * ifelse(direction[, 1] < 0, -1, 1) / sqrt(rowSums(direction^2)))
+  list(k2 = k2, direction2 = direction * ifelse(direction[, 1] < 0, -1, 1) /
+       sqrt(rowSums(direction^2)))
 }

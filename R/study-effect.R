@@ -2,12 +2,13 @@
 
 #' Where the simulated groups of faces differ
 #'
-#' The places at which the faces of [simulate_faces()] differ between the groups by default, as a table to begin from:
-#' the middle of each brow ridge (`share` 1: in the second group it stands out) and the cheek between the curves from
-#' nose and mouth to the ear (`share` -1: it is flatter). No radius (26 and 24 mm) reaches a landmark; the curves get a
-#' third of the cheek's at most.
+#' The places at which the faces of [simulate_faces()] differ between the groups by default, as a
+#' table to begin from: the middle of each brow ridge (`share` 1: in the second group it stands out)
+#' and the cheek between the curves from nose and mouth to the ear (`share` -1: it is flatter). No
+#' radius (26 and 24 mm) reaches a landmark; the curves get a third of the cheek's at most.
 #'
-#' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm), `share`.
+#' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm),
+#'   `share`.
 #' @seealso [simulate_faces()]
 #' @examples
 #' face_effect()
@@ -17,7 +18,8 @@ face_effect <- function() {
 }
 
 no_places <- function() {
-  data.frame(part = character(), x = numeric(), y = numeric(), z = numeric(), radius = numeric(), share = numeric())
+  data.frame(part = character(), x = numeric(), y = numeric(), z = numeric(), radius = numeric(),
+             share = numeric())
 }
 
 #' The places of an effect on a template, with directions
@@ -47,7 +49,8 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
 #' @noRd
 effect_by_part <- function(effect, parts, call = rlang::caller_env()) {
   named <- !is.null(names(effect))
-  ok <- is.numeric(effect) && all(is.finite(effect)) && (if (named) all(names(effect) %in% parts) else length(effect) == 1)
+  ok <- is.numeric(effect) && all(is.finite(effect)) && (if (named) all(names(effect) %in%
+                                                                        parts) else length(effect) == 1)
   if (!ok || (length(parts) == 0 && any(effect != 0))) {
     there <- if (length(parts)) shorten(parts) else "no part"
     crestline_abort(sprintf("`effect` is %s, with %s in `places`.", describe_value(effect), there),

@@ -1,48 +1,56 @@
-# Section 6 on faces whose every point is known: a template under smooth random deformations, and a difference of groups.
+# Section 6 on faces whose every point is known: a template under smooth random deformations, and a
+# difference of groups.
 
 #' Simulate faces whose every point is known
 #'
-#' Each face is the template under a smooth deformation that is a function of space: a random field of its own, the
-#' difference between two groups, and a size. So the true place of every point of the template is known on every face,
-#' see [true_points()], and so is the true difference of the groups, see [true_effect()]. The faces are then scanned:
-#' vertices and triangles of their own, noise, holes, landmarks placed by an observer ([scan_settings()]).
+#' Each face is the template under a smooth deformation that is a function of space: a random field
+#' of its own, the difference between two groups, and a size. So the true place of every point of
+#' the template is known on every face, see [true_points()], and so is the true difference of the
+#' groups, see [true_effect()]. The faces are then scanned: vertices and triangles of their own,
+#' noise, holes, landmarks placed by an observer ([scan_settings()]).
 #'
-#' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, turned and shifted where the scan asks for it.
-#' v is the random field of the face (its values have the covariance \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance
-#' r, summed over the rows of `variation`), e the effect, g = -1/2 in the first group and 1/2 in the second, c the centre
-#' of the template's vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 + size\_effect)} and standard
-#' deviation `size_sd`. The effect e is a sum of bumps, each along one direction, that are 0 beyond their radius: the
-#' default ones, at brow and cheek ([face_effect()]), reach no landmark. With the same `seed`, faces with another effect,
-#' size or scan have the same random fields, and more faces begin with the same ones.
+#' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, turned and shifted where
+#' the scan asks for it. v is the random field of the face (its values have the covariance
+#' \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance r, summed over the rows of `variation`), e the
+#' effect, g = -1/2 in the first group and 1/2 in the second, c the centre of the template's
+#' vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 + size\_effect)} and standard
+#' deviation `size_sd`. The effect e is a sum of bumps, each along one direction, that are 0 beyond
+#' their radius: the default ones, at brow and cheek ([face_effect()]), reach no landmark. With the
+#' same `seed`, faces with another effect, size or scan have the same random fields, and more faces
+#' begin with the same ones.
 #'
 #' @param n Number of faces; they are of the first and of the second group by turns.
-#' @param effect Difference of the groups' means in the middle of each place, in the unit of the template (mm for the
-#'   default one), times the place's `share`; one number, or one for each `part` by name. 0: no difference of shape.
-#' @param size_effect Difference of the groups' sizes as a share: 0.03 makes the second group 3 % larger.
-#' @param places Data frame, a row a bump: `part` (name), `x, y, z` (centre, taken to the closest place of the template),
-#'   `radius` (unit of the template), `share` (factor of `effect`, signed), and, if wanted, `dx, dy, dz` (direction; else
-#'   outward along the template's normal).
-#' @param template A [specimen()] with landmarks; `NULL`: `humface` of the package Rvcg with the landmarks of this
-#'   package (left is the subject's own left). Another template needs `places` of its own.
+#' @param effect Difference of the groups' means in the middle of each place, in the unit of the
+#'   template (mm for the default one), times the place's `share`; one number, or one for each
+#'   `part` by name. 0: no difference of shape.
+#' @param size_effect Difference of the groups' sizes as a share: 0.03 makes the second group 3 %
+#'   larger.
+#' @param places Data frame, a row a bump: `part` (name), `x, y, z` (centre, taken to the closest
+#'   place of the template), `radius` (unit of the template), `share` (factor of `effect`, signed),
+#'   and, if wanted, `dx, dy, dz` (direction; else outward along the template's normal).
+#' @param template A [specimen()] with landmarks; `NULL`: `humface` of the package Rvcg with the
+#'   landmarks of this package (left is the subject's own left). Another template needs `places` of
+#'   its own.
 #' @param groups Names of the two groups.
-#' @param variation Data frame `range`, `sd` (unit of the template): random fields, summed; without a row: no variation
-#'   of shape.
+#' @param variation Data frame `range`, `sd` (unit of the template): random fields, summed; without
+#'   a row: no variation of shape.
 #' @param size_sd Standard deviation of log size within groups.
 #' @param waves Number of waves that each random field is the sum of.
 #' @param scan [scan_settings()]; `NULL`: no specimens, only the truth, in milliseconds.
-#' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is left as it was.
+#' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is
+#'   left as it was.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `simulated_faces`, a list:
 #'   * `specimens`: the [specimen()]s, named by id, for [fit_shapes()];
 #'   * `covariates`: data frame, a row a face: `id`, `group` (factor), `size` (s);
-#'   * `vertices`: list of n x 3 matrices, the place in the template of each vertex of each specimen, so that
-#'     `true_points()` of it gives the vertex without noise;
-#'   * `template`, `places`, `effect` (by part), `size_effect`, and `deformations`, a function for each face
-#'     (k x 3 places of the template to k x 3 places of the face).
-#' @section Errors: of class `crestline_error`: arguments out of their range, places without a column, an effect of a part
-#'   that is not there.
-#' @references The paper, section 6, where the truth is not known. Rahimi and Recht (2007) Random features for large-scale
-#'   kernel machines, for the random fields.
+#'   * `vertices`: list of n x 3 matrices, the place in the template of each vertex of each
+#'     specimen, so that `true_points()` of it gives the vertex without noise;
+#'   * `template`, `places`, `effect` (by part), `size_effect`, and `deformations`, a function for
+#'     each face (k x 3 places of the template to k x 3 places of the face).
+#' @section Errors: of class `crestline_error`: arguments out of their range, places without a
+#'   column, an effect of a part that is not there.
+#' @references The paper, section 6, where the truth is not known. Rahimi and Recht (2007) Random
+#'   features for large-scale kernel machines, for the random fields.
 #' @seealso [true_points()], [face_effect()], [fit_shapes()], [compare_groups()]
 #' @examples
 #' faces <- simulate_faces(2, effect = 2, seed = 1)
@@ -54,8 +62,10 @@
 #' }
 #' @export
 simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, template = NULL,
-                           groups = c("female", "male"), variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
-                           size_sd = 0.03, waves = 200, scan = scan_settings(), seed = NULL, progress = interactive()) {
+                           groups = c("female", "male"),
+                           variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
+                           size_sd = 0.03, waves = 200, scan = scan_settings(), seed = NULL,
+                           progress = interactive()) {
   check_given()
   check_flags(progress)
   seed <- check_seed(seed)
@@ -69,12 +79,15 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
   size_effect <- check_number(size_effect, "size_effect", -1, open = TRUE)
   variation <- check_variation(variation)
   groups <- check_groups(groups)
-  random <- list(variation = variation, size_sd = check_number(size_sd, "size_sd", 0), waves = check_count(waves, "waves"))
+  random <- list(variation = variation, size_sd = check_number(size_sd, "size_sd", 0),
+                 waves = check_count(waves, "waves"))
   seeds <- with_seed(seed, matrix(sample.int(.Machine$integer.max, 2 * n), 2))
   side <- rep_len(c(-1 / 2, 1 / 2), n)
   mean <- list(centre = rowMeans(template$mesh$vb[1:3, ]), effect = effect_field(places, effect))
   drawn <- lapply(seq_len(n), function(i) {
-    with_seed(seeds[1, i], face_deformation(mean, side[i], log(1 + size_effect), random, if (!is.null(scan)) scan))
+    with_seed(seeds[1, i],
+              face_deformation(mean, side[i], log(1 + size_effect), random,
+                               if (!is.null(scan)) scan))
   })
   id <- paste("face", formatC(seq_len(n), width = nchar(n), flag = "0"))
   deformations <- stats::setNames(lapply(drawn, `[[`, "map"), id)
@@ -83,7 +96,8 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
     list(specimens = lapply(scanned, `[[`, "specimen"),
          covariates = data.frame(id = id, group = factor(groups[side + 3 / 2], groups),
                                  size = vapply(drawn, `[[`, 0, "size")),
-         vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places, effect = effect,
+         vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places,
+         effect = effect,
          size_effect = size_effect, deformations = deformations, scan = scan),
     class = "simulated_faces"
   )
@@ -141,18 +155,21 @@ humface_specimen <- function() {
 }
 
 check_variation <- function(variation, call = rlang::caller_env()) {
-  ok <- is.data.frame(variation) && all(c("range", "sd") %in% names(variation)) && all(variation$range > 0) &&
+  ok <- is.data.frame(variation) && all(c("range", "sd") %in%
+                                        names(variation)) && all(variation$range > 0) &&
     all(variation$sd >= 0)
   if (!isTRUE(ok)) {
     crestline_abort("`variation` has no ranges above 0 with standard deviations.",
-                    "Give data.frame(range = , sd = ), in the unit of the template.", stage = "arguments", call = call)
+                    "Give data.frame(range = , sd = ), in the unit of the template.",
+                    stage = "arguments", call = call)
   }
   variation
 }
 
 check_groups <- function(groups, call = rlang::caller_env()) {
   if (!is.character(groups) || length(groups) != 2 || anyNA(groups) || groups[1] == groups[2]) {
-    crestline_abort(sprintf("`groups` is %s.", describe_value(groups)), "Give the names of two groups.",
+    crestline_abort(sprintf("`groups` is %s.", describe_value(groups)),
+                    "Give the names of two groups.",
                     stage = "arguments", call = call)
   }
   groups
@@ -163,17 +180,22 @@ print.simulated_faces <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     count <- table(x$covariates$group)
-    cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "), ", from the template ",
+    cat("<simulated_faces> ", nrow(x$covariates), ": ", paste(count, names(count), collapse = ", "),
+        ", from the template ",
         x$template$id, "\n", sep = "")
     share <- split(x$places$share, factor(x$places$part, names(x$effect)))
     step <- vapply(share, function(own) own[which.max(abs(own))], 0) * x$effect
     cat(sprintf("  %s is %+.3g %% in size", names(count)[2], 100 * x$size_effect),
-        if (length(step)) paste0(", ", paste(sprintf("%s %+.3g", names(step), step), collapse = ", ")), "\n", sep = "")
-    cat("  size ", paste(format(range(x$covariates$size), digits = 3), collapse = " to "), "\n", sep = "")
+        if (length(step)) paste0(", ",
+                                 paste(sprintf("%s %+.3g", names(step), step), collapse = ", ")),
+        "\n", sep = "")
+    cat("  size ", paste(format(range(x$covariates$size), digits = 3), collapse = " to "), "\n",
+        sep = "")
     if (is.null(x$scan)) cat("  the truth only, no specimens\n") else {
       vertices <- range(vapply(x$specimens, function(s) ncol(s$mesh$vb), 0L))
       cat("  scanned with noise ", x$scan$noise, ", ", x$scan$holes, " holes each, ",
-          paste(unique(vertices), collapse = " to "), " vertices", if (x$scan$remesh) " of their own", "\n", sep = "")
+          paste(unique(vertices), collapse = " to "), " vertices",
+          if (x$scan$remesh) " of their own", "\n", sep = "")
     }
     invisible(x)
   })

@@ -2,9 +2,10 @@
 
 #' A smooth random field
 #'
-#' A sum of cosine waves of random direction and phase (random Fourier features). Over draws, every value has mean 0 and
-#' variance sd^2, and values at distance r have covariance sd^2 exp(-r^2 / (2 range^2)), exactly and for any
-#' number of waves; with many waves they are normal. It needs no mesh, so it is known at every point of space.
+#' A sum of cosine waves of random direction and phase (random Fourier features). Over draws, every
+#' value has mean 0 and variance sd^2, and values at distance r have covariance sd^2 exp(-r^2 / (2
+#' range^2)), exactly and for any number of waves; with many waves they are normal. It needs no
+#' mesh, so it is known at every point of space.
 #'
 #' @param range Distance over which values go together, in the unit of the points.
 #' @param sd Standard deviation of each component.
@@ -35,7 +36,8 @@ bump <- function(distance, radius) (1 - pmin(distance / radius, 1)^2)^3
 #' Displacement by several bumps, each along its own direction
 #'
 #' @param places Data frame `x, y, z, radius, share, dx, dy, dz`.
-#' @return Function of a k x 3 matrix that gives a k x 3 matrix: at the centre of a single bump its share in its direction.
+#' @return Function of a k x 3 matrix that gives a k x 3 matrix: at the centre of a single bump its
+#'   share in its direction.
 #' @noRd
 bump_field <- function(places) {
   centre <- unname(as.matrix(places[c("x", "y", "z")]))

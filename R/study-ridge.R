@@ -2,38 +2,43 @@
 
 #' Simulate a surface with a known ridge
 #'
-#' The surface \eqn{z = -b (x - a y^3)^2} on \eqn{[-1, 1]^2}: a ridge along \eqn{x = a y^3}, straight for
-#' `a = 0`, sharper for larger `b` (curvature `-2 b` across it). Vertices lie on a square grid, each square is cut
-#' along one of its diagonals at random, and independent (or smooth) normal noise is added to the heights.
+#' The surface \eqn{z = -b (x - a y^3)^2} on \eqn{[-1, 1]^2}: a ridge along \eqn{x = a y^3},
+#' straight for `a = 0`, sharper for larger `b` (curvature `-2 b` across it). Vertices lie on a
+#' square grid, each square is cut along one of its diagonals at random, and independent (or smooth)
+#' normal noise is added to the heights.
 #'
 #' The surfaces follow the paper's section 5.2. Its ridge is x = (y / a)^(1/3), as printed on
 #' \eqn{[0, 10]^2}: there the surface is infinitely steep at y = 0, and a = 0 has no value. Here the
 #' ridge is x = a y^3 on \eqn{[-1, 1]^2}. On it the paper's distances between vertices (0.05 to 0.1)
 #' give 41 and 21 lines.
 #'
-#' The ridge is the crest in height. The locus of greatest curvature, which estimates aim at, is where the principal
-#' curvature is least along its own direction. It is the same line for `a = 0` and lies beside it otherwise, the more so
-#' the smaller `b` is: for `a = 0.5` 0.2, 0.8 and up to 7 spacings of 0.05 at `b` = 2, 1, 0.5. Blunt ridges have none
-#' towards their ends (`b = 0.25`; `b = 0.5` with `a = 0.5`).
+#' The ridge is the crest in height. The locus of greatest curvature, which estimates aim at, is
+#' where the principal curvature is least along its own direction. It is the same line for `a = 0`
+#' and lies beside it otherwise, the more so the smaller `b` is: for `a = 0.5` 0.2, 0.8 and up to 7
+#' spacings of 0.05 at `b` = 2, 1, 0.5. Blunt ridges have none towards their ends (`b = 0.25`;
+#' `b = 0.5` with `a = 0.5`).
 #'
 #' @param a Bend of the ridge, in 1 / unit^2.
 #' @param b Sharpness of the ridge, in 1 / unit.
 #' @param spacing Side of the grid's squares; the side of the surface is 2.
 #' @param noise Standard deviation of the noise in the heights, in the unit of the mesh. The noise
 #'   is normal; the paper's is uniform.
-#' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is left as it was.
-#' @param jitter Vertices move by up to this share of the spacing along x and y; 0: a regular grid, as in the paper.
+#' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is
+#'   left as it was.
+#' @param jitter Vertices move by up to this share of the spacing along x and y; 0: a regular grid,
+#'   as in the paper.
 #' @param correlation Standard deviation, in grid steps, of the Gaussian kernel that white noise is
 #'   smoothed with before it is brought back to `noise`; 0: independent noise.
-#' @param landmark_error Distance in (x, y) by which each landmark is moved off the ridge, in a random direction (held
-#'   to the square).
+#' @param landmark_error Distance in (x, y) by which each landmark is moved off the ridge, in a
+#'   random direction (held to the square).
 #' @param end The landmarks lie on the ridge at `y = -end` and `end`, inside the mesh's border
 #'   (an end exactly on the border has half a neighbourhood).
 #' @return A [specimen()] with landmarks `from` and `to`, whose attribute `truth` is the ridge
-#'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it; and `truth_curvature` the locus of greatest
-#'   curvature beside it, the same, NA from where it ends.
+#'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it; and `truth_curvature`
+#'   the locus of greatest curvature beside it, the same, NA from where it ends.
 #' @section Errors: of class `crestline_error`, for an argument out of its range.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 5.2.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
+#'   5.2.
 #' @seealso [ridge_study()]
 #' @examples
 #' surface <- simulate_ridge(a = 0.25, b = 1, noise = 0.01, seed = 1)
@@ -42,7 +47,8 @@
 #' plot(truth[, 1:2], type = "l", asp = 1)
 #' points(curve$points[c("x", "y")])
 #' @export
-simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter = 0, correlation = 0,
+simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter = 0,
+                           correlation = 0,
                            landmark_error = 0, end = 0.95) {
   check_given()
   seed <- check_seed(seed)
@@ -62,7 +68,8 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
 #' @noRd
 check_spacing <- function(spacing, call = rlang::caller_env()) {
   spacing <- check_number(spacing, "spacing", lower = 1e-3, upper = 0.5, call = call)
-  if (spacing == 0.5) check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE, call = call)
+  if (spacing == 0.5) check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE,
+                                   call = call)
   spacing
 }
 
@@ -75,8 +82,10 @@ simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, lan
     marks <- ridge(c(from = -end, to = end))
     marks <- drop_on_mesh(mesh, marks + aside(landmark_error, nrow(marks)))
   })
-  id <- sprintf("ridge a = %g, b = %g, noise = %g, seed = %s", a, b, noise, if (is.null(seed)) "none" else seed)
-  structure(specimen(mesh, marks, id, outward = "keep"), truth = ridge(seq(-end, end, length.out = 401)))
+  id <- sprintf("ridge a = %g, b = %g, noise = %g, seed = %s", a, b, noise,
+                if (is.null(seed)) "none" else seed)
+  structure(specimen(mesh, marks, id, outward = "keep"),
+            truth = ridge(seq(-end, end, length.out = 401)))
 }
 
 #' A square grid over [-1, 1]^2 with heights and noise
@@ -84,12 +93,14 @@ simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, lan
 ridge_mesh <- function(height, spacing, jitter, noise, correlation) {
   n <- round(2 / spacing) + 1
   side <- seq(-1, 1, length.out = n)
-  at <- as.matrix(expand.grid(x = side, y = side)) + stats::runif(2 * n^2, -jitter, jitter) * spacing
+  at <- as.matrix(expand.grid(x = side,
+                              y = side)) + stats::runif(2 * n^2, -jitter, jitter) * spacing
   z <- height(at[, 1], at[, 2]) + noise * grid_noise(n, correlation)
   structure(list(vb = rbind(t(unname(at)), z, 1), it = grid_triangles(n)), class = "mesh3d")
 }
 
-#' Triangles of an n x n grid, facing up, each square cut along a diagonal at random: 3 x 2 (n - 1)^2
+#' Triangles of an n x n grid, facing up, each square cut along a diagonal at random: 3 x 2 (n -
+#' 1)^2
 #' @noRd
 grid_triangles <- function(n) {
   corner <- as.vector(outer(seq_len(n - 1), (seq_len(n - 1) - 1) * n, `+`))

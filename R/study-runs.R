@@ -61,8 +61,10 @@
 #' methods <- list(ridge = ridge_settings(error = FALSE), chord = chord)
 #' ridge_study(methods, n = 1, a = 0.25, b = 2, noise = 0)[c("method", "distance", "seconds")]
 #' @export
-ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5), b = c(0.25, 0.5, 1, 2),
-                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25, width = 0.4,
+ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5),
+                        b = c(0.25, 0.5, 1, 2),
+                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25,
+                        width = 0.4,
                         spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
                         progress = interactive(), largest = 2e6, ...) {
   check_flags(progress)
@@ -71,15 +73,20 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
   check_number(points, "points", 3, 1e5)
   check_count(points, "points", lower = 3)
   check_count(block, "block")
-  grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
-                                landmark_error = landmark_error, noise = noise, b = b, a = a), largest)
+  grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius,
+                                spacing = spacing,
+                                landmark_error = landmark_error, noise = noise, b = b, a = a),
+                           largest)
   constant <- study_constant(width, points, list(...))
   check_study_size(n * prod(lengths(grid)) * length(methods), largest)
   cells <- do.call(expand.grid, grid)[8:1]
   tasks <- study_tasks(cells, n, block, methods, constant, dir)
   run <- function() apply_tasks(tasks, list(methods = methods, constant = constant))
   blocks <- if (isTRUE(progress) && runs_parallel()) progressr::with_progress(run()) else run()
-  blocks[] <- Map(function(block, task) if (inherits(block, "lost_task")) lost_block(task, methods, block) else block,
+  blocks[] <- Map(function(block,
+                           task) if (inherits(block,
+                                              "lost_task")) lost_block(task, methods,
+                                                                       block) else block,
                   blocks, tasks)
   warn_unkept(blocks, dir)
   bind_blocks(blocks)
@@ -92,12 +99,14 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
 check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
   largest <- check_number(largest, "largest", 9, call = call)
   finest <- 2 / (sqrt(largest) - 1)
-  range <- list(passes = c(1, 1e3), correlation = c(0, 1e3), radius = c(0, 2), spacing = c(finest, 0.5),
+  range <- list(passes = c(1, 1e3), correlation = c(0, 1e3), radius = c(0, 2),
+                spacing = c(finest, 0.5),
                 landmark_error = c(0, 2), noise = c(0, 2), b = c(0, 1e4), a = c(-100, 100))
   open <- c("radius", "b")
   for (name in names(grid)) {
     if (!is.numeric(grid[[name]]) || !length(grid[[name]]) || !is.null(dim(grid[[name]]))) {
-      crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])), "Give one number or several.",
+      crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])),
+                      "Give one number or several.",
                       stage = "arguments", call = call)
     }
     grid[[name]] <- vapply(as.vector(grid[[name]]), function(value) {
@@ -114,8 +123,10 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
 study_constant <- function(width, points, more, call = rlang::caller_env()) {
   given <- names(more)
   if (length(more) && (is.null(given) || !all(given %in% c("jitter", "end")))) {
-    crestline_abort(sprintf("ridge_study() does not take %s.", shorten(setdiff(c(given, "what has no name"), c("jitter", "end")))),
-                    "Further arguments are `jitter` and `end`, see simulate_ridge().", stage = "arguments", call = call)
+    crestline_abort(sprintf("ridge_study() does not take %s.",
+                            shorten(setdiff(c(given, "what has no name"), c("jitter", "end")))),
+                    "Further arguments are `jitter` and `end`, see simulate_ridge().",
+                    stage = "arguments", call = call)
   }
   constant <- utils::modifyList(list(width = width, points = points, jitter = 0, end = 0.95), more)
   check_number(constant$width, "width", 0, 2, open = TRUE, call = call)
@@ -127,7 +138,8 @@ study_constant <- function(width, points, more, call = rlang::caller_env()) {
 check_study_size <- function(curves, largest, call = rlang::caller_env()) {
   if (curves > largest) {
     crestline_abort(sprintf("the study would have %s curves.", format(curves, big.mark = ",")),
-                    "Give fewer values or a smaller `n`, or a greater `largest`.", stage = "arguments", call = call)
+                    "Give fewer values or a smaller `n`, or a greater `largest`.",
+                    stage = "arguments", call = call)
   }
 }
 
@@ -136,7 +148,8 @@ check_study_size <- function(curves, largest, call = rlang::caller_env()) {
 #' @noRd
 study_tasks <- function(cells, n, block, methods, constant, dir) {
   seeds <- split(seq_len(n), ceiling(seq_len(n) / block))
-  about <- list(value_print(methods), constant, answers_version, as.character(utils::packageVersion("crestline")))
+  about <- list(value_print(methods), constant, answers_version,
+                as.character(utils::packageVersion("crestline")))
   if (!is.null(dir)) dir <- results_folder(dir)
   tasks <- lapply(seq_len(nrow(cells)), function(i) {
     lapply(seeds, function(some) {
@@ -168,9 +181,11 @@ apply_tasks <- function(tasks, arguments) {
 #' @noRd
 study_block <- function(task, methods, constant) {
   kept <- if (!is.null(task$file)) open_kept(task$file)
-  if (identical(kept$state, "whole") && identical(kept$about$key, task$key)) return(kept_value(kept))
+  if (identical(kept$state, "whole") &&
+      identical(kept$about$key, task$key)) return(kept_value(kept))
   crest <- ridge_crest(task$cell$a, task$cell$b, constant$end)
-  rows <- lapply(task$seeds, function(seed) study_surface(task$cell, seed, crest, methods, constant))
+  rows <- lapply(task$seeds,
+                 function(seed) study_surface(task$cell, seed, crest, methods, constant))
   rows <- unlist(rows, recursive = FALSE)
   if (is.null(task$file)) return(rows)
   tryCatch({
@@ -184,15 +199,18 @@ study_block <- function(task, methods, constant) {
 lost_block <- function(task, methods, lost) {
   message <- paste("the worker died:", first_line(lost$message))
   unlist(lapply(task$seeds, function(seed) lapply(names(methods), function(name) {
-    c(task$cell, list(seed = seed, method = name), study_result(message), list(seconds = NA_real_, error = message))
+    c(task$cell, list(seed = seed, method = name), study_result(message),
+      list(seconds = NA_real_, error = message))
   })), recursive = FALSE)
 }
 
 warn_unkept <- function(blocks, dir) {
   unkept <- unlist(lapply(blocks, attr, "unkept"))
   if (length(unkept)) {
-    crestline_warn(sprintf("%s of %s not kept: %s", length(unkept), amount(length(blocks), "block"), unkept[1]),
-                   sprintf("Make room in %s; what was not kept is run again next time.", dir), stage = "keeping",
+    crestline_warn(sprintf("%s of %s not kept: %s", length(unkept), amount(length(blocks), "block"),
+                           unkept[1]),
+                   sprintf("Make room in %s; what was not kept is run again next time.", dir),
+                   stage = "keeping",
                    class = "crestline_keeping_warning")
   }
 }
@@ -200,12 +218,14 @@ warn_unkept <- function(blocks, dir) {
 #' One surface's estimates by all methods
 #' @noRd
 study_surface <- function(cell, seed, crest, methods, constant) {
-  surface <- simulated_ridge(cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter, cell$correlation,
+  surface <- simulated_ridge(cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter,
+                             cell$correlation,
                              cell$landmark_error, constant$end)
   truths <- list(attr(surface, "truth"), if (!anyNA(crest)) crest)
   lapply(names(methods), function(name) {
     start <- proc.time()
-    found <- tryCatch(study_estimate(methods[[name]], surface, cell, constant), error = conditionMessage)
+    found <- tryCatch(study_estimate(methods[[name]], surface, cell, constant),
+                      error = conditionMessage)
     seconds <- sum((proc.time() - start)[1:2])
     c(cell, list(seed = seed, method = name), study_result(found, truths, cell$spacing),
       list(seconds = seconds, error = if (is.character(found)) found else NA_character_))
@@ -221,15 +241,20 @@ study_estimate <- function(method, surface, cell, constant) {
   points <- constant$points
   quiet <- function(code) suppressWarnings(code, classes = "crestline_warning")
   if (is.function(method)) {
-    line <- as.matrix(quiet(method(surface, cell$radius, constant$width, points)))[, 1:3, drop = FALSE]
+    line <- as.matrix(quiet(method(surface, cell$radius, constant$width,
+                                   points)))[, 1:3, drop = FALSE]
     colnames(line) <- c("x", "y", "z")
-    return(list(line = line, at = equally_along(line, points), error = NA_real_, se = NA_real_, determined = NA,
+    return(list(line = line, at = equally_along(line, points), error = NA_real_, se = NA_real_,
+                determined = NA,
                 converged = NA))
   }
-  curve <- quiet(ridge_curve(surface, "from", "to", "ridge", cell$radius, constant$width, points, settings = method,
+  curve <- quiet(ridge_curve(surface, "from", "to", "ridge", cell$radius, constant$width, points,
+                             settings = method,
                              passes = cell$passes))
-  list(line = columns_of(curve$path, c("x", "y", "z")), at = columns_of(curve$points, c("x", "y", "z")),
-       error = curve$points$se, se = curve$se, determined = curve$determined, converged = curve$converged)
+  list(line = columns_of(curve$path, c("x", "y", "z")),
+       at = columns_of(curve$points, c("x", "y", "z")),
+       error = curve$points$se, se = curve$se, determined = curve$determined,
+       converged = curve$converged)
 }
 
 #' What is kept of an estimate
@@ -240,7 +265,8 @@ study_estimate <- function(method, surface, cell, constant) {
 #' @noRd
 study_result <- function(found, truths = NULL, spacing = 1) {
   failed <- is.character(found)
-  distance <- function(truth) if (failed || is.null(truth)) NA_real_ else line_distance(found, truth) / spacing
+  distance <- function(truth) if (failed || is.null(truth)) NA_real_ else
+    line_distance(found, truth) / spacing
   covered <- function(truth) if (failed || is.null(truth)) NA_real_ else share_covered(found, truth)
   list(distance = distance(truths[[1]]), distance_curvature = distance(truths[[2]]),
        se = if (failed) NA_real_ else found$se / spacing, covered = covered(truths[[1]]),

@@ -2,39 +2,48 @@
 
 #' Settings of a simulated scan
 #'
-#' @param noise Standard deviation of the noise of the vertices along the normal, in the unit of the template (0.1: a good
-#'   stereo or laser scanner, in mm).
+#' @param noise Standard deviation of the noise of the vertices along the normal, in the unit of the
+#'   template (0.1: a good stereo or laser scanner, in mm).
 #' @param noise_range Distance over which noise goes together; 0: independent from vertex to vertex.
-#' @param remesh Whether every specimen has vertices and triangles of its own, in random order, so that no
-#'   vertex of one corresponds to a vertex of another. If not, all have those of the template.
+#' @param remesh Whether every specimen has vertices and triangles of its own, in random order, so
+#'   that no vertex of one corresponds to a vertex of another. If not, all have those of the
+#'   template.
 #' @param edge Length of edge that is aimed at in remeshing; `NULL`: the mean of the template's.
 #' @param edge_sd Standard deviation of its logarithm between specimens.
-#' @param rounds Rounds of remeshing: more make edges more even, and cost more time (a third of a second each on a face).
-#' @param crease Angle between triangles, in degrees, from which remeshing keeps the edge between them.
+#' @param rounds Rounds of remeshing: more make edges more even, and cost more time (a third of a
+#'   second each on a face).
+#' @param crease Angle between triangles, in degrees, from which remeshing keeps the edge between
+#'   them.
 #' @param holes Number of holes in every specimen.
-#' @param hole_radius Radius of the holes, in the unit of the template. No hole comes nearer to a landmark than its radius.
-#' @param landmark_error Standard deviation with which an observer places landmarks, in each direction along the surface.
-#' @param turn,shift Standard deviations of the angle (radians, about a random axis) and of the shift (in every
-#'   co-ordinate) of each specimen's pose.
+#' @param hole_radius Radius of the holes, in the unit of the template. No hole comes nearer to a
+#'   landmark than its radius.
+#' @param landmark_error Standard deviation with which an observer places landmarks, in each
+#'   direction along the surface.
+#' @param turn,shift Standard deviations of the angle (radians, about a random axis) and of the
+#'   shift (in every co-ordinate) of each specimen's pose.
 #' @return A list of these settings, of class `scan_settings`.
 #' @section Errors: of class `crestline_error`, for a value out of its range.
 #' @seealso [simulate_faces()]
 #' @examples
 #' str(scan_settings(noise = 0, remesh = FALSE))
 #' @export
-scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05, rounds = 1, crease = 30,
+scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05,
+                          rounds = 1, crease = 30,
                           holes = 0, hole_radius = 5, landmark_error = 0, turn = 0, shift = 0) {
   if (!is.logical(remesh) || length(remesh) != 1 || is.na(remesh)) {
-    crestline_abort(sprintf("`remesh` is %s.", describe_value(remesh)), "Give TRUE or FALSE.", stage = "arguments")
+    crestline_abort(sprintf("`remesh` is %s.", describe_value(remesh)), "Give TRUE or FALSE.",
+                    stage = "arguments")
   }
   structure(
-    list(noise = check_number(noise, "noise", 0), noise_range = check_number(noise_range, "noise_range", 0), remesh = remesh,
+    list(noise = check_number(noise, "noise", 0),
+         noise_range = check_number(noise_range, "noise_range", 0), remesh = remesh,
          edge = if (!is.null(edge)) check_number(edge, "edge", 0, open = TRUE),
          edge_sd = check_number(edge_sd, "edge_sd", 0),
          rounds = check_count(rounds, "rounds"), crease = check_number(crease, "crease", 0, 180),
          holes = check_count(holes, "holes", lower = 0),
          hole_radius = check_number(hole_radius, "hole_radius", 0, open = TRUE),
-         landmark_error = check_number(landmark_error, "landmark_error", 0), turn = check_number(turn, "turn", 0),
+         landmark_error = check_number(landmark_error, "landmark_error", 0),
+         turn = check_number(turn, "turn", 0),
          shift = check_number(shift, "shift", 0)),
     class = "scan_settings"
   )
@@ -42,7 +51,8 @@ scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NU
 
 #' The same surface by other vertices, triangles and order
 #'
-#' @return `mesh3d`; its vertices lie on the given mesh but for single precision, its edges' chords may lie beside it.
+#' @return `mesh3d`; its vertices lie on the given mesh but for single precision, its edges' chords
+#'   may lie beside it.
 #' @noRd
 remeshed <- function(mesh, scan) {
   edge <- if (is.null(scan$edge)) mean_edge(mesh) else scan$edge
@@ -64,7 +74,8 @@ mean_edge <- function(mesh) {
 with_noise <- function(mesh, places, scan) {
   n <- ncol(mesh$vb)
   smooth <- scan$noise_range > 0
-  height <- if (smooth) random_field(scan$noise_range, scan$noise, 1)(places) else stats::rnorm(n, 0, scan$noise)
+  height <- if (smooth) random_field(scan$noise_range, scan$noise, 1)(places) else
+    stats::rnorm(n, 0, scan$noise)
   if (scan$noise == 0) return(mesh)
   normal <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals[1:3, ]
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normal * rep(height, each = 3)
@@ -82,7 +93,8 @@ outside_holes <- function(mesh, landmarks, scan) {
   room <- kept
   for (i in seq_len(nrow(landmarks))) room <- room & !within(landmarks[i, ], 2 * scan$hole_radius)
   if (!any(room)) {
-    crestline_abort("there is no room for a hole between the landmarks.", "Give a smaller `hole_radius`.",
+    crestline_abort("there is no room for a hole between the landmarks.",
+                    "Give a smaller `hole_radius`.",
                     stage = "simulation")
   }
   for (centre in which(room)[sample.int(sum(room), scan$holes, replace = TRUE)]) {
@@ -97,7 +109,8 @@ outside_holes <- function(mesh, landmarks, scan) {
 mesh_of_faces <- function(mesh, face) {
   it <- mesh$it[, face, drop = FALSE]
   vertex <- sort(unique(as.vector(it)))
-  list(mesh = structure(list(vb = mesh$vb[, vertex, drop = FALSE], it = matrix(match(it, vertex), 3)), class = "mesh3d"),
+  list(mesh = structure(list(vb = mesh$vb[, vertex, drop = FALSE],
+                             it = matrix(match(it, vertex), 3)), class = "mesh3d"),
        vertex = vertex)
 }
 
@@ -106,7 +119,8 @@ mesh_of_faces <- function(mesh, face) {
 observed_landmarks <- function(mesh, landmarks, error) {
   beside <- landmarks + stats::rnorm(length(landmarks), 0, error)
   if (error == 0) return(landmarks)
-  structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]), dimnames = dimnames(landmarks))
+  structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]),
+            dimnames = dimnames(landmarks))
 }
 
 #' A random rotation by a normal angle about a random axis through the centre, and a shift

@@ -5,8 +5,9 @@
 #' @param x `simulated_faces`, as [simulate_faces()] returns them.
 #' @param at Places of the template: k x 3 matrix or data frame `x, y, z`, in its unit (such as
 #'   `coords(fit_shape(faces$template, scheme), "curves")`); `NULL`: its landmarks.
-#' @return `true_points()`: k x 3 x n array, with the names of `at` and of the faces, without noise, in the frame of each
-#'   face. `true_effect()`: k x 3 matrix, the step from the mean of the first group to that of the second, without size.
+#' @return `true_points()`: k x 3 x n array, with the names of `at` and of the faces, without noise,
+#'   in the frame of each face. `true_effect()`: k x 3 matrix, the step from the mean of the first
+#'   group to that of the second, without size.
 #' @section Errors: of class `crestline_error`: no simulated faces, or no points.
 #' @seealso [simulate_faces()]
 #' @examples

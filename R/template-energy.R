@@ -2,30 +2,32 @@
 
 #' Bending energy of the deformation of a template
 #'
-#' The 3-D thin-plate spline (kernel `-|r|`) that takes the template to a configuration X bends by E(X) = tr X' B X, B =
-#' Z (Z' (K + N) Z)^-1 Z': K holds -|r| between the template's points, Z spans what is orthogonal to the affine
-#' functions on them, N is the diagonal of the nugget. The matrix B depends on the template only, so it is worked out
-#' once for all specimens. E is 0 for every affine image of the template and does not change when X is moved or turned.
+#' The 3-D thin-plate spline (kernel `-|r|`) that takes the template to a configuration X bends by
+#' E(X) = tr X' B X, B = Z (Z' (K + N) Z)^-1 Z': K holds -|r| between the template's points, Z spans
+#' what is orthogonal to the affine functions on them, N is the diagonal of the nugget. The matrix B
+#' depends on the template only, so it is worked out once for all specimens. E is 0 for every affine
+#' image of the template and does not change when X is moved or turned.
 #'
-#' Affine functions are counted by rank: points on a plane have three of them, points on a line two, so a flat template has
-#' the energy of its own plane. A nugget smooths in place of interpolating: the larger it is, the less the spline follows
-#' that point.
+#' Affine functions are counted by rank: points on a plane have three of them, points on a line two,
+#' so a flat template has the energy of its own plane. A nugget smooths in place of interpolating:
+#' the larger it is, the less the spline follows that point.
 #'
-#' @param template k x 3 matrix, or a `shape`: then its points of `level`, those that coincide counted once (the first).
-#'   Rows of NA are left out.
-#' @param nugget One number, or one a row of the template: in the unit of the template, 0 or more. Not 0 where points
-#'   of a matrix coincide.
+#' @param template k x 3 matrix, or a `shape`: then its points of `level`, those that coincide
+#'   counted once (the first). Rows of NA are left out.
+#' @param nugget One number, or one a row of the template: in the unit of the template, 0 or more.
+#'   Not 0 where points of a matrix coincide.
 #' @param level "landmarks", "curves" or "surface", where `template` is a shape.
-#' @param tolerance Singular values below this share of the largest count as none, where affine functions are counted.
-#' @return A function of class `bending_energy`: `energy(x)` is the energy of a configuration, a k x 3 matrix (rows as
-#'   in the template) or a shape of the same scheme, in the unit of the mesh; points that are NA in `x` are left out of
-#'   template and energy both. Attributes: `matrix` (B, k x k, 0 in rows that are left out; 1 / unit), `affine` (number
-#'   of affine functions).
-#' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two points at one place without
-#'   a nugget; a configuration of other points.
+#' @param tolerance Singular values below this share of the largest count as none, where affine
+#'   functions are counted.
+#' @return A function of class `bending_energy`: `energy(x)` is the energy of a configuration, a k x
+#'   3 matrix (rows as in the template) or a shape of the same scheme, in the unit of the mesh;
+#'   points that are NA in `x` are left out of template and energy both. Attributes: `matrix` (B, k
+#'   x k, 0 in rows that are left out; 1 / unit), `affine` (number of affine functions).
+#' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two
+#'   points at one place without a nugget; a configuration of other points.
 #' @references Up to a constant factor, the integral of the paper, section 4. Bookstein (1989)
-#'   Principal warps, *IEEE Transactions on Pattern Analysis and Machine
-#'   Intelligence* 11, 567-585; Gunz, Mitteroecker and Bookstein (2005) Semilandmarks in three dimensions.
+#'   Principal warps, *IEEE Transactions on Pattern Analysis and Machine Intelligence* 11, 567-585;
+#'   Gunz, Mitteroecker and Bookstein (2005) Semilandmarks in three dimensions.
 #' @seealso [slide()]
 #' @examples
 #' corners <- as.matrix(expand.grid(x = 0:1, y = 0:1, z = 0:1))
@@ -40,9 +42,11 @@ bending_energy <- function(template, nugget = 0, level = "curves", tolerance = 1
   nugget <- check_numbers(nugget, "nugget", lower = 0)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   xyz <- energy_points(template, level)
-  if (!is.numeric(nugget) || !length(nugget) %in% c(1, nrow(xyz)) || anyNA(nugget) || any(nugget < 0)) {
+  if (!is.numeric(nugget) || !length(nugget) %in% c(1, nrow(xyz)) || anyNA(nugget) ||
+      any(nugget < 0)) {
     crestline_abort(sprintf("`nugget` is %s.", describe_value(nugget)),
-                    sprintf("Give one number of at least 0, or %d of them.", nrow(xyz)), stage = "arguments")
+                    sprintf("Give one number of at least 0, or %d of them.", nrow(xyz)),
+                    stage = "arguments")
   }
   nugget <- rep_len(as.numeric(nugget), nrow(xyz))
   tolerance <- check_number(tolerance, "tolerance", 0, 1)
@@ -50,7 +54,8 @@ bending_energy <- function(template, nugget = 0, level = "curves", tolerance = 1
   energy <- function(x) {
     x <- energy_points(x, level)
     if (nrow(x) != nrow(xyz)) {
-      crestline_abort(sprintf("the configuration has %d points, the template %d.", nrow(x), nrow(xyz)),
+      crestline_abort(sprintf("the configuration has %d points, the template %d.", nrow(x),
+                              nrow(xyz)),
                       "Give the same points in the same order.", stage = "energy")
     }
     absent <- is.na(x[, 1]) & !is.na(xyz[, 1])
@@ -94,15 +99,16 @@ energy_matrix <- function(xyz, nugget, tolerance) {
   functions <- svd(cbind(1, centred / max(sqrt(mean(rowSums(centred^2))), .Machine$double.xmin)))
   affine <- sum(functions$d > tolerance * functions$d[1])
   if (length(there) > affine) {
-    b[there, there] <- bending_matrix(at, nugget[there], functions$u[, seq_len(affine), drop = FALSE])
+    b[there, there] <- bending_matrix(at, nugget[there],
+                                      functions$u[, seq_len(affine), drop = FALSE])
   }
   structure(b, affine = affine)
 }
 
 #' B where there is something to bend
 #'
-#' In the frame of a Householder basis whose first columns span the affine functions, K + N loses its first rows and
-#' columns.
+#' In the frame of a Householder basis whose first columns span the affine functions, K + N loses
+#' its first rows and columns.
 #' @noRd
 bending_matrix <- function(xyz, nugget, functions) {
   frame <- qr(functions)
@@ -110,7 +116,8 @@ bending_matrix <- function(xyz, nugget, functions) {
   kernel <- diag(nugget, nrow(xyz)) - as.matrix(stats::dist(xyz))
   inner <- qr.qty(frame, t(qr.qty(frame, kernel)))[-affine, -affine, drop = FALSE]
   root <- tryCatch(chol((inner + t(inner)) / 2), error = function(e) {
-    crestline_abort("points of the template coincide.", "Leave one of them out, or give a nugget.", stage = "energy",
+    crestline_abort("points of the template coincide.", "Leave one of them out, or give a nugget.",
+                    stage = "energy",
                     call = NULL)
   })
   b <- matrix(0, nrow(xyz), nrow(xyz))
@@ -124,7 +131,8 @@ print.bending_energy <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     b <- attr(x, "matrix")
-    cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0), attr(x, "affine")))
+    cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0),
+                attr(x, "affine")))
     invisible(x)
   })
 }

@@ -1,6 +1,7 @@
 # Procrustes mean of configurations with points missing.
 
-#' The map that moves, turns and, if wanted, scales one configuration onto another by the points that both have
+#' The map that moves, turns and, if wanted, scales one configuration onto another by the points
+#' that both have
 #' @return Function of a matrix of three columns.
 #' @noRd
 superimposition <- function(x, y, scale) {
@@ -17,12 +18,14 @@ laid_onto <- function(x, y, scale) superimposition(x, y, scale)(x)
 
 #' Procrustes mean: of sizes made equal, at their mean size, laid onto a reference
 #'
-#' A point that is missing from a configuration takes no part in its fit; the mean of a point is over those that have
-#' it. Where points are missing, the size of a configuration is judged by the points that it has.
+#' A point that is missing from a configuration takes no part in its fit; the mean of a point is
+#' over those that have it. Where points are missing, the size of a configuration is judged by the
+#' points that it has.
 #'
 #' @param x List of k x 3 matrices.
 #' @param reference k x 3: where the mean is laid, and the first guess of it.
-#' @param tolerance Greatest move of a point between two rounds, as a share of the mean's RMS radius.
+#' @param tolerance Greatest move of a point between two rounds, as a share of the mean's RMS
+#'   radius.
 #' @param rounds Most rounds.
 #' @return k x 3, NA where no configuration has the point.
 #' @noRd

@@ -12,21 +12,25 @@
 #' Points that only the template has, or only the shape, are left out of the energy. Missing points
 #' stay NA. Points that coincide by construction still do.
 #'
-#' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of patches that lie on
-#' curves without being points of theirs go along: at the same share of the way between their neighbours.
+#' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of
+#' patches that lie on curves without being points of theirs go along: at the same share of the way
+#' between their neighbours.
 #'
 #' @param shape A `shape`, as of [fit_shape()].
-#' @param template A `shape` of the same scheme, such as of [symmetrise()], or the `template` of [homologise()].
+#' @param template A `shape` of the same scheme, such as of [symmetrise()], or the `template` of
+#'   [homologise()].
 #' @param settings [slide_settings()].
 #' @param specimen The [specimen()] that the shape was measured on.
 #' @return The `shape` with its points slid (`se` goes along), and besides:
-#'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve, "curves", "surface", or the
-#'     patch): `level`, `points` (that slide), `sweeps`, `converged`, `energy_before`, `energy_after` (unit of the
-#'     mesh), `longest` (largest distance that a point has slid, along its curve, or straight);
-#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`, `longest` (slide of
-#'     that sweep).
-#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not keep its specimen; of
-#'   class `crestline_wrong_mesh`: a specimen with another mesh than the shape's.
+#'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve,
+#'     "curves", "surface", or the patch): `level`, `points` (that slide), `sweeps`, `converged`,
+#'     `energy_before`, `energy_after` (unit of the mesh), `longest` (largest distance that a point
+#'     has slid, along its curve, or straight);
+#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`,
+#'     `longest` (slide of that sweep).
+#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not
+#'   keep its specimen; of class `crestline_wrong_mesh`: a specimen with another mesh than the
+#'   shape's.
 #' @references The paper, section 4. Where the default departs from it: `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
 #' @examples
@@ -54,8 +58,10 @@ slide <- function(shape, template, settings = slide_settings(), specimen = shape
 
 check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
   if (identical(shape$scheme$points, template$scheme$points)) return(invisible())
-  crestline_abort(sprintf("its scheme, %s, is not that of %s, %s.", shape$scheme$name, template$id, template$scheme$name),
-                  "Measure all specimens by one scheme.", stage = "slide", id = shape$id, call = call)
+  crestline_abort(sprintf("its scheme, %s, is not that of %s, %s.", shape$scheme$name, template$id,
+                          template$scheme$name),
+                  "Measure all specimens by one scheme.", stage = "slide", id = shape$id,
+                  call = call)
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
@@ -65,7 +71,8 @@ kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
   }
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
-  crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide", id = shape$id, call = call)
+  crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide",
+                  id = shape$id, call = call)
 }
 
 #' A specimen after a check that it is the shape's own
@@ -79,17 +86,21 @@ specimen_of_shape <- function(shape, specimen) {
 #' The patches cut anew between slid curves
 #'
 #' @param curves As of [slide_curves()].
-#' @return List: `curves`, `fits` (slid curves as [fit_scheme_patches()] takes them), `store` (all places).
+#' @return List: `curves`, `fits` (slid curves as [fit_scheme_patches()] takes them), `store` (all
+#'   places).
 #' @noRd
 cut_between_slid <- function(shape, state, curves, specimen) {
   cutting <- cutting_of(shape, NULL, specimen)
   check_tracks(shape, cutting$bridged)
-  fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s, state$curves)
+  fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s,
+              state$curves)
   cutting$fits <- fits
-  list(curves = curves, fits = fits, store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
+  list(curves = curves, fits = fits,
+       store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
 }
 
-#' @return List: `fits`, `column`, `specimen`, `bridged`, `scheme`, as [fit_scheme_patches()] takes them.
+#' @return List: `fits`, `column`, `specimen`, `bridged`, `scheme`, as [fit_scheme_patches()] takes
+#'   them.
 #' @noRd
 cutting_of <- function(shape, fits, specimen) {
   list(fits = fits, column = c(shape$column, follow = TRUE), specimen = specimen,
@@ -119,7 +130,8 @@ with_places <- function(shape, store) {
   shape
 }
 
-#' A shape with its curves' points at new places of their tracks; the paths of cut ends that have slid are as long as that
+#' A shape with its curves' points at new places of their tracks; the paths of cut ends that have
+#' slid are as long as that
 #' @noRd
 with_tracks <- function(shape, s, cutting) {
   for (name in names(s)) {
@@ -130,16 +142,18 @@ with_tracks <- function(shape, s, cutting) {
     length <- attr(track$path, "length")
     path <- part_of_path(cutting$bridged$mesh, track$path, min(s[[name]], na.rm = TRUE), length)
     shape$paths[[name]] <- unbridged_path(path, cutting$specimen)
-    shape$status$length[shape$status$level == "curves" & shape$status$part == name] <- attr(path, "length")
+    shape$status$length[shape$status$level == "curves" &
+                        shape$status$part == name] <- attr(path, "length")
   }
   shape
 }
 
 #' The places of a shape, and the curves that can slide
 #'
-#' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves` (list by name:
-#'   `place`, `n`, `s` (NA where missing), `path` (`mesh_path`), `track` (matrix s, x, y, z, face; face 0 over holes),
-#'   `kept` (length that the scheme keeps), `rows` (of [slider_rows()])).
+#' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves`
+#'   (list by name: `place`, `n`, `s` (NA where missing), `path` (`mesh_path`), `track` (matrix s,
+#'   x, y, z, face; face 0 over holes), `kept` (length that the scheme keeps), `rows` (of
+#'   [slider_rows()])).
 #' @noRd
 slide_state <- function(shape, settings) {
   points <- shape$points
@@ -148,7 +162,8 @@ slide_state <- function(shape, settings) {
   store <- columns_of(points, c(mesh_columns, "se"))[first, ]
   rownames(store) <- place[first]
   of_curve <- split(place[points$level == "curves"], points$part[points$level == "curves"])
-  curves <- Map(function(track, name) curve_state(track, of_curve[[name]], settings), shape$tracks, names(shape$tracks))
+  curves <- Map(function(track, name) curve_state(track, of_curve[[name]], settings), shape$tracks,
+                names(shape$tracks))
   list(id = shape$id, store = store, curves = curves)
 }
 
@@ -160,12 +175,14 @@ curve_state <- function(track, place, settings) {
   free_end <- track$cut && settings$cut_ends == "slide"
   slides <- seq_len(n) < n & (seq_len(n) > 1 | free_end)
   rows <- slider_rows(track$s, slides, track$kept / (n - 1), attr(path, "length"), settings)
-  list(place = place, n = n, s = track$s, path = path, track = nodes, kept = track$kept, rows = rows)
+  list(place = place, n = n, s = track$s, path = path, track = nodes, kept = track$kept,
+       rows = rows)
 }
 
 #' Slide all curves of a specimen
 #'
-#' @return List: `s` (list by curve), `x` (matrix of all places, those of curves slid), `sliding`, `trace` as in [slide()].
+#' @return List: `s` (list by curve), `x` (matrix of all places, those of curves slid), `sliding`,
+#'   `trace` as in [slide()].
 #' @noRd
 slide_curves <- function(state, plan) {
   x <- state$store[, c("x", "y", "z")]
@@ -177,8 +194,10 @@ slide_curves <- function(state, plan) {
     x[set$places, ] <- slid$x
     trace[[set$name]] <- slid$trace
   }
-  longest <- vapply(names(s), function(name) max(0, abs(s[[name]] - state$curves[[name]]$s), na.rm = TRUE), 0)
-  list(s = s, x = x, trace = lapply(trace, trace_table), sliding = sliding_table(trace, "curves", longest))
+  longest <- vapply(names(s),
+                    function(name) max(0, abs(s[[name]] - state$curves[[name]]$s), na.rm = TRUE), 0)
+  list(s = s, x = x, trace = lapply(trace, trace_table),
+       sliding = sliding_table(trace, "curves", longest))
 }
 
 slide_set <- function(set, state, plan) {
@@ -188,7 +207,8 @@ slide_set <- function(set, state, plan) {
     curve$rows[, "point"] <- points[curve$rows[, "point"]]
     curve$rows
   }, curves, set$points))
-  slid <- cpp_slide_on_tracks(set$b, state$store[set$places, c("x", "y", "z"), drop = FALSE], lapply(curves, `[[`, "track"),
+  slid <- cpp_slide_on_tracks(set$b, state$store[set$places, c("x", "y", "z"), drop = FALSE],
+                              lapply(curves, `[[`, "track"),
                               rows, settings$strain * mean(diag(set$b)), settings$sweeps)
   own <- split(slid$s, factor(rows[, "track"], seq_along(curves)))
   s <- Map(function(curve, own) replace(curve$s, curve$rows[, "point"], own), curves, own)
@@ -206,7 +226,9 @@ curves_placed <- function(state, s, mesh) {
     store[curve$place[at], mesh_columns] <- columns_of(place_along(mesh, curve$path, s[[name]][at]))
     se <- store[curve$place, "se"]
     known <- !is.na(se) & !is.na(curve$s)
-    if (sum(known) > 1) store[curve$place[at], "se"] <- stats::approx(curve$s[known], se[known], s[[name]][at], rule = 2)$y
+    if (sum(known) > 1) store[curve$place[at],
+                              "se"] <- stats::approx(curve$s[known], se[known], s[[name]][at],
+                                                     rule = 2)$y
   }
   store
 }

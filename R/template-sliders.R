@@ -5,14 +5,18 @@
 sliding_table <- function(trace, level, longest) {
   of <- function(f, type) vapply(trace, f, type, USE.NAMES = FALSE)
   part <- names(trace)
-  data.frame(part = as.character(part), level = rep(level, length(part)), points = of(function(x) x$points, 0L),
-             sweeps = of(function(x) length(x$energy) - 1, 0), converged = of(function(x) x$converged, NA),
-             energy_before = of(function(x) x$energy[1], 0), energy_after = of(function(x) x$energy[length(x$energy)], 0),
+  data.frame(part = as.character(part), level = rep(level, length(part)),
+             points = of(function(x) x$points, 0L),
+             sweeps = of(function(x) length(x$energy) - 1, 0),
+             converged = of(function(x) x$converged, NA),
+             energy_before = of(function(x) x$energy[1], 0),
+             energy_after = of(function(x) x$energy[length(x$energy)], 0),
              longest = ifelse(part %in% names(longest), longest[part], max(longest, 0)))
 }
 
 trace_table <- function(trace) {
-  data.frame(sweep = seq_along(trace$energy) - 1, energy = trace$energy, strain = trace$strain, longest = trace$longest)
+  data.frame(sweep = seq_along(trace$energy) - 1, energy = trace$energy, strain = trace$strain,
+             longest = trace$longest)
 }
 
 #' Sliders of several paths, their neighbours and tracks counted through
@@ -21,7 +25,9 @@ stack_rows <- function(rows) {
   offset <- cumsum(c(0, vapply(rows, nrow, 0L)))[seq_along(rows)]
   do.call(rbind, unname(Map(function(rows, offset, track) {
     rows[, "track"] <- track
-    for (side in c("before", "after")) rows[, side] <- ifelse(rows[, side] == 0, 0, rows[, side] + offset)
+    for (side in c("before", "after")) rows[,
+                                            side] <- ifelse(rows[, side] == 0, 0,
+                                                            rows[, side] + offset)
     rows
   }, rows, offset, seq_along(rows))))
 }
@@ -39,8 +45,10 @@ slider_rows <- function(s, slides, spacing, length, settings) {
   before <- c(NA, there)[match(at, there)]
   after <- c(there, NA)[match(at, there) + 1]
   number <- function(point) match(point, at, nomatch = 0)
-  cbind(point = at, track = rep(1, length(at)), s = s[at], before = number(before), after = number(after),
+  cbind(point = at, track = rep(1, length(at)), s = s[at], before = number(before),
+        after = number(after),
         low = ifelse(is.na(before), 0, s[before]), high = ifelse(is.na(after), length, s[after]),
         rest_before = (at - before) * spacing, rest_after = (after - at) * spacing,
-        gap = rep(settings$gap * spacing, length(at)), tolerance = rep(settings$tolerance * spacing, length(at)))
+        gap = rep(settings$gap * spacing, length(at)),
+        tolerance = rep(settings$tolerance * spacing, length(at)))
 }

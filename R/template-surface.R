@@ -1,4 +1,5 @@
-# The points of patches between slid curves: cut anew, then slid to the least energy, over the mesh or along their cuts.
+# The points of patches between slid curves: cut anew, then slid to the least energy, over the mesh
+# or along their cuts.
 
 #' The patches between slid curves
 #'
@@ -9,7 +10,8 @@
 between_curves <- function(cutting, store) {
   points <- cutting$scheme$points
   store[setdiff(points$place, points$place[points$level != "surface"]), ] <- NA
-  fit_scheme_patches(cutting$bridged, cutting$specimen, cutting$scheme, cutting$fits, store, cutting$column,
+  fit_scheme_patches(cutting$bridged, cutting$specimen, cutting$scheme, cutting$fits, store,
+                     cutting$column,
                      function() NULL)$store
 }
 
@@ -27,10 +29,12 @@ slide_surface <- function(store, cutting, plan) {
       slide_transects(set, store, cutting, plan)
     store <- slid$store
     trace[[set$name]] <- slid$trace
-    moved <- store[set$free, c("x", "y", "z"), drop = FALSE] - before[set$free, c("x", "y", "z"), drop = FALSE]
+    moved <- store[set$free, c("x", "y", "z"),
+                   drop = FALSE] - before[set$free, c("x", "y", "z"), drop = FALSE]
     longest[set$name] <- sqrt(max(rowSums(moved^2)))
   }
-  list(store = store, trace = lapply(trace, trace_table), sliding = sliding_table(trace, "surface", longest))
+  list(store = store, trace = lapply(trace, trace_table),
+       sliding = sliding_table(trace, "surface", longest))
 }
 
 #' The sets of surface points that slide in one energy: one of all, or one a patch
@@ -48,13 +52,15 @@ surface_sets <- function(store, plan) {
     own <- group[there[group]]
     if (!any(own %in% free)) return(NULL)
     kept(plan, list("surface", name, group[!there[group]]), function() {
-      list(name = name, places = own, free = intersect(own, free), b = set_energy(own, plan, plan$settings$surface_nugget))
+      list(name = name, places = own, free = intersect(own, free),
+           b = set_energy(own, plan, plan$settings$surface_nugget))
     })
   }, names(groups), groups)
   Filter(Negate(is.null), sets)
 }
 
-#' Places that landmarks and curves hold: their own, and those of patches that lie on bounding curves
+#' Places that landmarks and curves hold: their own, and those of patches that lie on bounding
+#' curves
 #' @noRd
 bound_places <- function(scheme) {
   points <- scheme$points
@@ -62,7 +68,8 @@ bound_places <- function(scheme) {
   blocks <- lapply(seq_len(nrow(scheme$patches)), function(i) {
     block <- scheme$patches[i, ]
     at <- block_points(block)
-    at$row == 1 | (at$row == block$rows & !is.na(block$curve_b)) | (at$column == 1 & !is.na(block$first_column))
+    at$row == 1 | (at$row == block$rows &
+                   !is.na(block$curve_b)) | (at$column == 1 & !is.na(block$first_column))
   })
   unique(c(held, points$place[points$level == "surface"][unlist(blocks)]))
 }
@@ -76,7 +83,8 @@ slide_free <- function(set, store, specimen, plan) {
   x <- store[set$places, c("x", "y", "z"), drop = FALSE]
   held <- set$b[free, -free, drop = FALSE] %*% x[-free, , drop = FALSE]
   slid <- cpp_slide_on_mesh(surface$vb, surface$it, surface$twin, set$b[free, free, drop = FALSE],
-                            x[free, , drop = FALSE], held, store[set$free, c("face", "w1", "w2", "w3"), drop = FALSE],
+                            x[free, , drop = FALSE], held,
+                            store[set$free, c("face", "w1", "w2", "w3"), drop = FALSE],
                             settings$surface_tolerance * plan$radius, settings$surface_sweeps)
   rest <- quadratic_form(set$b[-free, -free, drop = FALSE], x[-free, , drop = FALSE])
   slid$trace$energy <- slid$trace$energy + rest
@@ -90,20 +98,23 @@ slide_transects <- function(set, store, cutting, plan) {
   cuts <- transects(set, store, cutting, plan$settings)
   if (!length(cuts)) return(list(store = store, trace = NULL))
   rows <- stack_rows(lapply(cuts, `[[`, "rows"))
-  slid <- cpp_slide_on_tracks(set$b, store[set$places, c("x", "y", "z"), drop = FALSE], lapply(cuts, `[[`, "track"), rows, 0,
+  slid <- cpp_slide_on_tracks(set$b, store[set$places, c("x", "y", "z"), drop = FALSE],
+                              lapply(cuts, `[[`, "track"), rows, 0,
                               plan$settings$sweeps)
   at <- split(slid$s, rows[, "track"])
   mesh <- cutting$specimen$mesh
   for (i in seq_along(cuts)) {
     track <- cuts[[i]]$track
-    store[cuts[[i]]$place, mesh_columns] <- cpp_place_along(mesh$vb, mesh$it, track[, 2:4], track[, 1], track[, 5], at[[i]])
+    store[cuts[[i]]$place, mesh_columns] <- cpp_place_along(mesh$vb, mesh$it, track[, 2:4],
+                                                            track[, 1], track[, 5], at[[i]])
   }
   list(store = store, trace = c(slid$trace, points = length(slid$s)))
 }
 
 #' The cuts that the free points of a set were made on
 #'
-#' @return List of cuts: `place` (of the free points, in order), `track` and `rows` (as the kernel takes them).
+#' @return List of cuts: `place` (of the free points, in order), `track` and `rows` (as the kernel
+#'   takes them).
 #' @noRd
 transects <- function(set, store, cutting, settings) {
   surface <- walkable(cutting$bridged)
@@ -112,7 +123,8 @@ transects <- function(set, store, cutting, settings) {
                   rep(seq_len(nrow(patches)), patches$n))
   each <- lapply(which(vapply(places, function(place) any(place %in% set$free), NA)), function(i) {
     grid <- cbind(block_points(patches[i, ]), place = places[[i]])
-    block_transects(patches[i, ], grid[grid$place %in% set$free, ], set, store, surface, cutting, settings)
+    block_transects(patches[i, ], grid[grid$place %in% set$free, ], set, store, surface, cutting,
+                    settings)
   })
   unlist(each, recursive = FALSE)
 }
@@ -123,22 +135,28 @@ transects <- function(set, store, cutting, settings) {
 #' @noRd
 block_transects <- function(block, grid, set, store, surface, cutting, settings) {
   side <- function(text, resample) {
-    block_side(text, resample, cutting$bridged, surface, cutting$scheme$curves, cutting$fits, store, cutting$column)$points
+    block_side(text, resample, cutting$bridged, surface, cutting$scheme$curves, cutting$fits, store,
+               cutting$column)$points
   }
   a <- side(block$curve_a, block$resample_a)
   b <- side(block$curve_b, block$resample_b)
   lapply(split(grid, grid$column), function(rows) {
     column <- rows$column[1]
     outside <- as.matrix(column_outside(a, b, column, block$outward))
-    made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside, block$rows, surface, cutting$column)
+    made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside, block$rows,
+                        surface, cutting$column)
     track <- made$cuts[[1]]
     length <- track[nrow(track), 1]
     s <- rep(NA_real_, block$rows)
-    s[c(1, rows$row, block$rows)] <- c(0, track_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length)
-    sliders <- slider_rows(s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length, settings)
+    s[c(1, rows$row, block$rows)] <- c(0,
+                                       track_places(track, store[rows$place, c("x", "y", "z"),
+                                                                 drop = FALSE]), length)
+    sliders <- slider_rows(s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length,
+                           settings)
     sliders[, "point"] <- match(rows$place, set$places)
     on_mesh <- track[, 5] <= ncol(cutting$specimen$mesh$it)
-    list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)), rows = sliders)
+    list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)),
+         rows = sliders)
   })
 }
 

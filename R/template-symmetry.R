@@ -1,25 +1,29 @@
-# Left and right of a shape: its relabelled reflection, the symmetric mean of both, and how far the two differ.
+# Left and right of a shape: its relabelled reflection, the symmetric mean of both, and how far the
+# two differ.
 
 #' A perfectly symmetric shape, and how far a shape is from symmetric
 #'
-#' `symmetrise()` gives the mean of a shape and of its reflection with left and right relabelled, laid onto it by rotation
-#' (Procrustes superimposition of all places, without scaling). Reflecting and relabelling it
-#' changes nothing. It is a template for [slide()], not a measurement: its points lie on no mesh. A
-#' missing point takes its partner's reflection.
+#' `symmetrise()` gives the mean of a shape and of its reflection with left and right relabelled,
+#' laid onto it by rotation (Procrustes superimposition of all places, without scaling). Reflecting
+#' and relabelling it changes nothing. It is a template for [slide()], not a measurement: its points
+#' lie on no mesh. A missing point takes its partner's reflection.
 #'
-#' `asymmetry()` measures the distances of the shape's points from the symmetric mean, half of those from
-#' their partners' reflections: for one specimen the asymmetric component of object symmetry.
+#' `asymmetry()` measures the distances of the shape's points from the symmetric mean, half of those
+#' from their partners' reflections: for one specimen the asymmetric component of object symmetry.
 #'
-#' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left and right.
+#' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left
+#'   and right.
 #' @param off_middle How far off the mid-plane a landmark without a partner may lie without a
 #'   warning, as a share of the shape's RMS radius (0.1 is about 6 mm on a face). Such a landmark
 #'   counts as one of the mid-line, and the symmetric mean puts it there.
-#' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`, `se` all NA, and no
-#'   paths.
-#' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places that have a partner.
-#' @section Warnings: of class `crestline_unpaired`, naming the landmarks that are in no pair but lie beside the mid-plane.
-#' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures, *Evolution* 56,
-#'   1909-1920; the paper, section 4.
+#' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`,
+#'   `se` all NA, and no paths.
+#' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places
+#'   that have a partner.
+#' @section Warnings: of class `crestline_unpaired`, naming the landmarks that are in no pair but
+#'   lie beside the mid-plane.
+#' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
+#'   *Evolution* 56, 1909-1920; the paper, section 4.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -43,41 +47,50 @@ symmetrise <- function(shape, off_middle = 0.1) {
 
 #' @rdname symmetrise
 #' @param by "part": a row a part; "point": a row a point.
-#' @return `asymmetry()`: data frame `level` ("overall", "landmarks", "curves", "surface"), `part` (landmark, curve,
-#'   patch), `points` (their number, those that coincide counted once), `rms`, `largest`, in the unit of the mesh, NA
-#'   where nothing has a partner; by point: `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` in
-#'   the shape's own axes.
+#' @return `asymmetry()`: data frame `level` ("overall", "landmarks", "curves", "surface"), `part`
+#'   (landmark, curve, patch), `points` (their number, those that coincide counted once), `rms`,
+#'   `largest`, in the unit of the mesh, NA where nothing has a partner; by point: `level`, `part`,
+#'   `point`, `distance` and its components `dx`, `dy`, `dz` in the shape's own axes.
 #' @export
 asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
   check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
   by <- check_choice(by, c("part", "point"), "by")
-  off <- as.matrix(shape$points[c("x", "y", "z")]) - as.matrix(symmetrise(shape, off_middle)$points[c("x", "y", "z")])
+  off <- as.matrix(shape$points[c("x", "y",
+                                  "z")]) - as.matrix(symmetrise(shape,
+                                                                off_middle)$points[c("x", "y",
+                                                                                     "z")])
   points <- shape$points[c("level", "part", "point")]
   distance <- sqrt(rowSums(off^2))
-  if (by == "point") return(cbind(points, distance = distance, dx = off[, 1], dy = off[, 2], dz = off[, 3]))
+  if (by == "point") return(cbind(points, distance = distance, dx = off[, 1], dy = off[, 2],
+                                  dz = off[, 3]))
   place <- shape$scheme$points$place
   row <- function(level, part, at) {
     d <- distance[at][!duplicated(place[at]) & !is.na(distance[at])]
-    data.frame(level = level, part = part, points = length(d), rms = if (length(d)) sqrt(mean(d^2)) else NA_real_,
+    data.frame(level = level, part = part, points = length(d),
+               rms = if (length(d)) sqrt(mean(d^2)) else NA_real_,
                largest = if (length(d)) max(d) else NA_real_)
   }
   parts <- unique(points[c("level", "part")])
-  each <- Map(function(level, part) row(level, part, points$level == level & points$part == part), parts$level, parts$part)
+  each <- Map(function(level, part) row(level, part, points$level == level & points$part == part),
+              parts$level, parts$part)
   found <- rbind(row("overall", "all", rep(TRUE, length(place))), do.call(rbind, unname(each)))
   rownames(found) <- NULL
   found
 }
 
-#' Landmarks without a partner that the symmetric mean moves far: they lie on a side, and are missing in the pairs
+#' Landmarks without a partner that the symmetric mean moves far: they lie on a side, and are
+#' missing in the pairs
 #'
-#' @param xyz,mean Places of the shape and of its symmetric mean, which has what is its own partner on the mid-plane.
+#' @param xyz,mean Places of the shape and of its symmetric mean, which has what is its own partner
+#'   on the mid-plane.
 #' @noRd
 warn_unpaired <- function(shape, xyz, mean, off_middle) {
   landmark <- shape$scheme$landmarks$landmark
   alone <- landmark[partner_of(landmark, shape$scheme$pairs, "landmarks") == landmark]
   points <- shape$points[shape$points$level == "landmarks", ]
-  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(alone, points$part)]
+  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(alone,
+                                                                                     points$part)]
   off <- row_lengths(xyz[place, , drop = FALSE] - mean[place, , drop = FALSE])
   known <- xyz[!is.na(xyz[, 1]), , drop = FALSE]
   radius <- sqrt(mean(rowSums(sweep(known, 2, colMeans(known))^2)))
@@ -85,16 +98,18 @@ warn_unpaired <- function(shape, xyz, mean, off_middle) {
   if (!length(far)) return(invisible())
   said <- paste0(alone[far], " (", signif(off[far], 2), ")")
   crestline_warn(sprintf("%s in no pair, but off the mid-plane: %s; the symmetric mean puts %s on it.",
-                         if (length(far) == 1) "a landmark is" else "landmarks are", shorten(said, 6),
+                         if (length(far) == 1) "a landmark is" else "landmarks are",
+                         shorten(said, 6),
                          if (length(far) == 1) "it" else "them"),
                  "Add it with its partner to the scheme's `pairs`, or raise `off_middle` where the object is that crooked.",
                  stage = "symmetry", id = shape$id, class = "crestline_unpaired")
 }
 
-#' Mean of a configuration and its reflection, partners exchanged; NA where a point and its partner are missing
+#' Mean of a configuration and its reflection, partners exchanged; NA where a point and its partner
+#' are missing
 #'
-#' The best orthogonal matrix between a configuration and its own relabelling is symmetric, so the mean is exactly its
-#' own reflection.
+#' The best orthogonal matrix between a configuration and its own relabelling is symmetric, so the
+#' mean is exactly its own reflection.
 #'
 #' @param by Rows that the reflection is fitted by.
 #' @noRd
@@ -103,7 +118,8 @@ symmetric_mean <- function(xyz, partner, id, by = rep(TRUE, nrow(xyz))) {
   both <- known & by
   if (all(partner == seq_along(partner)) || sum(both) < 3) {
     crestline_abort("too little of it has a left and a right.",
-                    "Give the scheme pairs (see `?curve_scheme`), or check what is missing.", stage = "symmetry", id = id, call = NULL)
+                    "Give the scheme pairs (see `?curve_scheme`), or check what is missing.",
+                    stage = "symmetry", id = id, call = NULL)
   }
   centre <- colMeans(xyz[both, , drop = FALSE])
   centred <- sweep(xyz, 2, centre)
@@ -147,13 +163,15 @@ mirror_places <- function(scheme) {
                 mirror_curve_rows(scheme), mirror_surface_rows(scheme))
   level <- points$level
   name <- c(paste(level, points$part, points$point, sep = "|"))
-  mirrored[level == "landmarks"] <- paste("landmarks", mirrored[level == "landmarks"], "1", sep = "|")
+  mirrored[level == "landmarks"] <- paste("landmarks", mirrored[level == "landmarks"], "1",
+                                          sep = "|")
   place <- unique(points$place)
   first <- !duplicated(points$place)
   match(points$place[match(mirrored[first], name)], place)
 }
 
-#' Names of the points that curve points are mirrored to: a curve whose ends are exchanged runs backwards
+#' Names of the points that curve points are mirrored to: a curve whose ends are exchanged runs
+#' backwards
 #' @noRd
 mirror_curve_rows <- function(scheme) {
   curves <- scheme$curves
@@ -168,7 +186,8 @@ mirror_curve_rows <- function(scheme) {
 
 #' Names of the points that surface points are mirrored to
 #'
-#' The partner's block has the same rows; its columns run the other way where its bounding curve does.
+#' The partner's block has the same rows; its columns run the other way where its bounding curve
+#' does.
 #' @noRd
 mirror_surface_rows <- function(scheme) {
   patches <- scheme$patches
@@ -182,7 +201,8 @@ mirror_surface_rows <- function(scheme) {
     own <- do.call(paste, c(side_points(other$curve_a), sep = "|"))
     last <- if (is.na(other$resample_a)) length(own) else other$resample_a
     column <- if (identical(mirrored, own)) from$column else last + 1 - from$column
-    paste("surface", other$patch, to$point[match(paste(column, from$row), paste(to$column, to$row))], sep = "|")
+    paste("surface", other$patch,
+          to$point[match(paste(column, from$row), paste(to$column, to$row))], sep = "|")
   }))
 }
 
@@ -191,6 +211,7 @@ mirror_surface_rows <- function(scheme) {
 mirror_side <- function(text, scheme) {
   points <- scheme$points[scheme$points$level == "curves", ]
   own <- side_points(text)
-  mirrored <- mirror_curve_rows(scheme)[match(paste(own$curve, own$point), paste(points$part, points$point))]
+  mirrored <- mirror_curve_rows(scheme)[match(paste(own$curve, own$point),
+                                              paste(points$part, points$point))]
   sub("^curves[|]", "", mirrored)
 }

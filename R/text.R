@@ -22,7 +22,8 @@ shorten <- function(x, most = 5) {
 }
 
 describe_shape <- function(x) {
-  if (is.null(dim(x))) describe_value(x) else sprintf("%s %s", paste(dim(x), collapse = " x "), typeof(x))
+  if (is.null(dim(x))) describe_value(x) else
+    sprintf("%s %s", paste(dim(x), collapse = " x "), typeof(x))
 }
 
 amount <- function(n, one, many = paste0(one, "s")) {
@@ -46,7 +47,8 @@ near_names <- function(name, known) {
 describe_value <- function(x) {
   if (is.null(x)) return("NULL")
   if (!is.atomic(x)) return(paste0("of class ", class(x)[1]))
-  if (is.array(x)) return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array", paste(dim(x), collapse = " x ")))
+  if (is.array(x)) return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array",
+                                  paste(dim(x), collapse = " x ")))
   shown <- paste(shorten_text(utils::head(format(x), 3)), collapse = ", ")
   if (length(x) > 3) return(paste0(shown, ", ... (", length(x), " values)"))
   if (!length(x)) "empty" else if (identical(shown, "")) "an empty string" else shown
@@ -58,7 +60,8 @@ describe_range <- function(lower, upper, open) {
   paste(paste(words, bounds)[is.finite(bounds)], collapse = " and ")
 }
 
-shorten_text <- function(x, most = 60) ifelse(nchar(x) > most, paste0(substr(x, 1, most - 3), "..."), x)
+shorten_text <- function(x, most = 60) ifelse(nchar(x) > most,
+                                              paste0(substr(x, 1, most - 3), "..."), x)
 
 comment_text <- function(text) {
   gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
