@@ -315,10 +315,13 @@ check_path_to_write <- function(x, name, endings = NULL, stage = "arguments",
 #' The first line of an exported function: R's own message would come from deep inside.
 #' @param but Arguments that may be left out in this call.
 #' @noRd
-check_given <- function(but = character(), frame = rlang::caller_env(), fn = rlang::caller_fn()) {
-  needed <- names(Filter(function(x) identical(x, quote(expr = )), as.list(formals(fn))))
-  absent <- Filter(function(name) eval(as.call(list(quote(base::missing), as.name(name))), frame),
-                   setdiff(needed, c("...", but)))
+check_given <- function(but = character(), frame = parent.frame(),
+                        fn = sys.function(sys.parent())) {
+  arguments <- formals(fn)
+  arguments <- arguments[vapply(arguments, is.symbol, NA)]
+  needed <- names(arguments)[!nzchar(vapply(arguments, as.character, ""))]
+  is_missing <- function(name) eval(call("missing", as.name(name)), frame)
+  absent <- Filter(is_missing, setdiff(needed, c("...", but)))
   if (!length(absent)) return(invisible())
   crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "),
                           if (length(absent) == 1) "is" else "are"),
