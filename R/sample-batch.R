@@ -50,7 +50,9 @@
 #'   meshes has any. A mesh without landmarks among others that have some is then a failure, so that
 #'   found and placed landmarks are not mixed by accident.
 #' @param reading With mesh files: named list of further arguments of [read_specimen()],
-#'   [specimen()] and [read_landmarks()], such as `list(frame = "RAS", tolerance = 0.02)`.
+#'   [specimen()] and [read_landmarks()], such as
+#'   `list(frame = "RAS", names = c(prn = "pn"), tolerance = 0.02)`; also `unit`, as in
+#'   [fit_shape()].
 #' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
 #'   lots. Small lots cost more starts, large ones more waiting at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
@@ -91,6 +93,10 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
   settings <- check_fit_arguments(list(...))
+  if (is.list(reading) && !is.null(reading[["unit"]])) {
+    settings <- with_unit(settings, reading$unit)
+    reading$unit <- NULL
+  }
   jobs <- batch_jobs(x, landmarks, reading)
   if (!is.null(dir)) dir <- results_folder(dir)
   jobs <- with_finder(jobs, dir, template, doubtful, scheme, found)
@@ -105,6 +111,17 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   run <- function() measure_tasks(tasks[open], scheme, settings, chunk)
   if (any(open)) results[open] <- if (isTRUE(progress)) progressr::with_progress(run()) else run()
   batch_of(stats::setNames(results, names(jobs)), scheme)
+}
+
+#' Arguments for fit_shape() with the unit of what is read
+#' @noRd
+with_unit <- function(settings, unit, call = rlang::caller_env()) {
+  if (!is.null(settings$unit) && !identical(settings$unit, unit)) {
+    crestline_abort("`unit` and `reading$unit` differ.", "Give one of them.", stage = "arguments",
+                    call = call)
+  }
+  settings$unit <- check_number(unit, "reading$unit", 0, open = TRUE, call = call)
+  settings
 }
 
 #' Arguments for fit_shape(), none that it does not take

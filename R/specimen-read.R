@@ -22,6 +22,8 @@
 #'   [specimen()]. A file or folder of several specimens, a list of matrices and a k x 3 x n array
 #'   are searched for the specimen `id`.
 #' @param id Name of the specimen. Unless given, the file's name without extension (and `.gz`).
+#' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` calls
+#'   the file's `prn` `pn`. Names that the specimen does not have are passed over.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to
 #'   do.
@@ -30,8 +32,9 @@
 #' Rvcg::vcgPlyWrite(Rvcg::vcgSphere(2), file)
 #' read_specimen(file, id = "ball")
 #' @export
-read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
+read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) {
   check_given()
+  check_new_names(names)
   check_dots(..., known = names(formals(specimen))[-(1:3)])
   check_file(file, "reading")
   if (inherits(landmarks, "specimen")) {
@@ -41,5 +44,6 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ...) {
   id <- check_id(id)
   beside <- if (is.character(landmarks) && length(landmarks) == 1 &&
                 is.null(dim(landmarks))) landmarks else NA_character_
-  from_files(specimen(read_mesh(file, id), landmarks_of(landmarks, id), id, ...), file, beside)
+  own <- renamed_landmarks(as_landmarks(landmarks_of(landmarks, id), id), names, id)
+  from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
 }

@@ -43,3 +43,15 @@ test_that("fit_shape() warns where another landmark may be meant, and print() li
   expect_crestline_error(fit_shape(ball("A", "B", "c c", "x"), three, progress = FALSE),
                          c("none of the landmarks", "near: a, b, C C"))
 })
+
+test_that("landmarks are renamed on reading, and never onto another's name", {
+  file <- tempfile(fileext = ".ply")
+  write_mesh(ball_mesh(), file)
+  at <- rbind(prn = c(1, 0, 0), top = c(0, 0, 1))
+  one <- read_specimen(file, at, names = c(prn = "pn", other = "x"))
+  expect_identical(rownames(one$landmarks), c("pn", "top"))
+  expect_identical(unname(one$landmarks["pn", ]), unname(read_specimen(file, at)$landmarks["prn", ]))
+  expect_crestline_error(read_specimen(file, at, names = c(prn = "top")), "two landmarks the name top")
+  expect_crestline_error(read_specimen(file, at, names = "pn"), "`names`")
+  expect_crestline_error(read_specimen(file, at, names = c(a = "x", b = "x")), "`names`")
+})

@@ -258,3 +258,21 @@ test_that("a folder without the right to write costs no measuring", {
   shapes <- fit_shapes(batch_specimens(2), edge_scheme(), out)
   expect_identical(failures(shapes)$stage, c("keeping", "keeping"))
 })
+
+test_that("reading takes other names and another unit", {
+  skip_without_futures()
+  three <- lapply(batch_specimens(), function(one) {
+    at <- one$landmarks
+    rownames(at) <- toupper(rownames(at))
+    specimen(one$mesh, at, id = one$id)
+  })
+  dir <- batch_folder(three)
+  on.exit(unlink(dir, recursive = TRUE))
+  renamed <- stats::setNames(rownames(batch_specimens()[[1]]$landmarks), rownames(three[[1]]$landmarks))
+  shapes <- fit_shapes(meshes_in(dir), edge_scheme(), reading = list(names = renamed, unit = 2))
+  expect_identical(nrow(failures(shapes)), 0L)
+  expect_true(all(shapes[[1]]$status$ok))
+  expect_identical(shapes[[1]]$provenance$scheme$unit, 2)
+  expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), unit = 1, reading = list(unit = 2)), "differ")
+  expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), reading = list(unit = -1)), "unit")
+})
