@@ -1,7 +1,7 @@
 # Alignments, components, comparisons and samples with a part that is not what it was.
 
 tetrahedra <- function(n = 10) {
-  shapes <- withr::with_seed(5, array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), n) + stats::rnorm(12 * n, sd = 0.05), c(4, 3, n)))
+  shapes <- with_seed(5, array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), n) + stats::rnorm(12 * n, sd = 0.05), c(4, 3, n)))
   dimnames(shapes) <- list(letters[1:4], c("x", "y", "z"), paste0("s", seq_len(n)))
   shapes
 }

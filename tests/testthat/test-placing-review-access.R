@@ -68,6 +68,7 @@ answer_review <- function(port, origin, search) {
 test_that("a review in another process obeys its own page, and nobody else", {
   skip_on_cran()
   skip_if_not_installed("shiny")
+  skip_if_not_installed("httpuv")
   skip_on_os("windows")
   port <- httpuv::randomPort()
   address <- tempfile()
