@@ -388,8 +388,8 @@ worst_spread <- function(x) {
 }
 
 #' @param ratio Of the spreads of groups of unequal size, above which pooled tests are not to be
-#'   trusted: at 24 and 6 specimens and a ratio of 2 they reject a true null hypothesis in more than
-#'   half of the samples, see `tests/testthat/test-analysis-spread.R`.
+#'   trusted. At 24 and 6 specimens and a ratio of 3 they reject a true null hypothesis in more than
+#'   40 % of samples: `tests/testthat/test-analysis-spread.R`.
 #' @noRd
 warn_unequal_spread <- function(x, ratio = 1.5) {
   worst <- worst_spread(x)
