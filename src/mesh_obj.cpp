@@ -1,10 +1,10 @@
-#include "mesh_read_obj.h"
+#include "mesh_obj.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "mesh_read_text.h"
+#include "mesh_read.h"
 
 namespace crestline {
 

@@ -1,4 +1,4 @@
-#include "mesh_read_ply.h"
+#include "mesh_ply.h"
 
 #include <cstdint>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "mesh_read_text.h"
+#include "mesh_read.h"
 
 #include <R_ext/Utils.h>
 
