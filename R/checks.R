@@ -130,6 +130,16 @@ check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
   x
 }
 
+# Colours of vertices: one, or one for each.
+check_colours <- function(colour, n, call = rlang::caller_env()) {
+  check_colour(colour, "colour", call = call)
+  if (!length(colour) %in% c(1L, n)) {
+    crestline_abort(sprintf("`colour` has %d values for %d vertices.", length(colour), n),
+                    "Give one colour, or one for each vertex.", stage = "picture", call = call)
+  }
+  rep_len(colour, n)
+}
+
 #' An object of a class of ours, or of `mesh3d`, with the parts that it has at least
 #' @noRd
 check_class <- function(x, class, name, maker, call = rlang::caller_env()) {

@@ -96,3 +96,11 @@ patch_colours <- function(mesh, palette = "Dark 3", between = "#BEBEBE", apart =
   colour[mesh$it[, own]] <- rep(hues[match(group[own], patches)], each = 3)
   colour
 }
+
+# Colours at shares x of the way through `anchors`.
+ramp_colours <- function(x, anchors, missing) {
+  out <- rep(missing, length(x))
+  known <- !is.na(x)
+  out[known] <- grDevices::rgb(grDevices::colorRamp(anchors)(x[known]), maxColorValue = 255)
+  out
+}

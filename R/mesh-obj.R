@@ -63,3 +63,9 @@ mtl_image <- function(text, folder) {
   if (file.exists(whole)) whole else
     file.path(folder, basename(sub(".*[ \t]", "", gsub("\\\\", "/", text))))
 }
+
+write_obj <- function(mesh, file, ascii) {
+  vertex <- paste("v", row_text(mesh$xyz, missing = "nan"))
+  if (!is.null(mesh$rgb)) vertex <- paste(vertex, row_text(mesh$rgb / 255))
+  write_content(c(paste("#", mesh$comments), vertex, paste("f", row_text(mesh$it))), file)
+}

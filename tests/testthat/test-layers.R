@@ -1,7 +1,7 @@
 # A file calls only floors above its own, and no files call each other round in a circle.
 
 # The floors, first to last. A file's floor is the first word of its name.
-floors <- c("conditions", "text", "files", "geometry", "checks", "random", "session", "colours", "settings", "provenance",
+floors <- c("conditions", "text", "files", "geometry", "checks", "session", "settings",
             "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme", "shape", "placing",
             "template", "sample", "analysis", "study", "plot", "report", "crestline")
 
