@@ -136,12 +136,11 @@ view_points <- function(scene, x) x %*% t(scene$rotation)
 seen_from <- function(scene, view) {
   column <- floor((view[, 1] - scene$usr[1]) / scene$pixel) + 1
   row <- floor((scene$usr[4] - view[, 2]) / scene$pixel) + 1
-  inside <- !is.na(column +
-                   row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 & row <= nrow(scene$depth)
+  inside <- !is.na(column + row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 &
+    row <= nrow(scene$depth)
+  depth <- scene$depth[cbind(row, column)[inside, , drop = FALSE]]
   seen <- inside
-  seen[inside] <- view[inside,
-                       3] >= scene$depth[cbind(row, column)[inside, ,
-                                                            drop = FALSE]] - scene$tolerance
+  seen[inside] <- view[inside, 3] >= depth - scene$tolerance
   seen
 }
 

@@ -14,7 +14,8 @@ read_mesh <- function(file, id) {
   })
   if (!is.null(mesh$short)) {
     warn_file(file, sprintf("has %d polygons with fewer than three corners", mesh$short),
-              "Look whether the surface is whole: the header's numbers may be wrong, or export it again.", id)
+              paste0("Look whether the surface is whole: the header's numbers may be wrong, or ",
+                     "export it again."), id)
   }
   mesh
 }
@@ -130,7 +131,8 @@ painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
   n <- ncol(mesh$vb)
   row <- attr(mesh, "row")
   if (identical(colour, "se")) colour <- shape_errors(shape)
-  by_row <- is.numeric(colour) && !is.null(shape) && length(colour) == sum(shape$points$level == "surface")
+  by_row <- is.numeric(colour) && !is.null(shape) &&
+    length(colour) == sum(shape$points$level == "surface")
   if (by_row) colour <- colour[row]
   value <- if (is.numeric(colour)) check_values(colour, n)
   hex <- if (is.null(colour)) vertex_colours(mesh) else

@@ -1,5 +1,5 @@
-# The bytes of a mesh file, unpacked and in one encoding, what a reader says of them, and a mesh from
-# the polygons of a file.
+# The bytes of a mesh file, unpacked and in one encoding, what a reader says of them, and a mesh
+# from the polygons of a file.
 
 # All bytes, unpacked where they are gzip's, whatever the file's name.
 file_bytes <- function(file, id) {

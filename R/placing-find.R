@@ -95,7 +95,8 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
                       template$id, laid$score,
                       settings$refuse)
-    remedy <- sprintf("Is it the object, and whole enough? Its lengths were multiplied by %g: else give `unit`, or place the landmarks by hand.",
+    remedy <- sprintf(paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
+                             "%g: else give `unit`, or place the landmarks by hand."),
                       unit)
     refuse_landmarks(unlike, remedy, scan$id)
   }

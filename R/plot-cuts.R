@@ -21,7 +21,8 @@
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
 #' face <- specimen(humface, read_landmarks(file), id = "humface")
-#' plot_cuts(face, "chL", "chR", around = face$landmarks[c("chL", "chR", "sn"), ], engine = "picture")
+#' mouth <- face$landmarks[c("chL", "chR", "sn"), ]
+#' plot_cuts(face, "chL", "chR", around = mouth, engine = "picture")
 #' }
 #' @export
 plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surface = "plain",

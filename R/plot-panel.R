@@ -39,7 +39,8 @@ plot_panel <- function(x, points = TRUE, grid = c(300, 200),
   main <- check_text(main, "main", null = TRUE)
   check_class(x, "curve", "x", "ridge_curve()")
   if (is.null(x$line)) {
-    crestline_abort(sprintf("the curve from %s to %s was not found by curvature, so it has no panel.", x$from, x$to),
+    crestline_abort(sprintf(paste0("the curve from %s to %s was not found by curvature, so it has ",
+                                   "no panel."), x$from, x$to),
                     "Plot a ridge or valley that was found.", stage = "picture", id = x$id)
   }
   x$coordinates <- x$coordinates[x$coordinates$inside, ]
