@@ -65,26 +65,23 @@ picture_surface <- function(mesh, colour, rotation, settings) {
   render <- function(xyz, rgb, it) cpp_render_mesh(xyz, rgb, it, frame$width, frame$height,
                                                    settings$samples)
   seen <- render(xyz, shade_vertices(colour, normals, settings), mesh$it)
-  if (!is.na(settings$inside)) seen <- seen_with_inside(seen, render, xyz, colour, normals, mesh$it,
-                                                        settings, tolerance)
+  if (!is.na(settings$inside)) {
+    # Fronts and backs; where a back is seen, what lies on its front side is not, so that its
+    # depth is brought forward.
+    inside <- rep(settings$inside, ncol(xyz))
+    rgb <- cbind(shade_vertices(colour, normals, settings),
+                 shade_vertices(inside, -normals, settings))
+    both <- render(cbind(xyz, xyz), rgb, cbind(mesh$it, mesh$it[c(1, 3, 2), ] + ncol(xyz)))
+    back <- both$depth > seen$depth
+    both$depth[back] <- both$depth[back] + 2 * tolerance
+    seen <- both
+  }
   right <- frame$usr[1] + frame$width * frame$pixel
   bottom <- frame$usr[4] - frame$height * frame$pixel
   graphics::rasterImage(seen$rgba, frame$usr[1], bottom, right, frame$usr[4])
   structure(list(rotation = rotation, pixel = frame$pixel, depth = seen$depth, usr = frame$usr,
                  plt = graphics::par("plt"), tolerance = tolerance),
             class = "picture_scene")
-}
-
-# Fronts and backs; where a back is seen, what lies on its front side is not, so that its depth is
-# brought forward.
-seen_with_inside <- function(front, render, xyz, colour, normals, it, settings, tolerance) {
-  inside <- rep(settings$inside, ncol(xyz))
-  rgb <- cbind(shade_vertices(colour, normals, settings),
-               shade_vertices(inside, -normals, settings))
-  both <- render(cbind(xyz, xyz), rgb, cbind(it, it[c(1, 3, 2), ] + ncol(xyz)))
-  back <- both$depth > front$depth
-  both$depth[back] <- both$depth[back] + 2 * tolerance
-  both
 }
 
 # A new plot, equal in scale, that just holds the turned points (3 x n); its limits, and the size of

@@ -16,15 +16,7 @@ read_landmarks_amira <- function(file, options) {
   }
   n <- as.integer(count[!is.na(count)][1])
   name <- amira_names(line, "Names", n)
-  section <- amira_sections(line, file)
-  sets <- lapply(section, function(at) landmark_set(amira_rows(line, at, n, file), name))
-  specimen <- amira_names(line, "Sets", length(sets))
-  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen),
-            numbered = is.null(specimen))
-}
-
-# The numbers after @ of every set of co-ordinates, in the order of their declaration.
-amira_sections <- function(line, file) {
+  # The numbers after @ of every set of co-ordinates, in the order of their declaration.
   pattern <- paste0("Markers\\s*[{]\\s*(float|double)\\[3\\]\\s*",
                     "Coordinates[0-9]*\\s*[}]\\s*=?\\s*@([0-9]+)")
   section <- unlist(lapply(regmatches(line, regexec(pattern, line)), `[`, 3))
@@ -33,7 +25,10 @@ amira_sections <- function(line, file) {
     refuse_landmark_file(file, "no co-ordinates are declared",
                          "Write: Markers { float[3] Coordinates } @1.")
   }
-  section
+  sets <- lapply(section, function(at) landmark_set(amira_rows(line, at, n, file), name))
+  specimen <- amira_names(line, "Sets", length(sets))
+  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen),
+            numbered = is.null(specimen))
 }
 
 amira_rows <- function(line, section, n, file) {

@@ -10,24 +10,8 @@
 #'   by more than the tolerance.
 #' @noRd
 landmarks_beside <- function(file) {
-  beside <- landmark_files_beside(file)
-  if (length(beside) < 2) return(c(beside, "")[1])
-  sets <- lapply(beside, read_landmarks)
-  differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
-  if (length(differs)) {
-    two <- basename(beside[c(1, differs[1] + 1)])
-    refuse_landmarks(
-      sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
-      "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL
-    )
-  }
-  beside[1]
-}
-
-#' All of them; where none has the mesh's name exactly, those that differ in case and are not of
-#' another mesh
-#' @noRd
-landmark_files_beside <- function(file) {
+  # All of them; where none has the mesh's name exactly, those that differ in case and are not of
+  # another mesh
   stem <- sub("[.][^.]*$", "", basename(file))
   name <- list.files(dirname(file), all.files = TRUE)
   name <- name[startsWith(tolower(name), tolower(stem))]
@@ -41,7 +25,18 @@ landmark_files_beside <- function(file) {
   name <- name[fits][order(match(end[fits], known))]
   beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else
     file.path(dirname(file), name)
-  beside[vapply(beside, is_landmark_file, NA)]
+  beside <- beside[vapply(beside, is_landmark_file, NA)]
+  if (length(beside) < 2) return(c(beside, "")[1])
+  sets <- lapply(beside, read_landmarks)
+  differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+  if (length(differs)) {
+    two <- basename(beside[c(1, differs[1] + 1)])
+    refuse_landmarks(
+      sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
+      "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL
+    )
+  }
+  beside[1]
 }
 
 #' Whether a file of a format's extension holds landmarks, as far as other programs use the
@@ -208,7 +203,19 @@ paths_by_name <- function(landmarks, ids) {
 #' @noRd
 given_sets <- function(x) {
   if (is.data.frame(x)) {
-    found <- table_sets(x)
+    # Landmarks of a data frame as of a file
+    refuse <- function(problem, line = NULL) {
+      refuse_landmarks(sprintf("the table of landmarks cannot be read: %s.", problem),
+                       "Give the columns name, x, y, z, and one of the specimens.", id = NULL)
+    }
+    text <- lapply(x, function(column) {
+      if (is.double(column)) number_text(column, "") else as.character(column)
+    })
+    text <- lapply(text, function(column) replace(column, is.na(column), ""))
+    table <- structure(text, names = trimws(names(x)), row.names = seq_len(nrow(x)),
+                       class = "data.frame")
+    found <- csv_sets(structure(table, line = seq_len(nrow(x)), sep = ","), "the table",
+                      list(frame = "LPS"), refuse)
     return(if (is.matrix(found)) list(found) else found)
   }
   if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))

@@ -68,29 +68,3 @@ plain_landmark <- function(name) {
   name <- gsub("[^[:alnum:]]", "", name)
   sub("left$", "l", sub("right$", "r", name))
 }
-
-#' New names of landmarks, by the old ones
-#' @noRd
-check_new_names <- function(names, call = rlang::caller_env()) {
-  if (is.null(names)) return(invisible())
-  whole <- function(x) is.character(x) && !anyNA(x) && all(nzchar(x)) && !anyDuplicated(x)
-  if (!whole(names) || !whole(names(names)) || is.object(names)) {
-    refuse_argument("names", names, "Give new names by the old ones, each once: c(prn = \"pn\").",
-                    call)
-  }
-}
-
-#' Landmarks with some names changed; a new name must not be another landmark's
-#' @noRd
-renamed_landmarks <- function(landmarks, names, id) {
-  name <- rownames(landmarks)
-  changed <- name %in% names(names)
-  name[changed] <- names[name[changed]]
-  twice <- unique(name[duplicated(name)])
-  if (length(twice)) {
-    refuse_landmarks(sprintf("`names` gives two landmarks the name %s.", shorten(twice)),
-                     "Leave out the landmark that has the name already, or rename it too.", id)
-  }
-  rownames(landmarks) <- name
-  landmarks
-}

@@ -12,7 +12,18 @@ read_landmarks_tps <- function(file, options) {
   record <- Map(function(from, to) tps_record(line[from:to], from:to, file), start, end)
   scale <- tps_scales(record, file, options)
   sets <- Map(tps_set, record, scale, MoreArgs = list(file = file))
-  name <- tps_names(record)
+  # By ID=, else by IMAGE=, where each has its own; else numbered
+  by <- lapply(c(ID = "ID", IMAGE = "IMAGE"), function(key) {
+    name <- vapply(record, function(r) c(r$value[r$key == key], "")[1], "")
+    if (all(nzchar(name)) && !anyDuplicated(name)) name
+  })
+  name <- if (!is.null(by$ID)) list(name = by$ID, numbered = FALSE, alias = by$IMAGE) else {
+    if (!is.null(by$IMAGE)) list(name = by$IMAGE, numbered = FALSE) else {
+      id <- unlist(lapply(record, function(r) r$value[r$key == "ID" & nzchar(r$value)][1]))
+      list(name = as.character(seq_along(record)), numbered = TRUE,
+           twice = stats::na.omit(id[duplicated(id)])[1])
+    }
+  }
   structure(stats::setNames(sets, name$name), numbered = name$numbered, alias = name$alias,
             twice = name$twice)
 }
@@ -64,14 +75,7 @@ tps_count <- function(key, file) {
 tps_set <- function(record, scale, file) {
   comment <- record$value[record$key == "COMMENT"]
   x <- record$rows[[1]] * scale
-  curves <- tps_curves(record, scale, file)
-  name <- commented_names(comment, "curves", length(curves), file)
-  names(curves) <- if (is.null(name)) sprintf("curve %d", seq_along(curves)) else name
-  landmark_set(x, commented_names(comment, "landmarks", nrow(x), file), curves)
-}
-
-# CURVES= are open, OUTLINES= closed; each announces how many POINTS= follow.
-tps_curves <- function(record, scale, file) {
+  # CURVES= are open, OUTLINES= closed; each announces how many POINTS= follow.
   head <- which(record$key %in% c("CURVES", "OUTLINES"))
   point <- which(record$key == "POINTS")
   group <- findInterval(point, head)
@@ -85,7 +89,11 @@ tps_curves <- function(record, scale, file) {
     }
   }
   closed <- c(FALSE, record$key[head] == "OUTLINES")[group + 1]
-  Map(function(rows, closed) landmark_curve(rows * scale, closed), record$rows[point], closed)
+  curves <- Map(function(rows, closed) landmark_curve(rows * scale, closed), record$rows[point],
+                closed)
+  name <- commented_names(comment, "curves", length(curves), file)
+  names(curves) <- if (is.null(name)) sprintf("curve %d", seq_along(curves)) else name
+  landmark_set(x, commented_names(comment, "landmarks", nrow(x), file), curves)
 }
 
 # Factors of the records; refused where only some have one, since units would mix.
@@ -121,29 +129,23 @@ tps_scale <- function(key, file) {
   scale
 }
 
-#' By ID=, else by IMAGE=, where each has its own; else numbered
-#' @return List: `name`; `numbered`; `alias`, those by IMAGE= where the names are by ID=; `twice`,
-#'   an ID= that keeps these from being names.
-#' @noRd
-tps_names <- function(record) {
-  by <- lapply(c(ID = "ID", IMAGE = "IMAGE"), function(key) {
-    name <- vapply(record, function(r) c(r$value[r$key == key], "")[1], "")
-    if (all(nzchar(name)) && !anyDuplicated(name)) name
-  })
-  if (!is.null(by$ID)) return(list(name = by$ID, numbered = FALSE, alias = by$IMAGE))
-  if (!is.null(by$IMAGE)) return(list(name = by$IMAGE, numbered = FALSE))
-  id <- unlist(lapply(record, function(r) r$value[r$key == "ID" & nzchar(r$value)][1]))
-  list(name = as.character(seq_along(record)), numbered = TRUE,
-       twice = stats::na.omit(id[duplicated(id)])[1])
-}
-
 write_landmarks_tps <- function(sets, file, options) {
   write_file_lines(unlist(Map(tps_lines, sets, names(sets))), file)
 }
 
 tps_lines <- function(x, id) {
   curves <- attr(x, "curves")
-  c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x), tps_curve_lines(curves),
+  # Neighbours of one kind share a head, so that the curves keep their order.
+  closed <- vapply(curves, attr, TRUE, "closed")
+  run <- rle(as.vector(closed))
+  first <- cumsum(c(1, run$lengths))
+  head <- character(length(curves))
+  head[first[seq_along(run$lengths)]] <- sprintf("%s%d", ifelse(run$values, "OUTLINES=", "CURVES="),
+                                                 run$lengths)
+  c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x),
+    unlist(lapply(seq_along(curves), function(i) {
+    c(head[i][nzchar(head[i])], sprintf("POINTS=%d", nrow(curves[[i]])), row_text(curves[[i]]))
+  })),
     paste0("ID=", id),
     tps_comment(name_comment(rownames(x), "landmarks")),
     tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))),
@@ -151,16 +153,3 @@ tps_lines <- function(x, id) {
 }
 
 tps_comment <- function(text) if (!is.null(text)) paste0("COMMENT=", text)
-
-# Neighbours of one kind share a head, so that the curves keep their order.
-tps_curve_lines <- function(curves) {
-  closed <- vapply(curves, attr, TRUE, "closed")
-  run <- rle(as.vector(closed))
-  first <- cumsum(c(1, run$lengths))
-  head <- character(length(curves))
-  head[first[seq_along(run$lengths)]] <- sprintf("%s%d", ifelse(run$values, "OUTLINES=", "CURVES="),
-                                                 run$lengths)
-  unlist(lapply(seq_along(curves), function(i) {
-    c(head[i][nzchar(head[i])], sprintf("POINTS=%d", nrow(curves[[i]])), row_text(curves[[i]]))
-  }))
-}

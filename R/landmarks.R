@@ -117,20 +117,16 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
   format <- landmark_format(file)
   check_stored(file, "landmarks")
   found <- format$read(file, options)
-  check_set_names(found, file)
-  found
-}
-
-#' Refuses a file in which a specimen's name stands over different landmarks
-#' @noRd
-check_set_names <- function(found, file) {
-  if (is.matrix(found)) return(invisible())
-  for (name in unique(names(found)[duplicated(names(found))])) {
-    if (same_sets(found[names(found) == name])) next
-    refuse_landmark_file(file,
-                         sprintf("the specimen %s is there twice with different landmarks", name),
-                         "Give each specimen a name of its own, or leave one of them.")
+  # Refuses a file in which a specimen's name stands over different landmarks
+  if (!is.matrix(found)) {
+    for (name in unique(names(found)[duplicated(names(found))])) {
+      if (same_sets(found[names(found) == name])) next
+      refuse_landmark_file(file,
+                           sprintf("the specimen %s is there twice with different landmarks", name),
+                           "Give each specimen a name of its own, or leave one of them.")
+    }
   }
+  found
 }
 
 #' @rdname read_landmarks
@@ -148,7 +144,8 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"),
                   missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
-  if (!format$curves && has_shape(x)) sets <- curves_as_points(sets, file)
+  has_shape <- inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
+  if (!format$curves && has_shape) sets <- curves_as_points(sets, file)
   check_written(sets, format, file)
   format$write(sets, file, options)
   invisible(file)
@@ -182,7 +179,17 @@ landmark_formats <- function() {
 
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
 written_sets <- function(x, curves, file) {
-  x <- sets_of_sample(x, file)
+  # The specimens of an array, a sample, a batch or an alignment, as a list; anything else as it is
+  if (inherits(x, "shape_sample")) x <- x$shapes
+  if (inherits(x, "shape_batch")) x <- as.list(x)
+  if (inherits(x, "aligned")) x <- x$coords
+  if (is.array(x) && length(dim(x)) == 3) x <- array_sets(x)
+  none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
+  if (length(none)) {
+    name <- if (is.null(names(x))) none else names(x)[none]
+    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)),
+                         "Leave out what failed.")
+  }
   if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) ||
       !is.list(x)) {
     id <- if (inherits(x, c("specimen", "shape"))) x$id else "1"
@@ -193,29 +200,11 @@ written_sets <- function(x, curves, file) {
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
-  if (is.null(names(x))) names(sets) <- specimen_names(x)
-  sets
-}
-
-#' The specimens of an array, a sample, a batch or an alignment, as a list; anything else as it is
-#' @noRd
-sets_of_sample <- function(x, file) {
-  if (inherits(x, "shape_sample")) return(x$shapes)
-  if (inherits(x, "shape_batch")) x <- as.list(x)
-  if (inherits(x, "aligned")) x <- x$coords
-  if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
-  none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
-  if (length(none)) {
-    name <- if (is.null(names(x))) none else names(x)[none]
-    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)),
-                         "Leave out what failed.")
+  if (is.null(names(x))) {
+    is_specimen <- vapply(x, inherits, TRUE, c("specimen", "shape"))
+    names(sets) <- if (all(is_specimen)) vapply(x, `[[`, "", "id") else as.character(seq_along(x))
   }
-  x
-}
-
-specimen_names <- function(x) {
-  is_specimen <- vapply(x, inherits, TRUE, c("specimen", "shape"))
-  if (all(is_specimen)) vapply(x, `[[`, "", "id") else as.character(seq_along(x))
+  sets
 }
 
 written_set <- function(x, curves) {
@@ -298,18 +287,14 @@ landmark_format <- function(file) {
   formats[[format]]
 }
 
-has_shape <- function(x) inherits(x,
-                                  "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
-
 #' Sets whose curves are landmarks named "curve point", as in [coords()]
 #' @noRd
 curves_as_points <- function(sets, file) {
   curves <- lapply(sets, attr, "curves")
   if (!any(lengths(curves) > 0)) return(sets)
   crestline_warn(
-    sprintf(paste0("%s: the format has no curves: their points are written as landmarks, \"%s 1\" ",
-                   "and so on."), basename(file),
-            unlist(lapply(curves, names))[1]),
+    sprintf("%s: the format has no curves: their points are written as landmarks, %s.",
+            basename(file), sprintf("\"%s 1\" and so on", unlist(lapply(curves, names))[1])),
     "read_curves() gives them back; curves = list() leaves them out.", stage = "landmarks",
     class = "crestline_format_warning"
   )

@@ -32,26 +32,6 @@ passed_mesh <- function(mesh, id) {
     if (is_the_same(mesh$vb, known$given$vb) && is_the_same(mesh$it, known$given$it) &&
         length(mesh$ib) == 0) return(known)
   }
-  sound <- sound_mesh(mesh, id)
-  known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = sound$vb, it = sound$it,
-                      key = mesh_key(sound),
-                      diagonal = mesh_diagonal(sound))
-  remember_mesh(known)
-  known
-}
-
-passed_meshes <- new.env(parent = emptyenv())
-passed_meshes$last <- list()
-
-#' @param most Number of meshes that are remembered: a scan, and the same with its holes bridged.
-#' @noRd
-remember_mesh <- function(known, most = 2) {
-  passed_meshes$last <- utils::head(c(list(known), passed_meshes$last), most)
-}
-
-is_the_same <- function(a, b) rlang::is_reference(a, b)
-
-sound_mesh <- function(mesh, id) {
   vb <- vertex_matrix(mesh$vb, id)
   it <- face_matrix(mesh$it, 3, id)
   if (ncol(it) == 0 || length(mesh$ib)) {
@@ -66,8 +46,23 @@ sound_mesh <- function(mesh, id) {
                         faults$vertices, ncol(vb)),
                 "Pass it through specimen(), which leaves them out, or export it again.", id)
   }
-  list(vb = vb, it = it)
+  sound <- list(vb = vb, it = it)
+  known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = vb, it = it,
+                      key = mesh_key(sound), diagonal = mesh_diagonal(sound))
+  remember_mesh(known)
+  known
 }
+
+passed_meshes <- new.env(parent = emptyenv())
+passed_meshes$last <- list()
+
+#' @param most Number of meshes that are remembered: a scan, and the same with its holes bridged.
+#' @noRd
+remember_mesh <- function(known, most = 2) {
+  passed_meshes$last <- utils::head(c(list(known), passed_meshes$last), most)
+}
+
+is_the_same <- function(a, b) rlang::is_reference(a, b)
 
 #' Vertices as a matrix of four rows, the fourth 1
 #' @noRd

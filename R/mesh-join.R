@@ -64,7 +64,13 @@ split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
   for (round in seq_len(rounds)) {
     mesh <- with_topology(mesh)
     found <- border_contacts(mesh, reach)
-    found <- found[found$side %in% meeting_sides(mesh, found), ]
+    # Sides of which a part between two of their vertices is a border side too.
+    part <- side_parts(mesh, found)
+    side <- border_sides(mesh$topology)
+    key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
+    found <- found[found$side %in%
+                   part$side[key(part$from, part$to) %in%
+                             key(mesh$it[side], mesh$it[next_side(side)])], ]
     if (!nrow(found)) break
     first <- found$side[!duplicated((found$side - 1) %/% 3)]
     found <- found[found$side %in% first, ]
@@ -82,14 +88,6 @@ border_contacts <- function(mesh, reach) {
                                                join_effort))
   found <- found[order(found$side, found$along), ]
   found[!duplicated(found[c("side", "along")]), ]
-}
-
-# Sides of which a part between two of their vertices is a border side too.
-meeting_sides <- function(mesh, found) {
-  part <- side_parts(mesh, found)
-  side <- border_sides(mesh$topology)
-  key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
-  part$side[key(part$from, part$to) %in% key(mesh$it[side], mesh$it[next_side(side)])]
 }
 
 # The parts of divided sides: data frame `side`, `from`, `to`.

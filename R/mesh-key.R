@@ -11,11 +11,14 @@
 #' @param mesh A `mesh3d` with `vb` and `it`, or a list of the two.
 #' @return One string of 32 characters.
 #' @noRd
-mesh_key <- function(mesh) cpp_mesh_key(as_doubles(mesh$vb), as_integers(mesh$it))
+mesh_key <- function(mesh) {
+  it <- mesh$it
+  if (!is.integer(it)) it <- structure(as.integer(it), dim = dim(it))
+  cpp_mesh_key(as_doubles(mesh$vb), it)
+}
 
 # Matrices in the type of the kernel, without names.
 as_doubles <- function(x) if (is.double(x)) x else structure(as.double(x), dim = dim(x))
-as_integers <- function(x) if (is.integer(x)) x else structure(as.integer(x), dim = dim(x))
 
 #' The mesh that something belongs to
 #'
@@ -37,22 +40,20 @@ mesh_of.default <- function(x) list(key = attr(x, "key"), id = attr(x, "id"))
 check_same_mesh <- function(x, mesh, name) {
   expected <- mesh_of(x)
   came <- mesh_of(mesh)
-  if (is.null(expected$key)) refuse_unknown_mesh(name, expected, came)
+  if (is.null(expected$key)) {
+    crestline_abort(
+      sprintf("%s does not know the mesh that it was made on%s.", name,
+              if (is.null(expected$id)) "" else paste(", of", expected$id)),
+      paste("It comes from an older version of the package, or from elsewhere:",
+            "make it anew on the mesh that you have."),
+      stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
+    )
+  }
   if (identical(expected$key, came$key)) return(invisible(x))
   crestline_abort(
     sprintf("%s belongs to %s; here is %s.", name, mesh_words(expected), mesh_words(came)),
     paste("Give its own mesh, with the same vertices and triangles in the same order,",
           "or make it anew on the mesh that you have."),
-    stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
-  )
-}
-
-refuse_unknown_mesh <- function(name, expected, came) {
-  crestline_abort(
-    sprintf("%s does not know the mesh that it was made on%s.", name,
-            if (is.null(expected$id)) "" else paste(", of", expected$id)),
-    paste0("It comes from an older version of the package, or from elsewhere: make it anew on the ",
-           "mesh that you have."),
     stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
   )
 }

@@ -35,17 +35,8 @@ frame_of <- function(columns, ..., class = NULL) {
 #' @export
 locate <- function(mesh, xyz) {
   mesh <- as_mesh(mesh)
-  xyz <- check_positions(xyz)
-  found <- located_points(mesh, xyz)
-  columns <- found$columns[c("face", "w1", "w2", "w3", "x", "y", "z")]
-  rows <- frame_of(c(columns, list(distance = found$distance)))
-  if (!is.null(rownames(xyz))) rownames(rows) <- make.unique(rownames(xyz))
-  rows
-}
-
-#' Positions as an n x 3 matrix of numbers, each finite or NA
-#' @noRd
-check_positions <- function(xyz, call = rlang::caller_env()) {
+  # Positions as an n x 3 matrix of numbers, each finite or NA
+  call <- rlang::current_env()
   remedy <- "Give an n x 3 matrix, three numbers, or a data frame with columns x, y, z."
   refuse <- function(problem, remedy) {
     crestline_abort(problem, remedy, stage = "arguments", call = call)
@@ -62,7 +53,11 @@ check_positions <- function(xyz, call = rlang::caller_env()) {
     refuse(sprintf("`xyz` is %s.", describe_shape(given)), remedy)
   }
   if (any(is.infinite(xyz))) refuse("`xyz` has infinite numbers.", "Mark what is missing as NA.")
-  xyz
+  found <- located_points(mesh, xyz)
+  columns <- found$columns[c("face", "w1", "w2", "w3", "x", "y", "z")]
+  rows <- frame_of(c(columns, list(distance = found$distance)))
+  if (!is.null(rownames(xyz))) rownames(rows) <- make.unique(rownames(xyz))
+  rows
 }
 
 #' The closest place of a mesh to each of some points, in the columns of a point on a mesh

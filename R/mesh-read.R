@@ -44,7 +44,14 @@ unmarked_bytes <- function(raw) {
   begins <- function(...) identical(raw[seq_along(c(...))], as.raw(c(...)))
   wide <- if (begins(0xff, 0xfe)) "UTF-16LE" else if (begins(0xfe, 0xff)) "UTF-16BE" else
     wide_text(raw)
-  if (!is.null(wide)) raw <- narrow_text(raw, wide)
+  if (!is.null(wide)) {
+    # Signs beyond one byte stand in names and comments only: "?".
+    pair <- matrix(raw[seq_len(2 * (length(raw) %/% 2))], 2)
+    if (wide == "UTF-16BE") pair <- pair[2:1, , drop = FALSE]
+    sign <- pair[1, ]
+    sign[pair[2, ] != 0] <- charToRaw("?")
+    raw <- if (identical(pair[, 1], as.raw(c(0xff, 0xfe)))) sign[-1] else sign
+  }
   if (identical(raw[1:3], as.raw(c(0xef, 0xbb, 0xbf)))) raw[-(1:3)] else raw
 }
 
@@ -55,15 +62,6 @@ wide_text <- function(raw, signs = 16) {
   zero <- matrix(raw[seq_len(2 * signs)] == 0, 2)
   if (all(zero[2, ]) && !any(zero[1, ])) "UTF-16LE" else
     if (all(zero[1, ]) && !any(zero[2, ])) "UTF-16BE"
-}
-
-# Signs beyond one byte stand in names and comments only: "?".
-narrow_text <- function(raw, encoding) {
-  pair <- matrix(raw[seq_len(2 * (length(raw) %/% 2))], 2)
-  if (encoding == "UTF-16BE") pair <- pair[2:1, , drop = FALSE]
-  sign <- pair[1, ]
-  sign[pair[2, ] != 0] <- charToRaw("?")
-  if (identical(pair[, 1], as.raw(c(0xff, 0xfe)))) sign[-1] else sign
 }
 
 # The lines of a text of bytes, without blanks about them.
@@ -103,19 +101,16 @@ warn_extra <- function(file, bytes, id) {
 # `vertex` n x 3, `corner` the 1-based vertex numbers of all polygons in turn, `sides` how many each
 # has. A corner that is no whole number is NA, which the door refuses.
 mesh_of_polygons <- function(vertex, corner, sides, colour = NULL) {
-  corner <- corner[fan_corners(sides)]
+  # Places, in the run of all corners, of the triangles of each polygon's fan about its first
+  # corner.
+  first <- cumsum(c(0, sides))[seq_along(sides)] + 1
+  fan <- pmax(sides - 2, 0)
+  start <- rep(first, fan)
+  step <- sequence(fan)
+  corner <- corner[as.vector(rbind(start, start + step, start + step + 1))]
   if (is.double(corner)) corner[corner != round(corner) | abs(corner) > .Machine$integer.max] <- NA
   mesh <- list(vb = rbind(t(vertex), 1), it = matrix(as.integer(corner), 3))
   if (!is.null(colour)) mesh$material <- list(color = colour)
   if (any(sides < 3)) mesh$short <- sum(sides < 3)
   structure(mesh, class = "mesh3d")
-}
-
-# Places, in the run of all corners, of the triangles of each polygon's fan about its first corner.
-fan_corners <- function(sides) {
-  first <- cumsum(c(0, sides))[seq_along(sides)] + 1
-  fan <- pmax(sides - 2, 0)
-  start <- rep(first, fan)
-  step <- sequence(fan)
-  as.vector(rbind(start, start + step, start + step + 1))
 }

@@ -4,18 +4,14 @@
 # "solid", as the ascii format does.
 read_stl <- function(file, id) {
   raw <- file_bytes(file, id)
-  faces <- stl_faces(raw)
+  # The number that a binary file has behind its 80 bytes of header; infinite in a shorter one.
+  faces <- if (length(raw) < 84) Inf else sum(as.numeric(raw[81:84]) * 256^(0:3))
   vertex <- if (length(raw) >= 84 + 50 * faces && faces > 0 || stl_is_binary(raw)) {
     stl_binary(raw, faces, file, id)
   } else {
     stl_ascii(raw, file, id)
   }
   mesh_of_polygons(vertex, seq_len(nrow(vertex)), rep(3L, nrow(vertex) / 3))
-}
-
-# The number that a binary file has behind its 80 bytes of header; infinite in a shorter one.
-stl_faces <- function(raw) {
-  if (length(raw) < 84) Inf else sum(as.numeric(raw[81:84]) * 256^(0:3))
 }
 
 # Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.

@@ -46,20 +46,6 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
                                               "crestline_landmark_error"), call = NULL)
 }
 
-#' @noRd
-warn_doubtful <- function(doubt, specimen) {
-  said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence",
-                                length(doubt$names), doubt$of) else
-    "no landmark was found"
-  crestline_warn(
-    sprintf("the template %s lies badly on it: %s.", specimen$match$template, said),
-    paste("Is it the object, and whole enough? Look at plot_placing();",
-          "place the landmarks by hand (place_landmarks()),",
-          "or calibrate the template (calibrate_template())."),
-    stage = "landmarks", id = specimen$id, class = "crestline_doubtful_placing"
-  )
-}
-
 placing_of <- function(specimen, call = rlang::caller_env()) {
   check_class(specimen, "specimen", "specimen", "find_landmarks()", call = call)
   if (is.null(specimen$placing)) {

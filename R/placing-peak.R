@@ -50,7 +50,11 @@ settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, step
   for (step in seq_len(steps)) {
     fit <- local_fit(field, at, width)
     if (is.null(fit)) return(NULL)
-    move <- peak_step(fit, longest)
+    # Newton's step to the peak, or a step uphill where the fit has none; at most `longest`
+    uphill <- fit$gradient / max(sqrt(sum(fit$gradient^2)), .Machine$double.xmin) * longest
+    move <- if (fit$peaked) -solve(fit$hessian, fit$gradient) else uphill
+    length <- sqrt(sum(move^2))
+    move <- if (length > longest) move * longest / length else move
     ahead <- drop(fit$frame %*% c(move, fit$offset(move)))
     if (sum(ahead * before) < 0) longest <- longest / 2
     at <- at + ahead
@@ -109,13 +113,4 @@ local_fit <- function(field, at, width) {
 quadratic_terms <- function(x) {
   if (ncol(x) == 1) return(cbind(1, x, x^2))
   cbind(1, x, x[, 1]^2, x[, 1] * x[, 2], x[, 2]^2)
-}
-
-#' Newton's step to the peak, or a step uphill where the fit has none; at most `longest`
-#' @noRd
-peak_step <- function(fit, longest) {
-  uphill <- fit$gradient / max(sqrt(sum(fit$gradient^2)), .Machine$double.xmin) * longest
-  move <- if (fit$peaked) -solve(fit$hessian, fit$gradient) else uphill
-  length <- sqrt(sum(move^2))
-  if (length > longest) move * longest / length else move
 }

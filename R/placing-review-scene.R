@@ -119,7 +119,3 @@ draw_item <- function(scene, item) {
   }
   drawn$ids[-seq_len(before)]
 }
-
-#' Radius of the ball of a landmark, in the unit of the mesh
-#' @noRd
-ball_radius <- function(mesh) formals(landmark_items)$size * mesh_diagonal(mesh) / 400

@@ -126,26 +126,22 @@ moved_specimen <- function(specimen, rotation, origin) {
 prepared_template <- function(template, settings, threads) {
   asked <- list(template[c("specimen", "landmarks", "unit", "mirror")], settings)
   if (!identical(asked, last_template$asked)) {
-    last_template$prepared <- prepare_template(template, settings, threads)
+    scaled <- scaled_settings(settings, template$unit)
+    mesh <- template$specimen$mesh
+    thin <- scaled
+    thin$cluster <- sqrt(sum(row_lengths(face_normals(mesh))) / 2 / settings$points)
+    thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
+    thin$anchors <- settings$own
+    cloud <- scan_cloud(template$specimen, 1, thin, threads)
+    cloud$settings <- scaled
+    cloud$mirror <- template$mirror
+    last_template$prepared <- with_landmarks(cloud, template$landmarks)
     last_template$asked <- asked
   }
   last_template$prepared
 }
 
 last_template <- new.env(parent = emptyenv())
-
-prepare_template <- function(template, settings, threads) {
-  scaled <- scaled_settings(settings, template$unit)
-  mesh <- template$specimen$mesh
-  thin <- scaled
-  thin$cluster <- sqrt(sum(row_lengths(face_normals(mesh))) / 2 / settings$points)
-  thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
-  thin$anchors <- settings$own
-  cloud <- scan_cloud(template$specimen, 1, thin, threads)
-  cloud$settings <- scaled
-  cloud$mirror <- template$mirror
-  with_landmarks(cloud, template$landmarks)
-}
 
 #' A prepared template with other landmarks
 #' @noRd

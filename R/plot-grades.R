@@ -86,7 +86,14 @@ draw_label <- function(scene, at, text, colour, size = 0.8) {
 #' @noRd
 shape_view <- function(shape) {
   points <- as.matrix(shape$points[!is.na(shape$points$x), c("x", "y", "z")])
-  out <- shape_outward(shape, points)
+  # Mean normal of the shape's surface; without one, the normal of the plane through its points, to
+  # positive z
+  mesh <- own_surface(shape)
+  out <- if (!is.null(mesh)) colSums(face_normals(mesh)) else c(0, 0, 0)
+  out <- if (any(out != 0)) unit_vector(out) else {
+    out <- svd(sweep(points, 2, colMeans(points)), nu = 0, nv = 3)$v[, 3]
+    if (out[3] < 0) -out else out
+  }
   landmarks <- coords(shape, "landmarks")
   pairs <- shape$scheme$pairs[shape$scheme$pairs$level == "landmarks", ]
   across <- colMeans(landmarks[pairs$left, , drop = FALSE] - landmarks[pairs$right, , drop = FALSE],
@@ -100,17 +107,6 @@ shape_view <- function(shape) {
   up <- svd(sweep(flat, 2, colMeans(flat)), nu = 0, nv = 1)$v[, 1]
   if (up[2] < 0) up <- -up
   unname(rbind(cross_product(up, out), up, out))
-}
-
-#' Mean normal of the shape's surface; without one, the normal of the plane through its points, to
-#' positive z
-#' @noRd
-shape_outward <- function(shape, points) {
-  mesh <- own_surface(shape)
-  out <- if (!is.null(mesh)) colSums(face_normals(mesh)) else c(0, 0, 0)
-  if (any(out != 0)) return(unit_vector(out))
-  out <- svd(sweep(points, 2, colMeans(points)), nu = 0, nv = 3)$v[, 3]
-  if (out[3] < 0) -out else out
 }
 
 turned_view <- function(view, round) {

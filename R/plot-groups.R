@@ -47,19 +47,7 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
   validate(x)
   what <- check_choice(what, c("boxes", "means", "map"), "what")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
-  level <- level_to_plot(x, level, what)
-  groups <- nlevels(x$group)
-  colour <- if (length(colour) >= groups) colour[seq_len(groups)] else
-    grDevices::hcl.colors(groups, "Dark 3")
-  drawn <- switch(what,
-                  boxes = plot_boxes(x, level, colour, components, main, ...),
-                  means = plot_means(x, level, colour, opacity, engine, view, legend, main, ...),
-                  map = plot_map(x, level, significance, limits, palette, engine, view, legend,
-                                 main, ...))
-  invisible(drawn)
-}
-
-level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
+  call <- rlang::current_env()
   surfaces <- names(Filter(function(one) !is.null(one$triangles), x$aligned))
   possible <- if (what == "boxes") names(x$aligned) else surfaces
   if (!length(possible)) {
@@ -72,7 +60,16 @@ level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
                     "Compare two, or plot \"boxes\".",
                     stage = "picture", call = call)
   }
-  if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
+  level <- if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
+  groups <- nlevels(x$group)
+  colour <- if (length(colour) >= groups) colour[seq_len(groups)] else
+    grDevices::hcl.colors(groups, "Dark 3")
+  drawn <- switch(what,
+                  boxes = plot_boxes(x, level, colour, components, main, ...),
+                  means = plot_means(x, level, colour, opacity, engine, view, legend, main, ...),
+                  map = plot_map(x, level, significance, limits, palette, engine, view, legend,
+                                 main, ...))
+  invisible(drawn)
 }
 
 plot_boxes <- function(x, level, colour, components, main, ...) {

@@ -24,7 +24,11 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
-    if (legend) map_legend(palette, limits)
+    if (legend) {
+      at <- pretty(limits, 5)
+      at <- at[at >= limits[1] & at <= limits[2]]
+      colour_bar(palette, (at - limits[1]) / diff(limits), format(at))
+    }
     found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
     words <- sprintf("%s less %s along the normal; outlined: p < %g (%d of %d points)",
                      levels(x$group)[2],
@@ -33,12 +37,6 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
     graphics::title(if (is.null(main)) words else main, font.main = 1, cex.main = 0.9)
   }
   invisible(scene)
-}
-
-map_legend <- function(palette, limits) {
-  at <- pretty(limits, 5)
-  at <- at[at >= limits[1] & at <= limits[2]]
-  colour_bar(palette, (at - limits[1]) / diff(limits), format(at))
 }
 
 #' Lines on a mesh where a function of its vertices, linear in every triangle, has a value

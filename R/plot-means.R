@@ -1,17 +1,12 @@
 # Two mean surfaces laid over each other, transparent, in two colours.
 
-#' The mean shapes of the groups as meshes, of the sample's mean size
-#' @noRd
-group_meshes <- function(x, level) {
+plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
+  # The mean shapes of the groups as meshes, of the sample's mean size
   aligned <- x$aligned[[level]]
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
-  lapply(stats::setNames(nm = levels(x$group)), function(g) {
+  meshes <- lapply(stats::setNames(nm = levels(x$group)), function(g) {
     points_mesh(size * mean_shape_of(aligned, x$group == g), aligned$triangles)
   })
-}
-
-plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
-  meshes <- group_meshes(x, level)
   words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape"))
   title <- if (is.null(main)) paste(words, collapse = ", ") else main
   if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
@@ -45,7 +40,15 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
     rgb <- shade_vertices(rep(colour, ncol(xyz)), rotation %*% mesh$normals[1:3, ], settings)
     cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
   }, meshes, colour)
-  raster <- blend_by_depth(seen[[1]], seen[[2]], opacity)
+  # Blended by depth: the nearer surface covers the other.
+  a <- seen[[1]]
+  b <- seen[[2]]
+  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
+  of_a[a$rgba[, , 4] == 0] <- 0
+  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
+  raster <- a$rgba
+  raster[, , 1:3] <- c(of_a) * a$rgba[, , 1:3] + (1 - c(of_a)) * b$rgba[, , 1:3]
+  raster[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
   graphics::rasterImage(raster, frame$usr[1], frame$usr[4] - frame$height * frame$pixel,
                         frame$usr[1] + frame$width * frame$pixel,
                         frame$usr[4])
@@ -54,17 +57,6 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
                  plt = graphics::par("plt"),
                  tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
             class = "picture_scene")
-}
-
-blend_by_depth <- function(a, b, opacity) {
-  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
-  of_a[a$rgba[, , 4] == 0] <- 0
-  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
-  out <- a$rgba
-  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, ,
-                                                         channel] + (1 - of_a) * b$rgba[, , channel]
-  out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
-  out
 }
 
 rgl_overlay <- function(meshes, colour, opacity, view, ...) {

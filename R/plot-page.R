@@ -47,7 +47,9 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
   size <- check_size(size)
   curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves",
                                                        "fit_shape()") else check_curves(curves)
-  table <- check_table(table, "table", null = TRUE)
+  if (!is.null(table) && !is.data.frame(table)) {
+    refuse_argument("table", table, "Give a data frame.", rlang::current_env())
+  }
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(file)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")

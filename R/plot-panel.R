@@ -48,18 +48,7 @@ plot_panel <- function(x, points = TRUE, grid = c(300, 200),
   if (is.null(main)) main <- paste0(x$type, ", ", x$from, " to ", x$to)
   graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE,
                   main = main, xlab = "", ylab = "", ...)
-  panel_axes(panel)
-  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25,
-                               col = "#00000060")
-  graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE,
-                    drawlabels = FALSE, col = "#8B5A2B")
-  graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
-  draw_panel_ridge(x, colour)
-  invisible(panel)
-}
-
-# Axes that stand at the panel's edges, wherever equal scale leaves room in the plot.
-panel_axes <- function(panel) {
+  # Axes that stand at the panel's edges, wherever equal scale leaves room in the plot.
   line <- c(diff(graphics::grconvertX(0:1, "lines", "user")),
             diff(graphics::grconvertY(0:1, "lines", "user")))
   left <- min(panel$s)
@@ -70,6 +59,13 @@ panel_axes <- function(panel) {
                  xpd = NA)
   graphics::text(left - 3 * line[1], mean(range(panel$d)), "d, distance from it", srt = 90,
                  xpd = NA)
+  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25,
+                               col = "#00000060")
+  graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE,
+                    drawlabels = FALSE, col = "#8B5A2B")
+  graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
+  draw_panel_ridge(x, colour)
+  invisible(panel)
 }
 
 # The smoothed strength on a grid, NA where the data do not reach: beyond their least and greatest d

@@ -1,16 +1,5 @@
 # The pieces of the quality report's page.
 
-#' One line that says it all
-#' @noRd
-report_sum <- function(table, counts) {
-  tags <- htmltools::tags
-  share <- function(name) sum(table$grade == name)
-  said <- sprintf("%s, %s: %d green, %d amber, %d red.", amount(nrow(counts), "specimen"),
-                  amount(nrow(table), "part"),
-                  share("green"), share("amber"), share("red"))
-  tags$div(class = "sum", report_bar(share("green"), share("amber"), share("red")), tags$p(said))
-}
-
 #' A bar of the three shares
 #' @noRd
 report_bar <- function(green, amber, red) {

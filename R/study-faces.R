@@ -134,14 +134,31 @@ scan_faces <- function(template, deformations, scan, seeds, progress) {
 scan_face <- function(template, map, scan, id) {
   own <- template$mesh[c("vb", "it")]
   class(own) <- "mesh3d"
-  if (scan$remesh) own <- remeshed(own, scan)
+  if (scan$remesh) {
+    # The same surface by other vertices, triangles and order
+    edge <- if (is.null(scan$edge)) {
+      corner <- face_corners(own)
+      mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
+    } else scan$edge
+    new <- Rvcg::vcgIsotropicRemeshing(own,
+                                       TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)),
+                                       FeatureAngleDeg = scan$crease, iterations = scan$rounds)
+    order <- sample(ncol(new$vb))
+    it <- matrix(match(new$it, order), 3)[, sample(ncol(new$it)), drop = FALSE]
+    own <- structure(list(vb = new$vb[, order, drop = FALSE], it = it), class = "mesh3d")
+  }
   own <- mesh_of_faces(own, outside_holes(own, known_rows(template$landmarks), scan))$mesh
   places <- t(own$vb[1:3, ])
   own$vb[1:3, ] <- t(map(places))
   mesh <- with_noise(own, places, scan)
   landmarks <- template$landmarks
   landmarks[] <- map(landmarks)
-  landmarks <- observed_landmarks(mesh, landmarks, scan$landmark_error)
+  # Landmarks as an observer places them: beside the true ones, on the mesh
+  beside <- landmarks + stats::rnorm(length(landmarks), 0, scan$landmark_error)
+  landmarks <- if (scan$landmark_error == 0) landmarks else {
+    structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]),
+              dimnames = dimnames(landmarks))
+  }
   made <- specimen(mesh, landmarks, id, outward = "keep", midline = character())
   key <- function(vb) paste(vb[1, ], vb[2, ], vb[3, ])
   list(specimen = made, vertices = places[match(key(made$mesh$vb), key(mesh$vb)), , drop = FALSE])

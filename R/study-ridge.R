@@ -80,7 +80,15 @@ simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, lan
   with_seed(seed, {
     mesh <- ridge_mesh(function(x, y) -b * (x - a * y^3)^2, spacing, jitter, noise, correlation)
     marks <- ridge(c(from = -end, to = end))
-    marks <- drop_on_mesh(mesh, marks + aside(landmark_error, nrow(marks)))
+    # Points of the mesh straight above or below places of the square
+    xyz <- marks + aside(landmark_error, nrow(marks))
+    flat <- mesh
+    flat$vb[3, ] <- 0
+    below <- pmin(pmax(xyz, -1), 1)
+    below[, 3] <- 0
+    located <- surface_points(flat, below)
+    at <- place_on_faces(mesh, located$face, as.matrix(located[c("w1", "w2", "w3")]))
+    marks <- matrix(at, nrow(xyz), dimnames = dimnames(xyz))
   })
   id <- sprintf("ridge a = %g, b = %g, noise = %g, seed = %s", a, b, noise,
                 if (is.null(seed)) "none" else seed)
@@ -125,18 +133,6 @@ grid_noise <- function(n, correlation) {
 aside <- function(distance, n) {
   angle <- stats::runif(n, 0, 2 * pi)
   distance * cbind(cos(angle), sin(angle), 0)
-}
-
-#' Points of the mesh straight above or below places of the square
-#' @noRd
-drop_on_mesh <- function(mesh, xyz) {
-  flat <- mesh
-  flat$vb[3, ] <- 0
-  below <- pmin(pmax(xyz, -1), 1)
-  below[, 3] <- 0
-  located <- surface_points(flat, below)
-  at <- place_on_faces(mesh, located$face, as.matrix(located[c("w1", "w2", "w3")]))
-  matrix(at, nrow(xyz), dimnames = dimnames(xyz))
 }
 
 #' Signed distances in (x, y) from a known ridge, positive to the left of its direction

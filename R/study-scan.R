@@ -49,25 +49,6 @@ scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NU
   )
 }
 
-#' The same surface by other vertices, triangles and order
-#'
-#' @return `mesh3d`; its vertices lie on the given mesh but for single precision, its edges' chords
-#'   may lie beside it.
-#' @noRd
-remeshed <- function(mesh, scan) {
-  edge <- if (is.null(scan$edge)) mean_edge(mesh) else scan$edge
-  new <- Rvcg::vcgIsotropicRemeshing(mesh, TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)),
-                                     FeatureAngleDeg = scan$crease, iterations = scan$rounds)
-  order <- sample(ncol(new$vb))
-  it <- matrix(match(new$it, order), 3)[, sample(ncol(new$it)), drop = FALSE]
-  structure(list(vb = new$vb[, order, drop = FALSE], it = it), class = "mesh3d")
-}
-
-mean_edge <- function(mesh) {
-  corner <- face_corners(mesh)
-  mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
-}
-
 #' A mesh with its vertices moved along their normals
 #' @param places n x 3: where in the template the vertices are; correlated noise is a field there.
 #' @noRd
@@ -112,15 +93,6 @@ mesh_of_faces <- function(mesh, face) {
   list(mesh = structure(list(vb = mesh$vb[, vertex, drop = FALSE],
                              it = matrix(match(it, vertex), 3)), class = "mesh3d"),
        vertex = vertex)
-}
-
-#' Landmarks as an observer places them: beside the true ones, on the mesh
-#' @noRd
-observed_landmarks <- function(mesh, landmarks, error) {
-  beside <- landmarks + stats::rnorm(length(landmarks), 0, error)
-  if (error == 0) return(landmarks)
-  structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]),
-            dimnames = dimnames(landmarks))
 }
 
 #' A random rotation by a normal angle about a random axis through the centre, and a shift
