@@ -33,10 +33,19 @@ ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
   radius <- check_number(radius, "radius", lower = 0, open = TRUE)
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
+  in_context(highest_line(surface, scale, radius, settings), NULL)
+}
+
+#' The ridge line without checks, or a failure
+#' @noRd
+highest_line <- function(surface, scale, radius, settings) {
   problem <- ridge_problem(surface, scale, radius, settings)
   if (!all(is.finite(problem$roughness), is.finite(problem$lambda), is.finite(problem$weight))) {
-    crestline_abort(sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius, scale),
-                    "Give both in the unit of the surface.", stage = "ridge")
+    return(no_result(
+      sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius,
+              scale),
+      "Give both in the unit of the surface.", "ridge"
+    ))
   }
   found <- climb(problem, settings)
   structure(
