@@ -104,7 +104,7 @@ check_limit <- function(x, name, falling, call = rlang::caller_env()) {
 print.quality_limits <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat("Quality limits: amber, red\n")
+    cat("<quality_limits> amber, red\n")
     pairs <- x[lengths(x) == 2]
     side <- ifelse(names(pairs) %in% small_is_bad, "below", "above")
     cat(sprintf("  %-10s %s %g, %g\n", names(pairs), side, vapply(pairs, `[`, 0, 1),

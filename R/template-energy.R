@@ -132,7 +132,7 @@ print.bending_energy <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     b <- attr(x, "matrix")
-    cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0),
+    cat(sprintf("<bending_energy> %d points, %d affine functions\n", sum(diag(b) != 0),
                 attr(x, "affine")))
     invisible(x)
   })

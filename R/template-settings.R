@@ -130,7 +130,7 @@ check_slide_settings <- function(settings) {
 print.slide_settings <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Slide settings (preset \"%s\")\n", attr(x, "preset")))
+    cat(sprintf("<slide_settings> preset \"%s\"\n", attr(x, "preset")))
     cat(strwrap(paste(names(x), vapply(x, format, ""), sep = " = ", collapse = ", "), indent = 2,
                 exdent = 2), sep = "\n")
     invisible(x)
