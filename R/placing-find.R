@@ -79,7 +79,7 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
       "no landmark was found"
     crestline_warn(
       sprintf("the template %s lies badly on it: %s.", found$match$template, said),
-      paste("Is it the object, and whole enough? Look at plot_placing();",
+      paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\");",
             "place the landmarks by hand (place_landmarks()),",
             "or calibrate the template (calibrate_template())."),
       stage = "landmarks", id = found$id, class = "crestline_doubtful_placing"

@@ -77,69 +77,118 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
-  about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from),
-                to = end_name(to),
-                type = type, settings = settings, passes = passes)
-  in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to),
-             code = {
-    if (type == "plane") {
-      path <- reference_path(specimen, from, to, "plane", reach = reach)
-      assembled_curve(specimen, path, path, n, about)
-    } else {
-      about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
-      about$width <- check_number(width, "width", lower = 0, open = TRUE)
-      curvature <- known_curvature(curvature, specimen, radius, threads, settings$order)
-      path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
-                             longest = settings$longest)
-      if (trust[1] > 0 || trust[2] < 1) path <- trusted_path(trust, specimen, path)
-      fit <- fit_passes(specimen, path, curvature, keep_away, about)
-      assembled_curve(specimen, fit$path, fit$reference, n, about, fit)
+  if (type != "plane") {
+    radius <- check_number(radius, "radius", lower = 0, open = TRUE)
+    width <- check_number(width, "width", lower = 0, open = TRUE)
+  }
+  id <- if (inherits(specimen, "specimen")) specimen$id
+  doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
+  curve <- in_context(id = id, doing = doing, code = {
+    scan <- walkable(specimen)
+    job <- curve_job(type, n, end_name(from), end_name(to), settings, passes, trust = trust,
+                     reach = reach)
+    if (type != "plane") {
+      job[c("radius", "width")] <- list(radius, width)
+      job$source <- known_curvature(curvature, specimen, radius, threads, settings$order)
+      job$regions <- located_regions(keep_away, specimen)
     }
+    trace_curve(scan, located_ends(specimen, scan, from, to), job)
   })
+  warn_rival(curve$reference, c(curve$from, curve$to), id)
+  warn_undetermined(curve)
+  curve
 }
 
-#' The passes of a fit, each about the curve of the one before
+#' What is asked of one curve
 #'
-#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
-#'   in which curvature counts.
+#' @param type,n,settings,passes,radius,width,trust,reach As in [ridge_curve()].
+#' @param from,to Names of its ends.
+#' @param source Curvature as of [known_curvature()]; NULL for planes.
+#' @param regions As of [located_regions()]; a failure is handed on.
+#' @param angle_limit Of the planes of the reference path, in radians; NA: none.
 #' @noRd
-fit_passes <- function(specimen, path, curvature, keep_away, about) {
+curve_job <- function(type, n, from, to, settings, passes = 1, radius = NULL, width = NULL,
+                      source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
+                      reach = 0.5) {
+  list(type = type, n = n, from = from, to = to, settings = settings, passes = passes,
+       radius = radius, width = width, source = source, regions = regions, trust = trust,
+       angle_limit = angle_limit,
+       search = search_settings(reach, if (type == "plane") 1.25 else settings$longest))
+}
+
+#' One curve, without checks and warnings
+#'
+#' @param scan As of [walkable()].
+#' @param ends As of [path_ends()]; a failure is handed on.
+#' @param job As of [curve_job()].
+#' @return A `curve`, or a failure.
+#' @noRd
+trace_curve <- function(scan, ends, job) {
+  if (failed(ends)) return(ends)
+  if (failed(job$regions)) return(job$regions)
+  reference <- curve_reference(scan, ends, job)
+  if (failed(reference)) return(reference)
+  if (job$type == "plane") return(assembled_curve(scan, reference, reference, job))
+  path <- trusted_path(job$trust, scan, reference)
+  if (failed(path)) return(path)
+  # The trusted part as shares of the path, NULL where that is all of it.
   trusted <- attr(path, "trusted") / attr(path, "length")
-  for (pass in seq_len(about$passes)) {
-    fit <- fit_ridge(specimen, path, curvature, about$radius, about$width, about$type, keep_away,
-                     about$settings)
+  for (pass in seq_len(job$passes)) {
+    fit <- fit_ridge(scan, path, job)
+    if (failed(fit)) return(fit)
     fit$reference <- path
     if (!fit$found) break
     path <- fit$path
     if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
   }
-  fit
+  assembled_curve(scan, fit$path, fit$reference, job, fit)
+}
+
+#' The reference path of a curve, among all cuts or those at small angles to the surface's normal
+#' @noRd
+curve_reference <- function(scan, ends, job) {
+  search <- job$search
+  strength <- if (job$type != "plane") path_strength(job$source, job$type, job$regions, scan)
+  if (is.na(job$angle_limit)) {
+    return(find_reference(scan, ends, job$type, strength, job$radius, search))
+  }
+  if (is.null(strength)) {
+    return(limited_cut(scan, ends, job$angle_limit, search$limited, search$reach))
+  }
+  rate <- function(found) {
+    cut_strength(scan, ends, found, search$reach, search$spacing * job$radius, strength)
+  }
+  limited_cut(scan, ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }
 
 #' One pass from reference path to lifted curve
+#'
+#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
+#'   in which curvature counts.
+#' @return List of the stages, `found` and `path`; without a curve `reason`. Or a failure.
 #' @noRd
-fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away, settings) {
-  half <- min(width, settings$window * radius)
-  coordinates <- path_coordinates(specimen, path, half, margin = radius)
-  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings,
-                              attr(path, "trusted"))
+fit_ridge <- function(scan, path, job) {
+  settings <- job$settings
+  radius <- job$radius
+  coordinates <- near_path(scan, path, min(job$width, settings$window * radius), radius)
+  strength <- window_strength(scan, coordinates, job, attr(path, "trusted"))
   scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
   stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE,
                  path = path)
   if (!is.finite(scale) || scale <= 0) {
-    stages$reason <- sprintf("there is no %s curvature by the reference path", type)
+    stages$reason <- sprintf("there is no %s curvature by the reference path", job$type)
     return(stages)
   }
-  stages$surface <- curvature_surface(coordinates, strength$value, settings)
-  stages$line <- ridge_line(stages$surface, scale, radius, settings)
+  stages$surface <- smooth_strength(coordinates, strength$value, settings)
+  if (failed(stages$surface)) return(stages$surface)
+  stages$line <- highest_line(stages$surface, scale, radius, settings)
+  if (failed(stages$line)) return(stages$line)
   if (settings$error) {
-    stages$line$se <- ridge_error(specimen, coordinates, stages$surface, stages$line, strength,
-                                  scale, radius, type,
-                                  settings)
+    stages$line$se <- ridge_error(scan, coordinates, stages$surface, stages$line, strength,
+                                  scale, radius, job$type, settings)
   }
-  lifted <- tryCatch(lift(specimen, coordinates, path, stages$line$s, stages$line$alpha),
-                     crestline_path_error = function(e) NULL)
-  if (is.null(lifted)) {
+  lifted <- lifted_line(scan, coordinates, path, stages$line$s, stages$line$alpha)
+  if (failed(lifted)) {
     stages$reason <- "the ridge line leaves the surface near the reference path"
     return(stages)
   }
@@ -150,6 +199,7 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
 
 #' Strength at the vertices inside a window as the settings define it
 #'
+#' @param job As of [curve_job()].
 #' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere;
 #'   NULL: all of it.
 #' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated:
@@ -157,27 +207,27 @@ fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away,
 #'   `rows` (where it was estimated), `cell` (of every row, the place in `rows` of the one that
 #'   stands for it, NA outside the window); and `cap`.
 #' @noRd
-window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings,
-                            trusted = NULL) {
+window_strength <- function(scan, coordinates, job, trusted = NULL) {
+  settings <- job$settings
   thinned <- thinned_rows(coordinates, settings$vertices)
   rows <- thinned$rows
-  curved <- curvature(coordinates$vertex[rows])
+  curved <- job$source(coordinates$vertex[rows])
   across <- cross_rows(curved$normal,
                        columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
   across <- across / sqrt(rowSums(across^2))
   principal <- settings$strength == "principal"
-  value <- strength_at(curved, type, across = if (!principal) across)
+  value <- strength_at(curved, job$type, across = if (!principal) across)
   # No direction is across a path where it runs along the normal, or stands still.
   value[is.nan(value)] <- NA
-  if (!is.null(keep_away)) {
-    value[is_kept_away(keep_away, specimen,
-                       t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
+  if (!is.null(job$regions)) {
+    at <- t(scan$vb[1:3, coordinates$vertex[rows], drop = FALSE])
+    value[is_kept_away(job$regions, at)] <- 0
   }
   if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] |
                                coordinates$s[rows] > trusted[2]] <- 0
   if (settings$wrong_sign == "drop") value[value == 0] <- NA
   cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
-  own <- if (type == "ridge") curved$direction2 else curved$direction1
+  own <- if (job$type == "ridge") curved$direction2 else curved$direction1
   direction <- matrix(NA_real_, nrow(coordinates), 3)
   direction[rows, ] <- if (principal) own else across
   all_rows <- function(x) replace(rep(NA_real_, nrow(coordinates)), rows, x)
@@ -230,22 +280,23 @@ core_strength <- function(coordinates, strength, distance, trusted = NULL) {
 
 #' The one place where a curve comes together
 #'
-#' @param fit As of [fit_passes()]; NULL for plane curves.
+#' @param job As of [curve_job()].
+#' @param fit As of [fit_ridge()]; NULL for plane curves.
 #' @noRd
-assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
-  placed <- resample_path(as_mesh(specimen), path, n)
+assembled_curve <- function(scan, path, reference, job, fit = NULL) {
+  placed <- resample_path(scan, path, job$n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
-    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, n) else
+    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, job$n) else
       stats::approx(fit$line$s, values, along, rule = 2)$y
   }
-  d <- if (about$type == "plane") numeric(n) else on_line(fit$line$alpha)
-  points <- frame_of(c(list(point = seq_len(n)), unclass(placed)[c("s", "x", "y", "z")],
+  d <- if (job$type == "plane") numeric(job$n) else on_line(fit$line$alpha)
+  points <- frame_of(c(list(point = seq_len(job$n)), unclass(placed)[c("s", "x", "y", "z")],
                        list(d = d, se = on_line(fit$line$se)),
                        unclass(placed)[c("face", "w1", "w2", "w3")]))
-  new_curve(points, path, reference, about, judge_curve(about, fit), mesh_of(specimen)$key,
+  new_curve(points, path, reference, job, judge_curve(job, fit), scan,
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
-            strength = mean_strength(specimen, path, fit), scale = fit$scale,
+            strength = mean_strength(scan, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
             even = attr(placed, "converged"))
 }
@@ -254,24 +305,23 @@ assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
 #'
 #' @param points,path,reference,coordinates,surface,line,strength,scale,converged As in the value of
 #'   [ridge_curve()].
-#' @param about List of `id`, `from`, `to`, `type`, `settings`, `passes`; of ridges and valleys
-#'   `radius` and `width`.
+#' @param job As of [curve_job()].
 #' @param verdict List of `se`, `determined`, `reason`.
-#' @param key Of the mesh that its faces are numbers of.
+#' @param scan List of `key` and `id` of the mesh that its faces are numbers of.
 #' @param even Whether its points stand at equal chords.
 #' @noRd
-new_curve <- function(points, path, reference, about, verdict, key, coordinates = NULL,
+new_curve <- function(points, path, reference, job, verdict, scan, coordinates = NULL,
                       surface = NULL, line = NULL,
                       strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE) {
   structure(
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
          surface = surface, line = line, strength = strength, scale = scale, se = verdict$se,
-         determined = verdict$determined, reason = verdict$reason, id = about$id, from = about$from,
-         to = about$to,
-         type = about$type, settings = about$settings, passes = about$passes, radius = about$radius,
-         width = about$width,
-         key = key, converged = converged, even = even),
+         determined = verdict$determined, reason = verdict$reason, id = scan$id, from = job$from,
+         to = job$to,
+         type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
+         width = job$width,
+         key = scan$key, converged = converged, even = even),
     class = "curve"
   )
 }
@@ -308,42 +358,44 @@ check_curve_on <- function(curve, mesh, name) {
 
 #' Whether curvature determines the curve, with the reason where not
 #' @noRd
-judge_curve <- function(about, fit) {
-  if (about$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
+judge_curve <- function(job, fit) {
+  if (job$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
   se <- if (is.null(fit$line$se)) NA_real_ else
     stats::median(fit$line$se[-c(1, length(fit$line$se))])
-  limit <- about$settings$undetermined * about$radius
+  limit <- job$settings$undetermined * job$radius
   reason <- if (!fit$found) {
     fit$reason
   } else if (fit$line$at_bound) {
     "it runs along the edge of the window"
-  } else if (fit$scale * about$radius < about$settings$faint) {
+  } else if (fit$scale * job$radius < job$settings$faint) {
     sprintf("the curvature by its reference path is faint: times the radius it is %.3g, below %.3g",
-            fit$scale * about$radius, about$settings$faint)
+            fit$scale * job$radius, job$settings$faint)
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
   } else {
     NA_character_
   }
-  if (!is.na(reason)) {
-    crestline_warn(
-      sprintf("the %s from %s to %s is not determined by curvature: %s.", about$type, about$from,
-              about$to, reason),
-      "Use the shortest plane cut (type = \"plane\"), or another radius.",
-      stage = "ridge curve", id = about$id, class = "crestline_undetermined"
-    )
-  }
   list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
        reason = reason)
+}
+
+warn_undetermined <- function(curve) {
+  if (!isFALSE(curve$determined)) return(invisible())
+  crestline_warn(
+    sprintf("the %s from %s to %s is not determined by curvature: %s.", curve$type, curve$from,
+            curve$to, curve$reason),
+    "Use the shortest plane cut (type = \"plane\"), or another radius.",
+    stage = "ridge curve", id = curve$id, class = "crestline_undetermined"
+  )
 }
 
 #' Length-weighted mean along a path of the strength that the curve was fitted to
 #'
 #' Corners outside the window are left out of a place's mean.
 #' @noRd
-mean_strength <- function(specimen, path, fit) {
+mean_strength <- function(scan, path, fit) {
   if (is.null(fit)) return(NA_real_)
-  corner <- match(as_mesh(specimen)$it[, path$face], fit$coordinates$vertex)
+  corner <- match(scan$it[, path$face], fit$coordinates$vertex)
   stands_in <- matrix(fit$strengths$rows[fit$strengths$cell[corner]], 3)
   inside <- !is.na(stands_in)
   strength <- fit$strengths$value[stands_in]
@@ -364,9 +416,8 @@ as.data.frame.curve <- function(x, ...) {
 print.curve <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("%s from %s to %s%s\n",
-                switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
-                x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
+    cat(sprintf("<curve> %s from %s to %s%s\n", x$type, x$from, x$to,
+                if (is.null(x$id)) "" else paste0(" on ", x$id)))
     cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
     if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g",
                                         x$strength, x$se))

@@ -10,30 +10,30 @@
 #' bias. Near an end, which is fixed, the offset is at most as large as the way from there, and so
 #' is its error.
 #'
-#' @param specimen The mesh.
+#' @param scan The mesh, as of [walkable()].
 #' @param coordinates,surface,line The stages of the fit.
 #' @param strength As of [window_strength()].
 #' @param scale,radius,type,settings As in [ridge_line()] and [ridge_curve()].
 #' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
 #' @noRd
-ridge_error <- function(specimen, coordinates, surface, line, strength, scale, radius, type,
+ridge_error <- function(scan, coordinates, surface, line, strength, scale, radius, type,
                         settings) {
   problem <- ridge_problem(surface, scale, radius, settings)
   alpha <- line$alpha[-c(1, length(line$alpha))]
   slope <- strength_jacobian(problem, surface, alpha)
   live <- which(strength$value[surface$rows] > 0 & strength$value[surface$rows] < strength$cap)
   rows <- surface$rows[live]
-  vb <- as_mesh(specimen)$vb
+  vb <- scan$vb
   sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(vb))
   known <- !is.na(strength$sigma)
   sigma[coordinates$vertex[known]] <- strength$sigma[known]
   turn <- if (type == "ridge") -1 else 1
   variance <- cpp_curvature_variance(
-    vb, as_mesh(specimen)$it, coordinates$vertex[rows],
+    vb, scan$it, coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), turn * slope[, live, drop = FALSE], sigma,
-    fit_settings(radius, settings$order)
+    kernel_settings(radius, settings$order)
   )
-  loose <- ridge_line(surface, scale, radius, loosen(settings))
+  loose <- highest_line(surface, scale, radius, loosen(settings))
   bias <- line$alpha - loose$alpha
   error <- c(0, sqrt(settings$inflation^2 * variance + bias[-c(1, length(bias))]^2), 0)
   pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)

@@ -33,10 +33,19 @@ ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
   radius <- check_number(radius, "radius", lower = 0, open = TRUE)
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
+  in_context(highest_line(surface, scale, radius, settings), NULL)
+}
+
+#' The ridge line without checks, or a failure
+#' @noRd
+highest_line <- function(surface, scale, radius, settings) {
   problem <- ridge_problem(surface, scale, radius, settings)
   if (!all(is.finite(problem$roughness), is.finite(problem$lambda), is.finite(problem$weight))) {
-    crestline_abort(sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius, scale),
-                    "Give both in the unit of the surface.", stage = "ridge")
+    return(no_result(
+      sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius,
+              scale),
+      "Give both in the unit of the surface.", "ridge"
+    ))
   }
   found <- climb(problem, settings)
   structure(
@@ -138,7 +147,7 @@ rise <- function(problem, alpha, value, step, small) {
 print.ridge_line <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
+    cat(sprintf("<ridge_line> %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
                 min(x$alpha),
                 max(x$alpha), if (x$converged) "converged" else "NOT converged", x$iterations,
                 if (x$at_bound) ", along the edge of the window" else ""))
