@@ -306,3 +306,89 @@ curves_as_points <- function(sets, file) {
     structure(as_landmarks(points), comments = attr(set, "comments"))
   }, sets, curves)
 }
+
+#' @param ... As of read_sets().
+#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of
+#'   one specimen must agree.
+#' @noRd
+read_landmark_folder <- function(dir, ...) {
+  file <- landmark_folder(dir)
+  sets <- do.call(c, unname(Map(function(path, name) {
+    found <- read_sets(path, ...)
+    if (is.matrix(found)) found <- list(found)
+    if (isTRUE(attr(found, "numbered"))) names(found) <- paste(name, seq_along(found))
+    if (length(found) == 1) names(found) <- name
+    found
+  }, file, names(file))))
+  name <- names(sets)
+  for (twice in unique(name[duplicated(name)])) {
+    if (!same_sets(sets[name == twice])) {
+      from <- basename(file[names(file) == twice])
+      from <- if (length(from) > 1) paste0(": ", shorten(from))
+      refuse_landmarks(paste0(dir, " has different landmarks of ", twice, from, "."),
+                       "Leave one of them.", id = NULL)
+    }
+  }
+  sets[!duplicated(name)]
+}
+
+#' The landmark files of a folder, named by specimen
+#' @noRd
+landmark_folder <- function(dir) {
+  file <- list.files(dir, full.names = TRUE)
+  known <- paste0("[.](", paste(c(names(landmark_formats()), "json"), collapse = "|"), ")$")
+  file <- file[grepl(known, file, ignore.case = TRUE)]
+  file <- file[vapply(file, is_landmark_file, NA)]
+  if (!length(file)) {
+    known <- paste0(".", names(landmark_formats()), collapse = ", ")
+    refuse_landmarks(sprintf("the folder %s has no landmark files.", dir),
+                     sprintf("Known: %s.", known), id = NULL)
+  }
+  name <- sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE)
+  stats::setNames(file, sub(id_extension(), "", name, ignore.case = TRUE))
+}
+
+#' Whether a file of a format's extension holds landmarks, as far as other programs use the
+#' extension too
+#' @noRd
+is_landmark_file <- function(file) {
+  if (dir.exists(file)) return(FALSE)
+  other <- grepl("(?<![.]mrk)[.]json$", tolower(file), perl = TRUE)
+  if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
+                      error = function(e) NULL)
+  is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
+}
+
+#' Whether sets, perhaps in files, are all the same
+#' @noRd
+same_sets <- function(sets) {
+  if (length(sets) < 2) return(TRUE)
+  sets <- lapply(sets, function(one) if (is.character(one)) read_landmarks(one) else one)
+  all(vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+}
+
+#' Whether two sets have the same landmarks in the same places
+#'
+#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks:
+#'   formats differ in their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
+#' @noRd
+same_landmarks <- function(a, b, tolerance = 1e-4) {
+  if (is.list(a) || is.list(b)) return(identical(a, b))
+  if (!setequal(rownames(a), rownames(b))) return(FALSE)
+  b <- b[rownames(a), , drop = FALSE]
+  if (!identical(is.na(unname(a)), is.na(unname(b)))) return(FALSE)
+  extent <- max(abs(sweep(a, 2, colMeans(a, na.rm = TRUE))), 0, na.rm = TRUE)
+  max(abs(a - b), 0, na.rm = TRUE) <= tolerance * extent
+}
+
+#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have
+#' no names
+#' @noRd
+array_sets <- function(x) {
+  point <- if (is.null(dimnames(x)[[1]])) as.character(seq_len(dim(x)[1])) else dimnames(x)[[1]]
+  sets <- lapply(seq_len(dim(x)[3]), function(i) {
+    matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL))
+  })
+  stats::setNames(sets, dimnames(x)[[3]])
+}

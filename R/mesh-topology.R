@@ -1,4 +1,4 @@
-# Triangles across each edge, borders, and ways over edges.
+# Triangles across each edge, and borders.
 
 #' Which triangle lies across each edge
 #'
@@ -21,15 +21,3 @@ border_vertices <- function(it, twin) {
 next_side <- function(h) ifelse(h %% 3 == 0, h - 2, h + 1)
 
 border_sides <- function(topology) which(topology$twin == 0)
-
-#' Lengths of shortest paths over a mesh from places to all vertices
-#'
-#' Approximate geodesic distances of Novotni and Klein (2002); see src/mesh_geodesic.h.
-#'
-#' @param mesh A `mesh3d`.
-#' @param places Data frame with columns `face`, `w1`, `w2`, `w3`, a row a place.
-#' @return Matrix, vertices x places, unit of the mesh; `Inf` where there is no way over edges.
-#' @noRd
-geodesic_distances <- function(mesh, places) {
-  cpp_geodesic_distances(mesh$vb, mesh$it, columns_of(places, c("face", "w1", "w2", "w3")))
-}

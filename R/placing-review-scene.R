@@ -6,7 +6,7 @@
 review_colours <- function() {
   list(state = c(found = "#108040", doubtful = "#C02020", predicted = "#3060C0", placed = "#6A3D9A",
                  given = "#202020"),
-       selected = "#E08A00", curve = eval(formals(plot.shape)$colour))
+       selected = "#E08A00", curve = kind_colours)
 }
 
 #' The frame of the scene: the middle of the mesh's box, and a diagonal of 200

@@ -8,7 +8,8 @@
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.
 #' @param parts Parts of the surface, as in [shape_mesh()].
-#' @param colour Colours of ridges, valleys and plane curves.
+#' @param colour Colours of curves, named "ridge", "valley" and "plane"; by default red, blue and
+#'   black.
 #' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the
 #'   shape's own surface: its colour, one for each vertex of [shape_mesh()], a number for each, or
 #'   "patch" for a colour a patch.
@@ -32,7 +33,7 @@
 #' }
 #' @export
 plot.shape <- function(x, specimen = NULL, parts = "model",
-                       colour = c(ridge = "#A0002A", valley = "#16218C", plane = "#202020"),
+                       colour = kind_colours,
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index",
                        edges = "#00000070", band = TRUE,
                        points = TRUE, patches = points, width = 2, legend = TRUE,

@@ -8,18 +8,11 @@ floors <- c("conditions", "text", "files", "geometry", "checks", "session", "set
 # Circles of files that stay, each with its reason.
 circles <- list(
   # A part of an alignment is an alignment anew; what is missing is estimated by aligning.
-  c("analysis-align.R", "analysis-aligned.R", "analysis-arrays.R", "analysis-missing.R"),
-  # read_landmarks() of a folder reads its files by read_landmarks().
-  c("landmarks-beside.R", "landmarks.R"),
-  # A denser surface is straightened where its triangles are flipped, which is looked for on the surface.
-  c("shape-check.R", "shape-dense.R", "shape-mesh.R")
+  c("analysis-align.R", "analysis-aligned.R", "analysis-arrays.R", "analysis-missing.R")
 )
 
 # Calls to a later floor that stay, each with its reason.
-exceptions <- c(
-  # The review shows curves in the colours that plot() documents.
-  "placing-review-scene.R:review_colours -> plot-shape.R:plot.shape"
-)
+exceptions <- character()
 
 graph <- function() {
   dir <- testthat::test_path("..", "..", "R")
