@@ -35,7 +35,7 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
     crestline_abort("`light` is not a direction.", "Give three finite numbers, not all 0.",
                     stage = "picture")
   }
-  list(light = light / sqrt(sum(light^2)),
+  list(light = unit_vector(light),
        ambient = check_number(ambient, "ambient", 0, 1), wrap = check_number(wrap, "wrap", 0, 1),
        gloss = check_number(gloss, "gloss", 0, 1),
        sharpness = check_number(sharpness, "sharpness", 0),
@@ -113,7 +113,7 @@ shade_vertices <- function(colour, normals, settings) {
   rgb <- grDevices::col2rgb(colour) / 255
   normals <- normals / rep(pmax(sqrt(colSums(normals^2)), .Machine$double.xmin), each = 3)
   half <- settings$light + c(0, 0, 1)
-  half <- half / sqrt(sum(half^2))
+  half <- unit_vector(half)
   lit <- pmax(0, drop(settings$light %*% normals) + settings$wrap) / (1 + settings$wrap)
   lamp <- settings$ambient + (1 - settings$ambient) * lit
   shine <- settings$gloss * pmax(0, drop(half %*% normals))^settings$sharpness

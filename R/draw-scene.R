@@ -132,5 +132,6 @@ view_rotation <- function(view, call = rlang::caller_env()) {
 }
 
 with_normals <- function(mesh) {
-  if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
+  if (is.null(mesh$normals)) mesh$normals <- vertex_normals(mesh)
+  mesh
 }

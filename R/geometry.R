@@ -29,6 +29,34 @@ nearest_rotation <- function(x, y) {
   list(rotation = parts$u %*% (sense * t(parts$v)), d = sense * parts$d)
 }
 
+# Main direction of rows of vectors, up to sign: of the differences between points and their mirror
+# partners the normal of the mirror.
+main_direction <- function(x) eigen(crossprod(x), symmetric = TRUE)$vectors[, 1]
+
+#' The place of a polyline that is nearest to each of some points
+#'
+#' @param xyz k x 3.
+#' @param line n x 3, a row a vertex; with one row that is the nearest place.
+#' @return List of vectors, one value a point: `distance`, `segment` (its first vertex), `share` (of
+#'   the way along the segment).
+#' @noRd
+nearest_on_polyline <- function(xyz, line) {
+  distance <- row_lengths(sweep(xyz, 2, line[1, ]))
+  segment <- rep(1L, nrow(xyz))
+  share <- numeric(nrow(xyz))
+  for (i in seq_len(nrow(line) - 1)) {
+    step <- line[i + 1, ] - line[i, ]
+    off <- sweep(xyz, 2, line[i, ])
+    along <- if (any(step != 0)) pmin(pmax(drop(off %*% step) / sum(step^2), 0), 1) else share * 0
+    here <- row_lengths(off - outer(along, step))
+    nearer <- which(here < distance)
+    distance[nearer] <- here[nearer]
+    segment[nearer] <- i
+    share[nearer] <- along[nearer]
+  }
+  list(distance = distance, segment = segment, share = share)
+}
+
 mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)
 
 # The columns of a point on a mesh.

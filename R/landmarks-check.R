@@ -56,7 +56,7 @@ check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NUL
     on <- unique(piece[located$face[!is.na(located$face)]])
     size <- mesh_size(mesh, if (length(on)) piece %in% on, columns_of(located, c("x", "y", "z")))
   }
-  away <- sqrt(rowSums((as.matrix(located[c("x", "y", "z")]) - landmarks)^2))
+  away <- row_lengths(as.matrix(located[c("x", "y", "z")]) - landmarks)
   if (any(away > tolerance * size,
           na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance, size)
   slips <- slips_by_name(landmarks, located, mesh, midline)
@@ -174,6 +174,9 @@ surface_misfit <- function(change, given, mesh, tolerance) {
   spread <- spread_of(moved)
   if (away <= min(tolerance, spread / 2)) away / spread else Inf
 }
+
+# Whether names end in L or R, for left and right.
+is_sided <- function(names) endsWith(names, "L") | endsWith(names, "R")
 
 #' Names that end in L and R, as partners
 #' @noRd

@@ -142,7 +142,7 @@ by_symmetry <- function(true, at, pairs, gain = 1, left = 0.5) {
     named <- renamed(at, true)[names, ]
     # What exchanging two landmarks takes off the distances from the mirror images of partners
     across <- named[pairs$left, , drop = FALSE] - named[pairs$right, , drop = FALSE]
-    normal <- eigen(crossprod(across / row_lengths(across)), symmetric = TRUE)$vectors[, 1]
+    normal <- main_direction(across / row_lengths(across))
     offset <- stats::median((named + named[partner, ]) %*% normal / 2)
     image <- named - 2 * outer(drop(named %*% normal) - offset, normal)
     apart <- function(i, a, b) {

@@ -114,7 +114,7 @@ mirrored_mean <- function(at) {
   pairs <- side_pairs(rownames(at))
   flipped <- at %*% diag(c(-1, 1, 1))
   dimnames(flipped) <- dimnames(at)
-  single <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
+  single <- is_sided(rownames(at))
   partner <- rownames(at)
   partner[match(c(pairs$left, pairs$right), partner)] <- c(pairs$right, pairs$left)
   mean <- (at + flipped[partner, , drop = FALSE]) / 2

@@ -85,8 +85,7 @@ definition_plane <- function(specimen, definition, pairs) {
     # The mirror that takes points nearest to their partners
     left <- specimen$landmarks[left, , drop = FALSE]
     right <- specimen$landmarks[right, , drop = FALSE]
-    normal <- eigen(crossprod(left - right), symmetric = TRUE)$vectors[, 1]
-    return(list(origin = colMeans((left + right) / 2), normal = normal))
+    return(list(origin = colMeans((left + right) / 2), normal = main_direction(left - right)))
   }
   ends <- in_context(located_ends(specimen, walkable(specimen), definition$across_from,
                                   definition$across_to), specimen$id)

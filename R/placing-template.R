@@ -82,9 +82,9 @@ print.landmark_template <- function(x, ...) {
 #' @noRd
 turned_specimen <- function(specimen, at, pairs) {
   across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
-  axis <- eigen(crossprod(across), symmetric = TRUE)$vectors[, 1]
+  axis <- main_direction(across)
   axis <- axis * sign(sum(across %*% axis))
-  sided <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
+  sided <- is_sided(rownames(at))
   middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
                   at[!sided, , drop = FALSE])
   origin <- colMeans(middle)

@@ -124,7 +124,7 @@ band_sides <- function(curve, mesh, multiple = 2) {
   n <- nrow(xyz)
   tangent <- xyz[c(2:n, n), , drop = FALSE] - xyz[c(1, 1:(n - 1)), , drop = FALSE]
   across <- cross_rows(t(path_normals(mesh, curve$path)), tangent)
-  shift <- multiple * se * across / sqrt(rowSums(across^2))
+  shift <- multiple * se * across / row_lengths(across)
   keep <- keep & is.finite(rowSums(shift))
   list(left = (xyz + shift)[keep, , drop = FALSE], right = (xyz - shift)[keep, , drop = FALSE])
 }

@@ -58,7 +58,7 @@ with_noise <- function(mesh, places, scan) {
   height <- if (smooth) random_field(scan$noise_range, scan$noise, 1)(places) else
     stats::rnorm(n, 0, scan$noise)
   if (scan$noise == 0) return(mesh)
-  normal <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals[1:3, ]
+  normal <- vertex_normals(mesh)[1:3, ]
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normal * rep(height, each = 3)
   mesh
 }
@@ -100,7 +100,7 @@ mesh_of_faces <- function(mesh, face) {
 #' @noRd
 random_pose <- function(scan, centre) {
   axis <- stats::rnorm(3)
-  axis <- axis / sqrt(sum(axis^2))
+  axis <- unit_vector(axis)
   angle <- stats::rnorm(1, 0, scan$turn)
   shift <- stats::rnorm(3, 0, scan$shift)
   cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
