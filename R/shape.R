@@ -10,18 +10,19 @@
 #' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
 #' @param provenance List: what came from where.
 #' @param sliding,trace Of [slide()].
+#' @param energy_scale Of a template: the scale of the energy in the sample that it is the mean of.
 #' @noRd
 new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL,
                       column = NULL,
                       specimen = NULL, key = if (!is.null(specimen)) specimen_key(specimen),
                       placing = specimen$placing, warnings = no_warnings(),
-                      provenance = list(), sliding = NULL, trace = NULL) {
+                      provenance = list(), sliding = NULL, trace = NULL, energy_scale = NULL) {
   structure(
     list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme,
          tracks = tracks,
          column = column, specimen = specimen, key = key, placing = placing, warnings = warnings,
          provenance = provenance,
-         sliding = sliding, trace = trace),
+         sliding = sliding, trace = trace, energy_scale = energy_scale),
     class = "shape"
   )
 }
