@@ -148,8 +148,13 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
                                            sprintf("%s, not of class \"%s\"", describe_value(x),
                                                    class))
   parts <- class_parts[[class]]
-  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(x[[part]], parts[[part]]),
-                                NA)]
+  is_there <- vapply(names(parts), function(part) {
+    value <- x[[part]]
+    switch(parts[[part]], list = is.list(value), table = is.data.frame(value),
+           numbers = is.numeric(value), id = is.character(value) && length(value) == 1,
+           inherits(value, parts[[part]]))
+  }, NA)
+  lacks <- names(parts)[!is_there]
   if (length(lacks)) {
     refuse_argument(name, x, make, call,
                     sprintf("a damaged \"%s\": it has no proper %s", class,
@@ -208,12 +213,6 @@ check_ends <- function(..., call = rlang::caller_env()) {
                                                   paste0("Give the name of a landmark, or three ",
                                                          "finite co-ordinates."), call)
   }
-}
-
-is_of_kind <- function(x, kind) {
-  switch(kind, list = is.list(x), table = is.data.frame(x), numbers = is.numeric(x),
-         id = is.character(x) && length(x) == 1,
-         inherits(x, kind))
 }
 
 #' Regions in which strength does not count: one, a list of them, or NULL

@@ -27,7 +27,10 @@ read_landmarks_fcsv <- function(file, options) {
   field <- matrix(as.character(unlist(full)), ncol = width, byrow = TRUE)
   xyz <- field[, match(c("x", "y", "z"), column)]
   x <- matrix(landmark_numbers(xyz, file, rep(row, 3)), ncol = 3)
-  x[fcsv_absent(field, column), ] <- NA
+  state <- length(column) + 1
+  absent <- if (ncol(field) < state || !"associatednodeid" %in% column) logical(nrow(field)) else
+    !trimws(field[, state]) %in% c("", "2")
+  x[absent, ] <- NA
   frame <- slicer_frame(fcsv_frame(line[comment]), file)
   # Labels; where there is none the id, else the number of the point.
   label <- if ("label" %in% column) field[, match("label", column)] else character(nrow(field))
@@ -62,12 +65,6 @@ check_fcsv_fields <- function(field, column, line, file) {
                                        lengths(field)[wrong[1]], length(column)),
                          "Quote labels and descriptions that hold commas.", line[wrong[1]])
   }
-}
-
-fcsv_absent <- function(field, column) {
-  state <- length(column) + 1
-  if (ncol(field) < state || !"associatednodeid" %in% column) return(logical(nrow(field)))
-  !trimws(field[, state]) %in% c("", "2")
 }
 
 write_landmarks_fcsv <- function(sets, file, options) {

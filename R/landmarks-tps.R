@@ -39,7 +39,18 @@ tps_record <- function(text, line, file) {
   group <- cumsum(is_key)[!is_key]
   row <- split(data.frame(text = text, line = line)[!is_key, ], factor(group, seq_len(nrow(key))))
   width <- if (key$key[1] == "LM3") 3 else tps_width(c(Filter(nrow, row), row)[[1]], file)
-  key$rows <- lapply(seq_len(nrow(key)), function(i) tps_block(key[i, ], row[[i]], width, file))
+  key$rows <- lapply(seq_len(nrow(key)), function(i) {
+    # The rows of numbers that a key announces.
+    keys <- key[i, ]
+    said <- if (keys$key %in% c("LM", "LM3", "POINTS")) tps_count(keys, file) else 0
+    if (nrow(row[[i]]) != said) {
+      refuse_landmark_file(file,
+                           sprintf("%s= announces %d points, %d follow", keys$key, said,
+                                   nrow(row[[i]])),
+                           "Put the right number, or the whole file.", keys$line)
+    }
+    landmark_rows(row[[i]]$text, width, file, row[[i]]$line)
+  })
   key
 }
 
@@ -50,17 +61,6 @@ tps_width <- function(row, file) {
   if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers",
                                             "Write one point a line.", row$line[1])
   width
-}
-
-# The rows of numbers that a key announces.
-tps_block <- function(key, row, width, file) {
-  said <- if (key$key %in% c("LM", "LM3", "POINTS")) tps_count(key, file) else 0
-  if (nrow(row) != said) {
-    refuse_landmark_file(file,
-                         sprintf("%s= announces %d points, %d follow", key$key, said, nrow(row)),
-                         "Put the right number, or the whole file.", key$line)
-  }
-  landmark_rows(row$text, width, file, row$line)
 }
 
 tps_count <- function(key, file) {
@@ -101,7 +101,20 @@ tps_scales <- function(record, file, options) {
   if (!options$scale) return(rep(1, length(record)))
   scale <- vapply(record, function(key) {
     i <- which(key$key == "SCALE" & nzchar(key$value))
-    if (length(i)) tps_scale(key[i, ], file) else NA_real_
+    if (length(i)) {
+      # The one factor of a record, NA where it stands for none.
+      key <- key[i, ]
+      scales <- unique(landmark_numbers(key$value, file, key$line))
+      wrong <- c(which(scales <= 0), if (length(scales) > 1) 2)
+      if (length(wrong)) {
+        said <- if (length(scales) > 1) "one specimen has two different SCALE=" else
+          sprintf("SCALE=%s is not greater than 0", key$value[1])
+        refuse_landmark_file(file, said,
+                             "Put the factor, or read with scale = FALSE: all as they stand.",
+                             key$line[wrong[1]])
+      }
+      scales
+    } else NA_real_
   }, 0)
   if (all(is.na(scale))) return(rep(1, length(record)))
   if (anyNA(scale)) {
@@ -112,19 +125,6 @@ tps_scales <- function(record, file, options) {
                                        sum(is.na(scale)), length(scale)),
                          "Give each its SCALE=, or read with scale = FALSE: all as they stand.",
                          bare$line[1])
-  }
-  scale
-}
-
-# The one factor of a record, NA where it stands for none.
-tps_scale <- function(key, file) {
-  scale <- unique(landmark_numbers(key$value, file, key$line))
-  wrong <- c(which(scale <= 0), if (length(scale) > 1) 2)
-  if (length(wrong)) {
-    refuse_landmark_file(file, if (length(scale) > 1) "one specimen has two different SCALE=" else
-      sprintf("SCALE=%s is not greater than 0", key$value[1]),
-                         "Put the factor, or read with scale = FALSE: all as they stand.",
-                         key$line[wrong[1]])
   }
   scale
 }

@@ -224,11 +224,27 @@ drop_unreferenced <- function(mesh, id) {
 
 # What stays as it is and is only told.
 describe_topology <- function(mesh, topology, area) {
+  # Border loops beyond the one outer loop of each piece that has a border.
+  side <- border_sides(topology)
+  holes <- if (!length(side)) 0L else {
+    start <- mesh$it[side]
+    end <- mesh$it[next_side(side)]
+    # As many border sides start as end at every vertex, so sorting both pairs each with a next.
+    following <- integer(length(side))
+    following[order(end)] <- order(start)
+    # The smallest member of each cycle of a permutation, by doubling the stride.
+    loop <- seq_along(following)
+    for (i in seq_len(ceiling(log2(length(following) + 1)))) {
+      loop <- pmin(loop, loop[following])
+      following <- following[following]
+    }
+    length(unique(loop)) - length(unique(topology$piece[(side - 1) %/% 3 + 1]))
+  }
   list(
     report_row("faces without area", sum(area == 0), "kept, so that no slit opens"),
     report_row("non-manifold edges", topology$nonmanifold_edges, "kept; they act as borders"),
     report_row("isolated pieces", topology$pieces - 1, "kept; no curve leaves its piece"),
-    report_row("holes", count_holes(mesh, topology), "kept; no curve crosses them")
+    report_row("holes", holes, "kept; no curve crosses them")
   )
 }
 
@@ -244,22 +260,4 @@ warn_loose <- function(topology, id, share = 0.1, least = 10) {
     class = "crestline_loose_triangles"
   )
   TRUE
-}
-
-# Border loops beyond the one outer loop of each piece that has a border.
-count_holes <- function(mesh, topology) {
-  side <- border_sides(topology)
-  if (!length(side)) return(0L)
-  start <- mesh$it[side]
-  end <- mesh$it[next_side(side)]
-  # As many border sides start as end at every vertex, so sorting both pairs each with a next.
-  following <- integer(length(side))
-  following[order(end)] <- order(start)
-  # The smallest member of each cycle of a permutation, by doubling the stride.
-  loop <- seq_along(following)
-  for (i in seq_len(ceiling(log2(length(following) + 1)))) {
-    loop <- pmin(loop, loop[following])
-    following <- following[following]
-  }
-  length(unique(loop)) - length(unique(topology$piece[(side - 1) %/% 3 + 1]))
 }

@@ -23,7 +23,7 @@ as_mesh <- function(mesh) {
 #' @return Environment: `vb`, `it` (as kernels take them), `key`, `diagonal`; what was found right
 #'   with this mesh is kept in it.
 #' @noRd
-passed_mesh <- function(mesh, id) {
+passed_mesh <- function(mesh, id, most = 2) {
   if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
     refuse_mesh(sprintf("the mesh is %s, not a mesh3d.", describe_value(mesh)),
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
@@ -49,18 +49,12 @@ passed_mesh <- function(mesh, id) {
   sound <- list(vb = vb, it = it)
   known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = vb, it = it,
                       key = mesh_key(sound), diagonal = mesh_diagonal(sound))
-  remember_mesh(known)
+  passed_meshes$last <- utils::head(c(list(known), passed_meshes$last), most)
   known
 }
 
 passed_meshes <- new.env(parent = emptyenv())
 passed_meshes$last <- list()
-
-#' @param most Number of meshes that are remembered: a scan, and the same with its holes bridged.
-#' @noRd
-remember_mesh <- function(known, most = 2) {
-  passed_meshes$last <- utils::head(c(list(known), passed_meshes$last), most)
-}
 
 is_the_same <- function(a, b) rlang::is_reference(a, b)
 

@@ -20,7 +20,14 @@ join_near_vertices <- function(mesh, id, near = 1e-6) {
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   if (ncol(pair) && several) {
     both <- pair[1, ] %in% border & pair[2, ] %in% border
-    pair <- pair[, both | of_second_skin(mesh, pair), drop = FALSE]
+    # Pairs in triangles of which two or more become one.
+    twins <- cpp_pair_groups(pair, ncol(mesh$vb))
+    it <- matrix(twins[mesh$it], 3)
+    key <- paste(pmin(it[1, ], it[2, ], it[3, ]), pmax(it[1, ], it[2, ], it[3, ]), colSums(it))
+    twice <- duplicated(key) | duplicated(key, fromLast = TRUE)
+    double <- logical(ncol(mesh$vb))
+    double[mesh$it[, twice]] <- TRUE
+    pair <- pair[, both | (double[pair[1, ]] & double[pair[2, ]]), drop = FALSE]
   }
   if (!ncol(pair)) return(mended(mesh, check, 0))
   stands_for <- cpp_pair_groups(pair, ncol(mesh$vb))
@@ -42,17 +49,6 @@ joined_by_edge <- function(mesh, pair) {
   it <- mesh$it[, colSums(matrix(mesh$it %in% pair, 3)) > 1, drop = FALSE]
   key(pair[1, ], pair[2, ]) %in% c(key(it[1, ], it[2, ]), key(it[2, ], it[3, ]),
                                    key(it[3, ], it[1, ]))
-}
-
-# Pairs in triangles of which two or more become one.
-of_second_skin <- function(mesh, pair) {
-  stands_for <- cpp_pair_groups(pair, ncol(mesh$vb))
-  it <- matrix(stands_for[mesh$it], 3)
-  key <- paste(pmin(it[1, ], it[2, ], it[3, ]), pmax(it[1, ], it[2, ], it[3, ]), colSums(it))
-  twice <- duplicated(key) | duplicated(key, fromLast = TRUE)
-  double <- logical(ncol(mesh$vb))
-  double[mesh$it[, twice]] <- TRUE
-  double[pair[1, ]] & double[pair[2, ]]
 }
 
 # Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which

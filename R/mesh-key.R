@@ -104,15 +104,12 @@ misplaced <- function(at, mesh, tolerance) {
   if (any(face != round(face) | face < 1 |
           face > ncol(mesh$it))) return("name faces that the mesh does not have")
   if (!all(is.finite(at))) return("lack co-ordinates or weights")
-  place <- place_on_faces_of(mesh, face, at[, c("w1", "w2", "w3"), drop = FALSE])
+  # As place_on_faces(), at the cost of the points alone.
+  weight <- at[, c("w1", "w2", "w3"), drop = FALSE]
+  corner <- function(i) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
+  place <- weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
   away <- row_lengths(place - at[, c("x", "y", "z"), drop = FALSE])
   if (any(away > tolerance)) return(sprintf(paste0("are up to %.3g away from where their faces ",
                                                    "are on this mesh"), max(away)))
   if (any(at[, c("w1", "w2", "w3")] < -1e-6)) "have negative weights"
-}
-
-# As place_on_faces(), at the cost of the points alone.
-place_on_faces_of <- function(mesh, face, weight) {
-  corner <- function(i) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
-  weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
 }

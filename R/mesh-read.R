@@ -40,10 +40,16 @@ unpacked_bytes <- function(file, raw, id, chunk = 2^24) {
 text_bytes <- function(raw) c(unmarked_bytes(raw), as.raw(10))
 
 # Without the mark of an encoding in front; text of two bytes a sign becomes text of one.
-unmarked_bytes <- function(raw) {
+unmarked_bytes <- function(raw, signs = 16) {
   begins <- function(...) identical(raw[seq_along(c(...))], as.raw(c(...)))
+  # Text of two bytes a sign without a mark: every other one of the first is 0. `signs`: how many
+  # are looked at.
   wide <- if (begins(0xff, 0xfe)) "UTF-16LE" else if (begins(0xfe, 0xff)) "UTF-16BE" else
-    wide_text(raw)
+    if (length(raw) < 2 * signs) NULL else {
+      zero <- matrix(raw[seq_len(2 * signs)] == 0, 2)
+      if (all(zero[2, ]) && !any(zero[1, ])) "UTF-16LE" else
+        if (all(zero[1, ]) && !any(zero[2, ])) "UTF-16BE"
+    }
   if (!is.null(wide)) {
     # Signs beyond one byte stand in names and comments only: "?".
     pair <- matrix(raw[seq_len(2 * (length(raw) %/% 2))], 2)
@@ -53,15 +59,6 @@ unmarked_bytes <- function(raw) {
     raw <- if (identical(pair[, 1], as.raw(c(0xff, 0xfe)))) sign[-1] else sign
   }
   if (identical(raw[1:3], as.raw(c(0xef, 0xbb, 0xbf)))) raw[-(1:3)] else raw
-}
-
-# Text of two bytes a sign without a mark: every other one of the first is 0. `signs`: how many are
-# looked at.
-wide_text <- function(raw, signs = 16) {
-  if (length(raw) < 2 * signs) return(NULL)
-  zero <- matrix(raw[seq_len(2 * signs)] == 0, 2)
-  if (all(zero[2, ]) && !any(zero[1, ])) "UTF-16LE" else
-    if (all(zero[1, ]) && !any(zero[2, ])) "UTF-16BE"
 }
 
 # The lines of a text of bytes, without blanks about them.

@@ -2,23 +2,20 @@
 
 # Binary unless the length says otherwise and the text is one: a binary header may start with
 # "solid", as the ascii format does.
-read_stl <- function(file, id) {
+read_stl <- function(file, id, bytes = 1000) {
   raw <- file_bytes(file, id)
   # The number that a binary file has behind its 80 bytes of header; infinite in a shorter one.
   faces <- if (length(raw) < 84) Inf else sum(as.numeric(raw[81:84]) * 256^(0:3))
-  vertex <- if (length(raw) >= 84 + 50 * faces && faces > 0 || stl_is_binary(raw)) {
+  # Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.
+  first <- utils::head(text_bytes(utils::head(raw, bytes)), -1)
+  binary <- any(first < 9 | first > 13 &
+                first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
+  vertex <- if (length(raw) >= 84 + 50 * faces && faces > 0 || binary) {
     stl_binary(raw, faces, file, id)
   } else {
     stl_ascii(raw, file, id)
   }
   mesh_of_polygons(vertex, seq_len(nrow(vertex)), rep(3L, nrow(vertex) / 3))
-}
-
-# Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.
-stl_is_binary <- function(raw, bytes = 1000) {
-  first <- utils::head(text_bytes(utils::head(raw, bytes)), -1)
-  any(first < 9 | first > 13 &
-      first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
 }
 
 # Each face: 12 floats (normal, three corners) and two bytes. The number of faces is the content's

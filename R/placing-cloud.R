@@ -54,7 +54,6 @@ scan_cloud <- function(specimen, scale, settings, threads) {
                    border_vertices(mesh$it, specimen$geometry$twin))
   sparse <- sum(row_lengths(face_normals(mesh))) / 2 > ncol(mesh$vb) * settings$cluster^2
   points <- if (sparse) {
-    # At the centres of the triangles too.
     of_centre <- function(x) {
       corner <- function(i) if (is.matrix(x)) x[, mesh$it[i, ]] else x[mesh$it[i, ]]
       (corner(1) + corner(2) + corner(3)) / 3
@@ -65,9 +64,7 @@ scan_cloud <- function(specimen, scale, settings, threads) {
     centre$border <- centre$border >= 2 / 3
     all <- Map(function(a, b) if (is.matrix(a)) cbind(a, b) else c(a, b), points, centre)
     at_points(all, cell_vertices(t(all$xyz), settings$cluster))
-  } else {
-    at_points(points, vertex)
-  }
+  } else at_points(points, vertex)
   points[c("k1", "k2")] <- lapply(points[c("k1", "k2")], function(k) ifelse(is.na(k), 0, k))
   coarse <- cell_vertices(t(points$xyz), settings$coarse)
   c(points, list(coarse = coarse, spacing = c(settings$cluster, settings$coarse),

@@ -173,7 +173,7 @@ path_turning <- function(mesh, path, radius, spacing = 0.1) {
 #' End of a ridge or valley that comes from another landmark: where its strength has fallen to a
 #' share of its greatest
 #' @noRd
-place_of_end <- function(specimen, definition, start, pairs, curvature, settings) {
+place_of_end <- function(specimen, definition, start, pairs, curvature, settings, spacing = 0.1) {
   # A place on the surface beyond a landmark, as far as the definition reaches, straight on from
   # where its curve begins
   from <- specimen$landmarks[definition$from, ]
@@ -181,7 +181,17 @@ place_of_end <- function(specimen, definition, start, pairs, curvature, settings
   beyond <- surface_points(specimen$mesh, matrix(start + definition$reach * onward, 1))
   path <- definition_path(specimen, definition, definition$from, beyond, definition$type, curvature,
                           settings)
-  fading <- path_strength_along(specimen, path, definition, curvature, settings$window)
+  # Strength along a path, smoothed as local fits are
+  curved <- curvature(definition$radius)
+  corner <- specimen$mesh$it[, path$face]
+  strength <- matrix(strength_at(curved(as.vector(corner)), definition$type), 3)
+  raw <- colSums(rbind(path$w1, path$w2, path$w3) * strength)
+  s <- seq(0, attr(path, "length"), by = spacing * definition$radius)
+  value <- vapply(s, function(at) {
+    weight <- pmax(1 - ((path$s - at) / (settings$window * definition$radius))^2, 0)^2
+    if (sum(weight) > 0) sum(weight * raw) / sum(weight) else stats::approx(path$s, raw, at)$y
+  }, 0)
+  fading <- list(s = s, value = value)
   most <- which.max(fading$value)
   level <- settings$share * fading$value[most]
   fallen <- which(fading$value <= level & seq_along(fading$s) > most)
@@ -192,21 +202,4 @@ place_of_end <- function(specimen, definition, start, pairs, curvature, settings
   at <- drop(points_along(path, fading$s[i - 1] + share * (fading$s[i] - fading$s[i - 1])))
   if (sqrt(sum((at - start)^2)) > definition$reach) return(list(reason = "nothing near"))
   list(at = at, value = level)
-}
-
-#' Strength along a path, smoothed as local fits are
-#' @param spacing Distance of the places, as a share of the radius.
-#' @return List `s`, `value`.
-#' @noRd
-path_strength_along <- function(specimen, path, definition, curvature, window, spacing = 0.1) {
-  curved <- curvature(definition$radius)
-  corner <- specimen$mesh$it[, path$face]
-  strength <- matrix(strength_at(curved(as.vector(corner)), definition$type), 3)
-  raw <- colSums(rbind(path$w1, path$w2, path$w3) * strength)
-  s <- seq(0, attr(path, "length"), by = spacing * definition$radius)
-  value <- vapply(s, function(at) {
-    weight <- pmax(1 - ((path$s - at) / (window * definition$radius))^2, 0)^2
-    if (sum(weight) > 0) sum(weight * raw) / sum(weight) else stats::approx(path$s, raw, at)$y
-  }, 0)
-  list(s = s, value = value)
 }

@@ -43,8 +43,12 @@ is_greatest <- function(row, field, apart) {
 #' @param steps Most steps.
 #' @return As [strongest_peak()]; NULL where the fits lead nowhere.
 #' @noRd
-settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200) {
-  width <- wide_enough(field, at, width)
+settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200,
+                         slack = 1.3) {
+  # Half width of the fits: the one asked for, or wider where the points are far apart
+  gap <- row_lengths(field$at - rep(at, each = nrow(field$at)))
+  width <- max(width, slack *
+               sort(gap)[min(c(curve = 5, surface = 13)[[field$dimensions]], length(gap))])
   longest <- longest * width
   before <- numeric(3)
   for (step in seq_len(steps)) {
@@ -62,16 +66,6 @@ settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, step
     if (sqrt(sum(move^2)) < tolerance * width) return(list(at = at, value = fit$value))
   }
   NULL
-}
-
-#' Half width of the fits: the one asked for, or wider where the points are far apart
-#'
-#' @param count Number of points that lie within the width at least, for a surface and for a curve.
-#' @param slack Factor by which the last of them is inside.
-#' @noRd
-wide_enough <- function(field, at, width, count = c(curve = 5, surface = 13), slack = 1.3) {
-  gap <- row_lengths(field$at - rep(at, each = nrow(field$at)))
-  max(width, slack * sort(gap)[min(count[[field$dimensions]], length(gap))])
 }
 
 #' Quadratic fits of a field, and of the points' offsets from a plane (or line), about a place

@@ -104,18 +104,16 @@ redraw <- function(scene, drawn, items) {
   if (length(delete)) rgl::pop3d(id = delete)
   drawn <- drawn[same]
   new <- setdiff(names(items), names(drawn))
-  drawn[new] <- lapply(items[new], function(item) list(item = item, ids = draw_item(scene, item)))
+  drawn[new] <- lapply(items[new], function(item) {
+    before <- length(scene$scene$ids)
+    shown <- if (is.null(item$path)) {
+      at <- into_scene(matrix(item$at, 1), scene$frame)
+      draw_points(scene$scene, at, item$colour, item$size, labels = item$landmark)
+    } else {
+      draw_lines(scene$scene, into_scene(item$path, scene$frame), item$colour, item$width)
+    }
+    list(item = item, ids = shown$ids[-seq_len(before)])
+  })
   list(drawn = drawn, delete = delete,
        add = unlist(lapply(drawn[new], `[[`, "ids"), use.names = FALSE))
-}
-
-draw_item <- function(scene, item) {
-  before <- length(scene$scene$ids)
-  drawn <- if (is.null(item$path)) {
-    at <- into_scene(matrix(item$at, 1), scene$frame)
-    draw_points(scene$scene, at, item$colour, item$size, labels = item$landmark)
-  } else {
-    draw_lines(scene$scene, into_scene(item$path, scene$frame), item$colour, item$width)
-  }
-  drawn$ids[-seq_len(before)]
 }

@@ -88,16 +88,13 @@ turned_specimen <- function(specimen, at, pairs) {
   middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
                   at[!sided, , drop = FALSE])
   origin <- colMeans(middle)
-  moved_specimen(specimen, least_rotation(axis), origin)
-}
-
-#' The smallest rotation that takes a unit vector to x
-#' @noRd
-least_rotation <- function(axis) {
-  if (axis[1] < -1 + 1e-12) return(diag(c(-1, -1, 1)))
-  v <- cross_product(axis, c(1, 0, 0))
-  skew <- rbind(c(0, -v[3], v[2]), c(v[3], 0, -v[1]), c(-v[2], v[1], 0))
-  diag(3) + skew + skew %*% skew / (1 + axis[1])
+  # The smallest rotation that takes a unit vector to x
+  turn <- if (axis[1] < -1 + 1e-12) diag(c(-1, -1, 1)) else {
+    v <- cross_product(axis, c(1, 0, 0))
+    skew <- rbind(c(0, -v[3], v[2]), c(v[3], 0, -v[1]), c(-v[2], v[1], 0))
+    diag(3) + skew + skew %*% skew / (1 + axis[1])
+  }
+  moved_specimen(specimen, turn, origin)
 }
 
 #' A specimen after rotation about an origin, which goes to 0

@@ -47,27 +47,23 @@ draw_panel <- function(x, points = TRUE, grid = c(300, 200),
 
 # The smoothed strength on a grid, NA where the data do not reach: beyond their least and greatest d
 # near the same s.
-panel_grid <- function(x, grid) {
+panel_grid <- function(x, grid, each = 15, most = 30) {
   s <- seq(0, max(x$line$s), length.out = grid[1])
   d <- seq(min(x$coordinates$d), max(x$coordinates$d), length.out = grid[2])
   cells <- expand.grid(s = s, d = d)
   strength <- matrix(stats::predict(x$surface, cells$s, cells$d), length(s))
-  reach <- data_reach(x$coordinates, s)
-  strength[outer(reach$low, d, ">") | outer(reach$high, d, "<")] <- NA
-  list(s = s, d = d, strength = strength)
-}
-
-# Least and greatest d of the data about each s, from equal stretches of s that hold `each` vertices
-# in the mean, at most `most`.
-data_reach <- function(coordinates, s, each = 15, most = 30) {
-  stretches <- min(max(nrow(coordinates) %/% each, 2), most)
+  # Least and greatest d of the data about each s, from equal stretches of s that hold `each`
+  # vertices in the mean, at most `most`.
+  stretches <- min(max(nrow(x$coordinates) %/% each, 2), most)
   breaks <- seq(min(s), max(s), length.out = stretches + 1)
-  stretch <- findInterval(coordinates$s, breaks, all.inside = TRUE)
-  ends <- vapply(split(coordinates$d, factor(stretch, seq_len(stretches))),
+  stretch <- findInterval(x$coordinates$s, breaks, all.inside = TRUE)
+  ends <- vapply(split(x$coordinates$d, factor(stretch, seq_len(stretches))),
                  function(d) if (length(d)) range(d) else c(0, 0), numeric(2))
   middle <- (breaks[-1] + breaks[-length(breaks)]) / 2
-  list(low = stats::approx(middle, ends[1, ], s, rule = 2)$y,
-       high = stats::approx(middle, ends[2, ], s, rule = 2)$y)
+  reach <- list(low = stats::approx(middle, ends[1, ], s, rule = 2)$y,
+                high = stats::approx(middle, ends[2, ], s, rule = 2)$y)
+  strength[outer(reach$low, d, ">") | outer(reach$high, d, "<")] <- NA
+  list(s = s, d = d, strength = strength)
 }
 
 draw_panel_ridge <- function(x, colour, multiple = 2, opacity = 0.25) {

@@ -29,7 +29,7 @@ ridge_crest <- function(a, b, end, reach = 0.5, step = 0.025, rows = 31, n = 401
 #' @param coarse Values of y, from 0, at which it is found; in between it is a spline.
 #' @param at As in [follow_crest()].
 #' @noRd
-crest_offset <- function(a, b, y, coarse, at) {
+crest_offset <- function(a, b, y, coarse, at, h = 1e-3) {
   # The locus from 0 upwards, as far as it is found
   slope <- matrix(crest_slope(a, b, rep(at, length(coarse)), rep(coarse, each = length(at))),
                   length(at))
@@ -44,19 +44,16 @@ crest_offset <- function(a, b, y, coarse, at) {
     if (!length(nearest) || abs(nearest - last) > max(0.1, 2 * abs(last))) break
     u[i] <- last <- nearest
   }
-  for (iteration in 1:4) u <- u - crest_step(a, b, u, coarse)
+  for (iteration in 1:4) {
+    # Newton's step towards the locus
+    grade <- crest_slope(a, b, u, coarse)
+    bend <- (crest_slope(a, b, u + h, coarse) - crest_slope(a, b, u - h, coarse)) / (2 * h)
+    step <- grade / bend
+    u <- u - pmin(pmax(step, -0.02), 0.02)
+  }
   known <- !is.na(u)
   if (sum(known) < 2) return(rep(NA_real_, length(y)))
   ifelse(y <= max(coarse[known]), stats::spline(coarse[known], u[known], xout = y)$y, NA)
-}
-
-#' Newton's step towards the locus
-#' @noRd
-crest_step <- function(a, b, u, y, h = 1e-3) {
-  slope <- crest_slope(a, b, u, y)
-  bend <- (crest_slope(a, b, u + h, y) - crest_slope(a, b, u - h, y)) / (2 * h)
-  step <- slope / bend
-  pmin(pmax(step, -0.02), 0.02)
 }
 
 #' Derivative of k2 along its principal direction, towards positive x
