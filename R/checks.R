@@ -248,17 +248,6 @@ check_list <- function(x, class, name, maker, call = rlang::caller_env()) {
   x
 }
 
-#' A matrix of numbers with so many columns
-#' @noRd
-check_matrix <- function(x, name, columns = 3, call = rlang::caller_env()) {
-  if (!is.matrix(x) || !is.numeric(x) || !ncol(x) %in% columns) {
-    refuse_argument(name, x,
-                    sprintf("Give a matrix of numbers with %s columns.",
-                            paste(columns, collapse = " or ")), call)
-  }
-  x
-}
-
 check_function <- function(x, name, call = rlang::caller_env()) {
   if (!is.function(x)) refuse_argument(name, x, "Give a function.", call)
   x

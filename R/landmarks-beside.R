@@ -67,7 +67,17 @@ landmarks_for <- function(landmarks, ids, ...) {
   }
   place <- id_places(ids, names(source$sets))
   if (!is.null(source$alias) && !any(lengths(place))) place <- id_places(ids, source$alias)
-  problem <- unlist(Map(function(id, place) landmarks_problem(source, id, place), ids, place))
+  problem <- unlist(Map(function(id, place) {
+    # Why a specimen has no landmarks among some sets, NA where it has
+    if (!length(place)) {
+      return(sprintf("%s has no landmarks of %s. %s", source$what, id,
+                     near_names(id, unique(names(source$sets)))))
+    }
+    if (same_sets(source$sets[place])) return(NA_character_)
+    file <- Filter(is.character, source$sets[place])
+    from <- if (length(file)) paste0(": ", shorten(basename(unlist(file))))
+    paste0(source$what, " has different landmarks of ", id, from, ".")
+  }, ids, place))
   if (!any(is.na(problem))) {
     refuse_landmarks(
       if (length(ids) == 1) problem[[1]] else
@@ -80,19 +90,6 @@ landmarks_for <- function(landmarks, ids, ...) {
   fine <- is.na(problem)
   sets[fine] <- source$sets[vapply(place[fine], `[`, 1L, 1L)]
   for_ids(sets, ids, problem)
-}
-
-#' Why a specimen has no landmarks among some sets, NA where it has
-#' @noRd
-landmarks_problem <- function(source, id, place) {
-  if (!length(place)) {
-    return(sprintf("%s has no landmarks of %s. %s", source$what, id,
-                   near_names(id, unique(names(source$sets)))))
-  }
-  if (same_sets(source$sets[place])) return(NA_character_)
-  file <- Filter(is.character, source$sets[place])
-  from <- if (length(file)) paste0(": ", shorten(basename(unlist(file))))
-  paste0(source$what, " has different landmarks of ", id, from, ".")
 }
 
 #' Landmarks of one specimen, as [specimen()] takes them

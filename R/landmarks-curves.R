@@ -27,7 +27,19 @@ read_curves <- function(file, curves = NULL, ...) {
   curves <- check_names(curves, "curves", null = TRUE)
   sets <- read_landmarks(file, ...)
   of_set <- function(set) {
-    found <- curves_of_set(set)
+    found <- attr(set, "curves")
+    if (is.null(found)) found <- {
+      part <- regmatches(rownames(set), regexec("^(.*\\S) ([1-9][0-9]*)$", rownames(set)))
+      row <- which(lengths(part) == 3)
+      name <- vapply(part[row], `[`, "", 2)
+      number <- as.numeric(vapply(part[row], `[`, "", 3))
+      rows <- lapply(stats::setNames(nm = unique(name)),
+                     function(one) row[name == one][order(number[name == one])])
+      whole <- vapply(names(rows),
+                      function(one) identical(sort(number[name == one]),
+                                              as.numeric(seq_along(rows[[one]]))), NA)
+      lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
+    }
     if (is.null(curves)) return(found)
     absent <- setdiff(curves, names(found))
     if (length(absent)) {
@@ -38,19 +50,4 @@ read_curves <- function(file, curves = NULL, ...) {
     found[curves]
   }
   if (is.list(sets)) lapply(sets, of_set) else of_set(sets)
-}
-
-curves_of_set <- function(set) {
-  curves <- attr(set, "curves")
-  if (!is.null(curves)) return(curves)
-  part <- regmatches(rownames(set), regexec("^(.*\\S) ([1-9][0-9]*)$", rownames(set)))
-  row <- which(lengths(part) == 3)
-  name <- vapply(part[row], `[`, "", 2)
-  number <- as.numeric(vapply(part[row], `[`, "", 3))
-  rows <- lapply(stats::setNames(nm = unique(name)),
-                 function(one) row[name == one][order(number[name == one])])
-  whole <- vapply(names(rows),
-                  function(one) identical(sort(number[name == one]),
-                                          as.numeric(seq_along(rows[[one]]))), NA)
-  lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
 }

@@ -38,7 +38,12 @@ tps_record <- function(text, line, file) {
                     value = trimws(sub("^[^=]*=", "", text[is_key])), line = line[is_key])
   group <- cumsum(is_key)[!is_key]
   row <- split(data.frame(text = text, line = line)[!is_key, ], factor(group, seq_len(nrow(key))))
-  width <- if (key$key[1] == "LM3") 3 else tps_width(c(Filter(nrow, row), row)[[1]], file)
+  # A record LM= should have two co-ordinates, but has three in some files.
+  first <- c(Filter(nrow, row), row)[[1]]
+  width <- if (key$key[1] == "LM3") 3 else if (!nrow(first)) 2 else
+    length(strsplit(trimws(first$text[1]), "[[:space:],]+")[[1]])
+  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers",
+                                            "Write one point a line.", first$line[1])
   key$rows <- lapply(seq_len(nrow(key)), function(i) {
     # The rows of numbers that a key announces.
     keys <- key[i, ]
@@ -52,15 +57,6 @@ tps_record <- function(text, line, file) {
     landmark_rows(row[[i]]$text, width, file, row[[i]]$line)
   })
   key
-}
-
-# Of a record LM=, which should have two co-ordinates but has three in some files.
-tps_width <- function(row, file) {
-  if (!nrow(row)) return(2)
-  width <- length(strsplit(trimws(row$text[1]), "[[:space:],]+")[[1]])
-  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers",
-                                            "Write one point a line.", row$line[1])
-  width
 }
 
 tps_count <- function(key, file) {

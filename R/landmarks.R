@@ -146,7 +146,24 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   sets <- written_sets(x, curves, file)
   has_shape <- inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
   if (!format$curves && has_shape) sets <- curves_as_points(sets, file)
-  check_written(sets, format, file)
+  with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
+  if (length(sets) > 1 && !format$several) {
+    refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
+                         "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
+  }
+  if (any(with_curves) && !format$curves) {
+    refuse_landmark_file(file, "the format holds no curves",
+                         paste0("Write a .mrk.json, .tps, .pts or .csv file, or leave them out ",
+                                "with curves = list()."))
+  }
+  name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
+  wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
+  if (wrong || any(names(sets) != trimws(names(sets)))) {
+    refuse_landmark_file(file,
+                         "a name is empty or holds a line break, or two specimens have the same",
+                         paste0("Give every specimen, landmark and curve a name of its own, in ",
+                                "one line, no blanks at the ends."))
+  }
   format$write(sets, file, options)
   invisible(file)
 }
@@ -247,27 +264,6 @@ as_curve <- function(x, name) {
   }
   x[!is.finite(x)] <- NA
   landmark_curve(x, closed)
-}
-
-check_written <- function(sets, format, file) {
-  with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
-  if (length(sets) > 1 && !format$several) {
-    refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
-                         "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
-  }
-  if (any(with_curves) && !format$curves) {
-    refuse_landmark_file(file, "the format holds no curves",
-                         paste0("Write a .mrk.json, .tps, .pts or .csv file, or leave them out ",
-                                "with curves = list()."))
-  }
-  name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
-  wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
-  if (wrong || any(names(sets) != trimws(names(sets)))) {
-    refuse_landmark_file(file,
-                         "a name is empty or holds a line break, or two specimens have the same",
-                         paste0("Give every specimen, landmark and curve a name of its own, in ",
-                                "one line, no blanks at the ends."))
-  }
 }
 
 landmark_format <- function(file) {

@@ -32,7 +32,16 @@ passed_mesh <- function(mesh, id, most = 2) {
     if (is_the_same(mesh$vb, known$given$vb) && is_the_same(mesh$it, known$given$it) &&
         length(mesh$ib) == 0) return(known)
   }
-  vb <- vertex_matrix(mesh$vb, id)
+  # Vertices as a matrix of four rows, the fourth 1
+  vb <- mesh$vb
+  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 ||
+      ncol(vb) < 3) refuse_no_vertices(id)
+  vb <- as_doubles(vb)
+  if (nrow(vb) == 3) vb <- rbind(vb, 1)
+  if (!identical(range(vb[4, ]), c(1, 1))) {
+    vb[1:3, ] <- vb[1:3, ] / rep(vb[4, ], each = 3)
+    vb[4, ] <- 1
+  }
   it <- face_matrix(mesh$it, 3, id)
   if (ncol(it) == 0 || length(mesh$ib)) {
     refuse_mesh(if (ncol(it) == 0) "the mesh has no triangles." else
@@ -57,19 +66,6 @@ passed_meshes <- new.env(parent = emptyenv())
 passed_meshes$last <- list()
 
 is_the_same <- function(a, b) rlang::is_reference(a, b)
-
-#' Vertices as a matrix of four rows, the fourth 1
-#' @noRd
-vertex_matrix <- function(vb, id) {
-  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 ||
-      ncol(vb) < 3) refuse_no_vertices(id)
-  vb <- as_doubles(vb)
-  if (nrow(vb) == 3) return(rbind(vb, 1))
-  if (identical(range(vb[4, ]), c(1, 1))) return(vb)
-  vb[1:3, ] <- vb[1:3, ] / rep(vb[4, ], each = 3)
-  vb[4, ] <- 1
-  vb
-}
 
 refuse_no_vertices <- function(id) {
   refuse_mesh("the mesh has no vertices (`vb` must be 4 x n, n at least 3).",

@@ -77,7 +77,8 @@ ply_header <- function(raw, file, id) {
   if (!isTRUE(format %in% c("ascii", "binary_little_endian", "binary_big_endian"))) {
     refuse_file(file, sprintf("the format %s is not known", format), id)
   }
-  # `most`: an element cannot have more rows than the file has bytes.
+  # An element cannot have more rows than the file has bytes.
+  lines <- length(token)
   token <- token[key %in% c("element", "property")]
   is_element <- vapply(token, function(x) x[1] == "element", NA)
   group <- cumsum(is_element)
@@ -94,7 +95,7 @@ ply_header <- function(raw, file, id) {
   if (length(twice)) refuse_file(file, sprintf("its header has the element %s twice", twice[1]), id)
   elements <- Map(function(count, properties) list(count = count, properties = properties), count,
                   properties)
-  list(format = format, raw = raw, body = body, lines = length(token),
+  list(format = format, raw = raw, body = body, lines = lines,
        elements = stats::setNames(elements, names(properties)))
 }
 

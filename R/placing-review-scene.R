@@ -58,8 +58,18 @@ open_scene <- function(shown, view) {
 
 #' Everything that is drawn on the surface, by name
 #' @noRd
-review_items <- function(review) {
-  c(curve_items(review), landmark_items(review))
+review_items <- function(review, width = 3) {
+  fits <- Filter(function(fit) !is.null(fit$path), review$fitting$fits)
+  curves <- if (!length(fits)) list() else {
+    curves <- review$fitting$scheme$curves
+    colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
+    items <- Map(function(fit, colour) {
+      list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]),
+           colour = colour, width = width)
+    }, fits, unname(colour))
+    stats::setNames(items, paste("curve", names(fits)))
+  }
+  c(curves, landmark_items(review))
 }
 
 landmark_items <- function(review, size = 1.6, larger = 1.25) {
@@ -76,18 +86,6 @@ landmark_items <- function(review, size = 1.6, larger = 1.25) {
          size = size * if (chosen) larger else 1)
   }, names, state)
   stats::setNames(items, paste("landmark", names))
-}
-
-curve_items <- function(review, width = 3) {
-  fits <- Filter(function(fit) !is.null(fit$path), review$fitting$fits)
-  if (!length(fits)) return(list())
-  curves <- review$fitting$scheme$curves
-  colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
-  items <- Map(function(fit, colour) {
-    list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]),
-         colour = colour, width = width)
-  }, fits, unname(colour))
-  stats::setNames(items, paste("curve", names(fits)))
 }
 
 #' Draw what is new or has changed, take away what is gone

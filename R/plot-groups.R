@@ -88,22 +88,18 @@ plot_boxes <- function(x, level, colour, components, main, ...) {
     title <- paste(c(if (is.null(main)) name else paste(main, name, sep = ": "),
                      p_value_of(x, level, test)),
                    collapse = ", ")
-    box_panel(y, x$design$group, title, colour, ...)
+    # One boxplot: points beside each other where they would hide each other, the means as diamonds.
+    drawn <- graphics::boxplot(y ~ x$design$group, outline = FALSE, ylim = range(y),
+                               col = grDevices::adjustcolor(colour, 0.25),
+                               border = colour,
+                               xlab = "", ylab = "", las = 1, boxwex = 0.55, ...)
+    graphics::title(title, font.main = 1, cex.main = 1)
+    shift <- stats::ave(rank(y, ties.method = "first"), x$design$group,
+                        FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)
+    graphics::points(as.integer(x$design$group) + shift, y, pch = 16, cex = 0.9,
+                     col = grDevices::adjustcolor(colour[as.integer(x$design$group)], 0.7))
+    graphics::points(seq_len(nlevels(x$design$group)), tapply(y, x$design$group, mean), pch = 23,
+                     cex = 1.5, bg = "white", col = colour, lwd = 2)
+    drawn
   }, panels, names(panels), tests))
-}
-
-# One boxplot: points beside each other where they would hide each other, the means as diamonds.
-box_panel <- function(y, group, title, colour, ...) {
-  drawn <- graphics::boxplot(y ~ group, outline = FALSE, ylim = range(y),
-                             col = grDevices::adjustcolor(colour, 0.25),
-                             border = colour,
-                             xlab = "", ylab = "", las = 1, boxwex = 0.55, ...)
-  graphics::title(title, font.main = 1, cex.main = 1)
-  shift <- stats::ave(rank(y, ties.method = "first"), group,
-                      FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)
-  graphics::points(as.integer(group) + shift, y, pch = 16, cex = 0.9,
-                   col = grDevices::adjustcolor(colour[as.integer(group)], 0.7))
-  graphics::points(seq_len(nlevels(group)), tapply(y, group, mean), pch = 23, cex = 1.5,
-                   bg = "white", col = colour, lwd = 2)
-  drawn
 }

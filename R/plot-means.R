@@ -9,7 +9,14 @@ plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ..
   })
   words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape"))
   title <- if (is.null(main)) paste(words, collapse = ", ") else main
-  if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
+  if (engine == "rgl") {
+    drawn <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
+    second <- meshes[[2]]
+    ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]),
+                            indices = second$it, color = colour[2],
+                            alpha = opacity, specular = "#202020")
+    return(add_ids(drawn, ids))
+  }
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
   scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), known_settings(...))
@@ -57,15 +64,6 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
                  plt = graphics::par("plt"),
                  tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
             class = "picture_scene")
-}
-
-rgl_overlay <- function(meshes, colour, opacity, view, ...) {
-  scene <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
-  second <- meshes[[2]]
-  ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]),
-                          indices = second$it, color = colour[2],
-                          alpha = opacity, specular = "#202020")
-  add_ids(scene, ids)
 }
 
 p_value_of <- function(x, level, test) {

@@ -51,7 +51,17 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
       nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
   kind <- stats::setNames(x$scheme$curves$kind, x$scheme$curves$curve)
   for (name in names(Filter(Negate(is.null), x$paths))) {
-    scene <- draw_shape_curve(scene, x, name, specimen, colour[[kind[[name]]]], band, points, width)
+    paint <- colour[[kind[[name]]]]
+    path <- x$paths[[name]]
+    own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
+    if (band && !is.null(specimen)) {
+      s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
+                          1e-6 * mesh_diagonal(specimen$mesh))
+      on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
+      scene <- draw_curve_band(scene, on_curve, specimen$mesh, paint)
+    }
+    scene <- draw_lines(scene, path, paint, width, halo = "white")
+    if (points) scene <- draw_points(scene, own, paint, 0.28 * width, "white")
   }
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
@@ -60,20 +70,6 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
                                      bty = "n", cex = 0.8))
   }
   invisible(scene)
-}
-
-draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, width) {
-  path <- x$paths[[name]]
-  own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
-  if (band && !is.null(specimen)) {
-    s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
-                        1e-6 * mesh_diagonal(specimen$mesh))
-    on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
-    scene <- draw_curve_band(scene, on_curve, specimen$mesh, colour)
-  }
-  scene <- draw_lines(scene, path, colour, width, halo = "white")
-  if (points) scene <- draw_points(scene, own, colour, 0.28 * width, "white")
-  scene
 }
 
 #' The surface of a shape with the edges of its triangles

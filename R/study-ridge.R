@@ -103,7 +103,14 @@ ridge_mesh <- function(height, spacing, jitter, noise, correlation) {
   side <- seq(-1, 1, length.out = n)
   at <- as.matrix(expand.grid(x = side,
                               y = side)) + stats::runif(2 * n^2, -jitter, jitter) * spacing
-  z <- height(at[, 1], at[, 2]) + noise * grid_noise(n, correlation)
+  # Standard normal noise on an n x n grid; smoothed by a Gaussian kernel, its variance kept at 1
+  white <- matrix(stats::rnorm(n^2), n)
+  rough <- if (correlation == 0) as.vector(white) else {
+    kernel <- stats::dnorm(outer(seq_len(n), seq_len(n), `-`), sd = correlation)
+    kernel <- kernel / sqrt(rowSums(kernel^2))
+    as.vector(kernel %*% white %*% t(kernel))
+  }
+  z <- height(at[, 1], at[, 2]) + noise * rough
   structure(list(vb = rbind(t(unname(at)), z, 1), it = grid_triangles(n)), class = "mesh3d")
 }
 
@@ -116,16 +123,6 @@ grid_triangles <- function(n) {
   other <- stats::runif(length(corner)) < 0.5
   cbind(rbind(corner, corner + 1, ifelse(other, corner + n, opposite)),
         rbind(ifelse(other, corner + 1, corner), opposite, corner + n))
-}
-
-#' Standard normal noise on an n x n grid; smoothed by a Gaussian kernel, its variance kept at 1
-#' @noRd
-grid_noise <- function(n, correlation) {
-  white <- matrix(stats::rnorm(n^2), n)
-  if (correlation == 0) return(as.vector(white))
-  kernel <- stats::dnorm(outer(seq_len(n), seq_len(n), `-`), sd = correlation)
-  kernel <- kernel / sqrt(rowSums(kernel^2))
-  as.vector(kernel %*% white %*% t(kernel))
 }
 
 #' Steps of a given length in (x, y) and random direction: n x 3
