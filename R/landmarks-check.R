@@ -145,7 +145,13 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
     away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]),
                    nrow(given))
     near <- utils::head(order(apply(away, 2, stats::median) / vapply(moved, spread_of, 0)), tried)
-    misfit <- vapply(kind$change[near], surface_misfit, 0, given, mesh, tolerance)
+    # The same from the surface; Inf where that is too much.
+    misfit <- vapply(kind$change[near], function(change) {
+      moved <- given %*% change
+      away <- stats::median(row_lengths(as.matrix(surface_points(mesh, moved)[1:3]) - moved))
+      spread <- spread_of(moved)
+      if (away <= min(tolerance, spread / 2)) away / spread else Inf
+    }, 0)
     if (any(is.finite(misfit))) return(kind$words[near[which.min(misfit)]])
   }
 }
@@ -165,15 +171,6 @@ turn_words <- function(turns) {
 }
 
 spread_of <- function(xyz) sqrt(sum(apply(xyz, 2, stats::var)))
-
-#' The same from the surface; Inf where that is too much
-#' @noRd
-surface_misfit <- function(change, given, mesh, tolerance) {
-  moved <- given %*% change
-  away <- stats::median(row_lengths(as.matrix(surface_points(mesh, moved)[1:3]) - moved))
-  spread <- spread_of(moved)
-  if (away <= min(tolerance, spread / 2)) away / spread else Inf
-}
 
 # Whether names end in L or R, for left and right.
 is_sided <- function(names) endsWith(names, "L") | endsWith(names, "R")

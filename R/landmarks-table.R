@@ -101,23 +101,19 @@ split_fields <- function(text, sep) {
   cell[marked[whole]] <- inner[whole]
   field <- unname(split(cell, factor(line, seq_along(text))))
   again <- unique(line[marked[!whole]])
-  field[again] <- lapply(text[again], quoted_fields, sep)
-  field
-}
-
-#' Fields of one text by the rule: a field is quoted as a whole, with quotes in it doubled, or has
-#' none at its start
-#' @noRd
-quoted_fields <- function(text, sep) {
+  # A field is quoted as a whole, with quotes in it doubled, or has none at its start.
   pattern <- gsub("@", paste0("\\Q", sep, "\\E"),
                   "@(?: *\"[^\"]*(?:\"\"[^\"]*)*\" *| *[^\" @][^@]*| *)(?=@|\\z)", fixed = TRUE)
-  whole <- paste0(sep, text)
-  part <- regmatches(whole, gregexpr(pattern, whole, perl = TRUE))[[1]]
-  if (sum(nchar(part)) != nchar(whole)) return(character())
-  part <- trimws(substring(part, 2))
-  quoted <- startsWith(part, "\"")
-  part[quoted] <- gsub("\"\"", "\"", substr(part[quoted], 2, nchar(part[quoted]) - 1), fixed = TRUE)
-  part
+  field[again] <- lapply(paste0(sep, text[again]), function(one) {
+    part <- regmatches(one, gregexpr(pattern, one, perl = TRUE))[[1]]
+    if (sum(nchar(part)) != nchar(one)) return(character())
+    part <- trimws(substring(part, 2))
+    quoted <- startsWith(part, "\"")
+    inside <- substr(part[quoted], 2, nchar(part[quoted]) - 1)
+    part[quoted] <- gsub("\"\"", "\"", inside, fixed = TRUE)
+    part
+  })
+  field
 }
 
 #' Columns under their names. Empty ones without a name are left out; the first may do without, as

@@ -20,18 +20,17 @@
 strongest_peak <- function(field, start, reach, apart, width, least) {
   gap <- row_lengths(field$at - rep(start, each = nrow(field$at)))
   tried <- which(gap <= reach & field$value > least)
-  tried <- tried[vapply(tried, is_greatest, NA, field, apart)]
+  is_greatest <- function(row) {
+    near <- row_lengths(field$at - rep(field$at[row, ], each = nrow(field$at))) <= apart
+    all(field$value[near] <= field$value[row])
+  }
+  tried <- tried[vapply(tried, is_greatest, NA)]
   for (row in tried[order(-field$value[tried])]) {
     peak <- settled_peak(field, field$at[row, ], width)
     if (!is.null(peak) && peak$value > least &&
         sqrt(sum((peak$at - start)^2)) <= reach) return(peak)
   }
   NULL
-}
-
-is_greatest <- function(row, field, apart) {
-  near <- row_lengths(field$at - rep(field$at[row, ], each = nrow(field$at))) <= apart
-  all(field$value[near] <= field$value[row])
 }
 
 #' The place where the local fits about it have their peak

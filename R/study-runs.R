@@ -264,21 +264,18 @@ study_estimate <- function(method, surface, cell, constant) {
 #' @noRd
 study_result <- function(found, truths = NULL, spacing = 1) {
   failed <- is.character(found)
-  distance <- function(truth) if (failed || is.null(truth)) NA_real_ else
-    line_distance(found, truth) / spacing
+  # Mean distance between the curve and a true line at points of both, seen along z
+  distance <- function(truth) {
+    if (failed || is.null(truth)) return(NA_real_)
+    there <- mean(abs(ridge_offset(found$at, truth)))
+    back <- mean(abs(ridge_offset(equally_along(truth, nrow(found$at)), found$line)))
+    (there + back) / 2 / spacing
+  }
   covered <- function(truth) if (failed || is.null(truth)) NA_real_ else share_covered(found, truth)
   list(distance = distance(truths[[1]]), distance_curvature = distance(truths[[2]]),
        se = if (failed) NA_real_ else found$se / spacing, covered = covered(truths[[1]]),
        covered_curvature = covered(truths[[2]]), determined = if (failed) NA else found$determined,
        converged = if (failed) NA else found$converged)
-}
-
-#' Mean distance between a curve and a true line at points of both, seen along z
-#' @noRd
-line_distance <- function(found, truth) {
-  there <- mean(abs(ridge_offset(found$at, truth)))
-  back <- mean(abs(ridge_offset(equally_along(truth, nrow(found$at)), found$line)))
-  (there + back) / 2
 }
 
 #' Share of the inner points within two standard errors of a true line

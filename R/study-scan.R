@@ -85,27 +85,3 @@ outside_holes <- function(mesh, landmarks, scan) {
   }
   colSums(matrix(kept[mesh$it], 3)) == 3
 }
-
-#' A mesh of some of its triangles
-#' @return List: `mesh`, and `vertex`, the numbers that its vertices had.
-#' @noRd
-mesh_of_faces <- function(mesh, face) {
-  it <- mesh$it[, face, drop = FALSE]
-  vertex <- sort(unique(as.vector(it)))
-  list(mesh = structure(list(vb = mesh$vb[, vertex, drop = FALSE],
-                             it = matrix(match(it, vertex), 3)), class = "mesh3d"),
-       vertex = vertex)
-}
-
-#' A random rotation by a normal angle about a random axis through the centre, and a shift
-#' @return Function of a k x 3 matrix.
-#' @noRd
-random_pose <- function(scan, centre) {
-  axis <- stats::rnorm(3)
-  axis <- unit_vector(axis)
-  angle <- stats::rnorm(1, 0, scan$turn)
-  shift <- stats::rnorm(3, 0, scan$shift)
-  cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
-  turn <- diag(3) + sin(angle) * cross + (1 - cos(angle)) * cross %*% cross
-  function(xyz) sweep(sweep(xyz, 2, centre) %*% t(turn), 2, centre + shift, `+`)
-}
