@@ -113,8 +113,7 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
                                                   "dispersion"),
                            exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
                            missing = c("estimate", "drop", "stop"), progress = interactive(),
-                           block = NULL,
-                           equal_spread = TRUE) {
+                           block = NULL, equal_spread = FALSE) {
   check_given()
   check_flags(progress, equal_spread)
   seed <- check_seed(seed)
@@ -189,12 +188,16 @@ compare_level <- function(aligned, labels, components, tests, spread, blocks, ti
   wants <- function(test) test %in% tests
   flat <- matrix(aligned$coords, length(aligned$mean))
   y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
-  pca <- if (wants("T2") || wants("components")) shape_pca(aligned)
-  count <- if (is.null(pca)) NA else component_count(components, pca, labels[, 1], spread)
+  pca <- if (wants("T2") || wants("components")) {
+    shape_pca(aligned, components = if (components >= 1) components)
+  }
+  most <- if (!is.null(pca)) component_count(components, pca)
+  total <- if (wants("shape") || wants("T2") && !spread$equal) whole_shape(y, labels, spread)
+  t2 <- if (wants("T2")) t2_test(pca, most, labels, spread, total$df)
+  count <- if (!is.null(t2)) attr(t2, "components") else if (is.null(pca)) NA else most
   rows <- list(if (wants("size")) size_test(aligned$size, labels, spread),
-               if (wants("shape")) mean_shape_test(y, labels, spread),
-               if (wants("T2")) t2_test(pca, count, labels, spread),
-               if (wants("components")) component_tests(pca, count, labels, spread),
+               if (wants("shape")) mean_shape_test(total, labels, spread), t2,
+               if (wants("components")) component_tests(pca, most, labels, spread),
                if (wants("dispersion")) dispersion_test(y, labels))
   points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick)
   list(tests = do.call(rbind, rows), points = points, pca = pca, components = count)

@@ -1,4 +1,7 @@
-compare_quietly <- function(..., progress = FALSE) compare_groups(..., progress = progress)
+# Closed forms here are those of pooled spread; test-analysis-spread.R has the others.
+compare_quietly <- function(..., progress = FALSE, equal_spread = TRUE) {
+  compare_groups(..., progress = progress, equal_spread = equal_spread)
+}
 
 test_row_of <- function(compared, test) compared$tests[compared$tests$test == test, ]
 
@@ -92,9 +95,21 @@ test_that("statistics of many regroupings are the same block by block", {
   labels <- regroupings(data$group, 60, 0, seed = 1)$labels
   y <- t(matrix(align(data$x)$coords, 36))
   y <- sweep(y, 2, colMeans(y))
-  whole <- between_squares(y, labels)
-  expect_equal(by_block(labels, function(part) between_squares(y, part), 7), whole)
-  expect_equal(by_block(labels, function(part) between_total(tcrossprod(y), part), 7), rowSums(whole))
+  between <- function(about) {
+    function(part) group_squares(about, cbind(rowSums(y^2)), part, FALSE)$between
+  }
+  each <- squared_sums(list(y))
+  whole <- between(each)(labels)
+  expect_equal(by_block(labels, between(each), 7), whole)
+  expect_equal(by_block(labels, between(squared_total(y)), 7), cbind(rowSums(whole)))
+  # More specimens than variables: by the other product.
+  few <- y[, 1:4]
+  expect_equal(between(squared_total(few))(labels), cbind(rowSums(whole[, 1:4])))
+  apart <- group_squares(squared_sums(list(few)), few^2, labels[, 1, drop = FALSE], TRUE)
+  within <- lapply(split(as.data.frame(few), data$group), function(own) {
+    rbind(diag(var(own)) * (nrow(own) - 1))
+  })
+  expect_equal(apart$within, unname(within), ignore_attr = TRUE)
   expect_equal(all_regroupings(c(2L, 1L, 2L))[, 1], c(2, 1, 2))
 })
 
