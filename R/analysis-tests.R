@@ -94,7 +94,7 @@ effective_dimensions <- function(y) {
 #' @param about,squares As in [group_squares()].
 #' @param dimensions q numbers, as of [effective_dimensions()]: both degrees of freedom are
 #'   multiplied by them.
-#' @return List of B x q matrices: `score` (0 where nothing varies), `df` (`NULL` with equal
+#' @return List of B x q matrices: `between`, `score` (0 where nothing varies), `df` (`NULL` with equal
 #'   spread).
 #' @noRd
 spread_scores <- function(about, squares, labels, equal_spread, dimensions = 1) {
@@ -108,7 +108,7 @@ spread_scores <- function(about, squares, labels, equal_spread, dimensions = 1) 
     score <- below * log1p((max(labels) - 1) * by * own$f / below)
   }
   score[total <= 0] <- 0
-  list(score = score, df = own$df)
+  list(between = found$between, score = score, df = own$df)
 }
 
 #' @rdname spread_scores
@@ -244,20 +244,68 @@ hotelling_p <- function(t2, n, groups, components) {
 #' One row of the table of tests
 #' @noRd
 test_row <- function(test, statistic, p_value, p_parametric = NA_real_, p_adjusted = p_value,
-                     share = NA_real_) {
+                     share = NA_real_, z = NA_real_, effect = rep(NA_real_, 3)) {
   data.frame(test = test, statistic = statistic, p_value = p_value, p_adjusted = p_adjusted,
-             p_parametric = p_parametric,
-             share = share)
+             p_parametric = p_parametric, share = share, z = z, effect = effect[1],
+             lower = effect[2], upper = effect[3])
 }
 
-size_test <- function(size, labels, spread) {
+#' Z of a statistic among those of the regroupings
+#' @param score As of [spread_scores()].
+#' @noRd
+score_z <- function(score, equal_spread) {
+  effect_z(as.vector(if (equal_spread) score / (1 - score) else score))
+}
+
+#' Bootstrap samples within groups: how often each specimen is drawn
+#' @param code Group numbers.
+#' @return n x B matrix of counts.
+#' @noRd
+bootstrap_counts <- function(code, n_boot, seed) {
+  members <- split(seq_along(code), code)
+  with_seed(seed, replicate(n_boot, {
+    drawn <- unlist(lapply(members, function(own) own[sample.int(length(own), replace = TRUE)]))
+    tabulate(drawn, length(code))
+  }))
+}
+
+#' An estimate with the quantiles of its bootstrapped values about their mean
+#' @noRd
+with_interval <- function(estimate, values, level = 0.95) {
+  off <- values - mean(values, na.rm = TRUE)
+  estimate + c(0, stats::quantile(off, c(1 - level, 1 + level) / 2, names = FALSE, na.rm = TRUE))
+}
+
+#' Cohen's d: first mean less second, over the root of the pooled variance
+#' @param counts n x B, how often each specimen counts.
+#' @noRd
+cohen_d <- function(y, code, counts = cbind(rep(1, length(y)))) {
+  of <- function(g) {
+    own <- counts * (code == g)
+    n <- colSums(own)
+    mean <- colSums(own * y) / n
+    list(mean = mean, squares = colSums(own * y^2) - n * mean^2)
+  }
+  first <- of(1)
+  second <- of(2)
+  variance <- (first$squares + second$squares) / (length(y) - 2)
+  ifelse(variance > 0, (first$mean - second$mean) / sqrt(variance), NA)
+}
+
+size_test <- function(size, labels, spread, counts) {
   y <- list(varying(cbind(size - mean(size)), mean(size)))
   scores <- by_block(labels, function(part) group_scores(y, part, spread$equal))
   groups <- max(labels)
-  own <- observed_f(squared_sums(y), y[[1]]^2, labels[, 1], spread)
-  sign <- if (groups == 2) sign(mean(size[labels[, 1] == 1]) - mean(size[labels[, 1] == 2])) else NA
-  test_row(if (groups == 2) "size t" else "size F", if (groups == 2) sign * sqrt(own$f) else own$f,
-           permutation_p(scores), stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE))
+  code <- labels[, 1]
+  own <- observed_f(squared_sums(y), y[[1]]^2, code, spread)
+  between <- group_squares(squared_sums(y), y[[1]]^2, cbind(code), FALSE)$between[1]
+  two <- groups == 2
+  d <- if (two) {
+    with_interval(cohen_d(y[[1]][, 1], code), cohen_d(y[[1]][, 1], code, counts))
+  } else rep(NA_real_, 3)
+  test_row(if (two) "size t" else "size F", if (two) sign(d[1]) * sqrt(own$f) else own$f,
+           permutation_p(scores), stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE),
+           share = between / sum(y[[1]]^2), z = score_z(scores, spread$equal), effect = d)
 }
 
 #' Centred values, 0 where they differ by rounding only
@@ -271,20 +319,28 @@ varying <- function(y, scale, digits = 1e-13) {
 
 #' @param total List, of [whole_shape()].
 #' @noRd
-mean_shape_test <- function(total, labels, spread) {
-  groups <- max(labels)
-  observed <- labels[, 1]
-  between <- group_squares(total$about, total$squares, cbind(observed), FALSE)$between[1]
-  share <- between / sum(total$squares)
-  statistic <- if (groups == 2) sqrt(between * sum(1 / tabulate(observed))) else
-    observed_f(total$about, total$squares, observed, spread)$f
-  test_row(if (groups == 2) "mean shape" else "mean shape F", statistic,
-           permutation_p(total$score), share = share)
+#' @param counts Of [bootstrap_counts()].
+#' @noRd
+mean_shape_test <- function(total, labels, spread, counts) {
+  code <- labels[, 1]
+  sizes <- tabulate(code)
+  share <- total$between[1] / sum(total$squares)
+  tested <- function(...) test_row(..., p_value = permutation_p(total$score), share = share,
+                                   z = score_z(total$score, spread$equal))
+  if (length(sizes) > 2) {
+    return(tested("mean shape F", observed_f(total$about, total$squares, code, spread)$f))
+  }
+  distance <- sqrt(total$between * sum(1 / sizes))
+  # Of every bootstrap sample the first mean less the second.
+  drawn <- counts * c(1, -1)[code] / sizes[code]
+  drawn <- sqrt(pmax(total$about(drawn), 0))
+  tested("mean shape", distance[1],
+         effect = with_interval(distance[1] - mean(distance), as.vector(drawn)))
 }
 
 #' All variables of a level together, as the groups are dealt
 #' @param y n x q, columns centred.
-#' @return List: `about`, `squares` (n x 1), `score` (B x 1), `df` (B x 1, of the variance within
+#' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1), `df` (B x 1, of the variance within
 #'   groups, by direction; `NULL` with equal spread).
 #' @noRd
 whole_shape <- function(y, labels, spread) {
@@ -292,9 +348,10 @@ whole_shape <- function(y, labels, spread) {
   dimensions <- if (spread$equal) 1 else 1 / sum(variance_shares(y)^2)
   each <- by_block(labels, function(part) {
     own <- spread_scores(total$about, total$squares, part, spread$equal, dimensions)
-    cbind(own$score, own$df)
+    cbind(own$between, own$score, own$df)
   })
-  c(total, list(score = each[, 1, drop = FALSE], df = if (!spread$equal) each[, 2]))
+  c(total, list(between = each[, 1, drop = FALSE], score = each[, 2, drop = FALSE],
+                df = if (!spread$equal) each[, 3]))
 }
 
 #' Shares of the variance by component; of many specimens those of the leading ones
@@ -327,7 +384,8 @@ t2_test <- function(pca, components, labels, spread, df) {
     statistic <- own[["t2"]]
     p <- if (groups == 2) t2_tail(statistic, own[["df"]], count, groups) else NA_real_
   }
-  row <- test_row("T2", statistic, permutation_p(scores), p, share = sum(pca$share[seq_len(count)]))
+  row <- test_row("T2", statistic, permutation_p(scores), p, share = sum(pca$share[seq_len(count)]),
+                  z = effect_z(scores))
   structure(row, components = count)
 }
 
