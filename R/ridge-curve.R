@@ -63,7 +63,7 @@
 #' as.data.frame(lip)
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
-                        keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
+                        keep_away = NULL, settings = ridge_settings(), passes = NULL, curvature = NULL,
                         reach = 0.5, threads = getOption("crestline.threads", 1L),
                         trust = c(0, 1)) {
   check_given(if (identical(type, "plane")) c("radius", "width"))
@@ -74,7 +74,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   n <- check_count(n, "n", lower = 2)
-  passes <- check_count(passes, "passes", upper = 1000)
+  if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
   about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from),
@@ -96,94 +96,6 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
       assembled_curve(specimen, fit$path, fit$reference, n, about, fit)
     }
   })
-}
-
-#' The passes of a fit, each about the curve of the one before
-#'
-#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
-#'   in which curvature counts.
-#' @noRd
-fit_passes <- function(specimen, path, curvature, keep_away, about) {
-  trusted <- attr(path, "trusted") / attr(path, "length")
-  for (pass in seq_len(about$passes)) {
-    fit <- fit_ridge(specimen, path, curvature, about$radius, about$width, about$type, keep_away,
-                     about$settings)
-    fit$reference <- path
-    if (!fit$found) break
-    path <- fit$path
-    if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
-  }
-  fit
-}
-
-#' One pass from reference path to lifted curve
-#' @noRd
-fit_ridge <- function(specimen, path, curvature, radius, width, type, keep_away, settings) {
-  half <- min(width, settings$window * radius)
-  coordinates <- path_coordinates(specimen, path, half, margin = radius)
-  strength <- window_strength(specimen, coordinates, curvature, type, keep_away, settings,
-                              attr(path, "trusted"))
-  scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
-  stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE,
-                 path = path)
-  if (!is.finite(scale) || scale <= 0) {
-    stages$reason <- sprintf("there is no %s curvature by the reference path", type)
-    return(stages)
-  }
-  stages$surface <- curvature_surface(coordinates, strength$value, settings)
-  stages$line <- ridge_line(stages$surface, scale, radius, settings)
-  if (settings$error) {
-    stages$line$se <- ridge_error(specimen, coordinates, stages$surface, stages$line, strength,
-                                  scale, radius, type,
-                                  settings)
-  }
-  lifted <- tryCatch(lift(specimen, coordinates, path, stages$line$s, stages$line$alpha),
-                     crestline_path_error = function(e) NULL)
-  if (is.null(lifted)) {
-    stages$reason <- "the ridge line leaves the surface near the reference path"
-    return(stages)
-  }
-  stages$path <- lifted
-  stages$found <- TRUE
-  stages
-}
-
-#' Strength at the vertices inside a window as the settings define it
-#'
-#' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere;
-#'   NULL: all of it.
-#' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated:
-#'   `value` (also NA where left out), `direction` (n x 3, across the path or principal), `sigma`;
-#'   `rows` (where it was estimated), `cell` (of every row, the place in `rows` of the one that
-#'   stands for it, NA outside the window); and `cap`.
-#' @noRd
-window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings,
-                            trusted = NULL) {
-  thinned <- thinned_rows(coordinates, settings$vertices)
-  rows <- thinned$rows
-  curved <- curvature(coordinates$vertex[rows])
-  across <- cross_rows(curved$normal,
-                       columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
-  across <- across / sqrt(rowSums(across^2))
-  principal <- settings$strength == "principal"
-  value <- strength_at(curved, type, across = if (!principal) across)
-  # No direction is across a path where it runs along the normal, or stands still.
-  value[is.nan(value)] <- NA
-  if (!is.null(keep_away)) {
-    value[is_kept_away(keep_away, specimen,
-                       t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))] <- 0
-  }
-  if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] |
-                               coordinates$s[rows] > trusted[2]] <- 0
-  if (settings$wrong_sign == "drop") value[value == 0] <- NA
-  cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
-  own <- if (type == "ridge") curved$direction2 else curved$direction1
-  direction <- matrix(NA_real_, nrow(coordinates), 3)
-  direction[rows, ] <- if (principal) own else across
-  all_rows <- function(x) replace(rep(NA_real_, nrow(coordinates)), rows, x)
-  list(value = all_rows(pmin(value, cap)), direction = direction, sigma = all_rows(curved$sigma),
-       rows = rows,
-       cell = thinned$cell, cap = cap)
 }
 
 #' The rows inside a window; where there are more than `most`, the one nearest to the centre of each

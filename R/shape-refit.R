@@ -30,7 +30,7 @@ refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n)
   fitting$bridged <- with_landmarks_of(fitting$bridged, specimen)
   touched <- touched_curves(scheme$curves, moved, fitting$whole)
   whole <- fit_whole_curves(fitting$whole, touched, fitting$bridged, scheme, fitting$sources,
-                            fitting$settings, 1,
+                            fitting$settings, NULL,
                             progress(sum(touched)))
   fitting$whole <- whole
   every <- rep(TRUE, nrow(scheme$curves))

@@ -27,6 +27,7 @@
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
 #' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
 #' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
+#'   `NULL`: the passes that the settings say.
 #' @param width As in [ridge_curve()], in the unit of the surface.
 #' @param points Number of points at which each curve is compared; the paper: 21.
 #' @param dir Folder for the results of a long run, made where it is not there. What is in it
@@ -63,7 +64,7 @@
 #' @export
 ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5),
                         b = c(0.25, 0.5, 1, 2),
-                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25,
+                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = NULL, radius = 0.25,
                         width = 0.4,
                         spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
                         progress = interactive(), largest = 2e6, ...) {
@@ -73,7 +74,7 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
   check_number(points, "points", 3, 1e5)
   check_count(points, "points", lower = 3)
   check_count(block, "block")
-  grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius,
+  grid <- check_study_grid(list(passes = if (is.null(passes)) NA_real_ else passes, correlation = correlation, radius = radius,
                                 spacing = spacing,
                                 landmark_error = landmark_error, noise = noise, b = b, a = a),
                            largest)
@@ -109,6 +110,7 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
                       "Give one number or several.",
                       stage = "arguments", call = call)
     }
+    if (name == "passes" && identical(grid[[name]], NA_real_)) next
     grid[[name]] <- vapply(as.vector(grid[[name]]), function(value) {
       value <- check_number(value, name, range[[name]][1], range[[name]][2], call = call)
       if (name %in% open && value == 0) check_number(value, name, 0, open = TRUE, call = call)
@@ -250,7 +252,7 @@ study_estimate <- function(method, surface, cell, constant) {
   }
   curve <- quiet(ridge_curve(surface, "from", "to", "ridge", cell$radius, constant$width, points,
                              settings = method,
-                             passes = cell$passes))
+                             passes = if (!is.na(cell$passes)) cell$passes))
   list(line = columns_of(curve$path, c("x", "y", "z")),
        at = columns_of(curve$points, c("x", "y", "z")),
        error = curve$points$se, se = curve$se, determined = curve$determined,

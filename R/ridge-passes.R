@@ -1,0 +1,194 @@
+# The passes of a ridge estimate: windows, lines, and how much of a second pass is taken.
+
+#' The passes of a fit
+#'
+#' A first pass about the reference path gives a line and its standard error. That sets the width of
+#' the kernel under which the line is found again, and how much of the principal curvature is mixed
+#' in. A second pass is about the first one's curve; of its offsets a share is taken. With
+#' `about$passes` so many passes are made, each about the curve of the one before and counted whole.
+#'
+#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
+#'   in which curvature counts.
+#' @return The last window as of [ridge_window()], with `line`, `path` (the curve), `reference` (the
+#'   path that the window is about), `share` (of the second pass that was taken) and `noise_factor`;
+#'   `found` is FALSE, with `reason`, where there is no curve.
+#' @noRd
+fit_passes <- function(specimen, path, curvature, keep_away, about) {
+  settings <- about$settings
+  trusted <- attr(path, "trusted") / attr(path, "length")
+  window <- ridge_window(specimen, path, curvature, keep_away, about)
+  if (is.null(window$surface)) return(window)
+  kernel <- 0
+  if (settings$kernel > 0) {
+    window$noise <- moment_noise(specimen, window, about$radius, settings)
+    kernel <- kernel_width(window, about$radius, settings)
+  }
+  mix <- min(1, kernel / (settings$mix * about$radius))
+  if (mix > 0) window <- ridge_window(specimen, path, curvature, keep_away, about, mix)
+  fit <- with_curve(specimen, window, kernel, about)
+  again <- function(fit) {
+    path <- fit$path
+    if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
+    for (name in c("type", "criterion", "optima", "competing")) {
+      attr(path, name) <- attr(fit$reference, name)
+    }
+    window <- ridge_window(specimen, path, curvature, keep_away, about, mix)
+    with_curve(specimen, window, kernel, about)
+  }
+  if (is.null(about$passes)) {
+    second <- if (fit$found && settings$second > 0) again(fit)
+    if (isTRUE(second$found)) {
+      strength <- path_strength(curvature, about$type, keep_away, specimen)
+      second$share <- second_share(specimen, fit, second, strength, kernel / about$radius, settings)
+      if (second$share > 0) fit <- second
+    }
+  } else {
+    for (i in seq_len(about$passes)[-1]) if (fit$found) fit <- again(fit)
+  }
+  finished_fit(specimen, fit, about$radius, settings)
+}
+
+#' The window about a path: co-ordinates, strengths and their smooth surface
+#'
+#' @param mix Share of the principal curvature in the strength.
+#' @return List: `coordinates`, `strengths` (as of [window_strength()]), `scale` (their mean near the
+#'   path), `surface`, `path` and `reference` (both the path), `share` (0), `found` (FALSE). Where
+#'   there is no such curvature by the path it has a `reason` and no `surface`.
+#' @noRd
+ridge_window <- function(specimen, path, curvature, keep_away, about, mix = 0) {
+  settings <- about$settings
+  half <- min(about$width, settings$window * about$radius)
+  coordinates <- path_coordinates(specimen, path, half, margin = about$radius)
+  strength <- window_strength(specimen, coordinates, curvature, about$type, keep_away, settings,
+                              attr(path, "trusted"), mix)
+  scale <- core_strength(coordinates, strength, settings$core * about$radius, attr(path, "trusted"))
+  window <- list(coordinates = coordinates, strengths = strength, scale = scale, path = path,
+                 reference = path, share = 0, found = FALSE)
+  if (!is.finite(scale) || scale <= 0) {
+    window$reason <- sprintf("there is no %s curvature by the reference path", about$type)
+    return(window)
+  }
+  window$surface <- curvature_surface(coordinates, strength$value, settings)
+  window
+}
+
+#' A window with its ridge line and the curve on the mesh
+#' @noRd
+with_curve <- function(specimen, window, kernel, about) {
+  if (is.null(window$surface)) return(window)
+  window$line <- ridge_line(window$surface, window$scale, about$radius, about$settings, kernel)
+  lifted_window(specimen, window)
+}
+
+lifted_window <- function(specimen, window) {
+  lifted <- tryCatch(lift(specimen, window$coordinates, window$reference, window$line$s,
+                          window$line$alpha),
+                     crestline_path_error = function(e) NULL)
+  window$found <- !is.null(lifted)
+  if (window$found) window$path <- lifted else
+    window$reason <- "the ridge line leaves the surface near the reference path"
+  window
+}
+
+#' Half width of the kernel, in the unit of the mesh
+#'
+#' The peak is looked for no finer than `settings$kernel` standard errors of the line without a
+#' kernel: the median over its inner places, without inflation and bias, and without the noise
+#' factor, which on a clean scan takes fine relief for noise.
+#' @noRd
+kernel_width <- function(window, radius, settings) {
+  line <- ridge_line(window$surface, window$scale, radius, settings)
+  variance <- offset_variance(window, line, window$noise, radius, settings)
+  half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
+  if (half < settings$kernel_least) 0 else half * radius
+}
+
+#' Share of a second pass that is taken
+#'
+#' All of it under a wide kernel. Else 1/2, and more or less where the mean principal strength along
+#' the second curve is above or below that along the first. It does not switch: a choice of one or
+#' the other falls differently when the surface is scanned again.
+#'
+#' @param first,second Fits with their curves.
+#' @param strength Function of vertices.
+#' @param kernel Half width of the kernel, in radii.
+#' @param places Number of places along a curve at which its strength is taken.
+#' @return Between 0 and 1.
+#' @noRd
+second_share <- function(specimen, first, second, strength, kernel, settings, places = 101) {
+  wide <- kernel / settings$second_whole
+  if (wide >= 1) return(1)
+  worth <- function(path) {
+    s <- seq(0, attr(path, "length"), length.out = places)
+    at <- place_along(as_mesh(specimen), path, s)
+    corner <- as_mesh(specimen)$it[, at$face]
+    vertex <- unique(as.vector(corner))
+    value <- matrix(strength(vertex)[match(corner, vertex)], 3)
+    mean(colSums(rbind(at$w1, at$w2, at$w3) * value))
+  }
+  gain <- worth(second$path) / worth(first$path) - 1
+  if (!is.finite(gain)) gain <- 0
+  max(wide, min(1, max(0, settings$second + gain / (2 * settings$second_gain))))
+}
+
+#' A fit with standard errors, and with the share of its last pass taken
+#' @noRd
+finished_fit <- function(specimen, fit, radius, settings) {
+  if (is.null(fit$line)) return(fit)
+  share <- if (fit$share > 0) fit$share else 1
+  if (settings$error) {
+    if (is.null(fit$noise)) fit$noise <- moment_noise(specimen, fit, radius, settings)
+    fit$line$se <- ridge_error(fit, fit$noise, radius, settings, share)
+    fit$noise_factor <- fit$noise$factor
+  }
+  if (share == 1) return(fit)
+  fit$line$alpha <- share * fit$line$alpha
+  lifted_window(specimen, fit)
+}
+
+#' Strength at the vertices inside a window as the settings define it
+#'
+#' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere;
+#'   NULL: all of it.
+#' @param mix Share of the principal curvature where the settings take that across the path.
+#' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated:
+#'   `value` (also NA where left out), `direction` (n x 3, across the path, or principal where that
+#'   counts for more), `sigma`; `rows` (where it was estimated), `cell` (of every row, the place in
+#'   `rows` of the one that stands for it, NA outside the window); and `cap`.
+#' @noRd
+window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings,
+                            trusted = NULL, mix = 0) {
+  thinned <- thinned_rows(coordinates, settings$vertices)
+  rows <- thinned$rows
+  curved <- curvature(coordinates$vertex[rows])
+  across <- cross_rows(curved$normal,
+                       columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
+  across <- across / sqrt(rowSums(across^2))
+  lost <- if (is.null(keep_away)) FALSE else
+    is_kept_away(keep_away, specimen,
+                 t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))
+  s <- coordinates$s[rows]
+  if (!is.null(trusted)) lost <- lost | s < trusted[1] | s > trusted[2]
+  capped <- function(value) {
+    # No direction is across a path where it runs along the normal, or stands still.
+    value[is.nan(value)] <- NA
+    value[lost] <- 0
+    if (settings$wrong_sign == "drop") value[value == 0] <- NA
+    cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
+    list(value = pmin(value, cap), cap = cap)
+  }
+  mix <- if (settings$strength == "principal") 1 else mix
+  parts <- list(if (mix < 1) capped(strength_at(curved, type, across = across)),
+                if (mix > 0) capped(strength_at(curved, type)))
+  mixed <- function(name) {
+    if (mix == 0) return(parts[[1]][[name]])
+    if (mix == 1) return(parts[[2]][[name]])
+    (1 - mix) * parts[[1]][[name]] + mix * parts[[2]][[name]]
+  }
+  own <- if (type == "ridge") curved$direction2 else curved$direction1
+  direction <- matrix(NA_real_, nrow(coordinates), 3)
+  direction[rows, ] <- if (mix > 0.5) own else across
+  all_rows <- function(x) replace(rep(NA_real_, nrow(coordinates)), rows, x)
+  list(value = all_rows(mixed("value")), direction = direction, sigma = all_rows(curved$sigma),
+       rows = rows, cell = thinned$cell, cap = mixed("cap"))
+}
