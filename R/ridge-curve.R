@@ -159,7 +159,8 @@ assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
             strength = mean_strength(specimen, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
-            even = attr(placed, "converged"))
+            even = attr(placed, "converged"), share = if (!is.null(fit)) fit$share,
+            noise_factor = if (is.null(fit$noise_factor)) NA_real_ else fit$noise_factor)
 }
 
 #' A curve from its parts: all its fields are declared here
@@ -174,7 +175,8 @@ assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
 #' @noRd
 new_curve <- function(points, path, reference, about, verdict, key, coordinates = NULL,
                       surface = NULL, line = NULL,
-                      strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE) {
+                      strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE,
+                      share = NULL, noise_factor = NA_real_) {
   structure(
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
@@ -183,7 +185,8 @@ new_curve <- function(points, path, reference, about, verdict, key, coordinates 
          to = about$to,
          type = about$type, settings = about$settings, passes = about$passes, radius = about$radius,
          width = about$width,
-         key = key, converged = converged, even = even),
+         key = key, converged = converged, even = even, share = share,
+         noise_factor = noise_factor),
     class = "curve"
   )
 }

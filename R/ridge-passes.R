@@ -19,21 +19,30 @@ fit_passes <- function(specimen, path, curvature, keep_away, about) {
   window <- ridge_window(specimen, path, curvature, keep_away, about)
   if (is.null(window$surface)) return(window)
   kernel <- 0
+  edge <- FALSE
   if (settings$kernel > 0) {
     window$noise <- moment_noise(specimen, window, about$radius, settings)
-    kernel <- kernel_width(window, about$radius, settings)
+    mode <- ridge_line(window$surface, window$scale, about$radius, settings)
+    kernel <- kernel_width(window, mode, about$radius, settings)
+    edge <- mode$at_bound
   }
   mix <- min(1, kernel / (settings$mix * about$radius))
   if (mix > 0) window <- ridge_window(specimen, path, curvature, keep_away, about, mix)
-  fit <- with_curve(specimen, window, kernel, about)
+  with_line <- function(window) {
+    if (is.null(window$surface)) return(window)
+    window$line <- ridge_line(window$surface, window$scale, about$radius, settings, kernel)
+    # Neither kernel nor passes widen the window: what ran along its edge once is in doubt.
+    window$line$at_bound <- edge <<- edge || window$line$at_bound
+    with_curve(specimen, window)
+  }
+  fit <- with_line(window)
   again <- function(fit) {
     path <- fit$path
     if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
     for (name in c("type", "criterion", "optima", "competing")) {
       attr(path, name) <- attr(fit$reference, name)
     }
-    window <- ridge_window(specimen, path, curvature, keep_away, about, mix)
-    with_curve(specimen, window, kernel, about)
+    with_line(ridge_window(specimen, path, curvature, keep_away, about, mix))
   }
   if (is.null(about$passes)) {
     second <- if (fit$found && settings$second > 0) again(fit)
@@ -72,15 +81,9 @@ ridge_window <- function(specimen, path, curvature, keep_away, about, mix = 0) {
   window
 }
 
-#' A window with its ridge line and the curve on the mesh
+#' A window with its line lifted onto the mesh
 #' @noRd
-with_curve <- function(specimen, window, kernel, about) {
-  if (is.null(window$surface)) return(window)
-  window$line <- ridge_line(window$surface, window$scale, about$radius, about$settings, kernel)
-  lifted_window(specimen, window)
-}
-
-lifted_window <- function(specimen, window) {
+with_curve <- function(specimen, window) {
   lifted <- tryCatch(lift(specimen, window$coordinates, window$reference, window$line$s,
                           window$line$alpha),
                      crestline_path_error = function(e) NULL)
@@ -95,9 +98,9 @@ lifted_window <- function(specimen, window) {
 #' The peak is looked for no finer than `settings$kernel` standard errors of the line without a
 #' kernel: the median over its inner places, without inflation and bias, and without the noise
 #' factor, which on a clean scan takes fine relief for noise.
+#' @param line Without a kernel.
 #' @noRd
-kernel_width <- function(window, radius, settings) {
-  line <- ridge_line(window$surface, window$scale, radius, settings)
+kernel_width <- function(window, line, radius, settings) {
   variance <- offset_variance(window, line, window$noise, radius, settings)
   half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
   if (half < settings$kernel_least) 0 else half * radius
@@ -143,7 +146,7 @@ finished_fit <- function(specimen, fit, radius, settings) {
   }
   if (share == 1) return(fit)
   fit$line$alpha <- share * fit$line$alpha
-  lifted_window(specimen, fit)
+  with_curve(specimen, fit)
 }
 
 #' Strength at the vertices inside a window as the settings define it
