@@ -36,15 +36,37 @@ condition_text <- function(problem, remedy, stage, id) {
   c(paste0(where, ": ", problem), i = remedy)
 }
 
-#' Run code; an error of ours that names no specimen is raised again with the specimen and what was
-#' being done
+#' What could not be done, as a value
+#'
+#' Inner functions hand a failure up. It becomes an error at the door only, see [in_context()].
+#' @param problem,remedy,stage,id,class As in [crestline_abort()].
 #' @noRd
-in_context <- function(code, id, doing) {
-  rlang::try_fetch(code, crestline_error = function(e) {
-    if (!is.null(e$id)) rlang::cnd_signal(e)
+no_result <- function(problem, remedy, stage, id = NULL, class = NULL) {
+  structure(list(problem = problem, remedy = remedy, stage = stage, id = id, class = class),
+            class = "no_result")
+}
+
+failed <- function(x) inherits(x, "no_result")
+
+#' The value of code, or the error that it raises as a failure
+#' @noRd
+as_value <- function(code) {
+  tryCatch(code, crestline_error = function(e) {
     own <- setdiff(class(e), c("crestline_error", "rlang_error", "error", "condition"))
-    crestline_abort(paste0(doing, ": ", e$problem), e$remedy, e$stage, id, class = own, call = NULL)
+    no_result(e$problem, e$remedy, e$stage, e$id, own)
   })
+}
+
+#' The value of code; a failure becomes an error here, with the specimen and what was being done
+#' where it names no specimen
+#' @noRd
+in_context <- function(code, id, doing = NULL) {
+  found <- as_value(code)
+  if (!failed(found)) return(found)
+  said <- if (is.null(found$id) && !is.null(doing)) paste0(doing, ": ", found$problem) else
+    found$problem
+  crestline_abort(said, found$remedy, found$stage, if (is.null(found$id)) id else found$id,
+                  class = found$class, call = NULL)
 }
 
 #' Print an object; of a damaged one an error of ours, in place of R's

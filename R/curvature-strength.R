@@ -93,57 +93,69 @@ print.keep_side <- function(x, ...) {
   invisible(x)
 }
 
-#' Which points lie in any of the regions
+#' Regions with their landmarks looked up
 #'
 #' @param regions `NULL`, a `keep_away` or `keep_side`, or a list of them.
 #' @param specimen Specimen or mesh on which landmarks are looked up.
+#' @param locate Function of an end and its name in the region that gives three co-ordinates, or a
+#'   failure.
+#' @param flat Height of the third point of a `keep_side` above the line, as a share of its length,
+#'   at which the three count as lying on a line.
+#' @return List of the regions, their ends as co-ordinates; `NULL` where there is none. Or a failure.
+#' @noRd
+located_regions <- function(regions, specimen, locate = region_locator(specimen), flat = 1e-6) {
+  if (inherits(regions, c("keep_away", "keep_side"))) regions <- list(regions)
+  for (i in seq_along(regions)) {
+    region <- regions[[i]]
+    ends <- intersect(c("from", "to", "towards"), names(region))
+    at <- Map(locate, unclass(region)[ends], ends)
+    bad <- Find(failed, at)
+    if (!is.null(bad)) return(bad)
+    regions[[i]][ends] <- at
+    if (!inherits(region, "keep_side")) next
+    axis <- at$to - at$from
+    up <- height_above(at)
+    if (sum(up^2) <= flat^2 * sum(axis^2)) {
+      return(no_result(sprintf("%s lies on the line from %s to %s.", end_name(region$towards),
+                                 end_name(region$from), end_name(region$to)),
+                         "Give keep_side() a landmark well beside that line.", "regions",
+                         specimen$id))
+    }
+  }
+  regions
+}
+
+region_locator <- function(specimen) {
+  function(at, end) unlist(end_point(specimen, at, end)[1, c("x", "y", "z")])
+}
+
+# From the line between the first two ends of a region square up to the third.
+height_above <- function(region) {
+  axis <- region$to - region$from
+  third <- region$towards - region$from
+  third - sum(third * axis) / sum(axis^2) * axis
+}
+
+#' Which points lie in any of the regions
+#'
+#' @param regions As of [located_regions()].
 #' @param xyz n x 3.
 #' @return Logical n.
 #' @noRd
-is_kept_away <- function(regions, specimen, xyz) {
-  if (inherits(regions, c("keep_away", "keep_side"))) regions <- list(regions)
+is_kept_away <- function(regions, xyz) {
   inside <- logical(nrow(xyz))
   for (region in regions) {
+    relative <- sweep(xyz, 2, region$from)
     inside <- inside | if (inherits(region, "keep_side")) {
-      is_beyond(region, specimen, xyz)
+      as.vector(relative %*% height_above(region)) < 0
     } else {
-      check_class(region, "keep_away", "keep_away", "keep_away() or keep_side()")
-      is_in_cylinder(region, specimen, xyz)
+      axis <- region$to - region$from
+      span <- sqrt(sum(axis^2))
+      along <- as.vector(relative %*% axis) / span
+      off <- sqrt(pmax(rowSums(relative^2) - along^2, 0))
+      off <= region$radius * span & along >= -region$extension * span &
+        along <= (1 + region$extension) * span
     }
   }
   inside
 }
-
-is_in_cylinder <- function(region, specimen, xyz) {
-  a <- region_point(specimen, region, "from")
-  axis <- region_point(specimen, region, "to") - a
-  span <- sqrt(sum(axis^2))
-  relative <- sweep(xyz, 2, a)
-  along <- as.vector(relative %*% axis) / span
-  off <- sqrt(pmax(rowSums(relative^2) - along^2, 0))
-  off <= region$radius * span & along >= -region$extension * span & along <= (1 +
-                                                                              region$extension) * span
-}
-
-#' Points on the other side of a line
-#'
-#' @param flat Height of the third point above the line, as a share of its length, at which the
-#'   three count as lying on a line.
-#' @noRd
-is_beyond <- function(region, specimen, xyz, flat = 1e-6) {
-  a <- region_point(specimen, region, "from")
-  axis <- region_point(specimen, region, "to") - a
-  third <- region_point(specimen, region, "towards") - a
-  up <- third - sum(third * axis) / sum(axis^2) * axis
-  if (sum(up^2) <= flat^2 * sum(axis^2)) {
-    crestline_abort(sprintf("%s lies on the line from %s to %s.", end_name(region$towards),
-                            end_name(region$from),
-                            end_name(region$to)),
-                    "Give keep_side() a landmark well beside that line.", stage = "regions",
-                    id = specimen$id)
-  }
-  as.vector(sweep(xyz, 2, a) %*% up) < 0
-}
-
-region_point <- function(specimen, region,
-                         end) unlist(end_point(specimen, region[[end]], end)[1, c("x", "y", "z")])

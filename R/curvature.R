@@ -139,20 +139,22 @@ curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
 
 #' Curvature at vertices, estimated when it is first asked for and then kept
 #'
+#' @param settings As of [fit_settings()].
 #' @return Function of vertices (indices): list of `k1`, `k2`, `direction1`, `direction2`, `normal`,
-#'   `sigma`, with an entry for each of them.
+#'   `sigma`, with an entry for each of them; NA for vertices that the mesh does not have (those of
+#'   bridges).
 #' @noRd
-curvature_source <- function(specimen, radius, order, threads) {
-  mesh <- as_mesh(specimen)
-  settings <- fit_settings(radius, order)
-  check_radius(radius, specimen)
+curvature_source <- function(mesh, settings, threads) {
+  force(threads)
   row <- integer(ncol(mesh$vb))
   known <- curvature_rows(empty_curvature(0), integer())
   function(vertices) {
-    new <- unique(vertices[row[vertices] == 0])
+    new <- unique(vertices[which(row[vertices] == 0)])
     if (length(new)) {
       found <- curvature_at(mesh, new, settings, threads)
-      if (all(is.na(found$k1)) && all(is.na(known$k1))) abort_radius(found$neighbours, radius)
+      if (all(is.na(found$k1)) && all(is.na(known$k1))) {
+        abort_radius(found$neighbours, settings$radius)
+      }
       row[new] <<- length(known$k1) + seq_along(new)
       known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known,
                     found[names(known)])
@@ -193,17 +195,24 @@ check_order <- function(order,
                         call = rlang::caller_env()) check_choice(order, names(fit_orders), "order",
                                                                  call)
 
-#' Settings of the local fit in the form of the kernel
+#' Settings of the local fit, checked
 #' @noRd
 fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_term = 1.5,
                          one_sided = 0.2) {
-  order <- check_order(order)
-  orders <- fit_orders
-  list(radius = check_number(radius, "radius", lower = 0, open = TRUE),
-       lowest = orders[[order]][1], highest = orders[[order]][2], forced = order == "forced",
-       shrinkage = check_number(shrinkage, "shrinkage", lower = 0),
-       points_per_term = check_number(points_per_term, "points_per_term", lower = 1, upper = 1000),
-       one_sided = check_number(one_sided, "one_sided", lower = 0))
+  kernel_settings(
+    check_number(radius, "radius", lower = 0, open = TRUE), check_order(order),
+    check_number(shrinkage, "shrinkage", lower = 0),
+    check_number(points_per_term, "points_per_term", lower = 1, upper = 1000),
+    check_number(one_sided, "one_sided", lower = 0)
+  )
+}
+
+#' Settings of the local fit in the form of the kernel
+#' @noRd
+kernel_settings <- function(radius, order, shrinkage = 6, points_per_term = 1.5, one_sided = 0.2) {
+  orders <- fit_orders[[order]]
+  list(radius = radius, lowest = orders[1], highest = orders[2], forced = order == "forced",
+       shrinkage = shrinkage, points_per_term = points_per_term, one_sided = one_sided)
 }
 
 vertex_indices <- function(vertices, n) {

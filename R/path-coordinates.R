@@ -31,22 +31,29 @@ path_coordinates <- function(specimen, path, width, margin = width) {
   check_class(path, "mesh_path", "path", "plane_path() or reference_path()")
   check_number(width, "width", lower = 0, open = TRUE)
   margin <- check_number(margin, "margin", lower = 0)
-  mesh <- as_mesh(specimen)
   check_path_on(path, specimen, "`path`")
+  near_path(walkable(specimen), path, width, margin)
+}
+
+#' Arc length and signed distance near a path, without checks
+#'
+#' @param scan As of [walkable()]; the others as in [path_coordinates()].
+#' @noRd
+near_path <- function(scan, path, width, margin) {
   clear <- without_stubs(path)
   track <- t(columns_of(clear, c("x", "y", "z")))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
-  near <- cpp_vertices_in_box(mesh$vb, box[1, ], box[2, ])
-  found <- cpp_path_coordinates(mesh$vb[1:3, near, drop = FALSE], track, path_normals(mesh, clear))
+  near <- cpp_vertices_in_box(scan$vb, box[1, ], box[2, ])
+  found <- cpp_path_coordinates(scan$vb[1:3, near, drop = FALSE], track, path_normals(scan, clear))
   kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path,
                                                                                 "length") + margin
-  member <- logical(ncol(mesh$vb))
+  member <- logical(ncol(scan$vb))
   member[near[kept]] <- TRUE
-  joined <- cpp_joined_to(mesh$it, member, as.vector(mesh$it[, path$face]))[near]
+  joined <- cpp_joined_to(scan$it, member, as.vector(scan$it[, path$face]))[near]
   inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width
   columns <- list(vertex = near, s = found$s, d = found$d, inside = inside, tx = found$tangent[, 1],
                   ty = found$tangent[, 2], tz = found$tangent[, 3])
-  new_path_coordinates(lapply(columns, `[`, joined), attr(path, "length"), width, mesh_of(specimen))
+  new_path_coordinates(lapply(columns, `[`, joined), attr(path, "length"), width, scan)
 }
 
 #' @param columns List of the columns that [path_coordinates()] says.
@@ -107,7 +114,10 @@ without_stubs <- function(path, stub = 1e-5) {
 #' @noRd
 path_normals <- function(mesh, path) {
   normals <- mesh$normals
-  if (is.null(normals)) normals <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals
+  if (is.null(normals)) normals <- {
+    bare <- structure(list(vb = mesh$vb, it = mesh$it), class = "mesh3d")
+    Rvcg::vcgUpdateNormals(bare, silent = TRUE)$normals
+  }
   corner <- function(i, w) normals[1:3, mesh$it[i, path$face], drop = FALSE] * rep(w, each = 3)
   corner(1, path$w1) + corner(2, path$w2) + corner(3, path$w3)
 }

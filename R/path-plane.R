@@ -32,92 +32,93 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   check_given()
   check_surface(mesh, "mesh")
   check_ends(from = from, to = to)
-  surface <- walkable(mesh)
-  ends <- path_ends(mesh, surface, from, to)
   check_number(angle, "angle")
   check_number(side, "side", lower = 0, upper = 1)
-  cut_path(surface, ends, cut_axis(surface, ends), angle, side, check_reach(reach))
+  reach <- check_reach(reach)
+  scan <- walkable(mesh)
+  in_context(cut_path(scan, located_ends(mesh, scan, from, to), angle, side, reach), scan$id)
 }
 
-#' One plane cut as a path
+#' One plane cut as a path, or a failure
 #'
-#' @param surface,ends,axis As of [walkable()], [path_ends()] and [cut_axis()].
+#' @param scan As of [walkable()].
+#' @param ends As of [path_ends()]; a failure is handed on.
 #' @param angle,side,reach As in [plane_path()].
 #' @param ... Attributes of the path.
 #' @noRd
-cut_path <- function(surface, ends, axis, angle, side, reach, ...) {
-  found <- cpp_plane_path(surface$vb, surface$it, surface$twin, ends$from, ends$to,
-                          plane_normal(axis, angle), side,
-                          reach * axis$span)
-  if (found$end != "arrived") abort_cut(found$end, ends, surface$id)
-  new_path(found$points, ends, surface, angle = angle, side = side, ...)
+cut_path <- function(scan, ends, angle, side, reach, ...) {
+  if (failed(ends)) return(ends)
+  found <- cpp_plane_path(scan$vb, scan$it, scan$twin, ends$from, ends$to,
+                          plane_normal(ends, angle), side, reach * ends$span)
+  if (found$end != "arrived") return(failed_cut(found$end, ends, scan$id))
+  path_through(rbind(ends$exact[1, ], found$points, ends$exact[2, ]), scan, angle = angle,
+               side = side, ...)
 }
 
-#' The arrays that walks need, from a specimen (kept) or a mesh (worked out)
+#' A mesh as walks need it, from a specimen (kept) or a mesh (worked out)
+#'
+#' @return List: `vb`, `it` (as kernels take them), `normals` (NULL where the mesh has none),
+#'   `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`. It serves as a mesh too.
 #' @noRd
 walkable <- function(mesh) {
   whole <- as_mesh(mesh)
   known <- passed_mesh(whole, NULL)
   geometry <- if (inherits(mesh, "specimen")) mesh$geometry else
     mesh_topology(whole)[c("twin", "piece")]
-  list(vb = known$vb, it = known$it, twin = geometry$twin, piece = geometry$piece, key = known$key,
-       diagonal = known$diagonal,
+  list(vb = known$vb, it = known$it, normals = whole$normals, twin = geometry$twin,
+       piece = geometry$piece, key = known$key, diagonal = known$diagonal,
        id = if (inherits(mesh, "specimen")) mesh$id)
 }
 
-#' Both ends of a path: located, in different places, on one piece of the mesh
+#' The ends of a path, from names of landmarks and positions as a user gives them
+#' @noRd
+located_ends <- function(mesh, scan, from, to) {
+  path_ends(scan, rbind(end_vector(mesh, scan, from, "from"), end_vector(mesh, scan, to, "to")),
+            c(end_name(from), end_name(to)))
+}
+
+#' Both ends of a path: in different places, on one piece of the mesh
 #'
+#' @param exact 2 x 7 matrix, columns as `mesh_columns`.
+#' @param names What the ends are called.
 #' @param inside Barycentric weight by which ends are kept off edges and corners, so
 #'   that a plane through an end always crosses its triangle. The path begins and
 #'   stops at the exact places.
-#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact` (2 x 7 matrix), `names`.
+#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the axis
+#'   between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
+#'   `axis` and is normal to `across`) and `span` (its length). Or a failure.
 #' @noRd
-path_ends <- function(mesh, surface, from, to, inside = 1e-6) {
-  exact <- rbind(end_vector(mesh, surface, from, "from"), end_vector(mesh, surface, to, "to"))
-  names <- c(end_name(from), end_name(to))
-  if (all(exact[1, 1:3] == exact[2, 1:3])) {
-    crestline_abort(sprintf("%s and %s are the same point.", names[1], names[2]),
-                    "Choose two different landmarks, or correct the one that was misplaced.",
-                    stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
+path_ends <- function(scan, exact, names, inside = 1e-6) {
+  refuse <- function(said, remedy) {
+    no_result(sprintf(said, names[1], names[2]), remedy, "path", scan$id, "crestline_path_error")
   }
-  if (surface$piece[exact[1, "face"]] != surface$piece[exact[2, "face"]]) {
-    crestline_abort(sprintf("%s and %s lie on different pieces of the mesh.", names[1], names[2]),
-                    "Join the pieces (fill the gap), or move the landmark to the main piece.",
-                    stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
+  if (all(exact[1, 1:3] == exact[2, 1:3])) {
+    return(refuse("%s and %s are the same point.",
+                  "Choose two different landmarks, or correct the one that was misplaced."))
+  }
+  if (scan$piece[exact[1, "face"]] != scan$piece[exact[2, "face"]]) {
+    return(refuse("%s and %s lie on different pieces of the mesh.",
+                  "Join the pieces (fill the gap), or move the landmark to the main piece."))
   }
   moved <- function(at) c(at[4], (at[5:7] + inside) / sum(at[5:7] + inside))
-  list(from = moved(exact[1, ]), to = moved(exact[2, ]), exact = exact, names = names)
-}
-
-#' Axis between the ends (moved inside their triangles), and the plane normal at angle 0
-#' @return List: `axis` and `across` (unit vectors), `span` (length).
-#' @noRd
-cut_axis <- function(surface, ends) {
-  axis <- cpp_cut_axis(surface$vb, surface$it, surface$twin, ends$from, ends$to)
+  from <- moved(exact[1, ])
+  to <- moved(exact[2, ])
+  axis <- cpp_cut_axis(scan$vb, scan$it, scan$twin, from, to)
   if (axis$span == 0) {
-    crestline_abort(sprintf("%s and %s are too near to each other for the size of their triangle.",
-                            ends$names[1], ends$names[2]),
-                    "Check the mesh for huge triangles, and the two landmarks.",
-                    stage = "path", id = surface$id, class = "crestline_path_error", call = NULL)
+    return(refuse("%s and %s are too near to each other for the size of their triangle.",
+                  "Check the mesh for huge triangles, and the two landmarks."))
   }
-  axis
+  list(from = from, to = to, exact = exact, names = names, axis = axis$axis, across = axis$across,
+       span = axis$span)
 }
 
 #' Normals of the planes at given angles, 3 x k
-#' @noRd
-plane_normal <- function(axis, angle) {
-  turned <- cross_product(axis$axis, axis$across)
-  outer(axis$across, cos(angle)) + outer(turned, sin(angle))
-}
-
-#' A path from the crossings of a walk
 #'
-#' @param crossings k x 7.
-#' @param ends As of [path_ends()].
-#' @param surface As of [walkable()].
+#' @param ends List with `axis` and `across`, as of [path_ends()].
 #' @noRd
-new_path <- function(crossings, ends, surface, ...) {
-  path_through(rbind(ends$exact[1, ], crossings, ends$exact[2, ]), surface, ...)
+plane_normal <- function(ends, angle) {
+  turned <- cross_product(ends$axis, ends$across)
+  outer(ends$across, cos(angle)) + outer(turned, sin(angle))
 }
 
 #' A path through points that follow one another on the mesh; of neighbours at one place the later
@@ -183,13 +184,13 @@ check_path_on <- function(path, mesh, name) {
   check_places(path, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
 }
 
-abort_cut <- function(end, ends, id) {
+failed_cut <- function(end, ends, id) {
   why <- switch(end, border = "meets a border of the mesh",
                 round = "does not come to the second point",
                 "too far" = "strays too far from the axis")
-  crestline_abort(sprintf("the plane cut from %s to %s %s.", ends$names[1], ends$names[2], why),
-                  "Fill the hole between them, try another angle, or check the two landmarks.",
-                  stage = "path", id = id, class = "crestline_path_error", call = NULL)
+  no_result(sprintf("the plane cut from %s to %s %s.", ends$names[1], ends$names[2], why),
+              "Fill the hole between them, try another angle, or check the two landmarks.", "path",
+              id, "crestline_path_error")
 }
 
 #' @export

@@ -71,38 +71,99 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   keep_away <- check_regions(keep_away)
   order <- check_order(order)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
-  surface <- walkable(specimen)
-  ends <- path_ends(specimen, surface, from, to)
-  axis <- cut_axis(surface, ends)
+  strength <- if (type != "plane") {
+    check_number(radius, "radius", lower = 0, open = TRUE)
+    source <- known_curvature(curvature, specimen, radius, threads, order)
+    regions <- in_context(located_regions(keep_away, specimen), mesh_of(specimen)$id)
+    path_strength(source, type, regions, as_mesh(specimen))
+  }
+  scan <- walkable(specimen)
+  search <- search_settings(reach, longest, spacing, angles, refined, tie, distinct)
+  ends <- located_ends(specimen, scan, from, to)
+  path <- in_context(find_reference(scan, ends, type, strength, radius, search), scan$id)
+  warn_rival(path, ends$names, scan$id, rival)
+  path
+}
+
+#' The constants of a search for a reference path, as [reference_path()] has them
+#'
+#' @param limited Number of angles where these are limited, see [limited_cut()].
+#' @noRd
+search_settings <- function(reach = 0.5, longest = 1.25, spacing = 0.25, angles = 60, refined = 21,
+                            tie = 0.002, distinct = 0.05, limited = 61) {
+  list(reach = reach, longest = longest, spacing = spacing, angles = angles, refined = refined,
+       tie = tie, distinct = distinct, limited = limited)
+}
+
+#' A reference path without checks and warnings, or a failure
+#'
+#' @param scan As of [walkable()].
+#' @param ends As of [path_ends()]; a failure is handed on.
+#' @param strength As of [path_strength()]; not used for planes.
+#' @param radius Of the curvature.
+#' @param search As of [search_settings()].
+#' @return As [reference_path()].
+#' @noRd
+find_reference <- function(scan, ends, type, strength, radius, search) {
+  if (failed(ends)) return(ends)
   rate <- if (type == "plane") {
     function(found) -found$length
   } else {
-    check_number(radius, "radius", lower = 0, open = TRUE)
-    curvature <- known_curvature(curvature, specimen, radius, threads, order)
-    strength <- path_strength(curvature, type, keep_away, specimen)
-    function(found) cut_strength(surface, ends, axis, found, reach, spacing * radius, strength)
+    function(found) cut_strength(scan, ends, found, search$reach, search$spacing * radius, strength)
   }
-  measure <- function(angle, side) measure_cuts(surface, ends, axis, angle, side, reach)
-  optima <- cut_optima(measure, rate, angles, refined, longest, tie)
-  if (nrow(optima) == 0) abort_no_cut(measure(0, 0L)$end, ends, surface$id)
-  cut <- function(i) cut_path(surface, ends, axis, optima$angle[i], optima$side[i], reach,
+  measure <- function(angle, side) measure_cuts(scan, ends, angle, side, search$reach)
+  optima <- cut_optima(measure, rate, search)
+  if (nrow(optima) == 0) {
+    return(no_result(
+      sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1],
+              ends$names[2], measure(0, 0L)$end),
+      "Look for a hole between the landmarks, or raise `reach` if the feature bends far out.",
+      "reference path", scan$id, "crestline_path_error"
+    ))
+  }
+  cut <- function(i) cut_path(scan, ends, optima$angle[i], optima$side[i], search$reach,
                               type = type)
   path <- cut(1)
-  other <- first_elsewhere(path, nrow(optima), cut, distinct)
+  elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path, "length"),
+                    seq_len(nrow(optima))[-1])
+  other <- if (is.null(elsewhere)) NA_integer_ else elsewhere
   if (type == "plane") optima$criterion <- optima$length
-  competing <- if (is.na(other)) NA_real_ else optima$criterion[other] / optima$criterion[1]
-  if (type == "plane") competing <- 1 / competing
-  if (isTRUE(competing >= 1 - rival)) warn_rival(optima[c(1, other), ], ends, surface$id)
-  structure(path, criterion = optima$criterion[1], optima = optima, competing = competing)
+  structure(path, criterion = optima$criterion[1], optima = optima,
+            competing = shares_of_first(optima, type)[other])
+}
+
+#' How good optima are, as shares of the first
+#' @noRd
+shares_of_first <- function(optima, type) {
+  share <- optima$criterion / optima$criterion[1]
+  if (type == "plane") 1 / share else share
+}
+
+#' Best plane cut among angles about the surface's normal, or a failure
+#'
+#' @param limit Greatest angle in radians between the plane and that of the mean of the normals at
+#'   the ends.
+#' @param angles Number of angles.
+#' @param reach Cuts stay within this share of the ends' distance from the straight line between
+#'   them.
+#' @param rate Function of measured cuts that are at most `longest` times as long as the shortest:
+#'   the greatest counts.
+#' @noRd
+limited_cut <- function(scan, ends, limit, angles, reach, rate = function(found) -found$length,
+                        longest = 1) {
+  if (failed(ends)) return(ends)
+  found <- measure_cuts(scan, ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
+  if (all(is.na(found$length))) return(failed_cut(found$end[ceiling(angles / 2)], ends, scan$id))
+  allowed <- found[which(found$length <= longest * min(found$length, na.rm = TRUE)), ]
+  cut_path(scan, ends, allowed$angle[which.max(rate(allowed))], 0, reach)
 }
 
 #' Lengths of plane cuts, NA where a cut does not arrive
 #' @return Data frame `angle`, `side`, `length`, `end`.
 #' @noRd
-measure_cuts <- function(surface, ends, axis, angle, side, reach) {
-  found <- cpp_plane_cuts(surface$vb, surface$it, surface$twin, ends$from, ends$to,
-                          plane_normal(axis, angle), side,
-                          reach * axis$span)
+measure_cuts <- function(scan, ends, angle, side, reach) {
+  found <- cpp_plane_cuts(scan$vb, scan$it, scan$twin, ends$from, ends$to,
+                          plane_normal(ends, angle), side, reach * ends$span)
   frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
 }
 
@@ -111,11 +172,10 @@ measure_cuts <- function(surface, ends, axis, angle, side, reach) {
 #' @param found Cuts as of [measure_cuts()], all arrived.
 #' @param strength Function of vertices.
 #' @noRd
-cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
+cut_strength <- function(scan, ends, found, reach, step, strength) {
   if (nrow(found) == 0) return(numeric())
-  at <- cpp_cut_weights(surface$vb, surface$it, surface$twin, ends$from, ends$to,
-                        plane_normal(axis, found$angle),
-                        found$side, reach * axis$span, step)
+  at <- cpp_cut_weights(scan$vb, scan$it, scan$twin, ends$from, ends$to,
+                        plane_normal(ends, found$angle), found$side, reach * ends$span, step)
   vertex <- unique(at$vertex)
   value <- strength(vertex)[match(at$vertex, vertex)]
   as.vector(rowsum(at$weight * value, at$cut, reorder = FALSE))
@@ -128,24 +188,25 @@ cut_strength <- function(surface, ends, axis, found, reach, step, strength) {
 #' @param digits Criteria that agree to this many significant digits are equal: on a straight
 #'   feature many planes cut one line. Of equal cuts the shortest counts, then the straightest in.
 #' @noRd
-cut_optima <- function(measure, rate, angles, refined, longest, tie, digits = 8) {
+cut_optima <- function(measure, rate, search, digits = 8) {
+  angles <- search$angles
   step <- pi / angles
   coarse <- measure(rep(-pi / 2 + step * seq_len(angles), 2), rep(0:1, each = angles))
   if (all(is.na(coarse$length))) return(data.frame())
-  rated <- rater(rate, longest * min(coarse$length, na.rm = TRUE), digits)
+  rated <- rater(rate, search$longest * min(coarse$length, na.rm = TRUE), digits)
   coarse <- rated(coarse)
   on_side <- split(seq_len(2 * angles), coarse$side)
   peaks <- unlist(lapply(on_side, function(side) {
     vapply(circular_peaks(coarse$level[side]), function(run) best_cut(coarse, side[run]), 0L)
   }), use.names = FALSE)
-  around <- step * seq(-1, 1, length.out = refined)
-  fine <- rated(measure(rep(coarse$angle[peaks], each = refined) + around,
-                        rep(coarse$side[peaks], each = refined)))
+  around <- step * seq(-1, 1, length.out = search$refined)
+  fine <- rated(measure(rep(coarse$angle[peaks], each = search$refined) + around,
+                        rep(coarse$side[peaks], each = search$refined)))
   all <- Map(c, lapply(coarse, `[`, peaks), fine)
-  of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = refined))
+  of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = search$refined))
   best <- vapply(split(seq_along(of_peak), of_peak), function(near) best_cut(all, near), 0L)
   all$angle <- wrap_angle(all$angle)
-  tied <- all$level[best] >= max(all$level[best]) - tie * abs(max(all$level[best]))
+  tied <- all$level[best] >= max(all$level[best]) - search$tie * abs(max(all$level[best]))
   best <- best[order(!tied, ifelse(tied, 0, -all$level[best]), all$extent[best], -all$level[best],
                      abs(all$angle[best]))]
   best <- best[!duplicated(round(cbind(all$angle, all$side)[best, , drop = FALSE], 6))]
@@ -194,16 +255,18 @@ wrap_angle <- function(angle) angle - pi * ceiling(angle / pi - 0.5)
 #' Strength of the principal curvature as a function of vertices, 0 where it is not known or not
 #' wanted
 #'
-#' @param curvature As of [known_curvature()].
+#' @param source Curvature as of [known_curvature()].
+#' @param regions As of [located_regions()].
+#' @param mesh With `vb`.
 #' @noRd
-path_strength <- function(curvature, type, keep_away, specimen) {
-  vb <- as_mesh(specimen)$vb
+path_strength <- function(source, type, regions, mesh) {
+  vb <- mesh$vb
   function(vertices) {
-    strength <- strength_at(curvature(vertices), type)
+    strength <- strength_at(source(vertices), type)
     strength[is.na(strength)] <- 0
-    if (is.null(keep_away)) return(strength)
+    if (is.null(regions)) return(strength)
     some <- which(strength > 0)
-    strength[some][is_kept_away(keep_away, specimen, t(vb[1:3, vertices[some], drop = FALSE]))] <- 0
+    strength[some][is_kept_away(regions, t(vb[1:3, vertices[some], drop = FALSE]))] <- 0
     strength
   }
 }
@@ -214,41 +277,30 @@ path_strength <- function(curvature, type, keep_away, specimen) {
 known_curvature <- function(curvature, specimen, radius, threads, order = "adaptive") {
   # A source of curvature, as of curvature_source(), not any function.
   if (is.function(curvature) && identical(names(formals(curvature)), "vertices")) return(curvature)
-  if (is.null(curvature)) return(curvature_source(specimen, radius, order, threads))
+  if (is.null(curvature)) {
+    settings <- fit_settings(radius, order)
+    check_radius(radius, specimen)
+    return(curvature_source(as_mesh(specimen), settings, threads))
+  }
   check_curvature_on(curvature, specimen)
   function(vertices) curvature_rows(curvature, vertices)
 }
 
-abort_no_cut <- function(end, ends, id) {
-  crestline_abort(
-    sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1], ends$names[2],
-            end),
-    "Look for a hole between the landmarks, or raise `reach` if the feature bends far out.",
-    stage = "reference path", id = id, class = "crestline_path_error"
-  )
-}
-
-#' The best of the other optima that runs elsewhere, NA where none does
-#'
-#' @param cut Function of an optimum's row that gives its path.
-#' @noRd
-first_elsewhere <- function(path, count, cut, distinct) {
-  for (i in seq_len(count)[-1]) {
-    if (path_distance(cut(i), path) > distinct * attr(path, "length")) return(i)
-  }
-  NA_integer_
-}
-
 #' Warn of a second cut nearly as good that runs elsewhere
 #'
-#' @param two The two rows of `optima`.
+#' @param path A reference path.
+#' @param ends Names of its ends.
 #' @noRd
-warn_rival <- function(two, ends, id) {
+warn_rival <- function(path, ends, id, rival = 0.05) {
+  competing <- attr(path, "competing")
+  if (!isTRUE(competing >= 1 - rival)) return(invisible())
+  optima <- attr(path, "optima")
+  share <- shares_of_first(optima, attr(path, "type"))
+  two <- optima[c(1, setdiff(which(share == competing), 1)[1]), ]
   degrees <- two$angle * 180 / pi
   crestline_warn(
     sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
-            ends$names[1], ends$names[2], degrees[1], degrees[2], two$criterion[1],
-            two$criterion[2]),
+            ends[1], ends[2], degrees[1], degrees[2], two$criterion[1], two$criterion[2]),
     "Look at both with plane_path(); keep_away() or keep_side() rules one out.",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )

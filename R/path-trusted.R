@@ -22,21 +22,31 @@ reversed_path <- function(mesh, path) {
 
 #' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
 #'
+#' @param scan As of [walkable()].
 #' @param trust Where the trusted part begins and ends, as shares of the path's length.
-#' @return `mesh_path` with the attribute `trusted`, the arc lengths of that part.
+#' @return `mesh_path` with the attribute `trusted`, the arc lengths of that part; or a failure.
 #' @noRd
-trusted_path <- function(trust, specimen, path) {
+trusted_path <- function(trust, scan, path) {
+  if (trust[1] <= 0 && trust[2] >= 1) return(path)
   range <- trust * attr(path, "length")
-  at <- place_along(as_mesh(specimen), path, range)
+  at <- columns_of(place_along(scan, path, range))
+  ends <- columns_of(path)[c(1, nrow(path)), ]
+  between <- function(from, to) {
+    exact <- rbind(from, to)
+    names <- c(end_name(from), end_name(to))
+    find_reference(scan, path_ends(scan, exact, names), "plane", NULL, NULL, search_settings())
+  }
   parts <- list(
-    if (trust[1] > 0) reference_path(specimen, path[1, ], at[1, ], "plane"),
-    part_of_path(as_mesh(specimen), path, range[1], range[2]),
-    if (trust[2] < 1) reference_path(specimen, at[2, ], path[nrow(path), ], "plane")
+    if (trust[1] > 0) between(ends[1, ], at[1, ]),
+    part_of_path(scan, path, range[1], range[2]),
+    if (trust[2] < 1) between(at[2, ], ends[2, ])
   )
+  bad <- Find(failed, parts)
+  if (!is.null(bad)) return(bad)
   lengths <- vapply(parts, function(part) if (is.null(part)) 0 else attr(part, "length"), 0)
   points <- do.call(rbind, lapply(Filter(Negate(is.null), parts), columns_of))
-  path_through(points, mesh_of(path), trusted = cumsum(lengths)[1:2], type = attr(path, "type"),
-               competing = attr(path, "competing"))
+  path_through(points, scan, trusted = cumsum(lengths)[1:2], type = attr(path, "type"),
+               optima = attr(path, "optima"), competing = attr(path, "competing"))
 }
 
 check_trusted <- function(trust, call = rlang::caller_env()) {

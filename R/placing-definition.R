@@ -91,9 +91,9 @@ definition_plane <- function(specimen, definition, pairs) {
     return(landmark_mirror(specimen$landmarks[left, , drop = FALSE],
                            specimen$landmarks[right, , drop = FALSE]))
   }
-  surface <- walkable(specimen)
-  ends <- path_ends(specimen, surface, definition$across_from, definition$across_to)
-  list(origin = unname(ends$exact[1, 1:3]), normal = cut_axis(surface, ends)$across)
+  ends <- in_context(located_ends(specimen, walkable(specimen), definition$across_from,
+                                  definition$across_to), specimen$id)
+  list(origin = unname(ends$exact[1, 1:3]), normal = ends$across)
 }
 
 #' The mirror that takes points nearest to their partners
@@ -128,14 +128,13 @@ plane_section <- function(mesh, vertices, plane) {
 #' The curve that a definition is taken on, as a path
 #' @noRd
 definition_path <- function(specimen, definition, from, to, type, curvature, settings) {
-  curve <- suppressWarnings(
-    ridge_curve(specimen, from, to, type, radius = definition$radius, width = definition$width,
-                n = 2,
-                settings = settings$ridge,
-                curvature = if (type != "plane") curvature(definition$radius)),
-    classes = "crestline_warning"
-  )
-  curve$path
+  scan <- walkable(specimen)
+  job <- curve_job(type, 2, end_name(from), end_name(to), settings$ridge,
+                   radius = definition$radius, width = definition$width,
+                   source = if (type != "plane") curvature(definition$radius))
+  doing <- sprintf("%s from %s to %s", type, job$from, job$to)
+  in_context(trace_curve(scan, located_ends(specimen, scan, from, to), job), specimen$id,
+             doing)$path
 }
 
 #' Crossing of a curve with a mirror plane or another curve: that nearest to the landmark

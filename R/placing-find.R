@@ -71,10 +71,8 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   doubt <- placing_doubt(placed, settings$low)
   found <- with_placing(scan, placed,
                         list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
-                                           rotation = matrix(laid$pose[1:9], 3),
-                             inverted = laid$inverted,
-                                           doubtful = doubt$share > settings$wrong,
-                             template = template$id))
+                             rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
+                             doubtful = doubt$share > settings$wrong, template = template$id))
   if (found$match$doubtful) warn_doubtful(doubt, found)
   found
 }
@@ -129,14 +127,15 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   n <- ncol(prepared$xyz)
   own <- template$landmarks
   to_scan <- function(xyz) from_frame(xyz, laid)
-  places <- function(fit) surface_points(scan$mesh, to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
-  at <- as.matrix(places(bent)[1:3])
+  carried <- lapply(list(bent, plain), function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
+  places <- columns_of(surface_points(scan$mesh, do.call(rbind, carried)), c("x", "y", "z"))
+  with_curvature <- seq_len(nrow(own))
+  at <- places[with_curvature, , drop = FALSE]
   rownames(at) <- rownames(own)
   length <- laid$unit / laid$pose[13]
-  moved <- row_lengths(at - as.matrix(places(plain)[1:3])) * length
+  moved <- row_lengths(at - places[-with_curvature, , drop = FALSE]) * length
   here <- local_evidence(prepared, local, bent, settings)
-  residual <- pmax(here$residual,
-                   row_lengths(at - to_scan(bent$moved[-seq_len(n), , drop = FALSE])) * length)
+  residual <- pmax(here$residual, row_lengths(at - carried[[1]]) * length)
   state <- ifelse(here$lost > settings$lost, "absent", "found")
   sd <- sqrt(pmax(bent$sd^2 - prepared$sd^2, 0))
   confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 +

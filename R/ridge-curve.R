@@ -77,25 +77,80 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
-  about <- list(id = if (inherits(specimen, "specimen")) specimen$id, from = end_name(from),
-                to = end_name(to),
-                type = type, settings = settings, passes = passes)
-  in_context(id = about$id, doing = sprintf("%s from %s to %s", type, about$from, about$to),
-             code = {
-    if (type == "plane") {
-      path <- reference_path(specimen, from, to, "plane", reach = reach)
-      assembled_curve(specimen, path, path, n, about)
-    } else {
-      about$radius <- check_number(radius, "radius", lower = 0, open = TRUE)
-      about$width <- check_number(width, "width", lower = 0, open = TRUE)
-      curvature <- known_curvature(curvature, specimen, radius, threads, settings$order)
-      path <- reference_path(specimen, from, to, type, radius, keep_away, curvature, reach,
-                             longest = settings$longest)
-      if (trust[1] > 0 || trust[2] < 1) path <- trusted_path(trust, specimen, path)
-      fit <- fit_passes(specimen, path, curvature, keep_away, about)
-      assembled_curve(specimen, fit$path, fit$reference, n, about, fit)
+  if (type != "plane") {
+    radius <- check_number(radius, "radius", lower = 0, open = TRUE)
+    width <- check_number(width, "width", lower = 0, open = TRUE)
+  }
+  id <- if (inherits(specimen, "specimen")) specimen$id
+  doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
+  curve <- in_context(id = id, doing = doing, code = {
+    scan <- walkable(specimen)
+    job <- curve_job(type, n, end_name(from), end_name(to), settings, passes, trust = trust,
+                     reach = reach)
+    if (type != "plane") {
+      job[c("radius", "width")] <- list(radius, width)
+      job$source <- known_curvature(curvature, specimen, radius, threads, settings$order)
+      job$regions <- located_regions(keep_away, specimen)
     }
+    trace_curve(scan, located_ends(specimen, scan, from, to), job)
   })
+  warn_rival(curve$reference, c(curve$from, curve$to), id)
+  warn_undetermined(curve)
+  curve
+}
+
+#' What is asked of one curve
+#'
+#' @param type,n,settings,passes,radius,width,trust,reach As in [ridge_curve()].
+#' @param from,to Names of its ends.
+#' @param source Curvature as of [known_curvature()]; NULL for planes.
+#' @param regions As of [located_regions()]; a failure is handed on.
+#' @param angle_limit Of the planes of the reference path, in radians; NA: none.
+#' @noRd
+curve_job <- function(type, n, from, to, settings, passes = NULL, radius = NULL, width = NULL,
+                      source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
+                      reach = 0.5) {
+  list(type = type, n = n, from = from, to = to, settings = settings, passes = passes,
+       radius = radius, width = width, source = source, regions = regions, trust = trust,
+       angle_limit = angle_limit,
+       search = search_settings(reach, if (type == "plane") 1.25 else settings$longest))
+}
+
+#' One curve, without checks and warnings
+#'
+#' @param scan As of [walkable()].
+#' @param ends As of [path_ends()]; a failure is handed on.
+#' @param job As of [curve_job()].
+#' @return A `curve`, or a failure.
+#' @noRd
+trace_curve <- function(scan, ends, job) {
+  if (failed(ends)) return(ends)
+  if (failed(job$regions)) return(job$regions)
+  reference <- curve_reference(scan, ends, job)
+  if (failed(reference)) return(reference)
+  if (job$type == "plane") return(assembled_curve(scan, reference, reference, job))
+  path <- trusted_path(job$trust, scan, reference)
+  if (failed(path)) return(path)
+  fit <- fit_passes(scan, path, job)
+  if (failed(fit)) return(fit)
+  assembled_curve(scan, fit$path, fit$reference, job, fit)
+}
+
+#' The reference path of a curve, among all cuts or those at small angles to the surface's normal
+#' @noRd
+curve_reference <- function(scan, ends, job) {
+  search <- job$search
+  strength <- if (job$type != "plane") path_strength(job$source, job$type, job$regions, scan)
+  if (is.na(job$angle_limit)) {
+    return(find_reference(scan, ends, job$type, strength, job$radius, search))
+  }
+  if (is.null(strength)) {
+    return(limited_cut(scan, ends, job$angle_limit, search$limited, search$reach))
+  }
+  rate <- function(found) {
+    cut_strength(scan, ends, found, search$reach, search$spacing * job$radius, strength)
+  }
+  limited_cut(scan, ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }
 
 #' The rows inside a window; where there are more than `most`, the one nearest to the centre of each
@@ -142,22 +197,23 @@ core_strength <- function(coordinates, strength, distance, trusted = NULL) {
 
 #' The one place where a curve comes together
 #'
+#' @param job As of [curve_job()].
 #' @param fit As of [fit_passes()]; NULL for plane curves.
 #' @noRd
-assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
-  placed <- resample_path(as_mesh(specimen), path, n)
+assembled_curve <- function(scan, path, reference, job, fit = NULL) {
+  placed <- resample_path(scan, path, job$n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
-    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, n) else
+    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, job$n) else
       stats::approx(fit$line$s, values, along, rule = 2)$y
   }
-  d <- if (about$type == "plane") numeric(n) else on_line(fit$line$alpha)
-  points <- frame_of(c(list(point = seq_len(n)), unclass(placed)[c("s", "x", "y", "z")],
+  d <- if (job$type == "plane") numeric(job$n) else on_line(fit$line$alpha)
+  points <- frame_of(c(list(point = seq_len(job$n)), unclass(placed)[c("s", "x", "y", "z")],
                        list(d = d, se = on_line(fit$line$se)),
                        unclass(placed)[c("face", "w1", "w2", "w3")]))
-  new_curve(points, path, reference, about, judge_curve(about, fit), mesh_of(specimen)$key,
+  new_curve(points, path, reference, job, judge_curve(job, fit), scan,
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
-            strength = mean_strength(specimen, path, fit), scale = fit$scale,
+            strength = mean_strength(scan, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
             even = attr(placed, "converged"), share = if (!is.null(fit)) fit$share,
             noise_factor = if (is.null(fit$noise_factor)) NA_real_ else fit$noise_factor)
@@ -167,13 +223,12 @@ assembled_curve <- function(specimen, path, reference, n, about, fit = NULL) {
 #'
 #' @param points,path,reference,coordinates,surface,line,strength,scale,converged As in the value of
 #'   [ridge_curve()].
-#' @param about List of `id`, `from`, `to`, `type`, `settings`, `passes`; of ridges and valleys
-#'   `radius` and `width`.
+#' @param job As of [curve_job()].
 #' @param verdict List of `se`, `determined`, `reason`.
-#' @param key Of the mesh that its faces are numbers of.
+#' @param scan List of `key` and `id` of the mesh that its faces are numbers of.
 #' @param even Whether its points stand at equal chords.
 #' @noRd
-new_curve <- function(points, path, reference, about, verdict, key, coordinates = NULL,
+new_curve <- function(points, path, reference, job, verdict, scan, coordinates = NULL,
                       surface = NULL, line = NULL,
                       strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE,
                       share = NULL, noise_factor = NA_real_) {
@@ -181,11 +236,11 @@ new_curve <- function(points, path, reference, about, verdict, key, coordinates 
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
          surface = surface, line = line, strength = strength, scale = scale, se = verdict$se,
-         determined = verdict$determined, reason = verdict$reason, id = about$id, from = about$from,
-         to = about$to,
-         type = about$type, settings = about$settings, passes = about$passes, radius = about$radius,
-         width = about$width,
-         key = key, converged = converged, even = even, share = share,
+         determined = verdict$determined, reason = verdict$reason, id = scan$id, from = job$from,
+         to = job$to,
+         type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
+         width = job$width,
+         key = scan$key, converged = converged, even = even, share = share,
          noise_factor = noise_factor),
     class = "curve"
   )
@@ -223,42 +278,44 @@ check_curve_on <- function(curve, mesh, name) {
 
 #' Whether curvature determines the curve, with the reason where not
 #' @noRd
-judge_curve <- function(about, fit) {
-  if (about$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
+judge_curve <- function(job, fit) {
+  if (job$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
   se <- if (is.null(fit$line$se)) NA_real_ else
     stats::median(fit$line$se[-c(1, length(fit$line$se))])
-  limit <- about$settings$undetermined * about$radius
+  limit <- job$settings$undetermined * job$radius
   reason <- if (!fit$found) {
     fit$reason
   } else if (fit$line$at_bound) {
     "it runs along the edge of the window"
-  } else if (fit$scale * about$radius < about$settings$faint) {
+  } else if (fit$scale * job$radius < job$settings$faint) {
     sprintf("the curvature by its reference path is faint: times the radius it is %.3g, below %.3g",
-            fit$scale * about$radius, about$settings$faint)
+            fit$scale * job$radius, job$settings$faint)
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
   } else {
     NA_character_
   }
-  if (!is.na(reason)) {
-    crestline_warn(
-      sprintf("the %s from %s to %s is not determined by curvature: %s.", about$type, about$from,
-              about$to, reason),
-      "Use the shortest plane cut (type = \"plane\"), or another radius.",
-      stage = "ridge curve", id = about$id, class = "crestline_undetermined"
-    )
-  }
   list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
        reason = reason)
+}
+
+warn_undetermined <- function(curve) {
+  if (!isFALSE(curve$determined)) return(invisible())
+  crestline_warn(
+    sprintf("the %s from %s to %s is not determined by curvature: %s.", curve$type, curve$from,
+            curve$to, curve$reason),
+    "Use the shortest plane cut (type = \"plane\"), or another radius.",
+    stage = "ridge curve", id = curve$id, class = "crestline_undetermined"
+  )
 }
 
 #' Length-weighted mean along a path of the strength that the curve was fitted to
 #'
 #' Corners outside the window are left out of a place's mean.
 #' @noRd
-mean_strength <- function(specimen, path, fit) {
+mean_strength <- function(scan, path, fit) {
   if (is.null(fit)) return(NA_real_)
-  corner <- match(as_mesh(specimen)$it[, path$face], fit$coordinates$vertex)
+  corner <- match(scan$it[, path$face], fit$coordinates$vertex)
   stands_in <- matrix(fit$strengths$rows[fit$strengths$cell[corner]], 3)
   inside <- !is.na(stands_in)
   strength <- fit$strengths$value[stands_in]

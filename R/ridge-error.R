@@ -8,33 +8,32 @@
 #' `settings$noise`; where that is not known, independent with the residual standard deviation of
 #' each local fit.
 #'
-#' @param specimen The mesh.
+#' @param scan The mesh, as of [walkable()].
 #' @param window As of [ridge_window()].
 #' @param settings [ridge_settings()].
 #' @return List: `matrix`, of the moments (square of the order of the smooth surface); `factor`, as
 #'   of [noise_factor()], 1 where the noise is known.
 #' @noRd
-moment_noise <- function(specimen, window, radius, settings) {
+moment_noise <- function(scan, window, radius, settings) {
   surface <- window$surface
   strength <- window$strengths
   live <- which(surface$strength > 0 & surface$strength < strength$cap)
   rows <- surface$rows[live]
-  mesh <- as_mesh(specimen)
   known <- settings$noise
   if (anyNA(known)) {
-    sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(mesh$vb))
+    sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(scan$vb))
     fitted <- !is.na(strength$sigma)
     sigma[window$coordinates$vertex[fitted]] <- strength$sigma[fitted]
     smooth <- c(0, 0)
   } else {
-    sigma <- rep(known[[1]], ncol(mesh$vb))
+    sigma <- rep(known[[1]], ncol(scan$vb))
     smooth <- unname(known[2:3])
   }
   margins <- lapply(surface$design, function(design) design[live, , drop = FALSE])
   found <- cpp_curvature_covariance(
-    mesh$vb, mesh$it, window$coordinates$vertex[rows],
+    scan$vb, scan$it, window$coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), mgcv::tensor.prod.model.matrix(margins), sigma,
-    smooth[1], smooth[2], fit_settings(radius, settings$order)
+    smooth[1], smooth[2], kernel_settings(radius, settings$order)
   )
   list(matrix = found$matrix,
        factor = if (anyNA(known)) noise_factor(surface, live, margins, found) else 1)
@@ -80,7 +79,7 @@ noise_factor <- function(surface, live, margins, covariance) {
 ridge_error <- function(window, noise, radius, settings, share = 1) {
   line <- window$line
   variance <- offset_variance(window, line, noise, radius, settings)
-  loose <- ridge_line(window$surface, window$scale, radius, loosen(settings), line$kernel)
+  loose <- highest_line(window$surface, window$scale, radius, loosen(settings), line$kernel)
   bias <- share * line$alpha - loose$alpha
   error <- sqrt(settings$inflation^2 * noise$factor * c(0, variance, 0) + bias^2)
   pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)

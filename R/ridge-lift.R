@@ -39,32 +39,36 @@ lift <- function(specimen, coordinates, path, s, alpha) {
                     "Give two places or more, in order, and an offset for each.",
                     stage = "arguments")
   }
-  surface <- walkable(specimen)
   check_path_on(path, specimen, "`path`")
   check_coordinates_on(coordinates, specimen, "`coordinates`")
-  ends <- lift_ends(path, surface)
-  level <- level_at_vertices(surface, coordinates, s, alpha, ends)
-  towards <- first_direction(specimen, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
-  walked <- cpp_level_path(surface$vb, surface$it, surface$twin, ends$from[1], ends$to[1], level,
-                           towards)
-  if (walked$end == "arrived") return(new_path(walked$points, ends, surface, lifted = TRUE))
-  piece_together(specimen, surface, coordinates, path, s, alpha)
+  in_context(lifted_line(walkable(specimen), coordinates, path, s, alpha), mesh_of(specimen)$id)
+}
+
+#' A lifted line without checks, or a failure
+#'
+#' @param scan As of [walkable()].
+#' @noRd
+lifted_line <- function(scan, coordinates, path, s, alpha) {
+  at <- columns_of(path)
+  ends <- path_ends(scan, at[c(1, nrow(at)), ], c(end_name(at[1, ]), end_name(at[nrow(at), ])))
+  if (failed(ends)) return(ends)
+  level <- level_at_vertices(scan, coordinates, s, alpha, ends)
+  towards <- first_direction(scan, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
+  walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1], level, towards)
+  if (walked$end == "arrived") {
+    return(path_through(rbind(ends$exact[1, ], walked$points, ends$exact[2, ]), scan,
+                        lifted = TRUE))
+  }
+  piece_together(scan, coordinates, path, s, alpha)
 }
 
 #' Direction in which the curve leaves the first point: along the path and, by the slope, across it
 #' @noRd
-first_direction <- function(specimen, path, slope) {
+first_direction <- function(mesh, path, slope) {
   tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")]) - unlist(path[1, c("x", "y", "z")])
   tangent <- tangent / sqrt(sum(tangent^2))
-  across <- cross_product(path_normals(as_mesh(specimen), path[1, ])[, 1], tangent)
+  across <- cross_product(path_normals(mesh, path[1, ])[, 1], tangent)
   tangent + slope * across / sqrt(sum(across^2))
-}
-
-#' The ends of a path as path_ends() gives them
-#' @noRd
-lift_ends <- function(path, surface) {
-  at <- columns_of(path)
-  path_ends(list(), surface, at[1, ], at[nrow(at), ])
 }
 
 #' d - alpha(s) at all vertices, NaN outside the window, shifted to vanish at both ends
@@ -86,23 +90,25 @@ level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
 #' The place of each (s, alpha) is in a triangle that holds it in (s, d); of several, the one
 #' nearest to the reference path.
 #' @noRd
-piece_together <- function(specimen, surface, coordinates, path, s, alpha) {
-  places <- places_in_plane(surface, coordinates, path, s, alpha)
+piece_together <- function(scan, coordinates, path, s, alpha) {
+  places <- places_in_plane(scan, coordinates, path, s, alpha)
   if (is.null(places)) {
-    crestline_abort("no triangle near the reference path holds the ridge line.",
-                    "Give a smaller `width`, or use the plane cut.", stage = "lift",
-                    id = surface$id,
-                    class = "crestline_path_error", call = NULL)
+    return(no_result("no triangle near the reference path holds the ridge line.",
+                       "Give a smaller `width`, or use the plane cut.", "lift", scan$id,
+                       "crestline_path_error"))
   }
   at <- columns_of(path)
   knots <- rbind(at[1, ], columns_of(places), at[nrow(at), ])
   knots <- knots[c(TRUE, row_lengths(diff(knots[, 1:3])) > 0), ]
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
-    columns_of(reference_path(specimen, knots[i, ], knots[i + 1, ], "plane", reach = Inf,
-                              rival = 0))
+    names <- c(end_name(knots[i, ]), end_name(knots[i + 1, ]))
+    ends <- path_ends(scan, knots[c(i, i + 1), ], names)
+    find_reference(scan, ends, "plane", NULL, NULL, search_settings(reach = Inf))
   })
-  path_through(do.call(rbind, c(list(knots[1, ]), lapply(pieces, function(piece) piece[-1, ]))),
-               surface, lifted = FALSE)
+  bad <- Find(failed, pieces)
+  if (!is.null(bad)) return(bad)
+  onward <- lapply(pieces, function(piece) columns_of(piece)[-1, ])
+  path_through(do.call(rbind, c(list(knots[1, ]), onward)), scan, lifted = FALSE)
 }
 
 places_in_plane <- function(surface, coordinates, path, s, alpha) {

@@ -42,10 +42,19 @@ ridge_line <- function(surface, scale, radius, settings = ridge_settings(), kern
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
   kernel <- check_number(kernel, "kernel", lower = 0)
+  in_context(highest_line(surface, scale, radius, settings, kernel), NULL)
+}
+
+#' The ridge line without checks, or a failure
+#' @noRd
+highest_line <- function(surface, scale, radius, settings, kernel = 0) {
   problem <- ridge_problem(surface, scale, radius, settings, kernel)
   if (!all(is.finite(problem$roughness), is.finite(problem$lambda), is.finite(problem$weight))) {
-    crestline_abort(sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius, scale),
-                    "Give both in the unit of the surface.", stage = "ridge")
+    return(no_result(
+      sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius,
+              scale),
+      "Give both in the unit of the surface.", "ridge"
+    ))
   }
   found <- climb(problem, settings)
   structure(

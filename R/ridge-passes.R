@@ -5,35 +5,37 @@
 #' A first pass about the reference path gives a line and its standard error. That sets the width of
 #' the kernel under which the line is found again, and how much of the principal curvature is mixed
 #' in. A second pass is about the first one's curve; of its offsets a share is taken. With
-#' `about$passes` so many passes are made, each about the curve of the one before and counted whole.
+#' `job$passes` so many passes are made, each about the curve of the one before and counted whole.
 #'
 #' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
 #'   in which curvature counts.
 #' @return The last window as of [ridge_window()], with `line`, `path` (the curve), `reference` (the
 #'   path that the window is about), `share` (of the second pass that was taken) and `noise_factor`;
-#'   `found` is FALSE, with `reason`, where there is no curve.
+#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure.
 #' @noRd
-fit_passes <- function(specimen, path, curvature, keep_away, about) {
-  settings <- about$settings
+fit_passes <- function(scan, path, job) {
+  settings <- job$settings
   trusted <- attr(path, "trusted") / attr(path, "length")
-  window <- ridge_window(specimen, path, curvature, keep_away, about)
+  window <- ridge_window(scan, path, job)
   if (is.null(window$surface)) return(window)
   kernel <- 0
   edge <- FALSE
   if (settings$kernel > 0) {
-    window$noise <- moment_noise(specimen, window, about$radius, settings)
-    mode <- ridge_line(window$surface, window$scale, about$radius, settings)
-    kernel <- kernel_width(window, mode, about$radius, settings)
+    window$noise <- moment_noise(scan, window, job$radius, settings)
+    mode <- highest_line(window$surface, window$scale, job$radius, settings)
+    if (failed(mode)) return(mode)
+    kernel <- kernel_width(window, mode, job$radius, settings)
     edge <- mode$at_bound
   }
-  mix <- min(1, kernel / (settings$mix * about$radius))
-  if (mix > 0) window <- ridge_window(specimen, path, curvature, keep_away, about, mix)
+  mix <- min(1, kernel / (settings$mix * job$radius))
+  if (mix > 0) window <- ridge_window(scan, path, job, mix)
   with_line <- function(window) {
     if (is.null(window$surface)) return(window)
-    window$line <- ridge_line(window$surface, window$scale, about$radius, settings, kernel)
+    window$line <- highest_line(window$surface, window$scale, job$radius, settings, kernel)
+    if (failed(window$line)) return(window$line)
     # Neither kernel nor passes widen the window: what ran along its edge once is in doubt.
     window$line$at_bound <- edge <<- edge || window$line$at_bound
-    with_curve(specimen, window)
+    with_curve(scan, window)
   }
   fit <- with_line(window)
   again <- function(fit) {
@@ -42,19 +44,19 @@ fit_passes <- function(specimen, path, curvature, keep_away, about) {
     for (name in c("type", "criterion", "optima", "competing")) {
       attr(path, name) <- attr(fit$reference, name)
     }
-    with_line(ridge_window(specimen, path, curvature, keep_away, about, mix))
+    with_line(ridge_window(scan, path, job, mix))
   }
-  if (is.null(about$passes)) {
-    second <- if (fit$found && settings$second > 0) again(fit)
+  if (is.null(job$passes)) {
+    second <- if (isTRUE(fit$found) && settings$second > 0) again(fit)
     if (isTRUE(second$found)) {
-      strength <- path_strength(curvature, about$type, keep_away, specimen)
-      second$share <- second_share(specimen, fit, second, strength, kernel / about$radius, settings)
+      strength <- path_strength(job$source, job$type, job$regions, scan)
+      second$share <- second_share(scan, fit, second, strength, kernel / job$radius, settings)
       if (second$share > 0) fit <- second
     }
   } else {
-    for (i in seq_len(about$passes)[-1]) if (fit$found) fit <- again(fit)
+    for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- again(fit)
   }
-  finished_fit(specimen, fit, about$radius, settings)
+  finished_fit(scan, fit, job$radius, settings)
 }
 
 #' The window about a path: co-ordinates, strengths and their smooth surface
@@ -62,32 +64,30 @@ fit_passes <- function(specimen, path, curvature, keep_away, about) {
 #' @param mix Share of the principal curvature in the strength.
 #' @return List: `coordinates`, `strengths` (as of [window_strength()]), `scale` (their mean near the
 #'   path), `surface`, `path` and `reference` (both the path), `share` (0), `found` (FALSE). Where
-#'   there is no such curvature by the path it has a `reason` and no `surface`.
+#'   there is no such curvature by the path it has a `reason` and no `surface`. Or a failure.
 #' @noRd
-ridge_window <- function(specimen, path, curvature, keep_away, about, mix = 0) {
-  settings <- about$settings
-  half <- min(about$width, settings$window * about$radius)
-  coordinates <- path_coordinates(specimen, path, half, margin = about$radius)
-  strength <- window_strength(specimen, coordinates, curvature, about$type, keep_away, settings,
-                              attr(path, "trusted"), mix)
-  scale <- core_strength(coordinates, strength, settings$core * about$radius, attr(path, "trusted"))
+ridge_window <- function(scan, path, job, mix = 0) {
+  settings <- job$settings
+  half <- min(job$width, settings$window * job$radius)
+  coordinates <- near_path(scan, path, half, job$radius)
+  strength <- window_strength(scan, coordinates, job, attr(path, "trusted"), mix)
+  scale <- core_strength(coordinates, strength, settings$core * job$radius, attr(path, "trusted"))
   window <- list(coordinates = coordinates, strengths = strength, scale = scale, path = path,
                  reference = path, share = 0, found = FALSE)
   if (!is.finite(scale) || scale <= 0) {
-    window$reason <- sprintf("there is no %s curvature by the reference path", about$type)
+    window$reason <- sprintf("there is no %s curvature by the reference path", job$type)
     return(window)
   }
-  window$surface <- curvature_surface(coordinates, strength$value, settings)
-  window
+  window$surface <- smooth_strength(coordinates, strength$value, settings)
+  if (failed(window$surface)) window$surface else window
 }
 
 #' A window with its line lifted onto the mesh
 #' @noRd
-with_curve <- function(specimen, window) {
-  lifted <- tryCatch(lift(specimen, window$coordinates, window$reference, window$line$s,
-                          window$line$alpha),
-                     crestline_path_error = function(e) NULL)
-  window$found <- !is.null(lifted)
+with_curve <- function(scan, window) {
+  lifted <- lifted_line(scan, window$coordinates, window$reference, window$line$s,
+                        window$line$alpha)
+  window$found <- !failed(lifted)
   if (window$found) window$path <- lifted else
     window$reason <- "the ridge line leaves the surface near the reference path"
   window
@@ -118,13 +118,13 @@ kernel_width <- function(window, line, radius, settings) {
 #' @param places Number of places along a curve at which its strength is taken.
 #' @return Between 0 and 1.
 #' @noRd
-second_share <- function(specimen, first, second, strength, kernel, settings, places = 101) {
+second_share <- function(scan, first, second, strength, kernel, settings, places = 101) {
   wide <- kernel / settings$second_whole
   if (wide >= 1) return(1)
   worth <- function(path) {
     s <- seq(0, attr(path, "length"), length.out = places)
-    at <- place_along(as_mesh(specimen), path, s)
-    corner <- as_mesh(specimen)$it[, at$face]
+    at <- place_along(scan, path, s)
+    corner <- scan$it[, at$face]
     vertex <- unique(as.vector(corner))
     value <- matrix(strength(vertex)[match(corner, vertex)], 3)
     mean(colSums(rbind(at$w1, at$w2, at$w3) * value))
@@ -136,17 +136,17 @@ second_share <- function(specimen, first, second, strength, kernel, settings, pl
 
 #' A fit with standard errors, and with the share of its last pass taken
 #' @noRd
-finished_fit <- function(specimen, fit, radius, settings) {
+finished_fit <- function(scan, fit, radius, settings) {
   if (is.null(fit$line)) return(fit)
   share <- if (fit$share > 0) fit$share else 1
   if (settings$error) {
-    if (is.null(fit$noise)) fit$noise <- moment_noise(specimen, fit, radius, settings)
+    if (is.null(fit$noise)) fit$noise <- moment_noise(scan, fit, radius, settings)
     fit$line$se <- ridge_error(fit, fit$noise, radius, settings, share)
     fit$noise_factor <- fit$noise$factor
   }
   if (share == 1) return(fit)
   fit$line$alpha <- share * fit$line$alpha
-  with_curve(specimen, fit)
+  with_curve(scan, fit)
 }
 
 #' Strength at the vertices inside a window as the settings define it
@@ -159,17 +159,17 @@ finished_fit <- function(specimen, fit, radius, settings) {
 #'   counts for more), `sigma`; `rows` (where it was estimated), `cell` (of every row, the place in
 #'   `rows` of the one that stands for it, NA outside the window); and `cap`.
 #' @noRd
-window_strength <- function(specimen, coordinates, curvature, type, keep_away, settings,
-                            trusted = NULL, mix = 0) {
+window_strength <- function(scan, coordinates, job, trusted = NULL, mix = 0) {
+  settings <- job$settings
+  type <- job$type
   thinned <- thinned_rows(coordinates, settings$vertices)
   rows <- thinned$rows
-  curved <- curvature(coordinates$vertex[rows])
+  curved <- job$source(coordinates$vertex[rows])
   across <- cross_rows(curved$normal,
                        columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
   across <- across / sqrt(rowSums(across^2))
-  lost <- if (is.null(keep_away)) FALSE else
-    is_kept_away(keep_away, specimen,
-                 t(as_mesh(specimen)$vb[1:3, coordinates$vertex[rows], drop = FALSE]))
+  lost <- if (is.null(job$regions)) FALSE else
+    is_kept_away(job$regions, t(scan$vb[1:3, coordinates$vertex[rows], drop = FALSE]))
   s <- coordinates$s[rows]
   if (!is.null(trusted)) lost <- lost | s < trusted[1] | s > trusted[2]
   capped <- function(value) {

@@ -31,10 +31,23 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   check_class(coordinates, "path_coordinates", "coordinates", "path_coordinates()")
   strength <- check_numbers(strength, "strength", nrow(coordinates), missing = TRUE)
+  in_context(smooth_strength(coordinates, strength, settings), attr(coordinates, "id"))
+}
+
+#' The smooth surface without checks, or a failure
+#' @noRd
+smooth_strength <- function(coordinates, strength, settings) {
   length <- attr(coordinates, "length")
   width <- attr(coordinates, "width")
   rows <- which(coordinates$inside & !is.na(strength))
-  if (length(rows) < settings$df) abort_few_vertices(length(rows), settings$df)
+  if (length(rows) < settings$df) {
+    return(no_result(
+      sprintf("only %d vertices of the window have a curvature, fewer than %g degrees of freedom.",
+              length(rows), settings$df),
+      "Give a larger `width` or `radius`, or fewer degrees of freedom: ridge_settings(df = ).",
+      "curvature surface"
+    ))
+  }
   margins <- list(along = spline_margin(settings$basis[1], 0, 1),
                   across = spline_margin(settings$basis[2], -1, 1))
   design <- list(along = margin_design(margins$along, coordinates$s[rows] / length),
@@ -42,7 +55,9 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
   penalty <- tensor_penalty(margins, settings$anisotropy)
   moments <- cpp_tensor_moments(design$along, design$across, strength[rows])
   chosen <- penalty_for_df(moments$matrix, penalty, settings$df)
-  factor <- surface_factor(moments$matrix + chosen$value * penalty)
+  factor <- if (failed(chosen)) chosen else
+    surface_factor(moments$matrix + chosen$value * penalty)
+  if (failed(factor)) return(factor)
   beta <- backsolve(factor, backsolve(factor, moments$right, transpose = TRUE))
   structure(
     list(coefficients = matrix(beta, settings$basis[2]), length = length, width = width,
@@ -54,23 +69,14 @@ curvature_surface <- function(coordinates, strength, settings = ridge_settings()
   )
 }
 
-#' Cholesky factor, or an error when the vertices do not determine a surface
+#' Cholesky factor, or a failure when the vertices do not determine a surface
 #' @noRd
 surface_factor <- function(moments) {
   tryCatch(chol(moments), error = function(e) {
-    crestline_abort("the vertices of the window lie on a line in (s, d), or far too unevenly for a smooth surface.",
-                    "Check the mesh by the landmarks for stretched triangles; give a larger `width`.",
-                    stage = "curvature surface", call = NULL)
+    no_result("the vertices of the window lie on a line in (s, d), or far too unevenly for a smooth surface.",
+                "Check the mesh by the landmarks for stretched triangles; give a larger `width`.",
+                "curvature surface")
   })
-}
-
-abort_few_vertices <- function(count, df) {
-  crestline_abort(
-    sprintf("only %d vertices of the window have a curvature, fewer than %g degrees of freedom.",
-            count, df),
-    "Give a larger `width` or `radius`, or fewer degrees of freedom: ridge_settings(df = ).",
-    stage = "curvature surface"
-  )
 }
 
 #' One margin: mgcv's p-spline smooth on equally spaced knots over an interval, made once a session
@@ -112,6 +118,7 @@ tensor_penalty <- function(margins, anisotropy) {
 penalty_for_df <- function(moments, penalty, df) {
   scale <- sum(diag(moments)) / sum(diag(penalty))
   factor <- surface_factor(moments + scale * penalty)
+  if (failed(factor)) return(factor)
   half <- backsolve(factor, moments, transpose = TRUE)
   inner <- backsolve(factor, t(half), transpose = TRUE)
   m <- pmin(pmax(eigen((inner + t(inner)) / 2, symmetric = TRUE, only.values = TRUE)$values, 0), 1)

@@ -6,8 +6,8 @@
 #' A triangle's bend is the angle between its normal and the mean of the normals at its corners: of
 #' the order of spacing over radius of curvature on a good mesh, large on noise and spikes.
 #'
-#' @param shape A `shape` without `checks`.
-#' @param scan,specimen Its specimen as it is, and with its holes bridged.
+#' @param shape A `shape` without `checks`, with its specimen.
+#' @param scan As of [prepare_scan()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param faults [surface_faults()] of the shape.
 #' @param ends Share of a curve's length at each end whose distance from a border does not count:
@@ -17,14 +17,13 @@
 #'   of good scans.
 #' @return Data frame, a row for each of `status`, as [fit_shape()] says.
 #' @noRd
-shape_checks <- function(shape, scan, specimen, fits, faults, ends = 0.05, crumpled = 30,
-                         spike = 4) {
+shape_checks <- function(shape, scan, fits, faults, ends = 0.05, crumpled = 30, spike = 4) {
   status <- shape$status
-  mesh <- scan$mesh
+  mesh <- shape$specimen$mesh
   places <- part_places(shape, fits, ncol(mesh$it), ends)
   bend <- cpp_face_bend(mesh$vb, mesh$normals, mesh$it)
   spiky <- list(vb = mesh$vb, it = mesh$it[, bend > crumpled, drop = FALSE])
-  damage <- list(border = border_places(walkable(specimen)), spike = face_centres(spiky))
+  damage <- list(border = border_places(scan), spike = face_centres(spiky))
   checks <- data.frame(part = status$part, level = status$level, missing = missing_share(shape),
                        determined = NA,
                        cut = NA_real_, guessed = NA, bridged = NA_real_, faults = NA_integer_,
@@ -44,8 +43,7 @@ shape_checks <- function(shape, scan, specimen, fits, faults, ends = 0.05, crump
 }
 
 fit_values <- function(fits, name) {
-  vapply(fits, function(fit) if (is.null(fit[[name]])) NA_real_ else as.numeric(fit[[name]]), 0,
-         USE.NAMES = FALSE)
+  vapply(fits, function(fit) as.numeric(fit[[name]]), 0, USE.NAMES = FALSE)
 }
 
 #' For every point the row of `status` of its part

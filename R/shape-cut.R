@@ -7,24 +7,24 @@
 #' long enough, so that no two curves from one landmark keep it both. A curve that the mesh's edge
 #' ends before its far landmark costs only its own points.
 #' @noRd
-cut_curves <- function(specimen, curves, pairs, fits, cut_scale) {
+cut_curves <- function(scan, curves, pairs, fits, cut_scale) {
   cut <- which(!is.na(curves$cut_share))
-  spans <- lapply(cut, function(i) cut_span(curves[i, ], specimen, pairs))
+  spans <- lapply(cut, function(i) cut_span(curves[i, ], scan, pairs))
   wanted <- curves$cut_share[cut] * vapply(spans, `[[`, 0, "length")
   whole <- vapply(fits[cut],
-                  function(fit) if (is.null(fit$followed) &&
-                                    !is.null(fit$path)) fit$length else NA_real_, 0)
+                  function(fit) if (is.na(fit$followed)) fit$length else NA_real_, 0)
   factor <- min(cut_scale, whole / wanted, na.rm = TRUE)
   shared <- if (factor < cut_scale) sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
   for (k in seq_along(cut)) {
     i <- cut[k]
     if (is.null(fits[[i]]$path)) next
     fits[[i]] <- if (is.na(wanted[k])) {
-      list(reason = spans[[k]]$note)
+      new_record(reason = spans[[k]]$note)
     } else {
-      part <- cut_curve(specimen$mesh, fits[[i]], factor * wanted[k], curves$n[i])
-      guessed <- !is.null(spans[[k]]$note) || !is.null(fits[[i]]$followed)
-      c(add_note(part, c(spans[[k]]$note, shared)), cut = factor / cut_scale, guessed = guessed)
+      part <- cut_curve(scan, fits[[i]], factor * wanted[k], curves$n[i])
+      part$cut <- factor / cut_scale
+      part$guessed <- !is.null(spans[[k]]$note) || !is.na(fits[[i]]$followed)
+      add_note(part, c(spans[[k]]$note, shared))
     }
   }
   fits
@@ -75,14 +75,14 @@ add_note <- function(fit, notes) {
 #' Where one of a left-right pair is missing: twice the distance of the other from the mirror plane.
 #' @return List: `length` (NA where it is not known), `note` (NULL where there is nothing to say).
 #' @noRd
-cut_span <- function(row, specimen, pairs) {
-  at <- landmark_places(specimen, c(row$cut_from, row$cut_to))
+cut_span <- function(row, scan, pairs) {
+  at <- landmark_places(scan, c(row$cut_from, row$cut_to))
   known <- !is.na(at[, 1])
   if (all(known)) return(list(length = sqrt(sum((at[1, ] - at[2, ])^2))))
   gone <- c(row$cut_from, row$cut_to)[!known]
   plane <- if (any(known) &&
                partner_of(row$cut_from, pairs,
-                          "landmarks") == row$cut_to) mirror_plane(specimen, pairs)
+                          "landmarks") == row$cut_to) mirror_plane(scan, pairs)
   if (is.null(plane)) return(list(length = NA_real_,
                                   note = sprintf("%s is missing: where to cut it is not known",
                                                  toString(gone))))
@@ -128,24 +128,24 @@ mirror_plane <- function(specimen, pairs, flat = 0.5) {
 #' What stands in for a far end that is not on the mesh or cannot be reached
 #'
 #' @param row Row of the curves table, a list.
-#' @return List: `end`, the place where the way towards the landmark leaves the mesh, one row;
+#' @return List: `end`, the place where the way towards the landmark leaves the mesh;
 #'   `name`, what it leads to. `NULL` where nothing is known of it.
 #' @noRd
-far_end <- function(row, specimen, pairs) {
-  near <- known_point(specimen, row$to)
-  target <- if (!is.null(near)) far_target(row$from, specimen, pairs)
-  end <- if (!is.null(target)) way_out(specimen, near, target$at)
+far_end <- function(row, scan, pairs) {
+  near <- scan_place(scan, row$to)
+  target <- if (!failed(near)) far_target(row$from, scan, pairs)
+  end <- if (!is.null(target)) way_out(scan, near, target$at)
   if (!is.null(end)) list(end = end, name = target$name)
 }
 
 #' Where a landmark is in space: its own co-ordinates, or the mirror image of its pair
 #' @noRd
-far_target <- function(name, specimen, pairs) {
-  own <- landmark_places(specimen, name)
+far_target <- function(name, scan, pairs) {
+  own <- landmark_places(scan, name)
   if (!is.na(own[1])) return(list(at = as.vector(own), name = name))
   partner <- partner_of(name, pairs, "landmarks")
-  at <- landmark_places(specimen, partner)
-  plane <- if (partner != name && !is.na(at[1])) mirror_plane(specimen, pairs)
+  at <- landmark_places(scan, partner)
+  plane <- if (partner != name && !is.na(at[1])) mirror_plane(scan, pairs)
   if (is.null(plane)) return(NULL)
   list(at = as.vector(at) - 2 * (sum(at * plane$normal) - plane$offset) * plane$normal,
        name = paste("the mirror image of", partner))
@@ -155,33 +155,32 @@ far_target <- function(name, specimen, pairs) {
 #'
 #' Of the cuts through both the shortest, what the mesh lacks counted in, followed to where it comes
 #' nearest to the point.
-#' @param near One row, a place on the mesh.
+#' @param near A place on the mesh, named as `mesh_columns`.
 #' @param target Three co-ordinates.
 #' @param angles Number of planes, over a half turn.
 #' @param bend Length of what the mesh lacks, as a multiple of the straight distance. A quarter of a
 #'   circle has 1.11, half of one 1.57. With less than 1.3 cuts win that end early (on a face with
 #'   its ear cut off), with more those that run along the edge.
 #' @param inside As in [path_ends()].
-#' @return One row, a place on the mesh; NULL where no cut comes nearer than `near` is.
+#' @return A place on the mesh; NULL where no cut comes nearer than `near` is.
 #' @noRd
-way_out <- function(specimen, near, target, angles = 121, bend = 1.35, inside = 1e-6) {
-  surface <- walkable(specimen)
-  xyz <- surface$vb[1:3, , drop = FALSE]
-  weight <- unlist(near[c("w1", "w2", "w3")]) + inside
-  at <- as.vector(xyz[, surface$it[, near$face]] %*% weight) / sum(weight)
+way_out <- function(scan, near, target, angles = 121, bend = 1.35, inside = 1e-6) {
+  xyz <- scan$vb[1:3, , drop = FALSE]
+  weight <- near[c("w1", "w2", "w3")] + inside
+  at <- as.vector(xyz[, scan$it[, near[["face"]]]] %*% weight) / sum(weight)
   axis <- unit_vector(target - at)
-  across <- unit_vector(cross_product(axis, path_normals(specimen$mesh, near)[, 1]))
+  across <- unit_vector(cross_product(axis, path_normals(scan, as.list(near))[, 1]))
   normals <- plane_normal(list(axis = axis, across = across),
                           seq(-pi / 2, pi / 2, length.out = angles)[-1])
   ways <- lapply(seq_len(ncol(normals)), function(i) {
     level <- as.vector(normals[, i] %*% xyz) - sum(normals[, i] * at)
-    walk <- cpp_level_path(surface$vb, surface$it, surface$twin, near$face, 0, level, axis)$points
+    walk <- cpp_level_path(scan$vb, scan$it, scan$twin, near[["face"]], 0, level, axis)$points
     way_towards(walk, at, target, bend)
   })
   ways <- Filter(Negate(is.null), ways)
   if (!length(ways)) return(NULL)
   best <- ways[[which.min(vapply(ways, `[[`, 0, "length"))]]
-  stats::setNames(as.data.frame(t(best$end)), mesh_columns)
+  stats::setNames(best$end, mesh_columns)
 }
 
 #' How far a walk leads towards a point: length to the place nearest to it and from there on, and
@@ -203,8 +202,9 @@ cut_curve <- function(mesh, fit, length, n) {
   placed <- min(n, floor(fit$length / step * (1 + sqrt(.Machine$double.eps))) + 1)
   ended <- sprintf("it ends after %.3g of %.3g: %d of %d points missing", fit$length, length,
                    n - placed, n)
-  if (placed < 2) return(list(reason = paste(c(stats::na.omit(fit$reason), ended),
-                                             collapse = "; ")))
+  if (placed < 2) {
+    return(new_record(reason = paste(c(stats::na.omit(fit$reason), ended), collapse = "; ")))
+  }
   start <- max(fit$length - (placed - 1) * step, 0)
   path <- part_of_path(mesh, fit$path, start, fit$length)
   at <- resample_path(mesh, path, placed)

@@ -27,8 +27,7 @@ divide_quads <- function(x, specimen, quads, factor, column) {
   sides <- quad_sides(corners)
   lattice <- quad_lattice(corners, sides, factor, length(row))
   triangles <- lattice_triangles(lattice, quads$outward == "columns", factor)
-  cutter <- list(specimen = specimen, surface = walkable(specimen), column = column,
-                 factor = factor)
+  cutter <- list(scan = c(walkable(specimen), list(column = column)), factor = factor)
   points <- matrix(NA_real_, max(lattice), length(mesh_columns),
                    dimnames = list(NULL, mesh_columns))
   points[seq_along(row), ] <- at
@@ -51,7 +50,7 @@ divide_quads <- function(x, specimen, quads, factor, column) {
 #' @return `points`, those of such sides and of the quads beside them changed.
 #' @noRd
 straighten_folds <- function(points, lattice, triangles, sides, along, cutter) {
-  normals <- t(path_normals(cutter$specimen$mesh, as.data.frame(points)))
+  normals <- t(path_normals(cutter$scan, as.data.frame(points)))
   folded <- unique(triangles$quad[flipped_triangles(points[, 1:3], triangles$it, normals)])
   straight <- intersect(sides$side[folded, ], which(along$curved))
   if (!length(straight)) return(points)
@@ -109,22 +108,22 @@ quad_lattice <- function(corners, sides, factor, count) {
 
 #' The points of all sides, by side, from its smaller end to its greater
 #'
-#' @param cutter List of `specimen`, `surface`, `column`, `factor`.
+#' @param cutter List of `scan` (of [walkable()], with `column`) and `factor`.
 #' @param tolerance A point is on a curve that is no farther away, as a share of the mesh's
 #'   diagonal.
 #' @return List: `points`; `cuts`, those that cuts alone would give; `curved`, by side, whether it
 #'   follows a curve.
 #' @noRd
 divide_sides <- function(paths, at, ends, cutter, tolerance = 1e-6) {
-  mesh <- cutter$specimen$mesh
-  tolerance <- tolerance * mesh_diagonal(mesh)
+  scan <- cutter$scan
+  tolerance <- tolerance * scan$diagonal
   curves <- edges_on_curves(paths, at, ends, tolerance)
   cuts <- cut_points(at, ends, cutter)
   points <- cuts
   inner <- seq_len(cutter$factor - 1)
   for (e in which(!is.na(curves$curve))) {
-    part <- part_of_path(mesh, paths[[curves$curve[e]]], curves$from[e], curves$to[e])
-    placed <- resample_path(mesh, part, cutter$factor + 1)
+    part <- part_of_path(scan, paths[[curves$curve[e]]], curves$from[e], curves$to[e])
+    placed <- resample_path(scan, part, cutter$factor + 1)
     # Over a hole a path is straight, and off the mesh.
     if (any(row_lengths(columns_of(placed)[, 1:3] - points_along(part, placed$s)) > tolerance)) {
       curves$curve[e] <- NA
@@ -149,7 +148,7 @@ cut_points <- function(points, ends, cutter) {
   outside <- matrix(NA_real_, 3, length(there))
   cuts <- column_points(points[ends[there, 1], , drop = FALSE],
                         points[ends[there, 2], , drop = FALSE], outside,
-                        cutter$factor + 1, cutter$surface, cutter$column)
+                        cutter$factor + 1, cutter$scan)
   rows <- outer(inner, (there - 1) * length(inner), "+")
   found[rows, ] <- do.call(rbind, lapply(cuts, function(cut) cut[inner + 1, , drop = FALSE]))
   found

@@ -144,30 +144,28 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = NU
   cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
   column <- check_column(column_angle, column_angles, column_reach)
   column$bridge <- check_number(bridge, "bridge", 0, 1)
-  scan <- with_located(specimen)
-  if (!is.null(scan$placing)) scan$placing <- current_placing(scan)
-  specimen <- bridge_holes(scan, column$bridge)
+  specimen <- with_located(specimen)
+  if (!is.null(specimen$placing)) specimen$placing <- current_placing(specimen)
+  scan <- prepare_scan(specimen, scheme, settings, passes, column, threads)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches),
                          specimen$id)
-  landmarks <- fit_scheme_landmarks(scan, scheme)
-  given <- given_fits(specimen, scan, scheme, curves, column)
-  slips <- scheme_slips(scan, scheme)
-  fits <- fit_scheme_curves(specimen, scan, scheme, settings, passes, threads, cut_scale, given,
-                            tick)
-  store <- place_store(scheme, landmarks$points, fits)
-  patches <- fit_scheme_patches(specimen, scan, scheme, fits, store, column, tick)
+  given <- given_fits(specimen, scan, scheme, curves)
+  slips <- scheme_slips(specimen, scheme)
+  fits <- fit_scheme_curves(scan, scheme, given, cut_scale, tick)
+  store <- place_store(scheme, scan$points, fits)
+  patches <- fit_scheme_patches(scan, scheme, fits, store, tick)
   shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
-                     shape_status(scheme, landmarks$reason, fits, patches$problems), scheme,
-                     paths = lapply(fits, function(fit) unbridged_path(fit$path, scan)),
-                     tracks = curve_tracks(fits, scheme, ncol(scan$mesh$it)), column = column,
-                     specimen = scan,
-                     provenance = shape_provenance(scan, named, unit,
+                     shape_status(scheme, scan$reason, fits, patches$problems), scheme,
+                     paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
+                     tracks = curve_tracks(fits, scheme, scan$faces), column = column,
+                     specimen = specimen,
+                     provenance = shape_provenance(specimen, named, unit,
                                                    measured_with(settings, passes, cut_scale,
                                                                  column, curves)))
-  faults <- tryCatch(surface_faults(shape, scan), crestline_error = function(e) NULL)
+  faults <- tryCatch(surface_faults(shape, specimen), crestline_error = function(e) NULL)
   shape <- note_slips(note_faults(shape, faults), slips)
-  shape$checks <- cbind(shape_checks(shape, scan, specimen, fits, faults),
-                        landmark_checks(shape, scan$placing, slips))
+  shape$checks <- cbind(shape_checks(shape, scan, fits, faults),
+                        landmark_checks(shape, specimen$placing, slips))
   shape
 }
 
@@ -185,26 +183,6 @@ progress_ticks <- function(progress, n, id) {
   if (!progress) return(function() NULL)
   bar <- cli::cli_progress_bar(paste("Measuring", id), total = n, .envir = parent.frame())
   function() cli::cli_progress_update(id = bar)
-}
-
-#' The scheme's landmarks on the mesh
-#' @return List: `points` (matrix k x 7, row names), `reason` (NA where found).
-#' @noRd
-fit_scheme_landmarks <- function(specimen, scheme) {
-  names <- scheme$landmarks$landmark
-  points <- matrix(NA_real_, length(names), length(mesh_columns),
-                   dimnames = list(names, mesh_columns))
-  reason <- stats::setNames(rep(NA_character_, length(names)), names)
-  for (name in names) {
-    found <- tryCatch(landmark_point(specimen, name),
-                      crestline_error = function(e) sub("\\.$", "", e$problem))
-    if (is.character(found)) found <- c(left_out_reason(specimen, name), found)[1]
-    if (is.data.frame(found)) points[name, ] <- unlist(found[mesh_columns]) else
-      reason[name] <- found
-  }
-  near <- attr(unused_names(specimen$landmarks, scheme), "near")
-  reason[near] <- sprintf("%s; near: %s", reason[near], names(near))
-  list(points = points, reason = reason)
 }
 
 #' Every place of a scheme, those of landmarks and curves filled in

@@ -1,16 +1,16 @@
 # Curves that come with a specimen, drawn by hand or by other software: laid onto its mesh, not
 # searched for.
 
-#' Fits of the curves that are given
+#' Records of the curves that are given
 #'
-#' @param specimen The specimen with its holes bridged, `scan` as it is.
+#' @param specimen The specimen as it is.
+#' @param scan As of [prepare_scan()].
 #' @param curves As in [fit_shape()].
-#' @param column As of [fit_scheme_patches()].
 #' @return Named list of the given curves, each as of [fit_scheme_curves()].
 #' @noRd
-given_fits <- function(specimen, scan, scheme, curves, column) {
+given_fits <- function(specimen, scan, scheme, curves) {
   for (name in names(curves)) {
-    if (inherits(curves[[name]], "curve")) check_curve_on(curves[[name]], scan,
+    if (inherits(curves[[name]], "curve")) check_curve_on(curves[[name]], specimen,
                                                           sprintf("`curves`: %s", name))
   }
   curves <- as_curves(curves)
@@ -21,45 +21,42 @@ given_fits <- function(specimen, scan, scheme, curves, column) {
                     "Name the curves as the scheme does: as.data.frame(scheme)$curve.",
                     stage = "curves", id = specimen$id, call = NULL)
   }
-  surface <- walkable(specimen)
+  tolerance <- 0.01 * specimen_size(specimen)
   Map(function(xyz, name) {
-    row <- scheme$curves[scheme$curves$curve == name, ]
-    tryCatch(given_fit(row, xyz, specimen, surface, column),
-             crestline_error = function(e) list(reason = paste("as given:", e$problem)))
+    given_fit(scheme$curves[scheme$curves$curve == name, ], xyz, scan, tolerance)
   }, curves, names(curves))
 }
 
 #' One given curve: its points on the mesh, its ends at the landmarks, joined by cuts
 #'
-#' @param tolerance Greatest distance of a point from the mesh, as in [specimen()].
+#' @param tolerance Greatest distance of a point from the mesh, in its unit.
 #' @noRd
-given_fit <- function(row, xyz, specimen, surface, column, tolerance = 0.01) {
+given_fit <- function(row, xyz, scan, tolerance) {
   xyz <- xyz[!is.na(rowSums(xyz)), , drop = FALSE]
   xyz <- xyz[c(TRUE, row_lengths(diff(xyz)) > 0), , drop = FALSE]
-  if (nrow(xyz) < 2) return(list(reason = "as given: it has fewer than two points"))
-  ends <- list(from = if (is.na(row$cut_share)) known_point(specimen, row$from),
-               to = known_point(specimen, row$to))
+  if (nrow(xyz) < 2) return(new_record(reason = "as given: it has fewer than two points"))
+  ends <- list(from = if (is.na(row$cut_share)) scan_place(scan, row$from),
+               to = scan_place(scan, row$to))
+  ends <- Filter(Negate(failed), ends)
   if (runs_backwards(xyz, ends)) xyz <- xyz[nrow(xyz):1, , drop = FALSE]
-  knots <- surface_points(specimen$mesh, xyz)
+  knots <- surface_points(scan, xyz)
   place <- as.matrix(knots[c("x", "y", "z")])
   off <- row_lengths(place - xyz)
-  knots[off > tolerance * specimen_size(specimen) | c(row_lengths(diff(place)) == 0, FALSE), ] <- NA
+  knots[off > tolerance | c(row_lengths(diff(place)) == 0, FALSE), ] <- NA
   if (!is.null(ends$from)) knots[1, ] <- ends$from
   if (!is.null(ends$to)) knots[nrow(knots), ] <- ends$to
-  joined <- join_knots(as.matrix(knots), specimen, surface, column)
+  joined <- join_knots(as.matrix(knots), scan)
   own <- nrow(knots) == row$n
-  if (is.null(joined$path) || joined$first > 1 &&
-      !own) return(list(reason = paste("as given:", joined$problem)))
-  points <- if (own) data.frame(knots, s = joined$s) else
-    resample_path(specimen$mesh, joined$path, row$n)
+  if (is.null(joined$path) || joined$first > 1 && !own) {
+    return(new_record(reason = paste("as given:", joined$problem)))
+  }
+  points <- if (own) data.frame(knots, s = joined$s) else resample_path(scan, joined$path, row$n)
   points[seq_len(joined$first - 1), ] <- NA
   said <- sprintf("as given: points up to %.2g from the mesh", max(off[joined$first:nrow(xyz)]))
   if (joined$first > 1) said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first,
                                         row$n, joined$problem)
-  list(points = cbind(points[c(mesh_columns, "s")], se = NA_real_), path = joined$path,
-       length = attr(joined$path, "length"), strength = NA_real_, contrast = NA_real_,
-       se = NA_real_,
-       se_max = NA_real_, competing = NA_real_, determined = NA, reason = said)
+  new_record(points = cbind(points[c(mesh_columns, "s")], se = NA_real_), path = joined$path,
+             length = attr(joined$path, "length"), reason = said)
 }
 
 #' Whether the ends of points lie nearer to their landmarks when run backwards
@@ -78,36 +75,31 @@ runs_backwards <- function(xyz, ends) {
 #'   that can; `s`, arc length at every knot, NA before the first; `problem`, why there is no more,
 #'   NULL where all are joined.
 #' @noRd
-join_knots <- function(knots, specimen, surface, column) {
+join_knots <- function(knots, scan) {
   last <- nrow(knots)
   pieces <- vector("list", last - 1)
   length <- numeric(last - 1)
   problem <- NULL
   first <- 1
   for (i in rev(seq_len(last - 1))) {
-    piece <- tryCatch(join_two(knots[i, ], knots[i + 1, ], specimen, surface, column),
-                      crestline_error = identity)
-    if (inherits(piece, "condition")) {
+    if (anyNA(knots[c(i, i + 1), ])) {
+      piece <- no_result("a point is not on the mesh.", "Trace the curve on this mesh.", "curves")
+    } else if (any(knots[i, 1:3] != knots[i + 1, 1:3])) {
+      piece <- cut_between(knots[i, ], knots[i + 1, ], scan)
+    } else {
+      next
+    }
+    if (failed(piece)) {
       problem <- piece$problem
       first <- i + 1
       break
     }
-    if (is.null(piece)) next
     pieces[[i]] <- piece
     length[i] <- attr(piece, "length")
   }
   s <- c(0, cumsum(length))
   s[seq_len(first - 1)] <- NA
-  rows <- lapply(Filter(Negate(is.null), pieces),
-                 function(piece) as.data.frame(piece)[mesh_columns])
-  list(path = if (length(rows)) path_through(do.call(rbind, rows), surface), first = first, s = s,
+  rows <- lapply(Filter(Negate(is.null), pieces), columns_of)
+  list(path = if (length(rows)) path_through(do.call(rbind, rows), scan), first = first, s = s,
        problem = problem)
-}
-
-#' A cut from one knot to the next, NULL where they are one place
-#' @noRd
-join_two <- function(from, to, specimen, surface, column) {
-  if (anyNA(c(from, to))) crestline_abort("a point is not on the mesh.",
-                                          "Trace the curve on this mesh.", stage = "curves")
-  if (any(from[1:3] != to[1:3])) cut_between(from, to, specimen, surface, column)
 }

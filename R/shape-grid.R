@@ -46,8 +46,9 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   own <- if (is.na(block$resample_a)) nrow(side_points(block$curve_a)) else block$resample_a
   columns <- check_count(if (is.null(columns)) own else columns, "columns", 2, upper = 10000)
   rows <- check_count(if (is.null(rows)) block$rows else rows, "rows", 2, upper = 10000)
-  points <- block_grid(x, specimen, block, columns, rows,
-                       check_column(column_angle, column_angles, column_reach))
+  scan <- c(walkable(specimen),
+            list(column = check_column(column_angle, column_angles, column_reach)))
+  points <- block_grid(x, scan, block, columns, rows)
   place <- ifelse(is.na(points$x), NA, paste(points$x, points$y, points$z))
   vertex <- match(place, unique(place[!is.na(place)]))
   outward <- if (is.na(block$outward)) "columns" else block$outward
@@ -89,21 +90,19 @@ refuse_patch <- function(x, problem, remedy) {
 
 #' All points of a block, by column, then by row
 #' @noRd
-block_grid <- function(x, specimen, block, columns, rows, column) {
-  surface <- walkable(specimen)
-  fits <- shape_fits(x, specimen)
+block_grid <- function(x, scan, block, columns, rows) {
+  fits <- shape_fits(x, scan)
   store <- as.matrix(x$points[match(unique(x$scheme$points$place), x$scheme$points$place),
                               mesh_columns])
   rownames(store) <- unique(x$scheme$points$place)
-  side <- function(text, n) block_side(text, n, specimen, surface, x$scheme$curves, fits, store,
-                                       column)
+  side <- function(text, n) block_side(text, n, scan, x$scheme$curves, fits, store)
   a <- side(block$curve_a, columns)
   b <- side(block$curve_b, columns)
   if (!is.null(c(a$problem, b$problem))) refuse_patch(x, c(a$problem, b$problem)[1],
                                                       "See `status` for the reason.")
   outside <- vapply(seq_len(columns),
                     function(k) column_outside(a$points, b$points, k, block$outward), numeric(3))
-  grid <- column_points(a$points, b$points, outside, rows, surface, column)
+  grid <- column_points(a$points, b$points, outside, rows, scan)
   if (!is.na(block$first_column)) grid[[1]] <- side(block$first_column, rows)$points
   data.frame(column = rep(seq_len(columns), each = rows), row = rep(seq_len(rows), columns),
              do.call(rbind, grid),
@@ -114,8 +113,8 @@ block_grid <- function(x, specimen, block, columns, rows, column) {
 #' cut, the ends alone
 #' @return List of rows x 7 matrices.
 #' @noRd
-column_points <- function(from, to, outside, rows, surface, column) {
-  found <- fit_columns(from, to, outside, rows, surface, column)
+column_points <- function(from, to, outside, rows, scan) {
+  found <- fit_columns(from, to, outside, rows, scan)
   for (k in which(!is.na(found$problem))) {
     same <- all(from[k, 1:3] == to[k, 1:3])
     between <- matrix(if (same) from[k, ] else NA_real_, rows - 2, length(mesh_columns),
@@ -130,11 +129,11 @@ column_points <- function(from, to, outside, rows, surface, column) {
 #' @param tolerance Points farther from their curve's path (in shares of the mesh's diagonal) have
 #'   no place on it.
 #' @noRd
-shape_fits <- function(x, specimen, tolerance = 1e-6) {
+shape_fits <- function(x, scan, tolerance = 1e-6) {
   lapply(stats::setNames(nm = names(Filter(Negate(is.null), x$paths))), function(name) {
     own <- x$points[x$points$level == "curves" & x$points$part == name, ]
     s <- arc_lengths_on(x$paths[[name]], as.matrix(own[c("x", "y", "z")]),
-                        tolerance * mesh_diagonal(specimen$mesh))
+                        tolerance * scan$diagonal)
     list(points = data.frame(s = s), path = x$paths[[name]])
   })
 }

@@ -2,19 +2,17 @@
 
 #' Fit the patches of a scheme
 #'
-#' @param specimen,scan As in [fit_scheme_curves()].
+#' @param scan As of [prepare_scan()]; of its fields those of [walkable()], `faces` and `column`.
+#'   After sliding, `column$follow` says whether bounding curves of another number of points take
+#'   them from their own points' places, slid ones, in place of equal chords.
 #' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
-#' @param column As the arguments of [fit_shape()]: list of `angle`, `angles`, `reach`; and after
-#'   sliding `follow`: whether bounding curves of another number of points take them from their own
-#'   points' places, slid ones, in place of equal chords.
 #' @param tick Called after every block.
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches
 #'   table a list of `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
-fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick) {
-  surface <- walkable(specimen)
+fit_scheme_patches <- function(scan, scheme, fits, store, tick) {
   points <- scheme$points[scheme$points$level == "surface", ]
   block_of <- rep(seq_len(nrow(scheme$patches)), scheme$patches$n)
   problems <- vector("list", nrow(scheme$patches))
@@ -22,9 +20,9 @@ fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick
     block <- scheme$patches[i, ]
     grid <- block_points(block)
     grid$place <- points$place[block_of == i]
-    fit <- fit_block(block, grid, specimen, surface, scheme$curves, fits, store, column)
+    fit <- fit_block(block, grid, scan, scheme$curves, fits, store)
     store <- fit$store
-    lost <- grid$place[which(store[grid$place, "face"] > ncol(scan$mesh$it))]
+    lost <- grid$place[which(store[grid$place, "face"] > scan$faces)]
     store[lost, ] <- NA
     why <- c(fit$why, if (length(lost)) sprintf("%d in a hole of the mesh", length(lost)))
     problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = why)
@@ -36,9 +34,8 @@ fit_scheme_patches <- function(specimen, scan, scheme, fits, store, column, tick
 #' One block: its sides, its first column, and the cuts of the columns with points that are not
 #' there yet
 #' @noRd
-fit_block <- function(block, grid, specimen, surface, curves, fits, store, column) {
-  side <- function(text, resample) block_side(text, resample, specimen, surface, curves, fits,
-                                              store, column)
+fit_block <- function(block, grid, scan, curves, fits, store) {
+  side <- function(text, resample) block_side(text, resample, scan, curves, fits, store)
   a <- side(block$curve_a, block$resample_a)
   b <- if (!is.na(block$curve_b)) side(block$curve_b, block$resample_b)
   store <- fill_store(store, grid$place[grid$row == 1],
@@ -62,7 +59,7 @@ fit_block <- function(block, grid, specimen, surface, curves, fits, store, colum
   outside <- vapply(at, function(i) column_outside(a$points, b$points, i, block$outward),
                     numeric(3))
   cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], outside,
-                      block$rows, surface, column)
+                      block$rows, scan)
   failed <- !is.na(cuts$problem)
   rows <- open[open$column %in% at[!failed], ]
   values <- do.call(rbind,
@@ -92,7 +89,7 @@ patch_reason <- function(problems, most = 3) {
 #' @return List: `points` (K x 7 matrix, rows of NA where missing), `problem` (NULL or what is
 #'   missing).
 #' @noRd
-block_side <- function(text, resample, specimen, surface, curves, fits, store, column) {
+block_side <- function(text, resample, scan, curves, fits, store) {
   knots <- side_points(text)
   points <- store[curve_places(knots$curve, knots$point, curves), mesh_columns, drop = FALSE]
   lost <- is.na(points[, "x"])
@@ -100,11 +97,12 @@ block_side <- function(text, resample, specimen, surface, curves, fits, store, c
   if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (any(lost)) return(list(points = spaced, problem = problem))
-  if (isTRUE(column$follow) && length(unique(knots$curve)) == 1) {
-    placed <- follow_points(knots$point, fits[[knots$curve[1]]], resample, specimen$mesh)
+  if (isTRUE(scan$column$follow) && length(unique(knots$curve)) == 1) {
+    placed <- follow_points(knots$point, fits[[knots$curve[1]]], resample, scan)
   } else {
-    path <- side_path(knots, points, specimen, surface, fits, column)
-    placed <- resample_path(specimen$mesh, path, resample)
+    path <- side_path(knots, points, scan, fits)
+    if (failed(path)) return(list(points = spaced, problem = path$problem))
+    placed <- resample_path(scan, path, resample)
   }
   spaced[] <- columns_of(placed)
   spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
@@ -131,24 +129,25 @@ follow_points <- function(point, fit, n, mesh) {
 
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet
 #' @noRd
-side_path <- function(knots, points, specimen, surface, fits, column) {
+side_path <- function(knots, points, scan, fits) {
   run <- cumsum(c(TRUE, knots$curve[-1] != knots$curve[-nrow(knots)]))
   pieces <- list()
   for (r in unique(run)) {
     at <- which(run == r)
     before <- at[1] - 1
     if (before > 0 && any(points[before, 1:3] != points[at[1], 1:3])) {
-      pieces <- c(pieces, list(cut_between(points[before, ], points[at[1], ], specimen, surface,
-                                           column)))
+      joint <- cut_between(points[before, ], points[at[1], ], scan)
+      if (failed(joint)) return(joint)
+      pieces <- c(pieces, list(joint))
     }
     if (length(at) > 1) {
       fit <- fits[[knots$curve[at[1]]]]
       s <- fit$points$s[knots$point[range(at)]]
       if (at[1] > at[length(at)]) s <- rev(s)
-      pieces <- c(pieces, list(part_of_path(specimen$mesh, fit$path, s[1], s[2])))
+      pieces <- c(pieces, list(part_of_path(scan, fit$path, s[1], s[2])))
     }
   }
-  path_through(do.call(rbind, lapply(pieces, columns_of)), surface)
+  path_through(do.call(rbind, lapply(pieces, columns_of)), scan)
 }
 
 #' Direction out of a patch at one of its columns, by the order of its corners
@@ -178,13 +177,13 @@ column_outside <- function(a, b, at, outward) {
 #' @return List: `points` (list of rows x 7 matrices), `cuts` (list of matrices s, x, y, z, face:
 #'   what the points lie on), `problem` (NA where the column is there).
 #' @noRd
-fit_columns <- function(from, to, outside, rows, surface, column, inside = 1e-6, rim = pi / 4) {
+fit_columns <- function(from, to, outside, rows, scan, inside = 1e-6, rim = pi / 4) {
   at <- c("face", "w1", "w2", "w3")
   same <- rowSums((from[, 1:3, drop = FALSE] - to[, 1:3, drop = FALSE])^2) == 0
-  apart <- surface$piece[from[, "face"]] != surface$piece[to[, "face"]]
-  found <- cpp_fit_columns(surface$vb, surface$it, surface$twin, from[, at, drop = FALSE],
+  apart <- scan$piece[from[, "face"]] != scan$piece[to[, "face"]]
+  found <- cpp_fit_columns(scan$vb, scan$it, scan$twin, from[, at, drop = FALSE],
                            to[, at, drop = FALSE],
-                           outside, rep(rows, nrow(from)), c(column, inside = inside, rim = rim),
+                           outside, rep(rows, nrow(from)), c(scan$column, inside = inside, rim = rim),
                            chord_settings())
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
@@ -199,9 +198,11 @@ column_problems <- c(
   "no axis" = "its ends are too near to each other"
 )
 
-cut_between <- function(from, to, specimen, surface, column) {
-  ends <- path_ends(specimen, surface, from[mesh_columns], to[mesh_columns])
-  limited_cut(surface, ends, column$angle, column$angles, column$reach)
+cut_between <- function(from, to, scan) {
+  ends <- path_ends(scan, rbind(from[mesh_columns], to[mesh_columns]),
+                    c(end_name(from), end_name(to)))
+  column <- scan$column
+  limited_cut(scan, ends, column$angle, column$angles, column$reach)
 }
 
 #' Fill those of the places that are still empty

@@ -3,15 +3,15 @@
 #' Begin to fit the curves of a scheme again and again
 #'
 #' @param specimen,scheme,settings,bridge,threads As in [fit_shape()].
-#' @return List: `scheme`, `settings`, `faces` of the mesh, `bridged` (the specimen with its holes
-#'   bridged), `sources` (of curvature, which keep what they have estimated), `whole` and `fits` (by
-#'   curve, before and after they are cut off; as yet none).
+#' @return List: `scheme`, `bridged` (the specimen with its holes bridged), `scan` of
+#'   [prepare_scan()] (its sources of curvature keep what they have estimated), `whole` and `fits`
+#'   (by curve, before and after they are cut off; as yet none).
 #' @noRd
 begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
   none <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
-  list(scheme = scheme, settings = settings, faces = ncol(specimen$mesh$it),
-       bridged = bridge_holes(specimen, bridge),
-       sources = scheme_curvatures(specimen, scheme$curves, settings, threads), whole = none,
+  column <- list(bridge = bridge)
+  list(scheme = scheme, bridged = bridge_holes(specimen, bridge),
+       scan = prepare_scan(specimen, scheme, settings, 1, column, threads), whole = none,
        fits = none)
 }
 
@@ -29,12 +29,12 @@ refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n)
   scheme <- fitting$scheme
   fitting$bridged <- with_landmarks_of(fitting$bridged, specimen)
   touched <- touched_curves(scheme$curves, moved, fitting$whole)
-  whole <- fit_whole_curves(fitting$whole, touched, fitting$bridged, scheme, fitting$sources,
-                            fitting$settings, NULL,
-                            progress(sum(touched)))
-  fitting$whole <- whole
+  placed <- scan_landmarks(specimen, fitting$bridged, scheme)
+  fitting$scan[names(placed)] <- placed
+  fitting$whole <- fit_whole_curves(fitting$whole, touched, fitting$scan, scheme,
+                                    progress(sum(touched)))
   every <- rep(TRUE, nrow(scheme$curves))
-  fitting$fits <- finished_curves(whole, every, fitting$bridged, fitting$faces, scheme, 1)
+  fitting$fits <- finished_curves(fitting$whole, every, fitting$scan, scheme, 1)
   fitting$refitted <- scheme$curves$curve[touched]
   fitting
 }
@@ -58,7 +58,7 @@ touched_curves <- function(curves, moved, whole) {
   by_name <- c("from", "to", "keep_away_from", "keep_away_to", "keep_side_from", "keep_side_to",
                "keep_side_towards")
   named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved))
-  unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.null(fit$followed), NA)
+  unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.na(fit$followed), NA)
   touched <- named | unsettled & !is.na(curves$cut_share)
   for (i in fitting_order(curves)) {
     if (curves$side_of[i] %in% curves$curve[touched]) touched[i] <- TRUE

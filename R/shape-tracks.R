@@ -28,15 +28,14 @@ curve_tracks <- function(fits, scheme, faces) {
 
 #' Refuse tracks that do not lie on the mesh of a shape, or whose points do not lie on them
 #'
-#' @param bridged The shape's specimen with its holes bridged.
+#' @param scan The shape's specimen with its holes bridged, as of [walkable()].
 #' @noRd
-check_tracks <- function(shape, bridged) {
-  known <- passed_mesh(bridged$mesh, bridged$id)
+check_tracks <- function(shape, scan) {
   for (name in names(shape$tracks)) {
     track <- shape$tracks[[name]]
     said <- sprintf("the track of %s", name)
     check_class(track$path, "mesh_path", said, "fit_shape()")
-    check_places(track$path, known, said, shape$id)
+    check_places(track$path, scan, said, shape$id)
     s <- track$s[!is.na(track$s)]
     right <- is.numeric(track$s) && length(track$s) == sum(shape$points$level == "curves" &
                                                            shape$points$part == name) &&

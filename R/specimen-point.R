@@ -9,6 +9,12 @@
 #' @noRd
 landmark_point <- function(specimen, name, tolerance = 0.01) {
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  found_landmark(specimen, name, tolerance)
+}
+
+#' The same of a specimen that has passed the door
+#' @noRd
+found_landmark <- function(specimen, name, tolerance = 0.01) {
   id <- specimen$id
   known <- rownames(specimen$landmarks)
   if (!is.character(name) || length(name) != 1 || is.na(name) || !name %in% known) {

@@ -91,7 +91,7 @@ specimen_of_shape <- function(shape, specimen) {
 #' @noRd
 cut_between_slid <- function(shape, state, curves, specimen) {
   cutting <- cutting_of(shape, NULL, specimen)
-  check_tracks(shape, cutting$bridged)
+  check_tracks(shape, cutting$scan)
   fits <- Map(function(s, curve) list(points = data.frame(s = s), path = curve$path), curves$s,
               state$curves)
   cutting$fits <- fits
@@ -99,12 +99,14 @@ cut_between_slid <- function(shape, state, curves, specimen) {
        store = between_curves(cutting, curves_placed(state, curves$s, specimen$mesh)))
 }
 
-#' @return List: `fits`, `column`, `specimen`, `bridged`, `scheme`, as [fit_scheme_patches()] takes
-#'   them.
+#' @return List: `fits`, `specimen`, `scheme`, and the `scan` with its holes bridged, as
+#'   [fit_scheme_patches()] takes it.
 #' @noRd
 cutting_of <- function(shape, fits, specimen) {
-  list(fits = fits, column = c(shape$column, follow = TRUE), specimen = specimen,
-       bridged = bridge_holes(specimen, shape$column$bridge), scheme = shape$scheme)
+  scan <- walkable(bridge_holes(specimen, shape$column$bridge))
+  scan$faces <- ncol(specimen$mesh$it)
+  scan$column <- c(shape$column, follow = TRUE)
+  list(fits = fits, specimen = specimen, scan = scan, scheme = shape$scheme)
 }
 
 #' Surface points slid, and the record
@@ -140,7 +142,7 @@ with_tracks <- function(shape, s, cutting) {
     shape$tracks[[name]]$s <- s[[name]]
     if (!moved) next
     length <- attr(track$path, "length")
-    path <- part_of_path(cutting$bridged$mesh, track$path, min(s[[name]], na.rm = TRUE), length)
+    path <- part_of_path(cutting$scan, track$path, min(s[[name]], na.rm = TRUE), length)
     shape$paths[[name]] <- unbridged_path(path, cutting$specimen)
     shape$status$length[shape$status$level == "curves" &
                         shape$status$part == name] <- attr(path, "length")

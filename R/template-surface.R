@@ -10,9 +10,7 @@
 between_curves <- function(cutting, store) {
   points <- cutting$scheme$points
   store[setdiff(points$place, points$place[points$level != "surface"]), ] <- NA
-  fit_scheme_patches(cutting$bridged, cutting$specimen, cutting$scheme, cutting$fits, store,
-                     cutting$column,
-                     function() NULL)$store
+  fit_scheme_patches(cutting$scan, cutting$scheme, cutting$fits, store, function() NULL)$store
 }
 
 #' Slide the points inside patches
@@ -117,14 +115,12 @@ slide_transects <- function(set, store, cutting, plan) {
 #'   takes them).
 #' @noRd
 transects <- function(set, store, cutting, settings) {
-  surface <- walkable(cutting$bridged)
   patches <- cutting$scheme$patches
   places <- split(cutting$scheme$points$place[cutting$scheme$points$level == "surface"],
                   rep(seq_len(nrow(patches)), patches$n))
   each <- lapply(which(vapply(places, function(place) any(place %in% set$free), NA)), function(i) {
     grid <- cbind(block_points(patches[i, ]), place = places[[i]])
-    block_transects(patches[i, ], grid[grid$place %in% set$free, ], set, store, surface, cutting,
-                    settings)
+    block_transects(patches[i, ], grid[grid$place %in% set$free, ], set, store, cutting, settings)
   })
   unlist(each, recursive = FALSE)
 }
@@ -133,10 +129,9 @@ transects <- function(set, store, cutting, settings) {
 #'
 #' @param grid Its free points, as of [block_points()] with their places.
 #' @noRd
-block_transects <- function(block, grid, set, store, surface, cutting, settings) {
+block_transects <- function(block, grid, set, store, cutting, settings) {
   side <- function(text, resample) {
-    block_side(text, resample, cutting$bridged, surface, cutting$scheme$curves, cutting$fits, store,
-               cutting$column)$points
+    block_side(text, resample, cutting$scan, cutting$scheme$curves, cutting$fits, store)$points
   }
   a <- side(block$curve_a, block$resample_a)
   b <- side(block$curve_b, block$resample_b)
@@ -144,7 +139,7 @@ block_transects <- function(block, grid, set, store, surface, cutting, settings)
     column <- rows$column[1]
     outside <- as.matrix(column_outside(a, b, column, block$outward))
     made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside, block$rows,
-                        surface, cutting$column)
+                        cutting$scan)
     track <- made$cuts[[1]]
     length <- track[nrow(track), 1]
     s <- rep(NA_real_, block$rows)
@@ -154,7 +149,7 @@ block_transects <- function(block, grid, set, store, surface, cutting, settings)
     sliders <- slider_rows(s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length,
                            settings)
     sliders[, "point"] <- match(rows$place, set$places)
-    on_mesh <- track[, 5] <= ncol(cutting$specimen$mesh$it)
+    on_mesh <- track[, 5] <= cutting$scan$faces
     list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)),
          rows = sliders)
   })

@@ -17,8 +17,8 @@ row <- function(what, code, times) {
 }
 
 surface <- crestline:::walkable(face)
-ends <- crestline:::path_ends(face, surface, "chL", "chR")
-normals <- crestline:::plane_normal(crestline:::cut_axis(surface, ends), seq(-pi / 2, pi / 2, length.out = 52)[-1])
+ends <- crestline:::located_ends(face, surface, "chL", "chR")
+normals <- crestline:::plane_normal(ends, seq(-pi / 2, pi / 2, length.out = 52)[-1])
 cuts <- function() {
   crestline:::cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to, normals, rep(0L, 51), Inf, numeric())
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analysis_align.h"
+#include "analysis_lm.h"
 #include "curvature.h"
 #include "placing_match.h"
 #include "placing_rigid.h"
@@ -674,4 +675,24 @@ NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it) {
     out(3, v) = 1;
   }
   return out;
+}
+
+// orders: n x b, from 1. Two rows: in the span of the term, in that of the model.
+// [[Rcpp::export]]
+NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericMatrix whole, IntegerMatrix orders) {
+  std::vector<int> order = from_zero(orders);
+  NumericMatrix out(2, orders.ncol());
+  crestline::permuted_forms(gram.begin(), own.begin(), whole.begin(), gram.nrow(), order.data(), orders.ncol(),
+                            out.begin(), [] { checkUserInterrupt(); });
+  return out;
+}
+
+// residuals: q x n. basis: n x p. orders: n x b, from 1.
+// [[Rcpp::export]]
+List cpp_permuted_squares(NumericMatrix residuals, NumericMatrix basis, int df, IntegerMatrix orders) {
+  std::vector<int> order = from_zero(orders);
+  NumericMatrix own(orders.ncol(), residuals.nrow()), whole(orders.ncol(), residuals.nrow());
+  crestline::permuted_squares(residuals.begin(), residuals.nrow(), residuals.ncol(), basis.begin(), basis.ncol(), df,
+                              order.data(), orders.ncol(), own.begin(), whole.begin(), [] { checkUserInterrupt(); });
+  return List::create(_["own"] = own, _["whole"] = whole);
 }

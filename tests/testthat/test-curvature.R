@@ -264,12 +264,12 @@ test_that("a specimen will do for a mesh, numeric triangles too", {
 test_that("curvature that is asked for piece by piece is that of the whole mesh, and estimated once", {
   mesh <- bent_ridge(noise = 0.05)$mesh
   whole <- curvature(mesh, 4, "adaptive cubic")
-  source <- curvature_source(mesh, 4, "adaptive cubic", 1L)
+  source <- curvature_source(mesh, kernel_settings(4, "adaptive cubic"), 1L)
   some <- c(700, 3, 3, 820)
   expect_equal(source(some), curvature_rows(whole, some), tolerance = 1e-12)
   all <- source(seq_along(whole$k1))
   expect_equal(all, curvature_rows(whole, seq_along(whole$k1)), tolerance = 1e-12)
   expect_identical(source(some), lapply(all, function(x) if (is.matrix(x)) x[some, ] else x[some]))
-  expect_crestline_error(curvature_source(mesh, 400, "quadratic", 1L), "as large as the mesh")
-  expect_crestline_error(curvature_source(mesh, 0.1, "quadratic", 1L)(1:9), "no vertex could be fitted")
+  expect_crestline_error(known_curvature(NULL, mesh, 400, 1L, "quadratic"), "as large as the mesh")
+  expect_crestline_error(curvature_source(mesh, kernel_settings(0.1, "quadratic"), 1L)(1:9), "no vertex could be fitted")
 })

@@ -3,11 +3,11 @@ test_that("outside its trusted part the path is the shortest cut", {
   corners <- rbind(c(-10, 0, 0), c(-10, 6, 0), c(10, 6, 0), c(10, 0, 0))
   legs <- lapply(1:3, function(i) columns_of(plane_path(face, corners[i, ], corners[i + 1, ])))
   detour <- path_through(do.call(rbind, legs))
-  path <- trusted_path(c(8, 24) / 32, face, detour)
+  path <- trusted_path(c(8, 24) / 32, walkable(face), detour)
   expect_path_on_mesh(path, face$mesh)
   expect_equal(attr(path, "length"), 16 + 2 * sqrt(2^2 + 6^2), tolerance = 1e-6)
   expect_equal(diff(attr(path, "trusted")), 16, tolerance = 1e-6)
-  whole <- trusted_path(c(0, 1), face, detour)
+  whole <- trusted_path(c(0, 1), walkable(face), detour)
   expect_equal(columns_of(whole), columns_of(detour))
 })
 

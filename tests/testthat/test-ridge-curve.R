@@ -158,7 +158,7 @@ test_that("keep_away() counts strength as 0 in the window too", {
   region <- keep_away(c(-4, crest(-0.5), 6), c(4, crest(0.5), 6), radius = 0.5)
   curve <- suppressWarnings(of_bent(bent, keep_away = region))
   at <- curve$coordinates$vertex[curve$surface$rows]
-  inside <- is_kept_away(region, bent, t(bent$mesh$vb[1:3, at]))
+  inside <- is_kept_away(located_regions(region, bent), t(bent$mesh$vb[1:3, at]))
   expect_gt(sum(inside), 10)
   expect_true(all(curve$surface$strength[inside] == 0))
   expect_gt(min(curve$surface$strength[!inside & abs(curve$coordinates$d[curve$surface$rows]) < 1]), 0)
@@ -241,10 +241,11 @@ test_that("a ridge along the edge of the window is flagged", {
 test_that("a ridge line that cannot be lifted leaves the reference path, with the reason", {
   bent <- bent_ridge()
   path <- reference_path(bent, "a", "b", "ridge", 4)
-  torn <- bent
-  torn$geometry$twin[] <- 0L # every edge a border
-  about <- list(type = "ridge", radius = 4, width = 5, settings = ridge_settings())
-  fit <- fit_passes(torn, path, known_curvature(curvature(bent, 4), bent), NULL, about)
+  torn <- walkable(bent)
+  torn$twin[] <- 0L # every edge a border
+  job <- curve_job("ridge", 9, "a", "b", ridge_settings(), radius = 4, width = 5,
+                   source = known_curvature(curvature(bent, 4), bent))
+  fit <- fit_passes(torn, path, job)
   expect_false(fit$found)
   expect_match(fit$reason, "leaves the surface")
   expect_identical(fit$path, path)
@@ -275,12 +276,13 @@ test_that("of a dense window one vertex a cell stands for the others, the neares
 test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {
   u <- straight_ridge()
   path <- reference_path(u, "a", "b", "plane")
-  about <- list(type = "ridge", radius = 4, settings = ridge_settings(), from = "a", to = "b", id = "u")
+  job <- curve_job("ridge", 5, "a", "b", ridge_settings(), radius = 4)
   fit <- list(found = FALSE, reason = "not lifted", line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)),
               scale = 1, coordinates = path_coordinates(u, path, 4))
   every <- seq_len(nrow(fit$coordinates))
   fit$strengths <- list(value = rep(1, length(every)), rows = every, cell = every)
-  expect_warning(curve <- assembled_curve(u, path, path, 5, about, fit), class = "crestline_undetermined")
+  curve <- assembled_curve(walkable(u), path, path, job, fit)
+  expect_warning(warn_undetermined(curve), "not lifted", class = "crestline_undetermined")
   expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
   expect_false(curve$determined)
 })
@@ -289,11 +291,12 @@ test_that("no strength is NaN where no direction is across the path", {
   face <- straight_ridge()
   path <- reference_path(face, "a", "b", "plane")
   window <- path_coordinates(face, path, 6)
-  source <- curvature_source(face, 6, "adaptive", 1)
+  source <- curvature_source(face$mesh, kernel_settings(6, "adaptive"), 1L)
   along <- which(window$inside)[1]
   normal <- source(window$vertex[along])$normal
   window[along, c("tx", "ty", "tz")] <- as.list(normal)
-  strength <- window_strength(face, window, source, "ridge", NULL, ridge_settings())
+  job <- curve_job("ridge", 9, "a", "b", ridge_settings(), source = source)
+  strength <- window_strength(walkable(face), window, job)
   expect_true(is.na(strength$value[along]) && !any(is.nan(strength$value)))
   expect_gt(sum(!is.na(strength$value)), 10)
 })

@@ -39,7 +39,7 @@ test_that("the variance of a normal curvature is that of its derivatives by the 
       }, 0)
       sigma <- with_seed(4, stats::runif(ncol(mesh$vb), 0.1, 1))
       variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(direction), matrix(1), sigma,
-                                         fit_settings(radius, order))
+                                         kernel_settings(radius, order))
       expect_equal(sqrt(variance), sqrt(sum((slope * sigma[near])^2)), tolerance = 0.02)
     }
   }
@@ -53,7 +53,7 @@ test_that("a quadratic fit's variance is the one that least squares gives", {
   y <- mesh$vb[2, near] - mesh$vb[2, at]
   covariance <- solve(crossprod(cbind(1, x, y, x^2, x * y, y^2)))
   variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(0.3, ncol(mesh$vb)),
-                                     fit_settings(4.3, "quadratic"))
+                                     kernel_settings(4.3, "quadratic"))
   expect_equal(variance, 0.3^2 * 4 * covariance[4, 4], tolerance = 1e-8)
 })
 
@@ -68,7 +68,7 @@ test_that("under smooth noise it is the quadratic form of least squares' weights
   squares <- outer(x, x, `-`)^2 + outer(y, y, `-`)^2
   variance <- function(sigma, smooth, range) {
     curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(sigma, ncol(mesh$vb)),
-                       fit_settings(4.3, "quadratic"), smooth, range)
+                       kernel_settings(4.3, "quadratic"), smooth, range)
   }
   for (range in c(0.7, 1.5, 3)) {
     smooth <- sum(weight * (0.2^2 * exp(-squares / (2 * range^2)) %*% weight))
@@ -82,22 +82,25 @@ test_that("under smooth noise it is the quadratic form of least squares' weights
 test_that("the noise factor compares with the expectation that the whole covariance of the strengths gives", {
   curve <- fitted_window(ridge_settings("one pass"))$curve
   bent <- bent_ridge(noise = 0.05, half = c(17, 12), spacing = 1.25)
-  about <- list(type = "ridge", radius = 4, width = 5, settings = ridge_settings("one pass"))
-  window <- ridge_window(bent, curve$reference, known_curvature(NULL, bent, 4, 1L, "adaptive cubic"), NULL, about)
+  scan <- walkable(bent)
+  settings <- ridge_settings("one pass")
+  job <- curve_job("ridge", 9, "a", "b", settings, radius = 4, width = 5,
+                   source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
+  window <- ridge_window(scan, curve$reference, job)
   surface <- window$surface
   live <- which(surface$strength > 0 & surface$strength < window$strengths$cap)
   rows <- surface$rows[live]
   sigma <- rep(stats::median(window$strengths$sigma, na.rm = TRUE), ncol(bent$mesh$vb))
   known <- !is.na(window$strengths$sigma)
   sigma[window$coordinates$vertex[known]] <- window$strengths$sigma[known]
-  all <- cpp_curvature_covariance(bent$mesh$vb, bent$mesh$it, window$coordinates$vertex[rows],
+  all <- cpp_curvature_covariance(scan$vb, scan$it, window$coordinates$vertex[rows],
                                   t(window$strengths$direction[rows, ]), diag(length(rows)), sigma, 0, 0,
-                                  fit_settings(4, "adaptive cubic"))$matrix
+                                  kernel_settings(4, "adaptive cubic"))$matrix
   design <- mgcv::tensor.prod.model.matrix(surface$design)[live, ]
   rest <- diag(length(live)) - design %*% chol2inv(surface$factor) %*% t(design)
   residual <- surface$strength[live] - design %*% as.vector(surface$coefficients)
   expected <- sum(diag(rest %*% all %*% t(rest)))
-  expect_equal(moment_noise(bent, window, 4, about$settings)$factor, max(1, sum(residual^2) / expected))
+  expect_equal(moment_noise(scan, window, 4, settings)$factor, max(1, sum(residual^2) / expected))
 })
 
 test_that("the noise factor sees noise that is smooth along the mesh, and known noise needs none", {
@@ -117,7 +120,7 @@ test_that("shared vertices are counted as shared: the difference of one curvatur
   direction <- rbind(c(1, 1), c(0, 0), c(0, 0))
   sigma <- rep(1, ncol(mesh$vb))
   variance <- function(targets, jacobian) {
-    curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, fit_settings(5, "quadratic"))
+    curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, kernel_settings(5, "quadratic"))
   }
   expect_lt(variance(c(1800L, 1800L), matrix(c(1, -1), 1)), 1e-20)
   single <- variance(at, rbind(c(1, 0), c(0, 1)))

@@ -35,14 +35,16 @@ test_that("the kernel is a dozen standard errors wide, between its limits, and n
   expect_identical(fit_of(ridge_settings(kernel = 1e9), noise = 0.2)$share, 1)
 })
 
+job_of <- function(bent, settings) {
+  curve_job("ridge", 9, "a", "b", settings, radius = 4, width = 5, source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
+}
+
 test_that("the standard error of a first line alone sets the kernel", {
   bent <- bent_ridge(noise = 0.2)
-  curvature <- known_curvature(NULL, bent, 4, 1L, "adaptive cubic")
   settings <- ridge_settings()
-  about <- list(type = "ridge", radius = 4, width = 5, settings = settings)
   path <- reference_path(bent, "a", "b", "ridge", 4)
-  window <- ridge_window(bent, path, curvature, NULL, about)
-  window$noise <- moment_noise(bent, window, 4, settings)
+  window <- ridge_window(walkable(bent), path, job_of(bent, settings))
+  window$noise <- moment_noise(walkable(bent), window, 4, settings)
   line <- ridge_line(window$surface, window$scale, 4, settings)
   se <- sqrt(offset_variance(window, line, window$noise, 4, settings))
   expect_equal(kernel_width(window, line, 4, ridge_settings(kernel_most = 1e9)), 12 * stats::median(se))
@@ -50,11 +52,9 @@ test_that("the standard error of a first line alone sets the kernel", {
 
 test_that("mixing in principal curvature is off by default and whole under a wide kernel", {
   bent <- bent_ridge(noise = 0.2)
-  curvature <- known_curvature(NULL, bent, 4, 1L, "adaptive cubic")
   path <- reference_path(bent, "a", "b", "ridge", 4)
   strengths <- function(share, ...) {
-    about <- list(type = "ridge", radius = 4, width = 5, settings = ridge_settings(...))
-    ridge_window(bent, path, curvature, NULL, about, share)$strengths
+    ridge_window(walkable(bent), path, job_of(bent, ridge_settings(...)), share)$strengths
   }
   expect_identical(strengths(0)$value, strengths(0, mix = 0.6)$value)
   expect_equal(strengths(1)$value, strengths(0, strength = "principal")$value)

@@ -56,15 +56,14 @@ test_that("outside the trusted part of the path strength does not count, whateve
   for (passes in 1:2) {
     scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
     expect_true(status_of(fit_shape(face, scheme, passes = passes, progress = FALSE), "crest")$ok)
-    about <- list(radius = 6, width = 6, type = "ridge", settings = ridge_settings(error = FALSE), passes = passes)
-    path <- trusted_path(c(0.25, 0.75), face, plane_path(face, "a", "b"))
-    fit <- fit_passes(face, path, known_curvature(NULL, face, 6, 1L, "adaptive cubic"), NULL, about)
-    share <- fit$coordinates$s / attr(fit$coordinates, "length")
-    counted <- fit$coordinates$inside & fit$strengths$value > 0
+    curve <- ridge_curve(face, "a", "b", "ridge", 6, 6, 5, settings = ridge_settings(error = FALSE), passes = passes,
+                         trust = c(0.25, 0.75))
+    at <- curve$coordinates[curve$surface$rows, ]
+    share <- at$s / attr(curve$coordinates, "length")
+    counted <- curve$surface$strength > 0
     expect_true(all(share[counted] >= 0.25 & share[counted] <= 0.75))
     expect_gt(sum(counted), 50)
-    near <- fit$coordinates$inside & abs(fit$coordinates$d) < 2
-    expect_true(all(counted[near & abs(share - 0.5) < 0.2]))
+    expect_true(all(counted[abs(at$d) < 2 & abs(share - 0.5) < 0.2]))
   }
 })
 
@@ -88,16 +87,18 @@ test_that("a rival path is seen in competing", {
   expect_lt(status(3, 1)$competing, status(3, 3)$competing)
 })
 
-test_that("wrong arguments and objects stop a fit; a curve that lacks a path does not", {
-  row <- list(kind = "ridge", from = "a", to = "b", cut_share = NA)
-  refusing <- function(stage, class = NULL) {
-    function(row) if (row$kind == "plane") list(path = "a cut") else crestline_abort("no good.", "Mend it.", stage, class = class)
-  }
-  expect_error(fit_or_follow(row, NULL, NULL, refusing("arguments")), "no good", class = "crestline_error")
-  for (class in c("crestline_wrong_mesh", "crestline_mesh_error", "crestline_changed_specimen")) {
-    expect_error(fit_or_follow(row, NULL, NULL, refusing("mesh", class)), class = class)
-  }
-  cut <- fit_or_follow(row, NULL, NULL, refusing("path", "crestline_path_error"))
+test_that("where curvature cannot be estimated the cut stands in, with the reason; other errors are not caught", {
+  face <- straight_ridge()
+  scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6)
+  scan <- prepare_scan(face, scheme, ridge_settings(), 1, list(bridge = 0), 1L)
+  row <- as.list(scheme$curves[1, ])
+  scan$sources <- list("6" = function(vertices) crestline_abort("no good.", "Mend it.", "curvature"))
+  cut <- fit_or_cut(row, scan, list())
   expect_equal(cut$reason, "the shortest cut instead: no good")
   expect_false(cut$determined)
+  expect_s3_class(cut$path, "mesh_path")
+  scan$sources <- list("6" = function(vertices) stop("not ours"))
+  expect_error(fit_or_cut(row, scan, list()), "not ours")
+  row$from <- row$to
+  expect_match(fit_or_cut(row, scan, list())$reason, "are the same point$")
 })
