@@ -153,48 +153,6 @@ curve_reference <- function(scan, ends, job) {
   limited_cut(scan, ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }
 
-#' The rows inside a window; where there are more than `most`, the one nearest to the centre of each
-#' of as many square cells
-#'
-#' @return List: `rows`; `cell`, for every row of `coordinates` the place in `rows` of the one that
-#'   stands for it, NA outside.
-#' @noRd
-thinned_rows <- function(coordinates, most) {
-  inside <- which(coordinates$inside)
-  cell <- rep(NA_integer_, nrow(coordinates))
-  if (length(inside) <= most) {
-    cell[inside] <- seq_along(inside)
-    return(list(rows = inside, cell = cell))
-  }
-  length <- attr(coordinates, "length")
-  width <- attr(coordinates, "width")
-  columns <- ceiling(sqrt(most * length / (2 * width)))
-  half <- ceiling(most / columns / 2)
-  along <- coordinates$s[inside] / length * columns
-  across <- coordinates$d[inside] / width * half
-  own <- floor(along) * (2 * half + 2) + floor(across)
-  off <- (along - floor(along) - 0.5)^2 + (across - floor(across) - 0.5)^2
-  nearest <- order(own, off)
-  first <- nearest[!duplicated(own[nearest])]
-  cell[inside] <- match(own, own[first])
-  list(rows = inside[first], cell = cell)
-}
-
-#' Mean strength near a path
-#'
-#' @param trusted Arc lengths of the part of the path that counts; NULL: all of it.
-#' @noRd
-core_strength <- function(coordinates, strength, distance, trusted = NULL) {
-  near <- abs(coordinates$d[strength$rows]) <= distance
-  if (!is.null(trusted)) {
-    s <- coordinates$s[strength$rows]
-    near <- near & s >= trusted[1] & s <= trusted[2]
-  }
-  value <- strength$value[strength$rows[near]]
-  value[is.na(value)] <- 0
-  if (length(value)) mean(value) else NA_real_
-}
-
 #' The one place where a curve comes together
 #'
 #' @param job As of [curve_job()].
