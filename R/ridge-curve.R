@@ -63,8 +63,8 @@
 #' as.data.frame(lip)
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
-                        keep_away = NULL, settings = ridge_settings(), passes = NULL, curvature = NULL,
-                        reach = 0.5, threads = getOption("crestline.threads", 1L),
+                        keep_away = NULL, settings = ridge_settings(), passes = NULL,
+                        curvature = NULL, reach = 0.5, threads = getOption("crestline.threads", 1L),
                         trust = c(0, 1)) {
   check_given(if (identical(type, "plane")) c("radius", "width"))
   check_surface(specimen, "specimen")

@@ -11,10 +11,12 @@
 #' @param scan The mesh, as of [walkable()].
 #' @param window As of [ridge_window()].
 #' @param settings [ridge_settings()].
+#' @param most Where more vertices than this depend on the heights, one a cell of (s, d) stands for
+#'   the others: curvatures of neighbours, whose fits share most vertices, are nearly the same.
 #' @return List: `matrix`, of the moments (square of the order of the smooth surface); `factor`, as
-#'   of [noise_factor()], 1 where the noise is known.
+#'   of [noise_factor()], 1 where the noise is known, NULL where not all vertices were used.
 #' @noRd
-moment_noise <- function(scan, window, radius, settings) {
+moment_noise <- function(scan, window, radius, settings, most = Inf) {
   surface <- window$surface
   strength <- window$strengths
   live <- which(surface$strength > 0 & surface$strength < strength$cap)
@@ -30,11 +32,19 @@ moment_noise <- function(scan, window, radius, settings) {
     smooth <- unname(known[2:3])
   }
   margins <- lapply(surface$design, function(design) design[live, , drop = FALSE])
+  design <- mgcv::tensor.prod.model.matrix(margins)
+  if (length(live) > most) {
+    near <- structure(window$coordinates[rows, ], length = surface$length, width = surface$width)
+    thinned <- thinned_rows(near, most)
+    design <- rowsum(design, thinned$cell)
+    rows <- rows[thinned$rows]
+  }
   found <- cpp_curvature_covariance(
     scan$vb, scan$it, window$coordinates$vertex[rows],
-    t(strength$direction[rows, , drop = FALSE]), mgcv::tensor.prod.model.matrix(margins), sigma,
+    t(strength$direction[rows, , drop = FALSE]), design, sigma,
     smooth[1], smooth[2], kernel_settings(radius, settings$order)
   )
+  if (length(rows) < length(live)) return(list(matrix = found$matrix))
   list(matrix = found$matrix,
        factor = if (anyNA(known)) noise_factor(surface, live, margins, found) else 1)
 }
@@ -78,7 +88,7 @@ noise_factor <- function(surface, live, margins, covariance) {
 #' @noRd
 ridge_error <- function(window, noise, radius, settings, share = 1) {
   line <- window$line
-  variance <- offset_variance(window, line, noise, radius, settings)
+  variance <- offset_variance(window, noise, radius, settings)
   loose <- highest_line(window$surface, window$scale, radius, loosen(settings), line$kernel)
   bias <- share * line$alpha - loose$alpha
   error <- sqrt(settings$inflation^2 * noise$factor * c(0, variance, 0) + bias^2)
@@ -94,7 +104,8 @@ loosen <- function(settings, by = 10) {
 
 #' Variance of a line's inner offsets by the delta method, without inflation
 #' @noRd
-offset_variance <- function(window, line, noise, radius, settings) {
+offset_variance <- function(window, noise, radius, settings) {
+  line <- window$line
   problem <- ridge_problem(window$surface, window$scale, radius, settings, line$kernel)
   slope <- offset_slope(problem, window$surface, line$alpha[-c(1, length(line$alpha))])
   pmax(rowSums((slope %*% noise$matrix) * slope), 0)

@@ -20,8 +20,8 @@
 #' @param radius Radius of the curvature estimates, in the unit of the mesh.
 #' @param settings [ridge_settings()]: `lambda`, `lambda_scale`, `grid`, `bound`, `step`,
 #'   `iterations`, `tolerance`.
-#' @param kernel Half width h of the kernel, in the unit of the mesh; 0: none. [ridge_curve()] chooses
-#'   it from the standard error.
+#' @param kernel Half width h of the kernel, in the unit of the mesh; 0: none. [ridge_curve()]
+#'   chooses it from the standard error.
 #' @return Object of class `ridge_line`, a list: `s` and `alpha` (unit of the mesh) at the grid;
 #'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the interior
 #'   of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the

@@ -19,19 +19,17 @@ fit_passes <- function(scan, path, job) {
   window <- ridge_window(scan, path, job)
   if (is.null(window$surface)) return(window)
   kernel <- 0
-  edge <- FALSE
-  if (settings$kernel > 0) {
-    window$noise <- moment_noise(scan, window, job$radius, settings)
-    mode <- highest_line(window$surface, window$scale, job$radius, settings)
-    if (failed(mode)) return(mode)
-    kernel <- kernel_width(window, mode, job$radius, settings)
-    edge <- mode$at_bound
-  }
+  window$line <- highest_line(window$surface, window$scale, job$radius, settings)
+  if (failed(window$line)) return(window$line)
+  edge <- window$line$at_bound
+  if (settings$kernel > 0) kernel <- kernel_width(scan, window, job$radius, settings)
   mix <- min(1, kernel / (settings$mix * job$radius))
   if (mix > 0) window <- ridge_window(scan, path, job, mix)
   with_line <- function(window) {
     if (is.null(window$surface)) return(window)
-    window$line <- highest_line(window$surface, window$scale, job$radius, settings, kernel)
+    if (is.null(window$line) || kernel > 0) {
+      window$line <- highest_line(window$surface, window$scale, job$radius, settings, kernel)
+    }
     if (failed(window$line)) return(window$line)
     # Neither kernel nor passes widen the window: what ran along its edge once is in doubt.
     window$line$at_bound <- edge <<- edge || window$line$at_bound
@@ -75,10 +73,11 @@ with_curve <- function(scan, window) {
 #' The peak is looked for no finer than `settings$kernel` standard errors of the line without a
 #' kernel: the median over its inner places, without inflation and bias, and without the noise
 #' factor, which on a clean scan takes fine relief for noise.
-#' @param line Without a kernel.
+#' @param window With its `line` without a kernel.
 #' @noRd
-kernel_width <- function(window, line, radius, settings) {
-  variance <- offset_variance(window, line, window$noise, radius, settings)
+kernel_width <- function(scan, window, radius, settings) {
+  noise <- moment_noise(scan, window, radius, settings, settings$kernel_vertices)
+  variance <- offset_variance(window, noise, radius, settings)
   half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
   if (half < settings$kernel_least) 0 else half * radius
 }
@@ -117,9 +116,9 @@ finished_fit <- function(scan, fit, radius, settings) {
   if (is.null(fit$line)) return(fit)
   share <- if (fit$share > 0) fit$share else 1
   if (settings$error) {
-    if (is.null(fit$noise)) fit$noise <- moment_noise(scan, fit, radius, settings)
-    fit$line$se <- ridge_error(fit, fit$noise, radius, settings, share)
-    fit$noise_factor <- fit$noise$factor
+    noise <- moment_noise(scan, fit, radius, settings)
+    fit$line$se <- ridge_error(fit, noise, radius, settings, share)
+    fit$noise_factor <- noise$factor
   }
   if (share == 1) return(fit)
   fit$line$alpha <- share * fit$line$alpha

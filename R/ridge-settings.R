@@ -29,12 +29,13 @@
 #'   * `bound`: the ridge stays within this share of the half width;
 #'   * `step`: longest Newton step, as a share of the half width; `iterations`, `tolerance` (share
 #'     of the half width);
-#'   * `kernel`: the criterion is averaged across the path under a kernel ([ridge_line()]), whose half
-#'     width is this many standard errors of the line without it; 0: none. `kernel_most`: widest, in
-#'     radii; `kernel_least`: narrower ones, in radii, count as none;
+#'   * `kernel`: the criterion is averaged across the path under a kernel ([ridge_line()]), whose
+#'     half width is this many standard errors of the line without it; 0: none. `kernel_most`: widest, in
+#'     radii; `kernel_least`: narrower ones, in radii, count as none; `kernel_vertices`: as
+#'     `vertices`, for this standard error;
 #'   * `second`: share of a second pass, about the curve of the first, that is taken where both
-#'     curves are equally strong; 0: one pass. `second_gain`: relative gain in strength at which half
-#'     as much again of a whole pass is taken, the loss at which it is so much less; `second_whole`:
+#'     curves are equally strong; 0: one pass. `second_gain`: relative gain in strength at which
+#'     half as much again of a whole pass is taken, the loss at which it is so much less; `second_whole`:
 #'     half width of the kernel, in radii, from which the whole of it is taken;
 #'   * `mix`: half width of the kernel, in radii, from which strength is that of the principal
 #'     curvature; it is mixed with that across the path below. `Inf`: never. 0.6 suits very noisy
@@ -64,7 +65,8 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...) {
                    anisotropy = 10, df = 20,
                    lambda = 1e-4, lambda_scale = "feature", grid = 41, core = 0.3, bound = 0.98,
                    step = 0.25, iterations = 100, tolerance = 1e-9, kernel = 12, kernel_most = 1.4,
-                   kernel_least = 0.15, second = 0.5, second_gain = 0.05, second_whole = 0.6,
+                   kernel_least = 0.15, kernel_vertices = 400, second = 0.5, second_gain = 0.05,
+                   second_whole = 0.6,
                    mix = Inf, noise = NA, longest = 1.25, inflation = 1.5,
                    undetermined = 0.2, faint = 0.15, error = TRUE)
   single <- list(kernel = 0, second = 0)
@@ -90,7 +92,7 @@ check_settings <- function(settings) {
   positive <- c("cap", "cap_quantile", "window", "vertices", "anisotropy", "df", "lambda", "core",
                 "bound", "step",
                 "tolerance", "longest", "inflation", "undetermined", "faint", "kernel_most",
-                "kernel_least", "second_gain", "second_whole", "mix")
+                "kernel_least", "kernel_vertices", "second_gain", "second_whole", "mix")
   for (name in positive) {
     if (!identical(settings[[name]], Inf)) check_number(settings[[name]], name, lower = 0,
                                                         open = TRUE)

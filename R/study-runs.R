@@ -74,7 +74,7 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
   check_number(points, "points", 3, 1e5)
   check_count(points, "points", lower = 3)
   check_count(block, "block")
-  grid <- check_study_grid(list(passes = if (is.null(passes)) NA_real_ else passes, correlation = correlation, radius = radius,
+  grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius,
                                 spacing = spacing,
                                 landmark_error = landmark_error, noise = noise, b = b, a = a),
                            largest)
@@ -104,19 +104,19 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
                 spacing = c(finest, 0.5),
                 landmark_error = c(0, 2), noise = c(0, 2), b = c(0, 1e4), a = c(-100, 100))
   open <- c("radius", "b")
-  for (name in names(grid)) {
+  for (name in setdiff(names(grid), if (is.null(grid$passes)) "passes")) {
     if (!is.numeric(grid[[name]]) || !length(grid[[name]]) || !is.null(dim(grid[[name]]))) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])),
                       "Give one number or several.",
                       stage = "arguments", call = call)
     }
-    if (name == "passes" && identical(grid[[name]], NA_real_)) next
     grid[[name]] <- vapply(as.vector(grid[[name]]), function(value) {
       value <- check_number(value, name, range[[name]][1], range[[name]][2], call = call)
       if (name %in% open && value == 0) check_number(value, name, 0, open = TRUE, call = call)
       if (name == "passes") check_count(value, name, call = call) else value
     }, 0)
   }
+  if (is.null(grid$passes)) grid["passes"] <- NA_real_
   grid
 }
 

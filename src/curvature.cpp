@@ -197,9 +197,15 @@ CurvatureCovariance curvature_covariance(const MeshView& mesh, const std::vector
   for (std::size_t c = 0; c < r.vertex.size(); ++c) {
     double variance = noise.sigma[r.vertex[c]] * noise.sigma[r.vertex[c]];
     out.trace += variance * r.own[c];
-    for (const Entry& p : r.by_function[c])
-      for (const Entry& q : r.by_function[c]) out.matrix[size * p.first + q.first] += variance * p.second * q.second;
+    const std::vector<Entry>& row = r.by_function[c];
+    for (std::size_t p = 0; p < row.size(); ++p) {
+      double* column = &out.matrix[size * row[p].first];
+      double slope = variance * row[p].second;
+      for (std::size_t q = p; q < row.size(); ++q) column[row[q].first] += slope * row[q].second;
+    }
   }
+  for (std::size_t p = 0; p < size; ++p)
+    for (std::size_t q = 0; q < p; ++q) out.matrix[size * p + q] = out.matrix[size * q + p];
   if (noise.smooth == 0 || noise.range == 0) return out;
   std::vector<double> xyz;
   for (int v : r.vertex) xyz.insert(xyz.end(), mesh.xyz + 3 * v, mesh.xyz + 3 * v + 3);
