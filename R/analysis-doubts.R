@@ -22,6 +22,7 @@
 #' @param fewest Specimens without which distances are not compared.
 #' @return List of class `sample_limits`.
 #' @section Errors: of class `crestline_error`, for values that are no numbers above 0.
+#' @template glossary
 #' @seealso [align()]
 #' @examples
 #' sample_limits(far = Inf)
@@ -40,7 +41,7 @@ sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyon
 #' @export
 print.sample_limits <- function(x, ...) {
   printed(x, {
-    cat("Limits of a sample:",
+    cat("<sample_limits>",
         paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
     invisible(x)
   })

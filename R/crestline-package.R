@@ -13,6 +13,11 @@
 #' are in 1 / that unit; angles are in radians; the shape index, strengths' ratios
 #' and barycentric weights have no unit.
 #'
+#' # Lifecycle
+#' Functions are meant to stay as they are. Those that are *experimental* say so in their help:
+#' simulation ([simulate_ridge()], [simulate_faces()]) and drawing step by step ([draw_surface()]).
+#' Former names are in [crestline-deprecated].
+#'
 #' # Functions by task
 #'
 #' * *Read a scan*: [read_specimen()], [specimen()]; landmarks and curves: [read_landmarks()],
@@ -35,11 +40,11 @@
 #'   [shape_pca()], [shape_at()], [compare_groups()]; to other packages and back: [as_geomorph()],
 #'   [as_rrpp()], [as_morpho()], [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
-#' * *Pictures and pages*: `plot()` of most objects, [plot_panel()], [plot_cuts()],
-#'   [plot_placing()], [plot_refinement()], [write_page()], [write_pca_page()],
+#' * *Pictures and pages*: `plot()` of most objects: [plot.specimen()], [plot.curve()],
+#'   [plot.shape()], [plot.group_comparison()], [plot.shape_pca()], [plot.repeatability()]; curves
+#'   together [plot_curves()]; for the browser [write_page()], [write_pca_page()]; colours
 #'   [plot_shape_scale()], [shape_colours()]; a picture step by step: [draw_surface()],
-#'   [draw_lines()], [draw_points()], [draw_band()], [plot_curves()], [visible_points()],
-#'   [picture_settings()].
+#'   [draw_lines()], [draw_points()], [draw_band()], [visible_points()], [picture_settings()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]
 #'   and [scan_settings()], [true_points()], [true_effect()].
 #'

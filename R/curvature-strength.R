@@ -43,6 +43,7 @@ normal_curvature <- function(curved, at, direction) {
 #'   distance.
 #' @return A `keep_away` object for [reference_path()] and [ridge_curve()].
 #' @section Errors: of class `crestline_error` when a share is negative.
+#' @template glossary
 #' @seealso [keep_side()]
 #' @examples
 #' keep_away("exL", "enL") # for the left brow ridge of a face
@@ -57,7 +58,7 @@ keep_away <- function(from, to, radius = 0.7, extension = 0.2) {
 #' @export
 print.keep_away <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Keep away from %s - %s: radius %g, extension %g of their distance\n",
+  cat(sprintf("<keep_away> %s - %s: radius %g, extension %g of their distance\n",
               end_name(x$from),
               end_name(x$to), x$radius, x$extension))
   invisible(x)
@@ -75,6 +76,7 @@ print.keep_away <- function(x, ...) {
 #' @return A `keep_side` object, for the argument `keep_away` of [reference_path()] and
 #'   [ridge_curve()].
 #' @section Errors: of class `crestline_error`, where it is used, when the three lie on one line.
+#' @template glossary
 #' @seealso [keep_away()]
 #' @examples
 #' keep_side("exL", "enL", towards = "acL") # for the ridge of the left lower eyelid
@@ -88,7 +90,7 @@ keep_side <- function(from, to, towards) {
 #' @export
 print.keep_side <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Keep to the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to),
+  cat(sprintf("<keep_side> the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to),
               end_name(x$towards)))
   invisible(x)
 }

@@ -47,7 +47,9 @@
 #'   that of another mesh.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
 #'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 2.
+#' @template glossary
+#' @templateVar where section 2
+#' @template paper
 #' @examples
 #' data(humface, package = "Rvcg")
 #' curved <- curvature(humface, radius = 10, vertices = 1:100)
@@ -252,7 +254,7 @@ print.curvature <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     fitted <- !is.na(x$k1)
-    cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
+    cat(sprintf("<curvature> %s, at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
                 length(fitted), attr(x, "radius")))
     if (any(fitted)) {
       shares <- stats::quantile(x$neighbours[fitted], c(0, 0.5, 1), names = FALSE)

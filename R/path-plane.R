@@ -21,8 +21,9 @@
 #'   `angle`, `side`.
 #' @section Errors: of class `crestline_path_error`, when the cut ends at a border
 #'   of the mesh (a hole between the points) or comes round without meeting `to`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.1.
+#' @template glossary
+#' @templateVar where section 3.1
+#' @template paper
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' quarter <- plane_path(ball, c(1, 0, 0), c(0, 1, 0), angle = 0)
@@ -197,7 +198,7 @@ failed_cut <- function(end, ends, id) {
 print.mesh_path <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
+    cat(sprintf("<mesh_path> %d points, length %.4g", nrow(x), attr(x, "length")))
     if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees",
                                                 attr(x, "angle") * 180 / pi))
     cat("\n")

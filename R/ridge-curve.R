@@ -53,7 +53,8 @@
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
 #'   determined by curvature; and that of [reference_path()].
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.
+#' @templateVar where section 3
+#' @template paper
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
@@ -294,9 +295,8 @@ as.data.frame.curve <- function(x, ...) {
 print.curve <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("%s from %s to %s%s\n",
-                switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
-                x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
+    cat(sprintf("<curve> %s from %s to %s%s\n", x$type, x$from, x$to,
+                if (is.null(x$id)) "" else paste0(" on ", x$id)))
     cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
     if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g",
                                         x$strength, x$se))

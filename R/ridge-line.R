@@ -26,8 +26,9 @@
 #'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the interior
 #'   of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the
 #'   window); `kernel`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.2.
+#' @template glossary
+#' @templateVar where section 3.2
+#' @template paper
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
@@ -167,7 +168,7 @@ rise <- function(problem, alpha, value, step, small) {
 print.ridge_line <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
+    cat(sprintf("<ridge_line> %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
                 min(x$alpha),
                 max(x$alpha), if (x$converged) "converged" else "NOT converged", x$iterations,
                 if (x$at_bound) ", along the edge of the window" else ""))

@@ -2,7 +2,7 @@
 #'
 #' All tuning constants of [ridge_curve()] in one place. With the preset `"crestline"` curves do not
 #' depend on the unit of the mesh or the number of grid points. `"one pass"` is the same without the
-#' kernel and without the second pass, the default until version 0.9. `"paper"` reproduces the
+#' kernel and without the second pass, the former default. `"paper"` reproduces the
 #' choices of the paper.
 #'
 #' @param preset `"crestline"`, `"one pass"` or `"paper"`.
@@ -52,8 +52,9 @@
 #'   * `error`: whether to work out standard errors at all.
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]),
-#'   section 3.2 (12 degrees of freedom, lambda = 0.5).
+#' @template glossary
+#' @templateVar where section 3.2 (12 degrees of freedom, lambda = 0.5)
+#' @template paper
 #' @examples
 #' ridge_settings(df = 25)
 #' ridge_settings("paper")
@@ -122,7 +123,7 @@ check_settings <- function(settings) {
 print.ridge_settings <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Ridge settings (preset \"%s\")\n", attr(x, "preset")))
+    cat(sprintf("<ridge_settings> preset \"%s\"\n", attr(x, "preset")))
     values <- vapply(x, function(value) paste(format(value), collapse = " x "), "")
     cat(strwrap(paste(names(x), values, sep = " = ", collapse = ", "), indent = 2, exdent = 2),
         sep = "\n")

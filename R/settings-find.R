@@ -43,6 +43,7 @@
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not
 #'   numeric.
+#' @template glossary
 #' @examples
 #' find_settings(turns = 24)
 #' @export
@@ -87,7 +88,7 @@ find_settings <- function(...) {
 print.find_settings <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat("Settings of finding landmarks\n")
+    cat("<find_settings> of find_landmarks()\n")
     value <- vapply(x, function(v) paste(format(v, trim = TRUE), collapse = " to "), "")
     cat(strwrap(paste(names(x), value, sep = " = ", collapse = ", "), indent = 2, exdent = 2),
         sep = "\n")

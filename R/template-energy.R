@@ -25,7 +25,10 @@
 #'   x k, 0 in rows that are left out; 1 / unit), `affine` (number of affine functions).
 #' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two
 #'   points at one place without a nugget; a configuration of other points.
-#' @references Up to a constant factor, the integral of the paper, section 4. Bookstein (1989)
+#' @template glossary
+#' @templateVar where section 4 (the same integral up to a constant factor)
+#' @template paper
+#' @references Bookstein (1989)
 #'   Principal warps, *IEEE Transactions on Pattern Analysis and Machine Intelligence* 11, 567-585;
 #'   Gunz, Mitteroecker and Bookstein (2005) Semilandmarks in three dimensions.
 #' @seealso [slide()]
@@ -89,8 +92,9 @@ quadratic_form <- function(b, x) sum(x * (b %*% x))
 #'
 #' @param xyz k x 3.
 #' @param nugget k.
+#' @param kernel Function of distances, conditionally positive definite.
 #' @noRd
-energy_matrix <- function(xyz, nugget, tolerance) {
+energy_matrix <- function(xyz, nugget, tolerance, kernel = function(r) -r) {
   b <- matrix(0, nrow(xyz), nrow(xyz))
   there <- which(!is.na(xyz[, 1]))
   if (!length(there)) return(structure(b, affine = 0L))
@@ -100,7 +104,7 @@ energy_matrix <- function(xyz, nugget, tolerance) {
   affine <- sum(functions$d > tolerance * functions$d[1])
   if (length(there) > affine) {
     b[there, there] <- bending_matrix(at, nugget[there],
-                                      functions$u[, seq_len(affine), drop = FALSE])
+                                      functions$u[, seq_len(affine), drop = FALSE], kernel)
   }
   structure(b, affine = affine)
 }
@@ -110,11 +114,11 @@ energy_matrix <- function(xyz, nugget, tolerance) {
 #' In the frame of a Householder basis whose first columns span the affine functions, K + N loses
 #' its first rows and columns.
 #' @noRd
-bending_matrix <- function(xyz, nugget, functions) {
+bending_matrix <- function(xyz, nugget, functions, kernel) {
   frame <- qr(functions)
   affine <- seq_len(ncol(functions))
-  kernel <- diag(nugget, nrow(xyz)) - as.matrix(stats::dist(xyz))
-  inner <- qr.qty(frame, t(qr.qty(frame, kernel)))[-affine, -affine, drop = FALSE]
+  full <- kernel(as.matrix(stats::dist(xyz))) + diag(nugget, nrow(xyz))
+  inner <- qr.qty(frame, t(qr.qty(frame, full)))[-affine, -affine, drop = FALSE]
   root <- tryCatch(chol((inner + t(inner)) / 2), error = function(e) {
     crestline_abort("points of the template coincide.", "Leave one of them out, or give a nugget.",
                     stage = "energy",
@@ -131,7 +135,7 @@ print.bending_energy <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     b <- attr(x, "matrix")
-    cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0),
+    cat(sprintf("<bending_energy> %d points, %d affine functions\n", sum(diag(b) != 0),
                 attr(x, "affine")))
     invisible(x)
   })
