@@ -137,6 +137,10 @@ cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweep
     .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
 }
 
+cpp_slide_jointly <- function(vb, it, twin, b, x, rows, places, settings) {
+    .Call(`_crestline_cpp_slide_jointly`, vb, it, twin, b, x, rows, places, settings)
+}
+
 cpp_locate <- function(vb, it, xyz, leaf) {
     .Call(`_crestline_cpp_locate`, vb, it, xyz, leaf)
 }
@@ -167,13 +171,5 @@ cpp_face_normals <- function(vb, it) {
 
 cpp_vertex_normals <- function(vb, it) {
     .Call(`_crestline_cpp_vertex_normals`, vb, it)
-}
-
-cpp_permuted_forms <- function(gram, own, whole, orders) {
-    .Call(`_crestline_cpp_permuted_forms`, gram, own, whole, orders)
-}
-
-cpp_permuted_squares <- function(residuals, basis, df, orders) {
-    .Call(`_crestline_cpp_permuted_squares`, residuals, basis, df, orders)
 }
 

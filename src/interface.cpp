@@ -30,6 +30,7 @@
 #include "draw_render.h"
 #include "ridge_surface.h"
 #include "shape_column.h"
+#include "template_joint.h"
 #include "template_slide.h"
 #include "template_surface.h"
 
@@ -532,6 +533,38 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
       crestline::slide_on_mesh(mesh, b.begin(), b.nrow(), moved.begin(), held.begin(), at, tolerance, sweeps,
                                [] { checkUserInterrupt(); });
   for (int i = 0; i < x.nrow(); ++i) fill_row(mesh, at[i], i, out);
+  return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
+// rows: point, before, after (0: none), from_before x y z, to_after x y z, anchor x y z, across x y z, error; places: face,
+// w1, w2, w3 of the same points.
+// [[Rcpp::export]]
+List cpp_slide_jointly(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x,
+                       NumericMatrix rows, NumericMatrix places, List settings) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  NumericMatrix moved = clone(x), out(rows.nrow(), 7);
+  std::vector<crestline::JointPoint> points(rows.nrow());
+  std::vector<crestline::SurfacePoint> at;
+  for (int i = 0; i < rows.nrow(); ++i) {
+    crestline::JointPoint& p = points[i];
+    p.point = rows(i, 0) - 1;
+    p.before = rows(i, 1) - 1;
+    p.after = rows(i, 2) - 1;
+    for (int k = 0; k < 3; ++k) {
+      p.from_before[k] = rows(i, 3 + k);
+      p.to_after[k] = rows(i, 6 + k);
+      p.anchor[k] = rows(i, 9 + k);
+      p.across[k] = rows(i, 12 + k);
+    }
+    p.error = rows(i, 15);
+    at.push_back(surface_point(places, i));
+  }
+  crestline::JointSettings chosen{settings["scale"], settings["reach"], settings["relaxation"], settings["gap"],
+                                  settings["tolerance"], settings["halvings"], settings["sweeps"]};
+  crestline::SlideTrace trace = crestline::slide_jointly(mesh, normals.data(), b.begin(), b.nrow(), moved.begin(), points, at,
+                                                         chosen, [] { checkUserInterrupt(); });
+  for (int i = 0; i < rows.nrow(); ++i) fill_row(mesh, at[i], i, out);
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
 }
 
