@@ -19,8 +19,8 @@
 #'   the sample.
 #' @param scale,weights,missing,progress As in [compare_groups()].
 #' @return Object of class `shape_lda`, a list:
-#'   * `specimens`: data frame, a row a specimen: `id`, `group`, `predicted` (without it), `correct`,
-#'     `components` (number chosen without it);
+#'   * `specimens`: data frame, a row a specimen: `id`, `group`, `predicted` (without it),
+#'     `correct`, `components` (number chosen without it);
 #'   * `posterior`: n x g, probabilities of the groups (without the specimen);
 #'   * `confusion`: table, true groups by predicted ones; `error`: share wrongly assigned; `chance`:
 #'     the error of always naming the most frequent group;
@@ -148,7 +148,8 @@ predict.shape_lda <- function(object, newdata = NULL, ...) {
 #' @exportS3Method
 validate.shape_lda <- function(x) {
   table <- x$specimens
-  right <- is.data.frame(table) && all(c("id", "group", "predicted", "correct") %in% names(table)) &&
+  columns <- c("id", "group", "predicted", "correct")
+  right <- is.data.frame(table) && all(columns %in% names(table)) &&
     inherits(x$lda, "lda") && inherits(x$pca, "shape_pca") && is.numeric(x$components) &&
     is.matrix(x$posterior) && nrow(x$posterior) == nrow(table)
   if (!right) {
@@ -179,7 +180,7 @@ print.shape_lda <- function(x, ...) {
         if (length(x$candidates) > 1) sprintf(" (chosen; without one specimen %s)",
                                               paste(unique(chosen), collapse = " to ")), "\n",
         sep = "")
-    cat(sprintf("  left out and assigned: %d of %d right (%.0f %%; the most frequent group: %.0f %%)\n",
+    cat(sprintf("  left out and assigned: %d of %d right (%.0f %%; most frequent group: %.0f %%)\n",
                 sum(x$specimens$correct), n, 100 * (1 - x$error), 100 * (1 - x$chance)))
     cat(paste0("  ", utils::capture.output(print(x$confusion))), sep = "\n")
     invisible(x)

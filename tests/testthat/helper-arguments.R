@@ -257,7 +257,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     shape_category = entry(given(index = c(0, 0.5)), index = "index"),
     shape_colours = entry(given(index = c(0, 0.5), missing = "#BEBEBE"), index = "index", missing = "colour"),
     shape_index = entry(given(x = 1, k2 = 0.5), x = "any", k2 = "any"),
-    shape_lda = entry(given(sample = aligned, group = rep(c("A", "B"), c(3, 4)), components = 1, level = "curves", prior = NULL,
+    shape_lda = entry(given(sample = sample, group = rep(c("A", "B"), c(3, 4)), components = 1, level = "curves", prior = NULL,
                             scale = TRUE, weights = NULL, missing = "drop", progress = FALSE),
                       sample = "object", group = "object", components = "numbers", level = "choice", prior = "numbers?",
                       scale = "flag", weights = "object?", missing = "choice", progress = "flag"),
