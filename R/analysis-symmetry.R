@@ -122,7 +122,7 @@ partners <- function(aligned, level, template, pairs, call = rlang::caller_env()
 #' @return List: `symmetric`, `asymmetric` (`aligned`s), `off` (n x dk: half differences).
 #' @noRd
 parts_of_level <- function(aligned, partner) {
-  raw <- aligned$coords
+  raw <- before_projection(aligned)
   turned <- raw[partner, , , drop = FALSE]
   turned[, 1, ] <- -turned[, 1, ]
   ids <- names(aligned)
