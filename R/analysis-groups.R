@@ -115,8 +115,10 @@
 #'   differ by blanks or case only, permutations that are none.
 #' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in
 #'   spread and are pooled.
-#' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis
-#'   of shape, *Journal of the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized
+#' @templateVar where section 6
+#' @template paper
+#' @references Goodall (1991) Procrustes methods in the statistical analysis of shape,
+#'   *Journal of the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized
 #'   permutation tests for non-i.i.d. hypotheses, *Statistics and Probability Letters* 36, 9-21;
 #'   Brown and Forsythe (1974) The small sample behavior of some statistics which test the equality
 #'   of several means, *Technometrics* 16, 129-132; Wallace (1959) Bounds on normal approximations

@@ -31,9 +31,12 @@
 #'   of [draw_surface()]; invisibly.
 #' @section Errors: of class `crestline_error`: no such level; a map, or mean surfaces, of more than
 #'   two groups.
-#' @references The paper, Fig. 9; Benjamini and Hochberg (1995) Controlling the false discovery rate,
-#'   *Journal of the Royal Statistical Society B* 57, 289-300; (1997) Multiple hypotheses testing
-#'   with weights, *Scandinavian Journal of Statistics* 24, 407-418.
+#' @template glossary
+#' @templateVar where Fig. 9
+#' @template paper
+#' @references Benjamini and Hochberg (1995) Controlling the false discovery rate, *Journal of the
+#'   Royal Statistical Society B* 57, 289-300; (1997) Multiple hypotheses testing with weights,
+#'   *Scandinavian Journal of Statistics* 24, 407-418.
 #' @seealso [compare_groups()]
 #' @examples
 #' ball <- Rvcg::vcgSphere(3)
