@@ -85,3 +85,12 @@ test_that("pages have it in a block that opens", {
   expect_match(block, one$key, fixed = TRUE)
   expect_match(block, "&lt;b&gt;.ply", fixed = TRUE)
 })
+
+test_that("who writes predicted landmarks that lie off the scan is told how to keep them", {
+  ball <- specimen(ball_mesh(), rbind(a = c(1, 0, 0), b = c(0, 0, 1)), id = "ball")
+  away <- with_fields(ball, landmarks = rbind(ball$landmarks, c = c(0, 1.5, 0)),
+                      placing = data.frame(landmark = c("a", "b", "c"), state = c("found", "found", "predicted")))
+  expect_message(written_landmarks(away), "off the scan: c.*saveRDS", class = "crestline_message")
+  near <- with_fields(away, landmarks = ball$landmarks)
+  expect_identical(testthat::capture_messages(written_landmarks(near)), character())
+})
