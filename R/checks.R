@@ -248,6 +248,12 @@ check_list <- function(x, class, name, maker, call = rlang::caller_env()) {
   x
 }
 
+check_table <- function(x, name, null = FALSE, call = rlang::caller_env()) {
+  if (is.null(x) && null) return(NULL)
+  if (!is.data.frame(x)) refuse_argument(name, x, "Give a data frame.", call)
+  x
+}
+
 check_function <- function(x, name, call = rlang::caller_env()) {
   if (!is.function(x)) refuse_argument(name, x, "Give a function.", call)
   x

@@ -64,8 +64,8 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
   found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
   words <- sprintf("%s, %s; %s: p < %g (%d of %d points)", term,
-                   if (signed) sprintf("along the normal for %g", unit) else
-                     "root mean square displacement",
+                   if (signed) sprintf("along the normal for %g (unit of the meshes)", unit) else
+                     "root mean square displacement (unit of the meshes)",
                    if (is.null(triangles)) "ringed" else "outlined", significance, found,
                    nrow(points))
   title <- if (is.null(main)) words else main
@@ -93,26 +93,6 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   invisible(scene)
 }
 
-#' A map of points that have no triangles: seen from `view`, those in front last
-#' @noRd
-points_map <- function(points, value, limits, palette, significance, view, legend, title) {
-  at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
-  if (ncol(at) == 3) at <- at %*% t(view_rotation(view))
-  colour <- palette[findInterval(value, seq(limits[1], limits[2],
-                                            length.out = length(palette) + 1),
-                                 all.inside = TRUE)]
-  order <- if (ncol(at) == 3) order(at[, 3]) else seq_len(nrow(at))
-  old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
-  on.exit(graphics::par(old))
-  graphics::plot(at[order, 1:2], asp = 1, axes = FALSE, xlab = "", ylab = "", pch = 21,
-                 bg = colour[order], cex = 1.1,
-                 col = ifelse(points$p_adjusted[order] <= significance, "black", "grey80"),
-                 lwd = ifelse(points$p_adjusted[order] <= significance, 1.6, 0.4))
-  if (legend) map_legend(palette, limits)
-  graphics::title(title, font.main = 1, cex.main = 0.9)
-  points
-}
-
 plot_lm_scores <- function(x, term, level, main, ...) {
   model <- x$models[[level]]
   aligned <- x$aligned[[level]]
@@ -132,8 +112,16 @@ plot_lm_scores <- function(x, term, level, main, ...) {
             if (NROW(test)) sprintf("R2 %.3f, p %s", test$share,
                                     format.pval(test$p_value, digits = 2, eps = 1e-4))),
           collapse = ", ")
-  graphics::plot(if (is.character(variable)) factor(variable) else variable, score, xlab = term,
-                 ylab = "regression score", las = 1, pch = 16, ...)
+  old <- graphics::par(mar = c(4, 5, 2.5, 0.6), mgp = c(2.3, 0.6, 0))
+  on.exit(graphics::par(old))
+  group <- if (!is.numeric(variable)) factor(variable)
+  if (is.null(group)) {
+    graphics::plot(variable, score, xlab = term, ylab = "", las = 1, pch = 16, ...)
+  } else {
+    box_panel(score, group, "", grDevices::hcl.colors(nlevels(group), "Dark 3"), ...)
+    graphics::title(xlab = term)
+  }
+  graphics::title(ylab = "regression score", line = 3.6)
   graphics::title(title, font.main = 1, cex.main = 1)
   data.frame(variable = variable, score = score, row.names = names(aligned))
 }

@@ -1,22 +1,18 @@
-# Two mean surfaces laid over each other, transparent, in two colours.
+# Mean shapes laid over each other: two surfaces, transparent, or points and curves.
 
 plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
-  # The mean shapes of the groups as meshes, of the sample's mean size
   aligned <- x$aligned[[level]]
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
-  meshes <- lapply(stats::setNames(nm = levels(x$group)), function(g) {
-    points_mesh(size * mean_shape_of(aligned, x$group == g), aligned$triangles)
-  })
-  words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape"))
+  means <- lapply(stats::setNames(nm = levels(x$group)),
+                  function(g) size * mean_shape_of(aligned, x$group == g))
+  test <- intersect(c("mean shape", "mean shape F"), x$tests$test)
+  words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, c(test, NA)[1]))
   title <- if (is.null(main)) paste(words, collapse = ", ") else main
-  if (engine == "rgl") {
-    drawn <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
-    second <- meshes[[2]]
-    ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]),
-                            indices = second$it, color = colour[2],
-                            alpha = opacity, specular = "#202020")
-    return(add_ids(drawn, ids))
+  if (is.null(aligned$triangles)) {
+    return(plot_configurations(means, aligned$level, colour, view, legend, title))
   }
+  meshes <- lapply(means, points_mesh, aligned$triangles)
+  if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
   scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), known_settings(...))
@@ -47,15 +43,7 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
     rgb <- shade_vertices(rep(colour, ncol(xyz)), rotation %*% mesh$normals[1:3, ], settings)
     cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
   }, meshes, colour)
-  # Blended by depth: the nearer surface covers the other.
-  a <- seen[[1]]
-  b <- seen[[2]]
-  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
-  of_a[a$rgba[, , 4] == 0] <- 0
-  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
-  raster <- a$rgba
-  raster[, , 1:3] <- c(of_a) * a$rgba[, , 1:3] + (1 - c(of_a)) * b$rgba[, , 1:3]
-  raster[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
+  raster <- blend_by_depth(seen[[1]], seen[[2]], opacity)
   graphics::rasterImage(raster, frame$usr[1], frame$usr[4] - frame$height * frame$pixel,
                         frame$usr[1] + frame$width * frame$pixel,
                         frame$usr[4])
@@ -64,6 +52,26 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
                  plt = graphics::par("plt"),
                  tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
             class = "picture_scene")
+}
+
+blend_by_depth <- function(a, b, opacity) {
+  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
+  of_a[a$rgba[, , 4] == 0] <- 0
+  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
+  out <- a$rgba
+  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, ,
+                                                         channel] + (1 - of_a) * b$rgba[, , channel]
+  out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
+  out
+}
+
+rgl_overlay <- function(meshes, colour, opacity, view, ...) {
+  scene <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
+  second <- meshes[[2]]
+  ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]),
+                          indices = second$it, color = colour[2],
+                          alpha = opacity, specular = "#202020")
+  add_ids(scene, ids)
 }
 
 p_value_of <- function(x, level, test) {

@@ -50,9 +50,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   size <- check_size(size)
   curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves",
                                                        "fit_shape()") else check_curves(curves)
-  if (!is.null(table) && !is.data.frame(table)) {
-    refuse_argument("table", table, "Give a data frame.", rlang::current_env())
-  }
+  table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(turned$file)
   rgl::open3d(useNULL = TRUE)

@@ -34,17 +34,7 @@ plot.repeatability <- function(x, view = "front", most = 40,
   })
   graphics::layout(t(1:2), widths = c(1.15, 1))
   plot_part_errors(x, most, palette, ...)
-  # The mean points from one side, coloured by error
-  graphics::par(mar = c(3.2, 0.5, 1.5, 4))
-  flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(view_rotation(view))
-  graphics::plot.new()
-  graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
-  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2,
-                                                           drop = FALSE], col = "grey70")
-  front <- order(x$points$error)
-  graphics::points(flat[front, 1:2], pch = 16, cex = size,
-                   col = error_colours(x$points$error, x, palette)[front])
-  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2))
+  plot_point_errors(x, view_rotation(view), palette, size)
   invisible(x)
 }
 
@@ -61,7 +51,7 @@ plot_part_errors <- function(x, most, palette, ...) {
   top <- max(parts$error, if (several) parts$specimen)
   graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n",
                  ylab = "", xaxs = "i", bty = "n",
-                 xlab = "standard deviation of a point", ...)
+                 xlab = "standard deviation of a point (unit of the meshes)", ...)
   if (several) graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
   colour <- error_colours(parts$error, x, palette)
   graphics::segments(0, at, parts$error, at, col = colour, lwd = 2)
@@ -74,6 +64,22 @@ plot_part_errors <- function(x, most, palette, ...) {
                    inset = c(0, -0.05),
                    pch = c(21, 15), pt.bg = palette[length(palette) / 2],
                    col = c("grey20", "grey88"), pt.cex = c(1, 1.6), bty = "n", cex = 0.8)
+}
+
+#' The mean points from one side, coloured by error
+#' @noRd
+plot_point_errors <- function(x, rotation, palette, size) {
+  graphics::par(mar = c(3.2, 0.5, 1.5, 4))
+  flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(rotation)
+  graphics::plot.new()
+  graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
+  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2,
+                                                           drop = FALSE], col = "grey70")
+  front <- order(x$points$error)
+  graphics::points(flat[front, 1:2], pch = 16, cex = size,
+                   col = error_colours(x$points$error, x, palette)[front])
+  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2),
+             title = "unit of the meshes")
 }
 
 error_colours <- function(error, x, palette) {
