@@ -36,21 +36,21 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   check_number(side, "side", lower = 0, upper = 1)
   reach <- check_reach(reach)
   scan <- walkable(mesh)
-  in_context(cut_path(scan, located_ends(mesh, scan, from, to), angle, side, reach), scan$id)
+  in_context(cut_path(located_ends(mesh, scan, from, to), angle, side, reach), scan$id)
 }
 
 #' One plane cut as a path, or a failure
 #'
-#' @param scan As of [walkable()].
 #' @param ends As of [path_ends()]; a failure is handed on.
 #' @param angle,side,reach As in [plane_path()].
 #' @param ... Attributes of the path.
 #' @noRd
-cut_path <- function(scan, ends, angle, side, reach, ...) {
+cut_path <- function(ends, angle, side, reach, ...) {
   if (failed(ends)) return(ends)
+  scan <- ends$scan
   found <- cpp_plane_path(scan$vb, scan$it, scan$twin, ends$from, ends$to,
                           plane_normal(ends, angle), side, reach * ends$span)
-  if (found$end != "arrived") return(failed_cut(found$end, ends, scan$id))
+  if (found$end != "arrived") return(failed_cut(found$end, ends))
   path_through(rbind(ends$exact[1, ], found$points, ends$exact[2, ]), scan, angle = angle,
                side = side, ...)
 }
@@ -84,7 +84,7 @@ located_ends <- function(mesh, scan, from, to) {
 #' @param inside Barycentric weight by which ends are kept off edges and corners, so
 #'   that a plane through an end always crosses its triangle. The path begins and
 #'   stops at the exact places.
-#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the axis
+#' @return List: `scan`, `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the axis
 #'   between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
 #'   `axis` and is normal to `across`) and `span` (its length). Or a failure.
 #' @noRd
@@ -108,8 +108,8 @@ path_ends <- function(scan, exact, names, inside = 1e-6) {
     return(refuse("%s and %s are too near to each other for the size of their triangle.",
                   "Check the mesh for huge triangles, and the two landmarks."))
   }
-  list(from = from, to = to, exact = exact, names = names, axis = axis$axis, across = axis$across,
-       span = axis$span)
+  list(scan = scan, from = from, to = to, exact = exact, names = names, axis = axis$axis,
+       across = axis$across, span = axis$span)
 }
 
 #' Normals of the planes at given angles, 3 x k
@@ -184,13 +184,13 @@ check_path_on <- function(path, mesh, name) {
   check_places(path, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
 }
 
-failed_cut <- function(end, ends, id) {
+failed_cut <- function(end, ends) {
   why <- switch(end, border = "meets a border of the mesh",
                 round = "does not come to the second point",
                 "too far" = "strays too far from the axis")
   no_result(sprintf("the plane cut from %s to %s %s.", ends$names[1], ends$names[2], why),
               "Fill the hole between them, try another angle, or check the two landmarks.", "path",
-              id, "crestline_path_error")
+              ends$scan$id, "crestline_path_error")
 }
 
 #' @export

@@ -74,13 +74,13 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   strength <- if (type != "plane") {
     check_number(radius, "radius", lower = 0, open = TRUE)
     source <- known_curvature(curvature, specimen, radius, threads, order)
-    regions <- in_context(located_regions(keep_away, specimen), mesh_of(specimen)$id)
+    regions <- in_context(located_regions(keep_away, region_locator(specimen), mesh_of(specimen)$id), mesh_of(specimen)$id)
     path_strength(source, type, regions, as_mesh(specimen))
   }
   scan <- walkable(specimen)
   search <- search_settings(reach, longest, spacing, angles, refined, tie, distinct)
   ends <- located_ends(specimen, scan, from, to)
-  path <- in_context(find_reference(scan, ends, type, strength, radius, search), scan$id)
+  path <- in_context(find_reference(ends, type, strength, radius, search), scan$id)
   warn_rival(path, ends$names, scan$id, rival)
   path
 }
@@ -97,31 +97,30 @@ search_settings <- function(reach = 0.5, longest = 1.25, spacing = 0.25, angles 
 
 #' A reference path without checks and warnings, or a failure
 #'
-#' @param scan As of [walkable()].
 #' @param ends As of [path_ends()]; a failure is handed on.
 #' @param strength As of [path_strength()]; not used for planes.
 #' @param radius Of the curvature.
 #' @param search As of [search_settings()].
 #' @return As [reference_path()].
 #' @noRd
-find_reference <- function(scan, ends, type, strength, radius, search) {
+find_reference <- function(ends, type, strength, radius, search) {
   if (failed(ends)) return(ends)
   rate <- if (type == "plane") {
     function(found) -found$length
   } else {
-    function(found) cut_strength(scan, ends, found, search$reach, search$spacing * radius, strength)
+    function(found) cut_strength(ends, found, search$reach, search$spacing * radius, strength)
   }
-  measure <- function(angle, side) measure_cuts(scan, ends, angle, side, search$reach)
+  measure <- function(angle, side) measure_cuts(ends, angle, side, search$reach)
   optima <- cut_optima(measure, rate, search)
   if (nrow(optima) == 0) {
     return(no_result(
       sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1],
               ends$names[2], measure(0, 0L)$end),
       "Look for a hole between the landmarks, or raise `reach` if the feature bends far out.",
-      "reference path", scan$id, "crestline_path_error"
+      "reference path", ends$scan$id, "crestline_path_error"
     ))
   }
-  cut <- function(i) cut_path(scan, ends, optima$angle[i], optima$side[i], search$reach,
+  cut <- function(i) cut_path(ends, optima$angle[i], optima$side[i], search$reach,
                               type = type)
   path <- cut(1)
   elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path, "length"),
@@ -149,19 +148,20 @@ shares_of_first <- function(optima, type) {
 #' @param rate Function of measured cuts that are at most `longest` times as long as the shortest:
 #'   the greatest counts.
 #' @noRd
-limited_cut <- function(scan, ends, limit, angles, reach, rate = function(found) -found$length,
+limited_cut <- function(ends, limit, angles, reach, rate = function(found) -found$length,
                         longest = 1) {
   if (failed(ends)) return(ends)
-  found <- measure_cuts(scan, ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
-  if (all(is.na(found$length))) return(failed_cut(found$end[ceiling(angles / 2)], ends, scan$id))
+  found <- measure_cuts(ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
+  if (all(is.na(found$length))) return(failed_cut(found$end[ceiling(angles / 2)], ends))
   allowed <- found[which(found$length <= longest * min(found$length, na.rm = TRUE)), ]
-  cut_path(scan, ends, allowed$angle[which.max(rate(allowed))], 0, reach)
+  cut_path(ends, allowed$angle[which.max(rate(allowed))], 0, reach)
 }
 
 #' Lengths of plane cuts, NA where a cut does not arrive
 #' @return Data frame `angle`, `side`, `length`, `end`.
 #' @noRd
-measure_cuts <- function(scan, ends, angle, side, reach) {
+measure_cuts <- function(ends, angle, side, reach) {
+  scan <- ends$scan
   found <- cpp_plane_cuts(scan$vb, scan$it, scan$twin, ends$from, ends$to,
                           plane_normal(ends, angle), side, reach * ends$span)
   frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
@@ -172,8 +172,9 @@ measure_cuts <- function(scan, ends, angle, side, reach) {
 #' @param found Cuts as of [measure_cuts()], all arrived.
 #' @param strength Function of vertices.
 #' @noRd
-cut_strength <- function(scan, ends, found, reach, step, strength) {
+cut_strength <- function(ends, found, reach, step, strength) {
   if (nrow(found) == 0) return(numeric())
+  scan <- ends$scan
   at <- cpp_cut_weights(scan$vb, scan$it, scan$twin, ends$from, ends$to,
                         plane_normal(ends, found$angle), found$side, reach * ends$span, step)
   vertex <- unique(at$vertex)

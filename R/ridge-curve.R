@@ -84,15 +84,14 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   id <- if (inherits(specimen, "specimen")) specimen$id
   doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
   curve <- in_context(id = id, doing = doing, code = {
-    scan <- walkable(specimen)
-    job <- curve_job(type, n, end_name(from), end_name(to), settings, passes, trust = trust,
-                     reach = reach)
+    ends <- located_ends(specimen, walkable(specimen), from, to)
+    job <- curve_job(ends, type, n, settings, passes, trust = trust, reach = reach)
     if (type != "plane") {
       job[c("radius", "width")] <- list(radius, width)
       job$source <- known_curvature(curvature, specimen, radius, threads, settings$order)
-      job$regions <- located_regions(keep_away, specimen)
+      job$regions <- located_regions(keep_away, region_locator(specimen), id)
     }
-    trace_curve(scan, located_ends(specimen, scan, from, to), job)
+    trace_curve(job)
   })
   warn_rival(curve$reference, c(curve$from, curve$to), id)
   warn_undetermined(curve)
@@ -101,64 +100,63 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 
 #' What is asked of one curve
 #'
+#' @param ends As of [path_ends()]; a failure is handed on.
 #' @param type,n,settings,passes,radius,width,trust,reach As in [ridge_curve()].
-#' @param from,to Names of its ends.
 #' @param source Curvature as of [known_curvature()]; NULL for planes.
 #' @param regions As of [located_regions()]; a failure is handed on.
 #' @param angle_limit Of the planes of the reference path, in radians; NA: none.
 #' @noRd
-curve_job <- function(type, n, from, to, settings, passes = 1, radius = NULL, width = NULL,
+curve_job <- function(ends, type, n, settings, passes = 1, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
                       reach = 0.5) {
-  list(type = type, n = n, from = from, to = to, settings = settings, passes = passes,
-       radius = radius, width = width, source = source, regions = regions, trust = trust,
+  list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius, width = width, source = source, regions = regions, trust = trust,
        angle_limit = angle_limit,
        search = search_settings(reach, if (type == "plane") 1.25 else settings$longest))
 }
 
 #' One curve, without checks and warnings
 #'
-#' @param scan As of [walkable()].
-#' @param ends As of [path_ends()]; a failure is handed on.
 #' @param job As of [curve_job()].
 #' @return A `curve`, or a failure.
 #' @noRd
-trace_curve <- function(scan, ends, job) {
-  if (failed(ends)) return(ends)
-  if (failed(job$regions)) return(job$regions)
-  reference <- curve_reference(scan, ends, job)
+trace_curve <- function(job) {
+  for (needed in job[c("ends", "source", "regions")]) if (failed(needed)) return(needed)
+  reference <- curve_reference(job)
   if (failed(reference)) return(reference)
-  if (job$type == "plane") return(assembled_curve(scan, reference, reference, job))
-  path <- trusted_path(job$trust, scan, reference)
+  if (job$type == "plane") return(assembled_curve(reference, reference, job))
+  path <- trusted_path(job$trust, job$ends$scan, reference)
   if (failed(path)) return(path)
   # The trusted part as shares of the path, NULL where that is all of it.
   trusted <- attr(path, "trusted") / attr(path, "length")
   for (pass in seq_len(job$passes)) {
-    fit <- fit_ridge(scan, path, job)
+    fit <- fit_ridge(path, job)
     if (failed(fit)) return(fit)
     fit$reference <- path
     if (!fit$found) break
     path <- fit$path
     if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
   }
-  assembled_curve(scan, fit$path, fit$reference, job, fit)
+  assembled_curve(fit$path, fit$reference, job, fit)
 }
 
 #' The reference path of a curve, among all cuts or those at small angles to the surface's normal
 #' @noRd
-curve_reference <- function(scan, ends, job) {
+curve_reference <- function(job) {
+  ends <- job$ends
   search <- job$search
-  strength <- if (job$type != "plane") path_strength(job$source, job$type, job$regions, scan)
+  strength <- if (job$type != "plane") {
+    path_strength(job$source, job$type, job$regions, ends$scan)
+  }
   if (is.na(job$angle_limit)) {
-    return(find_reference(scan, ends, job$type, strength, job$radius, search))
+    return(find_reference(ends, job$type, strength, job$radius, search))
   }
   if (is.null(strength)) {
-    return(limited_cut(scan, ends, job$angle_limit, search$limited, search$reach))
+    return(limited_cut(ends, job$angle_limit, search$limited, search$reach))
   }
   rate <- function(found) {
-    cut_strength(scan, ends, found, search$reach, search$spacing * job$radius, strength)
+    cut_strength(ends, found, search$reach, search$spacing * job$radius, strength)
   }
-  limited_cut(scan, ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
+  limited_cut(ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }
 
 #' One pass from reference path to lifted curve
@@ -167,11 +165,12 @@ curve_reference <- function(scan, ends, job) {
 #'   in which curvature counts.
 #' @return List of the stages, `found` and `path`; without a curve `reason`. Or a failure.
 #' @noRd
-fit_ridge <- function(scan, path, job) {
+fit_ridge <- function(path, job) {
+  scan <- job$ends$scan
   settings <- job$settings
   radius <- job$radius
   coordinates <- near_path(scan, path, min(job$width, settings$window * radius), radius)
-  strength <- window_strength(scan, coordinates, job, attr(path, "trusted"))
+  strength <- window_strength(coordinates, job, attr(path, "trusted"))
   scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
   stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE,
                  path = path)
@@ -207,7 +206,7 @@ fit_ridge <- function(scan, path, job) {
 #'   `rows` (where it was estimated), `cell` (of every row, the place in `rows` of the one that
 #'   stands for it, NA outside the window); and `cap`.
 #' @noRd
-window_strength <- function(scan, coordinates, job, trusted = NULL) {
+window_strength <- function(coordinates, job, trusted = NULL) {
   settings <- job$settings
   thinned <- thinned_rows(coordinates, settings$vertices)
   rows <- thinned$rows
@@ -220,7 +219,7 @@ window_strength <- function(scan, coordinates, job, trusted = NULL) {
   # No direction is across a path where it runs along the normal, or stands still.
   value[is.nan(value)] <- NA
   if (!is.null(job$regions)) {
-    at <- t(scan$vb[1:3, coordinates$vertex[rows], drop = FALSE])
+    at <- t(job$ends$scan$vb[1:3, coordinates$vertex[rows], drop = FALSE])
     value[is_kept_away(job$regions, at)] <- 0
   }
   if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] |
@@ -283,7 +282,8 @@ core_strength <- function(coordinates, strength, distance, trusted = NULL) {
 #' @param job As of [curve_job()].
 #' @param fit As of [fit_ridge()]; NULL for plane curves.
 #' @noRd
-assembled_curve <- function(scan, path, reference, job, fit = NULL) {
+assembled_curve <- function(path, reference, job, fit = NULL) {
+  scan <- job$ends$scan
   placed <- resample_path(scan, path, job$n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
@@ -294,7 +294,7 @@ assembled_curve <- function(scan, path, reference, job, fit = NULL) {
   points <- frame_of(c(list(point = seq_len(job$n)), unclass(placed)[c("s", "x", "y", "z")],
                        list(d = d, se = on_line(fit$line$se)),
                        unclass(placed)[c("face", "w1", "w2", "w3")]))
-  new_curve(points, path, reference, job, judge_curve(job, fit), scan,
+  new_curve(points, path, reference, job, judge_curve(job, fit),
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
             strength = mean_strength(scan, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
@@ -307,21 +307,20 @@ assembled_curve <- function(scan, path, reference, job, fit = NULL) {
 #'   [ridge_curve()].
 #' @param job As of [curve_job()].
 #' @param verdict List of `se`, `determined`, `reason`.
-#' @param scan List of `key` and `id` of the mesh that its faces are numbers of.
 #' @param even Whether its points stand at equal chords.
 #' @noRd
-new_curve <- function(points, path, reference, job, verdict, scan, coordinates = NULL,
+new_curve <- function(points, path, reference, job, verdict, coordinates = NULL,
                       surface = NULL, line = NULL,
                       strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE) {
   structure(
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
          surface = surface, line = line, strength = strength, scale = scale, se = verdict$se,
-         determined = verdict$determined, reason = verdict$reason, id = scan$id, from = job$from,
-         to = job$to,
+         determined = verdict$determined, reason = verdict$reason, id = job$ends$scan$id, from = job$ends$names[1],
+         to = job$ends$names[2],
          type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
          width = job$width,
-         key = scan$key, converged = converged, even = even),
+         key = job$ends$scan$key, converged = converged, even = even),
     class = "curve"
   )
 }

@@ -118,8 +118,10 @@ build_scheme <- function(tables, name, labels) {
   }
   scheme$curves <- with_defaults(scheme$curves)
   points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
-  new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
-                   scheme_triangles(scheme$patches, scheme$strips, points))
+  scheme <- new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
+                             scheme_triangles(scheme$patches, scheme$strips, points))
+  scheme_plan(scheme)
+  scheme
 }
 
 #' A scheme from its parts: all its fields are declared here

@@ -151,10 +151,14 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                          specimen$id)
   given <- given_fits(specimen, scan, scheme, curves)
   slips <- scheme_slips(specimen, scheme)
-  fits <- fit_scheme_curves(scan, scheme, given, cut_scale, tick)
+  fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
+  fits[names(given)] <- given
+  open <- !names(fits) %in% names(given)
+  fits <- finished_curves(fit_whole_curves(fits, open, scan, scheme, tick), open, scan, scheme,
+                          cut_scale)
   store <- place_store(scheme, scan$points, fits)
   patches <- fit_scheme_patches(scan, scheme, fits, store, tick)
-  shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
+  shape <- new_shape(specimen$id, shape_points(scheme, patches$store),
                      shape_status(scheme, scan$reason, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
                      tracks = curve_tracks(fits, scheme, scan$faces), column = column,
@@ -190,24 +194,24 @@ progress_ticks <- function(progress, n, id) {
 #' @return Matrix, a row a place (row names), columns x, y, z, face, w1, w2, w3, se.
 #' @noRd
 place_store <- function(scheme, landmarks, fits) {
-  places <- unique(scheme$points$place)
-  store <- matrix(NA_real_, length(places), 8, dimnames = list(places, c(mesh_columns, "se")))
-  store[paste0("landmarks|", rownames(landmarks)), mesh_columns] <- landmarks
+  plan <- scheme_plan(scheme)
+  store <- matrix(NA_real_, length(plan$places), 8,
+                  dimnames = list(plan$places, c(mesh_columns, "se")))
+  store[plan$at[scheme$points$level == "landmarks"], mesh_columns] <- landmarks
   found <- Filter(function(fit) !is.null(fit$points), fits)
   if (!length(found)) return(store)
   values <- do.call(rbind,
                     lapply(found, function(fit) columns_of(fit$points, c(mesh_columns, "se"))))
-  place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part %in%
-                               names(found)]
+  place <- plan$at[scheme$points$level == "curves" & scheme$points$part %in% names(found)]
   first <- !duplicated(place)
   fill_store(store, place[first], values[first, , drop = FALSE])
 }
 
-shape_points <- function(points, store) {
-  at <- as.data.frame(store[points$place, ], row.names = FALSE)
+shape_points <- function(scheme, store) {
+  at <- as.data.frame(store[scheme_plan(scheme)$at, ], row.names = FALSE)
   at$face <- as.integer(at$face)
   rownames(at) <- NULL
-  cbind(points[c("level", "part", "point")], at)
+  cbind(scheme$points[c("level", "part", "point")], at)
 }
 
 shape_status <- function(scheme, landmark_reasons, fits, problems) {

@@ -55,16 +55,8 @@ scan_landmarks <- function(specimen, bridged, scheme) {
   list(landmarks = specimen$landmarks, points = points, reason = reason, ends = ends, lost = lost)
 }
 
-#' A landmark of the scheme, or a place that is known already: its row of `ends`, or a failure
+#' The place of a landmark of the scheme: its row of `ends`, or a failure
 #' @noRd
-scan_place <- function(scan, at) {
-  if (!is.character(at)) return(at)
-  if (is.null(scan$lost[[at]])) scan$ends[at, ] else scan$lost[[at]]
-}
-
-scan_ends <- function(scan, from, to) {
-  places <- list(scan_place(scan, from), scan_place(scan, to))
-  bad <- Find(failed, places)
-  if (!is.null(bad)) return(bad)
-  path_ends(scan, do.call(rbind, places), c(end_name(from), end_name(to)))
+scan_place <- function(scan, name) {
+  if (is.null(scan$lost[[name]])) scan$ends[name, ] else scan$lost[[name]]
 }

@@ -137,15 +137,15 @@ test_that("strength is taken no further apart than asked, and the mean comes to 
   aside <- arched_ridges(4, 2)
   surface <- walkable(aside)
   ends <- located_ends(aside, surface, "a", "b")
-  cut <- measure_cuts(surface, ends, 0.2, 0L, 0.5)
+  cut <- measure_cuts(ends, 0.2, 0L, 0.5)
   height <- function(vertices) surface$vb[3, vertices]
-  path <- cut_path(surface, ends, 0.2, 0, 0.5)
+  path <- cut_path(ends, 0.2, 0, 0.5)
   exact <- sum(diff(path$s) * (path$z[-1] + path$z[-nrow(path)]) / 2) / cut$length
-  expect_equal(cut_strength(surface, ends, cut, 0.5, 1e-3, height), exact, tolerance = 1e-5)
-  expect_equal(cut_strength(surface, ends, cut, 0.5, 2, height), exact, tolerance = 2e-2)
-  expect_identical(cut_strength(surface, ends, cut[0, ], 0.5, 2, height), numeric())
+  expect_equal(cut_strength(ends, cut, 0.5, 1e-3, height), exact, tolerance = 1e-5)
+  expect_equal(cut_strength(ends, cut, 0.5, 2, height), exact, tolerance = 2e-2)
+  expect_identical(cut_strength(ends, cut[0, ], 0.5, 2, height), numeric())
   asked <- NULL
-  cut_strength(surface, ends, cut, 0.5, 5, function(vertices) height(asked <<- vertices))
+  cut_strength(ends, cut, 0.5, 5, function(vertices) height(asked <<- vertices))
   expect_lte(length(asked), 3 * (ceiling(cut$length / 5) + 1))
 })
 

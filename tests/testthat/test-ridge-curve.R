@@ -157,7 +157,7 @@ test_that("keep_away() counts strength as 0 in the window too", {
   region <- keep_away(c(-4, crest(-0.5), 6), c(4, crest(0.5), 6), radius = 0.5)
   curve <- suppressWarnings(of_bent(bent, keep_away = region))
   at <- curve$coordinates$vertex[curve$surface$rows]
-  inside <- is_kept_away(located_regions(region, bent), t(bent$mesh$vb[1:3, at]))
+  inside <- is_kept_away(located_regions(region, region_locator(bent), NULL), t(bent$mesh$vb[1:3, at]))
   expect_gt(sum(inside), 10)
   expect_true(all(curve$surface$strength[inside] == 0))
   expect_gt(min(curve$surface$strength[!inside & abs(curve$coordinates$d[curve$surface$rows]) < 1]), 0)
@@ -242,9 +242,10 @@ test_that("a ridge line that cannot be lifted leaves the reference path, with th
   path <- of_bent(bent)$reference
   torn <- walkable(bent)
   torn$twin[] <- 0L # every edge a border
-  job <- curve_job("ridge", 9, "a", "b", ridge_settings(), radius = 4, width = 5,
+  ends <- located_ends(bent, torn, "a", "b")
+  job <- curve_job(ends, "ridge", 9, ridge_settings(), radius = 4, width = 5,
                    source = known_curvature(curvature(bent, 4), bent))
-  fit <- fit_ridge(torn, path, job)
+  fit <- fit_ridge(path, job)
   expect_false(fit$found)
   expect_match(fit$reason, "leaves the surface")
   expect_identical(fit$path, path)
@@ -275,12 +276,12 @@ test_that("of a dense window one vertex a cell stands for the others, the neares
 test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {
   u <- straight_ridge()
   path <- reference_path(u, "a", "b", "plane")
-  job <- curve_job("ridge", 5, "a", "b", ridge_settings(), radius = 4)
+  job <- curve_job(located_ends(u, walkable(u), "a", "b"), "ridge", 5, ridge_settings(), radius = 4)
   fit <- list(found = FALSE, reason = "not lifted", line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)),
               scale = 1, coordinates = path_coordinates(u, path, 4))
   every <- seq_len(nrow(fit$coordinates))
   fit$strengths <- list(value = rep(1, length(every)), rows = every, cell = every)
-  curve <- assembled_curve(walkable(u), path, path, job, fit)
+  curve <- assembled_curve(path, path, job, fit)
   expect_warning(warn_undetermined(curve), "not lifted", class = "crestline_undetermined")
   expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
   expect_false(curve$determined)
@@ -294,8 +295,8 @@ test_that("no strength is NaN where no direction is across the path", {
   along <- which(window$inside)[1]
   normal <- source(window$vertex[along])$normal
   window[along, c("tx", "ty", "tz")] <- as.list(normal)
-  job <- curve_job("ridge", 9, "a", "b", ridge_settings(), source = source)
-  strength <- window_strength(walkable(face), window, job)
+  job <- curve_job(located_ends(face, walkable(face), "a", "b"), "ridge", 9, ridge_settings(), source = source)
+  strength <- window_strength(window, job)
   expect_true(is.na(strength$value[along]) && !any(is.nan(strength$value)))
   expect_gt(sum(!is.na(strength$value)), 10)
 })

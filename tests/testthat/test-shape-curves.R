@@ -61,7 +61,9 @@ test_that("outside the trusted part of the path strength does not count, whateve
     at <- curve$coordinates[curve$surface$rows, ]
     share <- at$s / attr(curve$coordinates, "length")
     counted <- curve$surface$strength > 0
-    expect_true(all(share[counted] >= 0.25 & share[counted] <= 0.75))
+    trusted <- attr(curve$reference, "trusted")
+    expect_equal(trusted / attr(curve$reference, "length"), c(0.25, 0.75), tolerance = 0.05)
+    expect_true(all(at$s[counted] >= trusted[1] & at$s[counted] <= trusted[2]))
     expect_gt(sum(counted), 50)
     expect_true(all(counted[abs(at$d) < 2 & abs(share - 0.5) < 0.2]))
   }
@@ -93,12 +95,12 @@ test_that("where curvature cannot be estimated the cut stands in, with the reaso
   scan <- prepare_scan(face, scheme, ridge_settings(), 1, list(bridge = 0), 1L)
   row <- as.list(scheme$curves[1, ])
   scan$sources <- list("6" = function(vertices) crestline_abort("no good.", "Mend it.", "curvature"))
-  cut <- fit_or_cut(row, scan, list())
+  cut <- curve_record(row_job(row, row$from, scan, list()))
   expect_equal(cut$reason, "the shortest cut instead: no good")
   expect_false(cut$determined)
   expect_s3_class(cut$path, "mesh_path")
   scan$sources <- list("6" = function(vertices) stop("not ours"))
-  expect_error(fit_or_cut(row, scan, list()), "not ours")
+  expect_error(curve_record(row_job(row, row$from, scan, list())), "not ours")
   row$from <- row$to
-  expect_match(fit_or_cut(row, scan, list())$reason, "are the same point$")
+  expect_match(curve_record(row_job(row, row$from, scan, list()))$reason, "are the same point$")
 })
