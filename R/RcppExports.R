@@ -137,6 +137,10 @@ cpp_slide_on_mesh <- function(vb, it, twin, b, x, held, places, tolerance, sweep
     .Call(`_crestline_cpp_slide_on_mesh`, vb, it, twin, b, x, held, places, tolerance, sweeps)
 }
 
+cpp_slide_jointly <- function(vb, it, twin, b, x, rows, places, settings) {
+    .Call(`_crestline_cpp_slide_jointly`, vb, it, twin, b, x, rows, places, settings)
+}
+
 cpp_locate <- function(vb, it, xyz, leaf) {
     .Call(`_crestline_cpp_locate`, vb, it, xyz, leaf)
 }

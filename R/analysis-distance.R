@@ -151,7 +151,7 @@ print.curve_distance <- function(x, most = 12, digits = 3, ...) {
     how <- paste0(c(points = "points of the same number",
                     curves = "nearest places")[[attr(x, "between")]],
                   if (attr(x, "match") == "procrustes") ", b laid onto a")
-    cat("Distance of ", amount(sum(!is.na(x$rms)), "part"), ", ", how, "\n", sep = "")
+    cat("<curve_distance> ", amount(sum(!is.na(x$rms)), "part"), ", ", how, "\n", sep = "")
     worst <- utils::head(x[order(-x$rms), ], most)
     shown <- rbind(as.data.frame(worst), all)
     numbers <- c("rms", "mean", "max")

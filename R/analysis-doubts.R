@@ -40,7 +40,7 @@ sample_limits <- function(far = 8, point = 8, size = 5, estimated = 1 / 3, beyon
 #' @export
 print.sample_limits <- function(x, ...) {
   printed(x, {
-    cat("Limits of a sample:",
+    cat("<sample_limits>",
         paste(names(x), vapply(x, format, "", digits = 3), sep = " = ", collapse = ", "), "\n")
     invisible(x)
   })

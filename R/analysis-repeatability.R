@@ -296,7 +296,7 @@ print.repeatability <- function(x, most = 10, digits = 3, ...) {
   check_most(most)
   printed(x, {
     count <- x$counts
-    cat("Repeatability of ", amount(count[["measurements"]], "measurement"), " of ",
+    cat("<repeatability> ", amount(count[["measurements"]], "measurement"), " of ",
         amount(count[["specimens"]], "specimen"),
         if (count[["observers"]]) paste(" by", amount(count[["observers"]], "observer")), "\n",
         sep = "")

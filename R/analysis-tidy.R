@@ -4,13 +4,13 @@
 #'
 #' Methods for the generics `tidy()` and `glance()` of the package generics, which broom re-exports.
 #'
-#' @param x A `group_comparison`, `shape_pca` or `aligned`.
-#' @param what Of a `group_comparison`: "tests" or "points".
+#' @param x A `group_comparison`, `shape_lm`, `shape_pca` or `aligned`.
+#' @param what Of a `group_comparison`: "tests" or "points"; of a `shape_lm` also "parts".
 #' @param ... Ignored.
 #' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test),
 #'   `statistic`, `p.value`, `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point),
 #'   `estimate` (`distance` along the normal, or the displacement where there is none), `statistic`,
-#'   `p.value`, `adj.p.value`. Of components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as
+#'   `p.value`, `adj.p.value`. Of a model: a row a level, term and test, point or part. Of components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as
 #'   in broom). Of an alignment: a row a specimen, as `as.data.frame()`. `glance()`: one row. Of a
 #'   comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of the
 #'   mean shape's). Of components: `nobs`, `points`, `components`, `variance` (total). Of an
@@ -91,4 +91,32 @@ glance.aligned <- function(x, ...) {
   data.frame(nobs = nrow(table), points = nrow(x$mean), size = mean(table$size),
              distance = sqrt(mean(table$distance^2)),
              missing = nrow(x$missing))
+}
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::tidy
+tidy.shape_lm <- function(x, what = c("tests", "points", "parts"), ...) {
+  check_method_dots(..., known = "what")
+  validate(x)
+  what <- check_choice(what, c("tests", "points", "parts"), "what")
+  table <- x[[what]]
+  if (is.null(table)) {
+    crestline_abort(sprintf("there are no %s.", what), "Fit with more `tests`.", stage = "model")
+  }
+  own <- switch(what, tests = table[c("test", "df", "squares", "share")],
+                points = table[c("point", "distance", "displacement")],
+                parts = table[c("part", "points")])
+  data.frame(level = table$level, term = table$term, own, statistic = table$statistic,
+             p.value = table$p_value, adj.p.value = table$p_adjusted)
+}
+
+#' @rdname tidy.group_comparison
+#' @exportS3Method generics::glance
+glance.shape_lm <- function(x, ...) {
+  check_method_dots(...)
+  validate(x)
+  shape <- x$tests[x$tests$test %in% "shape", ]
+  data.frame(nobs = length(x$aligned[[1]]), terms = length(attr(x$models[[1]]$terms, "term.labels")),
+             df.residual = x$left, levels = length(x$aligned), permutations = x$n_perm,
+             p.value = if (NROW(shape)) min(shape$p_value) else NA_real_)
 }

@@ -31,6 +31,14 @@ crestline_warn <- function(problem, remedy, stage, id = NULL, class = NULL) {
 #' @noRd
 crestline_inform <- function(said) rlang::inform(said, class = "crestline_message")
 
+#' Say, once a session, that a call is of a former form, and how it is written today
+#' @noRd
+inform_former <- function(former, today) {
+  rlang::inform(sprintf("`%s` is deprecated. Write `%s`.", former, today),
+                class = c("crestline_deprecated", "crestline_message"), .frequency = "once",
+                .frequency_id = paste("crestline:", former))
+}
+
 condition_text <- function(problem, remedy, stage, id) {
   where <- if (is.null(id)) stage else paste0("specimen ", id, ", ", stage)
   c(paste0(where, ": ", problem), i = remedy)

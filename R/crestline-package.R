@@ -35,11 +35,11 @@
 #'   [shape_pca()], [shape_at()], [compare_groups()]; to other packages and back: [as_geomorph()],
 #'   [as_rrpp()], [as_morpho()], [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
-#' * *Pictures and pages*: `plot()` of most objects, [plot_panel()], [plot_cuts()],
-#'   [plot_placing()], [plot_refinement()], [write_page()], [write_pca_page()],
+#' * *Pictures and pages*: `plot()` of most objects: [plot.specimen()], [plot.curve()],
+#'   [plot.shape()], [plot.group_comparison()], [plot.shape_pca()], [plot.repeatability()]; curves
+#'   together [plot_curves()]; for the browser [write_page()], [write_pca_page()]; colours
 #'   [plot_shape_scale()], [shape_colours()]; a picture step by step: [draw_surface()],
-#'   [draw_lines()], [draw_points()], [draw_band()], [plot_curves()], [visible_points()],
-#'   [picture_settings()].
+#'   [draw_lines()], [draw_points()], [draw_band()], [visible_points()], [picture_settings()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]
 #'   and [scan_settings()], [true_points()], [true_effect()].
 #'

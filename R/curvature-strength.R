@@ -57,7 +57,7 @@ keep_away <- function(from, to, radius = 0.7, extension = 0.2) {
 #' @export
 print.keep_away <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Keep away from %s - %s: radius %g, extension %g of their distance\n",
+  cat(sprintf("<keep_away> %s - %s: radius %g, extension %g of their distance\n",
               end_name(x$from),
               end_name(x$to), x$radius, x$extension))
   invisible(x)
@@ -88,7 +88,7 @@ keep_side <- function(from, to, towards) {
 #' @export
 print.keep_side <- function(x, ...) {
   check_method_dots(...)
-  cat(sprintf("Keep to the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to),
+  cat(sprintf("<keep_side> the side of %s - %s where %s lies\n", end_name(x$from), end_name(x$to),
               end_name(x$towards)))
   invisible(x)
 }

@@ -252,7 +252,7 @@ print.curvature <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     fitted <- !is.na(x$k1)
-    cat(sprintf("Curvature (%s) at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
+    cat(sprintf("<curvature> %s, at %d of %d vertices, radius %g\n", attr(x, "order"), sum(fitted),
                 length(fitted), attr(x, "radius")))
     if (any(fitted)) {
       shares <- stats::quantile(x$neighbours[fitted], c(0, 0.5, 1), names = FALSE)

@@ -45,14 +45,14 @@ draw_band.rgl_scene <- function(scene, left, right, colour = "black", opacity = 
 #' @export
 print.rgl_scene <- function(x, ...) {
   check_method_dots(...)
-  cat("rgl scene:", length(x$ids), "objects\n")
+  cat("<rgl_scene> ", amount(length(x$ids), "object"), "\n", sep = "")
   invisible(x)
 }
 
 #' @export
 print.picture_scene <- function(x, ...) {
   check_method_dots(...)
-  cat("Picture of", nrow(x$depth), "x", ncol(x$depth), "pixels, one pixel =",
+  cat("<picture_scene>", nrow(x$depth), "x", ncol(x$depth), "pixels, one pixel =",
       format(x$pixel, digits = 3), "units\n")
   invisible(x)
 }

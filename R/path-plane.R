@@ -197,7 +197,7 @@ failed_cut <- function(end, ends) {
 print.mesh_path <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Path of %d points, length %.4g", nrow(x), attr(x, "length")))
+    cat(sprintf("<mesh_path> %d points, length %.4g", nrow(x), attr(x, "length")))
     if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees",
                                                 attr(x, "angle") * 180 / pi))
     cat("\n")

@@ -4,24 +4,23 @@
 #'
 #' Measurements from wrong landmarks look normal. This function stops with an error that names the
 #' specimen, and saves a picture of its landmarks if `picture` asks for one. [fit_shapes()] calls it
-#' for meshes that come without landmarks. `plot_placing()` draws the picture: found and placed
-#' landmarks in green, doubtful ones in red, predicted ones, where they lie on the scan, in blue.
+#' for meshes that come without landmarks. `plot(specimen, what = "placing")` draws the picture.
 #'
 #' @param specimen A [specimen()] of [find_landmarks()].
 #' @param least Least confidence of a landmark that is found.
 #' @param doubtful Greatest share of the found landmarks that may have less.
 #' @param picture Path of a `.png` file that is written where the specimen is refused; NULL: none.
-#' @return `check_placing()`: the specimen. Those of its landmarks that are doubtful are in it
-#'   still.
+#' @return The specimen. Those of its landmarks that are doubtful are in it still.
 #' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's
 #'   name, the landmarks, and the picture's path.
-#' @seealso [find_landmarks()]; [review_landmarks()] to correct them by hand
+#' @seealso [find_landmarks()]; [plot.specimen()] for the picture; [review_landmarks()] to correct
+#'   landmarks by hand
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
 #' face <- find_landmarks(humface, id = "humface")
 #' check_placing(face)
-#' plot_placing(face)
+#' plot(face, what = "placing")
 #' }
 #' @export
 check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
@@ -52,8 +51,8 @@ warn_doubtful <- function(doubt, specimen) {
     "no landmark was found"
   crestline_warn(
     sprintf("the template %s lies badly on it: %s.", specimen$match$template, said),
-    paste("Is it the object, and whole enough? Look at plot_placing(); place the landmarks by hand (place_landmarks()),",
-          "or calibrate the template (calibrate_template())."),
+    paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\"); place the",
+          "landmarks by hand (place_landmarks()), or calibrate the template (calibrate_template())."),
     stage = "landmarks", id = specimen$id, class = "crestline_doubtful_placing"
   )
 }
@@ -68,14 +67,13 @@ placing_of <- function(specimen, call = rlang::caller_env()) {
   specimen$placing
 }
 
-#' @rdname check_placing
+#' The landmarks of find_landmarks() from several sides, by their confidence
+#'
 #' @param views Directions to look from: how far the viewer goes round to the subject's left, in
 #'   radians, in the frame of the template.
-#' @param ... Passed to [draw_surface()].
-#' @return `plot_placing()`: the specimen, invisibly.
-#' @export
-plot_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
-  check_given()
+#' @return The specimen, invisibly.
+#' @noRd
+draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
   least <- check_number(least, "least", 0, 1)
   views <- check_numbers(views, "views")
   placing <- placing_of(specimen)
@@ -101,5 +99,5 @@ plot_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
 write_placing <- function(specimen, file, least, size = c(1800, 750)) {
   grDevices::png(file, size[1], size[2], res = 120)
   on.exit(grDevices::dev.off())
-  plot_placing(specimen, least)
+  draw_placing(specimen, least)
 }

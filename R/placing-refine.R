@@ -218,20 +218,13 @@ refinement_table <- function(specimen, definitions, places) {
              moved = FALSE, given, points, reason = text, row.names = NULL)
 }
 
-#' @rdname refine_landmarks
-#' @param view Where to look from, see [draw_surface()].
-#' @param labels Whether to write the landmarks' names.
-#' @param main Title; NULL: the specimen's name.
-#' @param ... Passed to [draw_surface()].
-#' @details `plot_refinement()` draws the landmarks as they were given in black, their defined
-#'   places in orange, and lines between.
-#' @return `plot_refinement()`: the scene of [draw_surface()], invisibly.
-#' @export
-plot_refinement <- function(specimen, view = "front", labels = TRUE, main = NULL, ...) {
-  check_given()
+#' The landmarks of refine_landmarks() as they were given and as they are defined
+#'
+#' @return The scene of [draw_surface()], invisibly.
+#' @noRd
+draw_refinement <- function(specimen, view, labels, main, ...) {
   check_flags(labels)
   main <- check_text(main, "main", null = TRUE)
-  check_class(specimen, "specimen", "specimen", "refine_landmarks()")
   table <- specimen$refinement
   if (is.null(table)) {
     crestline_abort("the landmarks of `specimen` were not refined.",

@@ -1,6 +1,6 @@
 # What the page of a review shows, as an rgl scene, and what has changed in it since.
 
-#' Colours of landmarks by state, as in [plot_placing()], and of curves by kind, as in
+#' Colours of landmarks by state, as in [plot.specimen()], and of curves by kind, as in
 #' [plot.shape()]
 #' @noRd
 review_colours <- function() {

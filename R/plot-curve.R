@@ -4,10 +4,11 @@
 #'
 #' The estimated curve is drawn as a line, its points as dots, and a band of two standard errors to
 #' each side. The band lies across the curve, in the direction normal x tangent at every point.
+#' `plot(x, what = "panel")` shows how one curve was found.
 #'
 #' @param x A `curve`, as [ridge_curve()] returns it.
 #' @param curves A list of curves, or one curve.
-#' @param specimen The `specimen` it lies on.
+#' @param specimen The `specimen` it lies on; not needed for the panel.
 #' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
 #' @param colour The colour of the curves, one for all or one for each; NULL for one a type: ridges
 #'   dark red, valleys dark blue, plane curves black.
@@ -18,7 +19,26 @@
 #' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
 #' @param engine,... As in [plot.specimen()], which the rest is passed to: `view`, `curvature`,
 #'   `radius`, `main`, and the settings of the picture: `around = x$path` shows the curve from near.
-#' @return The scene of [draw_surface()], invisibly.
+#'   `plot()` of a curve has the arguments of `plot_curves()` here, or those of the panel.
+#' @param what "surface": the curve on its specimen. "panel": the plane of s and d in which it was
+#'   found.
+#' @section Panel: The smoothed strength over arc length s along the reference path and signed
+#'   distance d from it, with contours. It also shows the vertices from which it was smoothed, the
+#'   reference path (d = 0, dashed), and the ridge found (solid) with a band of two standard errors.
+#'   This is the right panel of Fig. 3 of the paper, which has no band. Further arguments:
+#'   * `points`: whether to draw the vertices of the window (TRUE by default);
+#'   * `grid`: numbers of grid cells along s and d (`c(300, 200)` by default);
+#'   * `palette`: colours from strength 0 to the greatest;
+#'   * `contours`: about how many contour lines (8 by default);
+#'   * `colour`: colour of the ridge and its band;
+#'   * `main`: title, by default the ends of the curve.
+#'
+#'   Others are passed to [graphics::image()].
+#' @return The scene of [draw_surface()], invisibly. Of a panel the grid, invisibly: a list of `s`,
+#'   `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
+#' @section Errors: of class `crestline_error`: a specimen with another mesh; the panel of a plane
+#'   curve, or of one that was not found by curvature.
+#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 3.
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -26,9 +46,14 @@
 #' face <- specimen(humface, read_landmarks(file), id = "humface")
 #' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
 #' plot(lip, face, "plain", engine = "picture", around = face$landmarks[c("chL", "chR", "sn"), ])
+#' plot(lip, what = "panel")
 #' }
 #' @export
-plot.curve <- function(x, specimen, ...) plot_curves(list(x), specimen, ...)
+plot.curve <- function(x, specimen, ..., what = c("surface", "panel")) {
+  check_class(x, "curve", "x", "ridge_curve()")
+  what <- check_choice(what, c("surface", "panel"), "what")
+  if (what == "panel") draw_panel(x, ...) else plot_curves(list(x), specimen, ...)
+}
 
 #' @rdname plot.curve
 #' @export

@@ -1,47 +1,26 @@
 # Plane cuts between two landmarks (the paper's Fig. 2).
 
-#' Plot plane cuts between two landmarks
+#' The paths that planes through two landmarks cut from the surface
 #'
-#' The paths that planes through both landmarks cut from the surface, one a plane: Fig. 2 of the
-#' paper, from which [reference_path()] chooses.
-#'
-#' @param specimen A `specimen`.
-#' @param from,to Names of two of its landmarks.
-#' @param angles Angles of the planes about the axis between them, in radians, as in [plane_path()].
-#' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
-#' @param colour Colours of the cuts, one each.
-#' @param width Line width.
-#' @param engine,... As in [plot.specimen()], which the rest is passed to.
+#' @param surface `colour` of [plot.specimen()]; the arguments are described there.
 #' @return The paths, invisibly: a list with a `mesh_path` for each angle at which there is one.
-#' @section Warnings: of class `crestline_warning`, when a cut comes to a border of the mesh and is
-#'   left out; when all do, that is an error.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 2.
-#' @examples
-#' \donttest{
-#' data(humface, package = "Rvcg")
-#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
-#' face <- specimen(humface, read_landmarks(file), id = "humface")
-#' plot_cuts(face, "chL", "chR", around = face$landmarks[c("chL", "chR", "sn"), ], engine = "picture")
-#' }
-#' @export
-plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surface = "plain",
-                      colour = grDevices::hcl.colors(length(angles), "Dark 3"), width = 2.5,
-                      engine = if (interactive()) "rgl" else "picture", ...) {
+#' @noRd
+draw_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surface = "plain",
+                      colours = grDevices::hcl.colors(length(angles), "Dark 3"), width = 2.5,
+                      engine, ...) {
   check_given()
   check_ends(from = from, to = to)
   angles <- check_numbers(angles, "angles")
-  colour <- check_colour(colour, "colour")
+  colours <- check_colour(colours, "colours")
   width <- check_number(width, "width", lower = 0)
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
-  surface <- check_choice(surface, surface_choices, "surface")
-  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   paths <- lapply(angles, function(angle) {
     tryCatch(plane_path(specimen, from, to, angle), crestline_path_error = identity)
   })
   paths <- arrived_cuts(paths, specimen$id)
-  colour <- rep_len(colour, length(angles))[match(vapply(paths, attr, 0, "angle"), angles)]
+  colours <- rep_len(colours, length(angles))[match(vapply(paths, attr, 0, "angle"), angles)]
   scene <- plot(specimen, surface, engine = engine, landmarks = FALSE, ...)
-  for (i in seq_along(paths)) scene <- draw_lines(scene, paths[[i]], colour[i], width,
+  for (i in seq_along(paths)) scene <- draw_lines(scene, paths[[i]], colours[i], width,
                                                   halo = "white")
   scene <- draw_points(scene, specimen$landmarks[c(from, to), , drop = FALSE], "black", 1.2,
                        halo = "white", labels = c(from, to))
@@ -49,7 +28,7 @@ plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surfac
     key <- vapply(paths, function(path) {
       sprintf("%.0f degrees, length %.3g", attr(path, "angle") * 180 / pi, attr(path, "length"))
     }, "")
-    on_scene(scene, graphics::legend("bottomleft", key, col = colour, lwd = width, bty = "n",
+    on_scene(scene, graphics::legend("bottomleft", key, col = colours, lwd = width, bty = "n",
                                      cex = 0.8))
   }
   invisible(paths)

@@ -6,8 +6,8 @@
 #' coloured by shape index, the curves with their bands, the colour scale and a table; of a shape
 #' also the triangles of its surface. Buttons hide each layer of the scene.
 #'
+#' @param x A `specimen`.
 #' @param file Where to write, ending in ".html".
-#' @param specimen A `specimen`.
 #' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in
 #'   the table. Or a `shape`, as [fit_shape()] returns it.
 #' @param table A data frame to show below, NULL for none.
@@ -27,17 +27,19 @@
 #' face <- specimen(humface, read_landmarks(file), id = "humface")
 #' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
 #' page <- tempfile(fileext = ".html")
-#' write_page(page, face, list("mid-line lip left" = lip), radius = 10)
+#' write_page(face, page, list("mid-line lip left" = lip), radius = 10)
 #' file.size(page)
 #' unlink(page)
 #' }
 #' @export
-write_page <- function(file, specimen, curves = list(), table = curve_table(curves),
-                       title = paste("Specimen", specimen$id), caption = NULL,
+write_page <- function(x, file, curves = list(), table = curve_table(curves),
+                       title = paste("Specimen", x$id), caption = NULL,
                        surface = "shape index",
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
   check_given()
-  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  turned <- object_first(x, file, "write_page")
+  x <- turned$x
+  check_class(x, "specimen", "x", "specimen() or read_specimen()")
   title <- check_text(title, "title")
   caption <- check_text(caption, "caption", null = TRUE)
   surface <- check_choice(surface, surface_choices, "surface")
@@ -49,22 +51,29 @@ write_page <- function(file, specimen, curves = list(), table = curve_table(curv
                                                        "fit_shape()") else check_curves(curves)
   table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
-  file <- check_page_file(file)
-  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  file <- check_page_file(turned$file)
   rgl::open3d(useNULL = TRUE)
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
-  plot(specimen, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
-  layers <- page_layers(curves, specimen, surface, colour, width, ...)
+  plot(x, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
+  layers <- page_layers(curves, x, surface, colour, width, ...)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
                    tags$h2(title),
                    page_scene(layers, size), page_legend(surface), tags$p(caption),
                    html_table(table),
-                   provenance_block(provenance_of(if (inherits(curves,
-                                                               "shape")) curves else specimen)))
+                   provenance_block(provenance_of(if (inherits(curves, "shape")) curves else x)))
   save_page(page, file, selfcontained)
   invisible(file)
+}
+
+#' The object and the file of a writer; those of a call in the former order, file first, turned
+#' round
+#' @noRd
+object_first <- function(x, file, writer) {
+  if (!is.character(x) || is.character(file)) return(list(x = x, file = file))
+  inform_former(sprintf("%s(file, x)", writer), sprintf("%s(x, file)", writer))
+  list(x = file, file = x)
 }
 
 #' Make a page in a folder of our own, then put it where it belongs: what stands there may be the

@@ -1,43 +1,20 @@
 # The plane of arc length and distance in which the ridge is sought (the paper's Fig. 3).
 
-#' Plot the plane in which a curve was found
+#' The plane of arc length and distance in which a curve was found
 #'
-#' Draws the smoothed strength over arc length s along the reference path and signed distance d from
-#' it, with contours. It also shows the vertices from which it was smoothed, the reference path (d =
-#' 0, dashed), and the ridge found (solid) with a band of two standard errors: the right panel of
-#' Fig. 3 of the paper, which has no band.
-#'
-#' @param x A `curve`, as [ridge_curve()] returns it.
-#' @param points Whether to draw the vertices of the window.
-#' @param grid Numbers of grid cells along s and d.
-#' @param palette Colours from strength 0 to the greatest.
-#' @param contours About how many contour lines.
-#' @param colour Colour of the ridge and its band.
-#' @param main Title; the ends of the curve where NULL.
-#' @param ... Passed to [graphics::image()].
+#' @param x,... See [plot.curve()], where the arguments are described.
 #' @return The grid, invisibly: a list of `s`, `d` and `strength`, a matrix with a row for each `s`,
 #'   NA beyond the data.
-#' @section Errors: of class `crestline_error` for a plane curve, and one that was not found: they
-#'   have no panel.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 3.
-#' @examples
-#' data(humface, package = "Rvcg")
-#' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
-#' face <- specimen(humface, read_landmarks(file), id = "humface")
-#' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
-#' plot_panel(lip)
-#' @export
-plot_panel <- function(x, points = TRUE, grid = c(300, 200),
+#' @noRd
+draw_panel <- function(x, points = TRUE, grid = c(300, 200),
                        palette = grDevices::hcl.colors(80, "YlOrBr", rev = TRUE)[1:60],
                        contours = 8, colour = "#16218C", main = NULL, ...) {
-  check_given()
   check_flags(points)
   palette <- check_colour(palette, "palette")
   colour <- check_colour(colour, "colour")
   contours <- check_count(contours, "contours", upper = 1000)
   grid <- check_size(check_numbers(grid, "grid", 2, lower = 2), "grid")
   main <- check_text(main, "main", null = TRUE)
-  check_class(x, "curve", "x", "ridge_curve()")
   if (is.null(x$line)) {
     crestline_abort(sprintf("the curve from %s to %s was not found by curvature, so it has no panel.", x$from, x$to),
                     "Plot a ridge or valley that was found.", stage = "picture", id = x$id)

@@ -65,8 +65,8 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' Writes one HTML file that needs no other. For each component it shows the turning mean surface,
 #' and a slider that moves it along the component.
 #'
+#' @param x A `shape_pca` of a level with a surface.
 #' @param file Where to write, ending in ".html".
-#' @param pca A `shape_pca` of a level with a surface.
 #' @param component Which components.
 #' @param sd How many standard deviations the sliders reach.
 #' @param colour Colour of the surface.
@@ -83,36 +83,38 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' balls <- simplify2array(lapply(1:8, function(i) xyz %*% diag(c(1 + rnorm(1, sd = 0.1), 1, 1))))
 #' pca <- shape_pca(align(balls, "ball", triangles = ball$it))
 #' page <- tempfile(fileext = ".html")
-#' write_pca_page(page, pca, 1)
+#' write_pca_page(pca, page, 1)
 #' file.size(page)
 #' unlink(page)
 #' @export
-write_pca_page <- function(file, pca, component = seq_len(min(3, length(pca$sdev))), sd = 3,
+write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))), sd = 3,
                            colour = "#E3CDB8",
                            title = "Principal components of shape", size = c(420, 460),
                            view = "front",
                            selfcontained = TRUE) {
   check_given()
+  turned <- object_first(x, file, "write_pca_page")
+  x <- turned$x
   colour <- check_colour(colour, "colour")
   title <- check_text(title, "title")
   size <- check_size(size)
   check_flags(selfcontained)
   view_rotation(view)
   rlang::check_installed("htmltools", "to write a page.")
-  file <- check_page_file(file)
-  check_class(pca, "shape_pca", "pca", "shape_pca()")
-  check_component(component, pca)
+  file <- check_page_file(turned$file)
+  check_class(x, "shape_pca", "x", "shape_pca()")
+  check_component(component, x)
   sd <- check_number(sd, "sd", lower = 0, open = TRUE)
-  blocks <- lapply(component, component_block, pca, sd, colour, size, view)
+  blocks <- lapply(component, component_block, x, sd, colour, size, view)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
                    tags$h2(title),
-                   tags$p(sprintf("%d specimens, %d points (%s). ", nrow(pca$x), nrow(pca$mean),
-                                  pca$level),
+                   tags$p(sprintf("%d specimens, %d points (%s). ", nrow(x$x), nrow(x$mean),
+                                  x$level),
                           sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd,
                                   sd)),
                    tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks),
-                   provenance_block(pca$provenance))
+                   provenance_block(x$provenance))
   save_page(page, file, selfcontained)
   invisible(file)
 }

@@ -415,9 +415,8 @@ as.data.frame.curve <- function(x, ...) {
 print.curve <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("%s from %s to %s%s\n",
-                switch(x$type, ridge = "Ridge", valley = "Valley", plane = "Plane curve"),
-                x$from, x$to, if (is.null(x$id)) "" else paste0(" on ", x$id)))
+    cat(sprintf("<curve> %s from %s to %s%s\n", x$type, x$from, x$to,
+                if (is.null(x$id)) "" else paste0(" on ", x$id)))
     cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
     if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g",
                                         x$strength, x$se))

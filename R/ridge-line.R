@@ -147,7 +147,7 @@ rise <- function(problem, alpha, value, step, small) {
 print.ridge_line <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Ridge line at %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
+    cat(sprintf("<ridge_line> %d places: offset %.3g to %.3g; %s after %d steps%s\n", length(x$s),
                 min(x$alpha),
                 max(x$alpha), if (x$converged) "converged" else "NOT converged", x$iterations,
                 if (x$at_bound) ", along the edge of the window" else ""))

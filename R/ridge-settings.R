@@ -99,7 +99,7 @@ check_settings <- function(settings) {
 print.ridge_settings <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Ridge settings (preset \"%s\")\n", attr(x, "preset")))
+    cat(sprintf("<ridge_settings> preset \"%s\"\n", attr(x, "preset")))
     values <- vapply(x, function(value) paste(format(value), collapse = " x "), "")
     cat(strwrap(paste(names(x), values, sep = " = ", collapse = ", "), indent = 2, exdent = 2),
         sep = "\n")

@@ -150,7 +150,7 @@ predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
 print.curvature_surface <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Curvature surface over %.4g x %.4g (s, d): %d vertices, %.1f df%s\n", x$length,
+    cat(sprintf("<curvature_surface> %.4g x %.4g (s, d): %d vertices, %.1f df%s\n", x$length,
                 2 * x$width, length(x$rows), x$df, if (x$converged) "" else ", df not reached"))
     invisible(x)
   })

@@ -3,14 +3,20 @@
 #' Make the shapes of a sample homologous
 #'
 #' Slides the curve points of all shapes against a template, and takes the shapes' Procrustes mean
-#' as the next template. This is repeated until the mean no longer moves. Then the points of the
-#' patches are slid. The result therefore does not depend on the first template. [crestline-package]
-#' has a glossary.
+#' as the next template. This is repeated until the mean no longer moves. Then the points of curves
+#' and patches slide together over the surface, see [slide()]. The result therefore does not depend
+#' on the first template. [crestline-package] has a glossary.
 #'
 #' Sliding all points of a curve the same way in every specimen hardly changes the bending energies.
 #' Without a constraint the mean could drift along its curves. In every round we therefore space the
 #' points of the mean curves at equal shares of arc length, averaged over the sample. The template
 #' of a patch's points is the mean of the cuts between the slid curves.
+#'
+#' In the joint step the bending energy is weighed against the standard errors of the curves. The
+#' scale of the energy is estimated from the sample itself: the mean over specimens of the energy of
+#' the warp by landmarks, a place and direction. It is kept in the template
+#' (`sample$template$energy_scale`, unit of the mesh squared), so that `slide(shape, sample)` slides
+#' a new specimen in the same way.
 #'
 #' Where the scheme has left-right pairs, the template is made symmetric in every round
 #' ([symmetrise()]).
@@ -19,8 +25,8 @@
 #'   `id`s, or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. Of a batch in files
 #'   one scan at a time is in memory. Ends of curves that are cut off are homologous only if all
 #'   shapes were measured with the same `cut_scale`.
-#' @param template A `shape` of the same scheme to begin with; `NULL`: the first of those with the
-#'   most points, symmetrised.
+#' @param template A `shape` of the same scheme to begin with, or a `shape_sample`, whose template
+#'   is taken; `NULL`: the first of those with the most points, symmetrised.
 #' @param settings [slide_settings()].
 #' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
 #'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
@@ -96,10 +102,18 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     found$template <- with_mean_surface(found$template, lapply(cuts, `[[`, "store"))
     plan <- slide_plan(found$template, settings)
   }
-  slid <- Map(function(shape, cut) {
+  starts <- lapply(shapes, function(shape) NULL)
+  if (slides_free(settings)) {
+    starts <- Map(function(shape, cut) {
+      joint_start(shape, cut$store, plan, specimen_of(shape, specimens))
+    }, shapes, cuts)
+    if (is.null(plan$scale)) plan$scale <- energy_scale(starts)
+    found$template$energy_scale <- plan$scale
+  }
+  slid <- Map(function(shape, cut, start) {
     tick()
-    finish_slide(shape, cut, plan, specimen_of(shape, specimens))
-  }, shapes, cuts)
+    finish_slide(shape, cut, start, plan, specimen_of(shape, specimens))
+  }, shapes, cuts, starts)
   slid <- lapply(slid, function(shape) {
     shape$specimen <- NULL
     shape
@@ -176,6 +190,7 @@ has_pairs <- function(scheme) any(scheme$pairs$level != "surface")
 #' The template to begin with: the given one, or the first of the shapes with the most points
 #' @noRd
 first_template <- function(shapes, template, rounds, call = rlang::caller_env()) {
+  if (inherits(template, "shape_sample")) template <- validate(template)$template
   if (!is.null(template)) {
     check_class(template, "shape", "template", "symmetrise() or homologise()", call)
     check_same_scheme(shapes[[1]], template, call)

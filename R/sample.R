@@ -247,6 +247,9 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
   if (!identical(a$template$points[c("x", "y", "z")], b$template$points[c("x", "y", "z")])) {
     fail("the samples were slid against different templates: their points are not homologous.")
   }
+  if (!identical(a$template$energy_scale, b$template$energy_scale)) {
+    fail("the samples were slid with different scales of the energy.")
+  }
   settings <- lapply(list(a, b), function(x) x$provenance$settings$slide)
   if (!any(vapply(settings, is.null, NA)) && !identical(settings[[1]], settings[[2]])) {
     fail("the samples were slid with different settings.")
@@ -294,7 +297,8 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)
   validate(x)
-  none <- cbind(id = character(), x$template$points[0, ])
+  like <- if (length(x)) x[[1]] else x$template
+  none <- cbind(id = character(), like$points[0, ])
   each <- lapply(x$shapes, function(shape) cbind(id = shape$id, shape$points))
   each <- do.call(rbind, c(list(none), unname(each)))
   rownames(each) <- NULL

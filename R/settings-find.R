@@ -87,7 +87,7 @@ find_settings <- function(...) {
 print.find_settings <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat("Settings of finding landmarks\n")
+    cat("<find_settings> of find_landmarks()\n")
     value <- vapply(x, function(v) paste(format(v, trim = TRUE), collapse = " to "), "")
     cat(strwrap(paste(names(x), value, sep = " = ", collapse = ", "), indent = 2, exdent = 2),
         sep = "\n")

@@ -74,6 +74,8 @@ judge_parts <- function(parts, limits, scheme) {
     judge("border", sprintf("it runs by a border or hole, %s of its %s away",
                             per_cent(parts$border), its)),
     judge("spike", sprintf("it runs by a spike, %s of its %s away", per_cent(parts$spike), its)),
+    judge("offset", sprintf("it runs beside its homologous points, %.2g radii of the template off",
+                            parts$offset)),
     judge("cut", NA),
     judge("faults", NA)
   )
@@ -157,5 +159,5 @@ grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
 quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
                      "competing", "z",
                      "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse",
-                     "border", "spike", "grade",
+                     "border", "spike", "offset", "grade",
                      "why")

@@ -19,8 +19,9 @@
 #' [crestline-package] has a glossary.
 #'
 #' `quality()` does not see a wrong landmark that was placed by hand, unless lengths, symmetry or
-#' the order of landmarks show it. It does not see a smooth error of the scan, nor a curve along
-#' another feature than the one meant.
+#' the order of landmarks show it. It does not see a smooth error of the scan. A curve along another
+#' feature than the one meant is seen in a sample of [homologise()], and in a shape of [slide()]: if
+#' the homologous points lie far beside the curve, it is amber (limit `offset`).
 #'
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it
 #'   has any, name the specimens. `NULL` in the list is a specimen that could not be measured.
@@ -38,6 +39,8 @@
 #'     pairs;
 #'   * `missing`, `cut`, `bridged`, `faults`, `roughness` (degrees): as in `checks` of
 #'     [fit_shape()];
+#'   * `offset`: root mean square distance of a curve from its homologous points, across it, in radii
+#'     of the template; NA where the shape was not slid with free curve points;
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
 #'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
@@ -116,7 +119,7 @@ part_measures <- function(shape, name) {
     z = NA_real_, asymmetry = unname(asymmetry) / checks$size,
     checks[c("missing", "cut", "bridged", "faults", "roughness")],
     coarse = checks$edge / radius, border = checks$border / checks$size,
-    spike = checks$spike / checks$size,
+    spike = checks$spike / checks$size, offset = recorded(checks, "offset", NA_real_),
     reason = status$reason, checks[c("determined", "guessed", "size")],
     free = shape$scheme$curves$n[row] > 2,
     radius = radius, se_max = recorded(status, "se_max", NA_real_),

@@ -10,18 +10,19 @@
 #' @param warnings Data frame `stage`, `class`, `problem`, `remedy`: what was warned of.
 #' @param provenance List: what came from where.
 #' @param sliding,trace Of [slide()].
+#' @param energy_scale Of a template: the scale of the energy in the sample that it is the mean of.
 #' @noRd
 new_shape <- function(id, points, status, scheme, checks = NULL, paths = list(), tracks = NULL,
                       column = NULL,
                       specimen = NULL, key = if (!is.null(specimen)) specimen_key(specimen),
                       placing = specimen$placing, warnings = no_warnings(),
-                      provenance = list(), sliding = NULL, trace = NULL) {
+                      provenance = list(), sliding = NULL, trace = NULL, energy_scale = NULL) {
   structure(
     list(id = id, points = points, status = status, checks = checks, paths = paths, scheme = scheme,
          tracks = tracks,
          column = column, specimen = specimen, key = key, placing = placing, warnings = warnings,
          provenance = provenance,
-         sliding = sliding, trace = trace),
+         sliding = sliding, trace = trace, energy_scale = energy_scale),
     class = "shape"
   )
 }
@@ -93,7 +94,7 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' Co-ordinates of a shape
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
-#' @param level "landmarks", "curves" or "surface".
+#' @param level "curves", "landmarks" or "surface".
 #' @param ... Ignored.
 #' @return k x 3 matrix with columns x, y, z and row names "part point" (of landmarks: their names),
 #'   NA where missing; in the unit of the mesh.
@@ -106,9 +107,9 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "triangle")
 #' shape <- fit_shape(specimen(Rvcg::vcgSphere(4), corners, id = "ball"), scheme, progress = FALSE)
 #' coords(shape, "landmarks")
-#' head(coords(shape, "curves"), 3)
+#' head(coords(shape), 3)
 #' @export
-coords <- function(x, level, ...) {
+coords <- function(x, level = "curves", ...) {
   check_given()
   check_class(x, "shape", "x", "fit_shape()")
   UseMethod("coords")
@@ -116,7 +117,7 @@ coords <- function(x, level, ...) {
 
 #' @rdname coords
 #' @export
-coords.shape <- function(x, level, ...) {
+coords.shape <- function(x, level = "curves", ...) {
   check_method_dots(..., known = "level")
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   points <- x$points[x$points$level == level, ]

@@ -45,6 +45,7 @@ scheme_line <- function(scheme) {
 }
 
 mesh_line <- function(mesh) {
+  if (is.null(mesh$file)) return(paste("mesh: key", mesh$key))
   from <- if (is.na(mesh$file)) "not from a file" else paste("from", basename(mesh$file))
   sprintf("mesh: key %s, %s", mesh$key, from)
 }

@@ -89,8 +89,9 @@ quadratic_form <- function(b, x) sum(x * (b %*% x))
 #'
 #' @param xyz k x 3.
 #' @param nugget k.
+#' @param kernel Function of distances, conditionally positive definite.
 #' @noRd
-energy_matrix <- function(xyz, nugget, tolerance) {
+energy_matrix <- function(xyz, nugget, tolerance, kernel = function(r) -r) {
   b <- matrix(0, nrow(xyz), nrow(xyz))
   there <- which(!is.na(xyz[, 1]))
   if (!length(there)) return(structure(b, affine = 0L))
@@ -100,7 +101,7 @@ energy_matrix <- function(xyz, nugget, tolerance) {
   affine <- sum(functions$d > tolerance * functions$d[1])
   if (length(there) > affine) {
     b[there, there] <- bending_matrix(at, nugget[there],
-                                      functions$u[, seq_len(affine), drop = FALSE])
+                                      functions$u[, seq_len(affine), drop = FALSE], kernel)
   }
   structure(b, affine = affine)
 }
@@ -110,11 +111,11 @@ energy_matrix <- function(xyz, nugget, tolerance) {
 #' In the frame of a Householder basis whose first columns span the affine functions, K + N loses
 #' its first rows and columns.
 #' @noRd
-bending_matrix <- function(xyz, nugget, functions) {
+bending_matrix <- function(xyz, nugget, functions, kernel) {
   frame <- qr(functions)
   affine <- seq_len(ncol(functions))
-  kernel <- diag(nugget, nrow(xyz)) - as.matrix(stats::dist(xyz))
-  inner <- qr.qty(frame, t(qr.qty(frame, kernel)))[-affine, -affine, drop = FALSE]
+  full <- kernel(as.matrix(stats::dist(xyz))) + diag(nugget, nrow(xyz))
+  inner <- qr.qty(frame, t(qr.qty(frame, full)))[-affine, -affine, drop = FALSE]
   root <- tryCatch(chol((inner + t(inner)) / 2), error = function(e) {
     crestline_abort("points of the template coincide.", "Leave one of them out, or give a nugget.",
                     stage = "energy",
@@ -131,7 +132,7 @@ print.bending_energy <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     b <- attr(x, "matrix")
-    cat(sprintf("<bending_energy> of %d points, %d affine functions\n", sum(diag(b) != 0),
+    cat(sprintf("<bending_energy> %d points, %d affine functions\n", sum(diag(b) != 0),
                 attr(x, "affine")))
     invisible(x)
   })

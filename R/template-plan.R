@@ -4,7 +4,8 @@
 #'
 #' @return List: `settings`, `scheme`, `xyz` (matrix with a row a place), `template` (its id and
 #'   hash), `radius` (RMS distance of landmarks and curve points from their centre), `nugget` (of
-#'   every place), `kept` (environment: sets by name and by what is missing).
+#'   every place), `scale` (of the joint step's energy, NULL where the template has none), `kept`
+#'   (environment: sets by name and by what is missing).
 #' @noRd
 slide_plan <- function(template, settings) {
   points <- template$scheme$points
@@ -14,7 +15,7 @@ slide_plan <- function(template, settings) {
   radius <- sqrt(mean(rowSums(sweep(core, 2, colMeans(core))^2)))
   list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
        template = template_provenance(template$id, xyz),
-       nugget = nugget_shares(template, settings), kept = new.env(parent = emptyenv()))
+       nugget = nugget_shares(template, settings), scale = template$energy_scale, kept = new.env(parent = emptyenv()))
 }
 
 #' Nuggets of all places as multiples of the settings': 0 of landmarks, and 1, or as the template's

@@ -4,11 +4,19 @@
 #' specimens most nearly homologous, as measured below. `"paper"` reproduces the choices of the
 #' paper.
 #'
-#' We chose the constants of `"crestline"` on 23 simulated faces whose true point-to-point
-#' correspondence is known, by minimising the scatter of each point along its curve. Nearby values
-#' do almost as well. A lower bending energy does not mean better correspondence: with the paper's
-#' energies it is lowest, and the scatter larger than without sliding.
-#' `vignette("homology", "crestline")` has the table.
+#' Sliding has two steps. First points slide along their curves. Then, with `curves = "free"`,
+#' points of curves and patches slide together over the surface ([slide()] describes both). We chose
+#' the constants on simulated faces of three populations whose true point-to-point correspondence is
+#' known, by minimising the scatter of each point. Nearby values do almost as well. A lower bending
+#' energy does not mean better correspondence: with the paper's energies it is lowest, and the
+#' scatter larger than without sliding. `vignette("homology", "crestline")` has the table.
+#'
+#' Is a measured crest the homologous line? Two populations give two answers for the brow. On one
+#' the crest is the best place for the points, on the other the corresponding line moves across the
+#' crest by 2 mm from face to face. The default takes the middle: `floor` lets the points of broad
+#' ridges (brow, mandible) leave the crest by some 2 mm. For a study of the crests themselves give
+#' `floor = 0`: points then stay on their ridge within its standard error. Give `curves = "held"` to
+#' keep all curve points exactly on the measured curves.
 #'
 #' @param preset `"crestline"` or `"paper"`.
 #' @param ... Settings to change, by name; print a preset to see its values. A radius is the root
@@ -37,7 +45,28 @@
 #'     share its energy);
 #'   * `surface_nugget`: of curve and surface points there, in radii (300 mm on a face);
 #'   * `surface_tolerance` (radii) and `surface_sweeps`, as those of curves;
-#'   * `rank`: `tolerance` of [bending_energy()].
+#'   * `rank`: `tolerance` of [bending_energy()];
+#'   * `curves`: after the first step the points of curves slide `"free"` over the mesh together
+#'     with those of patches, or are `"held"` on their curves (the paper; then `surface`,
+#'     `surface_energy` and `surface_nugget` say how patches slide);
+#'
+#'   and of the joint step of `curves = "free"`, whose energy has the kernel
+#'   \eqn{(1 + \sqrt{3} r / h) \exp(-\sqrt{3} r / h) - c r}, r in radii:
+#'   * `range` (h, in radii: 85 mm on a face) of its smooth part, and `rough` (c), the weight of its
+#'     rough part, the thin-plate spline's;
+#'   * `joint_nugget` of curve and surface points, and the nuggets of landmarks that were placed by
+#'     hand (`placed_nugget`), found by [find_landmarks()] (`found_nugget`), or only predicted or
+#'     found with little confidence (`doubtful_nugget`); in units of the kernel, which is 1 at r = 0;
+#'   * `floor`: a ridge or valley measured with curvature of radius q counts as known, as a
+#'     homologous line, to within `floor` times q^2 / radius at best (0.5 mm on a face for q = 5 mm,
+#'     2 mm for q = 10 mm), whatever its standard error; 0 keeps points on crests;
+#'   * `reach`: a curve no longer draws points that are so many standard errors off (Tukey's
+#'     biweight; `floor` included);
+#'   * `relaxation`: factor on every step towards a point's minimiser (1: exact; less than 2);
+#'     `halvings`: how often a step is halved that would raise the sum or bring a point past its
+#'     neighbour (that is, nearer than `gap` of its distance there in the warp);
+#'   * `joint_tolerance` (radii): done when the root mean square step of a sweep is below;
+#'     `joint_sweeps`: most sweeps.
 #' @return List of class `slide_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value out of
 #'   range.
@@ -52,9 +81,12 @@ slide_settings <- function(preset = c("crestline", "paper"), ...) {
                    cut_ends = "slide", gap = 0.1,
                    tolerance = 1e-5, sweeps = 1000, surface = "mesh", surface_energy = "all",
                    surface_nugget = 5,
-                   surface_tolerance = 1e-5, surface_sweeps = 200, rank = 1e-6)
+                   surface_tolerance = 1e-5, surface_sweeps = 200, rank = 1e-6, curves = "free",
+                   range = 1.5, rough = 0.5, joint_nugget = 2, placed_nugget = 0.05,
+                   found_nugget = 0.5, doubtful_nugget = 10, floor = 1.1, reach = 5,
+                   relaxation = 1.3, halvings = 4, joint_tolerance = 3e-5, joint_sweeps = 60)
   paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
-                surface_energy = "patch", surface_nugget = 0)
+                surface_energy = "patch", surface_nugget = 0, curves = "held")
   if (preset == "paper") settings[names(paper)] <- paper
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))
@@ -69,18 +101,28 @@ slide_settings <- function(preset = c("crestline", "paper"), ...) {
 }
 
 check_slide_settings <- function(settings) {
-  for (name in c("nugget", "strain",
-                 "surface_nugget")) check_number(settings[[name]], name, lower = 0)
-  for (name in c("tolerance", "surface_tolerance",
-                 "rank")) check_number(settings[[name]], name, lower = 0, open = TRUE)
+  for (name in c("nugget", "strain", "surface_nugget", "rough", "joint_nugget", "placed_nugget",
+                 "found_nugget", "doubtful_nugget", "floor")) {
+    check_number(settings[[name]], name, lower = 0)
+  }
+  for (name in c("tolerance", "surface_tolerance", "rank", "range", "reach", "joint_tolerance")) {
+    check_number(settings[[name]], name, lower = 0, open = TRUE)
+  }
   check_number(settings$gap, "gap", lower = 0, upper = 0.5)
-  check_count(settings$sweeps, "sweeps")
-  check_count(settings$surface_sweeps, "surface_sweeps")
+  check_number(settings$relaxation, "relaxation", lower = 0, upper = 2, open = TRUE)
+  for (name in c("sweeps", "surface_sweeps", "joint_sweeps")) check_count(settings[[name]], name)
+  check_count(settings$halvings, "halvings", lower = 0)
+  check_choice(settings$curves, c("free", "held"), "curves")
   check_choice(settings$energy, c("landmarks", "own", "all"), "energy")
   check_choice(settings$nugget_by, c("length", "error"), "nugget_by")
   check_choice(settings$cut_ends, c("slide", "stay"), "cut_ends")
   check_choice(settings$surface, c("mesh", "transect", "between"), "surface")
   check_choice(settings$surface_energy, c("all", "patch"), "surface_energy")
+  if (settings$curves == "free" && (settings$surface != "mesh" || settings$surface_energy != "all")) {
+    crestline_abort("free curve points slide in one step with the points of all patches, on the mesh.",
+                    "Give `curves = \"held\"` with other settings of `surface` or `surface_energy`.",
+                    stage = "arguments")
+  }
   settings
 }
 
@@ -88,7 +130,7 @@ check_slide_settings <- function(settings) {
 print.slide_settings <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Slide settings (preset \"%s\")\n", attr(x, "preset")))
+    cat(sprintf("<slide_settings> preset \"%s\"\n", attr(x, "preset")))
     cat(strwrap(paste(names(x), vapply(x, format, ""), sep = " = ", collapse = ", "), indent = 2,
                 exdent = 2), sep = "\n")
     invisible(x)

@@ -2,12 +2,23 @@
 
 #' Slide the points of a shape until they are homologous to a template's
 #'
-#' Points of curves slide along their own curve, then points of patches over the surface. Each goes
-#' to where the bending energy from the template (plus a strain of the spacings) is least. Landmarks
-#' do not move, nor do the ends of curves at landmarks. An end at which the scheme cuts a curve off
-#' slides along the whole curve too. Points are taken in turn, each to its exact minimiser, until
-#' none moves. So the energy never rises. Points keep their order and a gap, and never leave the
-#' mesh. [crestline-package] has a glossary.
+#' First, points of curves slide along their own curve. Each goes to where the bending energy from
+#' the template (plus a strain of the spacings) is least. Landmarks do not move, nor do the ends of
+#' curves at landmarks. An end at which the scheme cuts a curve off slides along the whole curve
+#' too.
+#'
+#' Then points of curves and patches slide together over the surface, in one energy (the joint step;
+#' not with `slide_settings(curves = "held")`). They begin at the thin-plate warp of the template by
+#' the landmarks, put on the mesh. The measured ridges and valleys draw their points across the
+#' ridge, by their standard errors, and let them go where they are far off: such a curve runs along
+#' another feature. Plane cuts mark no feature, and draw nothing. Curves that were given to
+#' [fit_shape()] (`curves`) stay as they are. `offset` is the distance of a homologous point from
+#' the curve that was measured, and [quality()] judges by it. The curves themselves (`paths`) stay
+#' as measured.
+#'
+#' In both steps points are taken in turn, each towards its minimiser, until none moves. So the sum
+#' of energy, strain and pull never rises. Points keep their order, and never leave the mesh.
+#' [crestline-package] has a glossary.
 #'
 #' Points that only the template has, or only the shape, are left out of the energy. Missing points
 #' stay NA. Points that coincide by construction still do.
@@ -17,17 +28,23 @@
 #' between their neighbours.
 #'
 #' @param shape A `shape`, as of [fit_shape()].
-#' @param template A `shape` of the same scheme, such as of [symmetrise()], or the `template` of
-#'   [homologise()].
-#' @param settings [slide_settings()].
+#' @param template A `shape` of the same scheme, such as of [symmetrise()], or a `shape_sample` of
+#'   [homologise()]: then a new specimen is slid as those of the sample were, against their
+#'   template. The other scans are not needed.
+#' @param settings [slide_settings()]; where a sample is given, by default those of the sample.
 #' @param specimen The [specimen()] that the shape was measured on.
 #' @return The `shape` with its points slid (`se` goes along), and besides:
+#'   * a column `offset` of `points`: distance of a curve's point from the curve that was measured,
+#'     across it, positive to the curve's left as seen from outside; in the unit of the mesh; NA for
+#'     landmarks and insides of patches. And a column `offset` of `checks`: the root mean square over
+#'     each curve, in radii of the template. Both are there after the joint step only;
 #'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve,
-#'     "curves", "surface", or the patch): `level`, `points` (that slide), `sweeps`, `converged`,
-#'     `energy_before`, `energy_after` (unit of the mesh), `longest` (largest distance that a point
-#'     has slid, along its curve, or straight);
-#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain`,
-#'     `longest` (slide of that sweep).
+#'     "curves", "joint", "surface", or the patch): `level`, `points` (that slide), `sweeps`,
+#'     `converged`, `energy_before`, `energy_after` (unit of the mesh; of the joint step, squared),
+#'     `longest` (largest distance that a point has slid, along its curve, or straight; of the joint
+#'     step, from where it was on its curve or patch);
+#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain` (of
+#'     the joint step, the pull of the curves), `longest` (slide of that sweep).
 #' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not
 #'   keep its specimen; of class `crestline_wrong_mesh`: a specimen with another mesh than the
 #'   shape's.
@@ -46,6 +63,11 @@
 slide <- function(shape, template, settings = slide_settings(), specimen = shape$specimen) {
   check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
+  if (inherits(template, "shape_sample")) {
+    validate(template)
+    if (missing(settings)) settings <- settings_of_sample(template)
+    template <- template$template
+  }
   check_class(template, "shape", "template", "symmetrise()")
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   check_same_scheme(shape, template)
@@ -53,7 +75,16 @@ slide <- function(shape, template, settings = slide_settings(), specimen = shape
   plan <- slide_plan(template, settings)
   state <- slide_state(shape, settings)
   cut <- cut_between_slid(shape, state, slide_curves(state, plan), specimen)
-  finish_slide(shape, cut, plan, specimen)
+  start <- if (slides_free(settings)) joint_start(shape, cut$store, plan, specimen)
+  if (is.null(plan$scale) && !is.null(start)) plan$scale <- energy_scale(list(start))
+  finish_slide(shape, cut, start, plan, specimen)
+}
+
+#' The settings that a sample was slid by
+#' @noRd
+settings_of_sample <- function(sample) {
+  kept <- sample$provenance$settings$slide
+  do.call(slide_settings, kept[names(kept) %in% names(slide_settings())])
 }
 
 check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
@@ -111,15 +142,36 @@ cutting_of <- function(shape, fits, specimen) {
 
 #' Surface points slid, and the record
 #' @param cut As of [cut_between_slid()].
+#' @param start As of [joint_start()]; NULL where curve points stay on their curves.
 #' @noRd
-finish_slide <- function(shape, cut, plan, specimen) {
+finish_slide <- function(shape, cut, start, plan, specimen) {
   cutting <- cutting_of(shape, cut$fits, specimen)
-  surface <- slide_surface(cut$store, cutting, plan)
+  surface <- if (is.null(start)) slide_surface(cut$store, cutting, plan) else
+    slide_joint(shape, cut, start, plan, specimen)
   shape <- with_tracks(with_places(shape, surface$store), cut$curves$s, cutting)
   shape$sliding <- rbind(cut$curves$sliding, surface$sliding)
   shape$trace <- c(cut$curves$trace, surface$trace)
+  shape <- with_offsets(shape, surface$offset, plan$radius)
   shape$provenance$template <- plan$template
   shape$provenance$settings$slide <- lapply(unclass(plan$settings), identity)
+  shape
+}
+
+#' A shape with the offsets of its curve points from their own curves, and of every curve their root
+#' mean square in radii of the template; without them where curve points stay on their curves
+#' @param offset By place; NULL where there is none.
+#' @noRd
+with_offsets <- function(shape, offset, radius) {
+  shape$points$offset <- if (!is.null(offset)) {
+    ifelse(shape$points$level == "curves", offset[shape$scheme$points$place], NA)
+  }
+  if (is.null(shape$checks)) return(shape)
+  shape$checks$offset <- if (!is.null(offset)) {
+    own <- split(shape$points$offset, paste(shape$points$level, shape$points$part))
+    rms <- vapply(own, function(x) sqrt(mean(x^2, na.rm = TRUE)), 0) / radius
+    rms <- unname(rms[paste(shape$checks$level, shape$checks$part)])
+    ifelse(shape$checks$level == "curves" & !is.nan(rms), rms, NA)
+  }
   shape
 }
 
@@ -155,7 +207,8 @@ with_tracks <- function(shape, s, cutting) {
 #' @return List: `id`; `store` (matrix with a row a place: x, y, z, face, w1, w2, w3, se); `curves`
 #'   (list by name: `place`, `n`, `s` (NA where missing), `path` (`mesh_path`), `track` (matrix s,
 #'   x, y, z, face; face 0 over holes), `kept` (length that the scheme keeps), `rows` (of
-#'   [slider_rows()])).
+#'   [slider_rows()])); `off` (whether curve points had left their curves; in `store` they are back,
+#'   but for `face` and weights).
 #' @noRd
 slide_state <- function(shape, settings) {
   points <- shape$points
@@ -166,8 +219,17 @@ slide_state <- function(shape, settings) {
   of_curve <- split(place[points$level == "curves"], points$part[points$level == "curves"])
   curves <- Map(function(track, name) curve_state(track, of_curve[[name]], settings), shape$tracks,
                 names(shape$tracks))
-  list(id = shape$id, store = store, curves = curves)
+  off <- !is.null(points$offset)
+  for (curve in if (off) curves) {
+    at <- off_landmarks(curve)
+    store[curve$place[at], c("x", "y", "z")] <- points_along(curve$path, curve$s[at])
+  }
+  list(id = shape$id, store = store, curves = curves, off = off)
 }
+
+#' Numbers of a curve's points that are there, and no landmarks
+#' @noRd
+off_landmarks <- function(curve) which(!is.na(curve$s) & grepl("^curves", curve$place))
 
 curve_state <- function(track, place, settings) {
   path <- track$path
@@ -223,7 +285,7 @@ curves_placed <- function(state, s, mesh) {
   store <- state$store
   for (name in names(s)) {
     curve <- state$curves[[name]]
-    at <- curve$rows[, "point"]
+    at <- if (state$off) off_landmarks(curve) else curve$rows[, "point"]
     if (!length(at)) next
     store[curve$place[at], mesh_columns] <- columns_of(place_along(mesh, curve$path, s[[name]][at]))
     se <- store[curve$place, "se"]

@@ -127,6 +127,6 @@ picture <- option("picture", NULL)
 if (!is.null(picture)) {
   grDevices::png(picture, 1800, 800, res = 110)
   graphics::par(mfrow = c(1, 3))
-  for (face in c(faces_of("scan_a"), faces_of("template_male"), simpop()[1])) plot_refinement(refine_landmarks(face, scheme))
+  for (face in c(faces_of("scan_a"), faces_of("template_male"), simpop()[1])) plot(refine_landmarks(face, scheme), what = "refinement")
   grDevices::dev.off()
 }

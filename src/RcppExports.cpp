@@ -499,6 +499,24 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_slide_jointly
+List cpp_slide_jointly(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x, NumericMatrix rows, NumericMatrix places, List settings);
+RcppExport SEXP _crestline_cpp_slide_jointly(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP bSEXP, SEXP xSEXP, SEXP rowsSEXP, SEXP placesSEXP, SEXP settingsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type b(bSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type x(xSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type rows(rowsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type places(placesSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_slide_jointly(vb, it, twin, b, x, rows, places, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_locate
 List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf);
 RcppExport SEXP _crestline_cpp_locate(SEXP vbSEXP, SEXP itSEXP, SEXP xyzSEXP, SEXP leafSEXP) {
@@ -653,6 +671,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},
     {"_crestline_cpp_slide_on_tracks", (DL_FUNC) &_crestline_cpp_slide_on_tracks, 6},
     {"_crestline_cpp_slide_on_mesh", (DL_FUNC) &_crestline_cpp_slide_on_mesh, 9},
+    {"_crestline_cpp_slide_jointly", (DL_FUNC) &_crestline_cpp_slide_jointly, 8},
     {"_crestline_cpp_locate", (DL_FUNC) &_crestline_cpp_locate, 4},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analysis_align.h"
+#include "analysis_lm.h"
 #include "curvature.h"
 #include "placing_match.h"
 #include "placing_rigid.h"
@@ -29,6 +30,7 @@
 #include "draw_render.h"
 #include "ridge_surface.h"
 #include "shape_column.h"
+#include "template_joint.h"
 #include "template_slide.h"
 #include "template_surface.h"
 
@@ -534,6 +536,38 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
   return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
 }
 
+// rows: point, before, after (0: none), from_before x y z, to_after x y z, anchor x y z, across x y z, error; places: face,
+// w1, w2, w3 of the same points.
+// [[Rcpp::export]]
+List cpp_slide_jointly(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x,
+                       NumericMatrix rows, NumericMatrix places, List settings) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  NumericMatrix moved = clone(x), out(rows.nrow(), 7);
+  std::vector<crestline::JointPoint> points(rows.nrow());
+  std::vector<crestline::SurfacePoint> at;
+  for (int i = 0; i < rows.nrow(); ++i) {
+    crestline::JointPoint& p = points[i];
+    p.point = rows(i, 0) - 1;
+    p.before = rows(i, 1) - 1;
+    p.after = rows(i, 2) - 1;
+    for (int k = 0; k < 3; ++k) {
+      p.from_before[k] = rows(i, 3 + k);
+      p.to_after[k] = rows(i, 6 + k);
+      p.anchor[k] = rows(i, 9 + k);
+      p.across[k] = rows(i, 12 + k);
+    }
+    p.error = rows(i, 15);
+    at.push_back(surface_point(places, i));
+  }
+  crestline::JointSettings chosen{settings["scale"], settings["reach"], settings["relaxation"], settings["gap"],
+                                  settings["tolerance"], settings["halvings"], settings["sweeps"]};
+  crestline::SlideTrace trace = crestline::slide_jointly(mesh, normals.data(), b.begin(), b.nrow(), moved.begin(), points, at,
+                                                         chosen, [] { checkUserInterrupt(); });
+  for (int i = 0; i < rows.nrow(); ++i) fill_row(mesh, at[i], i, out);
+  return List::create(_["points"] = out, _["trace"] = slide_trace(trace));
+}
+
 // xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
 // [[Rcpp::export]]
 List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
@@ -662,4 +696,24 @@ NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it) {
     out(3, v) = 1;
   }
   return out;
+}
+
+// orders: n x b, from 1. Two rows: in the span of the term, in that of the model.
+// [[Rcpp::export]]
+NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericMatrix whole, IntegerMatrix orders) {
+  std::vector<int> order = from_zero(orders);
+  NumericMatrix out(2, orders.ncol());
+  crestline::permuted_forms(gram.begin(), own.begin(), whole.begin(), gram.nrow(), order.data(), orders.ncol(),
+                            out.begin(), [] { checkUserInterrupt(); });
+  return out;
+}
+
+// residuals: q x n. basis: n x p. orders: n x b, from 1.
+// [[Rcpp::export]]
+List cpp_permuted_squares(NumericMatrix residuals, NumericMatrix basis, int df, IntegerMatrix orders) {
+  std::vector<int> order = from_zero(orders);
+  NumericMatrix own(orders.ncol(), residuals.nrow()), whole(orders.ncol(), residuals.nrow());
+  crestline::permuted_squares(residuals.begin(), residuals.nrow(), residuals.ncol(), basis.begin(), basis.ncol(), df,
+                              order.data(), orders.ncol(), own.begin(), whole.begin(), [] { checkUserInterrupt(); });
+  return List::create(_["own"] = own, _["whole"] = whole);
 }

@@ -75,7 +75,7 @@ run_demo <- function(folder, picture_radius = 7) {
   write_mesh(shape, files[3])
   bending <- curvature(face$mesh, radius = picture_radius)
   write_picture(files[4], shape, face, bending)
-  write_page(files[5], face, shape, curvature = bending, view = face_view(face$landmarks),
+  write_page(face, files[5], shape, curvature = bending, view = face_view(face$landmarks),
              title = "Ridges, valleys and surface model of Rvcg's humface")
   quality_report(shape, files[6], specimens = list(face))
   cat("\nWritten\n", paste0("  ", normalizePath(files), "\n"), sep = "")

@@ -132,8 +132,8 @@ own_mesh_calls <- function() {
     plot.curve = function(case, one) plot(case$curve, one, "plain", engine = "picture"),
     plot_curves = function(case, one) plot_curves(list(a = case$curve), one, "plain", engine = "picture"),
     plot.shape = function(case, one) plot(case$shape, one, surface = "plain", engine = "picture"),
-    `write_page, curves` = function(case, one) write_page(temporary(".html"), one, list(a = case$curve), surface = "plain", selfcontained = FALSE),
-    `write_page, shape` = function(case, one) write_page(temporary(".html"), one, case$shape, surface = "plain", selfcontained = FALSE),
+    `write_page, curves` = function(case, one) write_page(one, temporary(".html"), list(a = case$curve), surface = "plain", selfcontained = FALSE),
+    `write_page, shape` = function(case, one) write_page(one, temporary(".html"), case$shape, surface = "plain", selfcontained = FALSE),
     `fit_shape, curves` = function(case, one) {
       fit_shape(one, case$shape$scheme, ridge_settings(error = FALSE), curves = list(across = case$across), progress = FALSE)
     }
@@ -170,16 +170,16 @@ specimen_calls <- function() {
       found
     },
     plot = function(case, one) plot(one, "plain", engine = "picture"),
-    plot_cuts = function(case, one) plot_cuts(one, "lowL", "highR", engine = "picture"),
+    plot_cuts = function(case, one) plot(one, what = "cuts", from = "lowL", to = "highR", engine = "picture"),
     landmark_template = function(case, one) landmark_template(one),
     calibrate_template = function(case, one) calibrate_template(landmark_template(case$specimen), one),
     refine_landmarks = function(case, one) refine_landmarks(one, case$defined),
     review_landmarks = function(case, one) review_landmarks(one, case$shape$scheme, launch.browser = FALSE),
     check_placing = function(case, one) check_placing(one),
-    plot_placing = function(case, one) plot_placing(one),
-    plot_refinement = function(case, one) plot_refinement(one),
+    plot_placing = function(case, one) plot(one, what = "placing"),
+    plot_refinement = function(case, one) plot(one, what = "refinement"),
     simulate_faces = function(case, one) simulate_faces(2, template = one, effect = 0, progress = FALSE),
-    write_page = function(case, one) write_page(temporary(".html"), one, surface = "plain", selfcontained = FALSE)
+    write_page = function(case, one) write_page(one, temporary(".html"), surface = "plain", selfcontained = FALSE)
   )
 }
 

@@ -47,7 +47,7 @@ test_that("shapes, matrices and lists say the same; missing parts and points are
   expect_equal(found$part, c("lower lip left", "brow", "chin"))
   expect_equal(found$points, c(3, 1, 0))
   expect_equal(found$rms, c(2, 0, NA))
-  expect_output(print(found), "Distance of 2 parts, points of the same number")
+  expect_output(print(found), "<curve_distance> 2 parts, points of the same number")
   expect_equal(curve_distance(m, m, match = "procrustes")$rms, c(0, 0))
 })
 

@@ -12,7 +12,7 @@ test_that("a part of a path has its own length, arc lengths from 0, and nothing 
   expect_equal(as.data.frame(part)[mesh_columns], as.data.frame(path)[5:20, mesh_columns],
                ignore_attr = TRUE)
   expect_setequal(names(attributes(part)), c("names", "row.names", "class", "length", "key"))
-  expect_output(print(part), "Path of 16 points")
+  expect_output(print(part), "<mesh_path> 16 points")
   expect_no_match(paste(capture.output(print(part)), collapse = " "), "angle")
 })
 
@@ -38,7 +38,7 @@ test_that("straight steps count where points are left out; one point and none ha
   none <- path[0, ]
   expect_s3_class(none, "mesh_path")
   expect_equal(attr(none, "length"), 0)
-  expect_output(print(none), "Path of 0 points")
+  expect_output(print(none), "<mesh_path> 0 points")
   expect_crestline_error(path[nrow(path) + 1, ], "no such rows")
 })
 

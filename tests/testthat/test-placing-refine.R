@@ -86,13 +86,13 @@ test_that("some may be moved, and mistakes are told", {
   expect_crestline_error(refine_landmarks(face, leaf_scheme()), c("leaf", "definitions"))
   none <- specimen(face$mesh, face$landmarks[c("tL", "tR"), ], id = "ears")
   expect_crestline_error(refine_landmarks(none, face_scheme()), "none of the landmarks", id = "ears")
-  expect_crestline_error(plot_refinement(face), "not refined", id = "humface")
+  expect_crestline_error(plot(face, what = "refinement"), "not refined", id = "humface")
 })
 
 test_that("the picture shows both places", {
   face <- refine_landmarks(placed_humface(), face_scheme())
   scene <- NULL
-  pixels <- drawn_pixels(scene <- plot_refinement(face, labels = FALSE), 500, 500)
+  pixels <- drawn_pixels(scene <- plot(face, what = "refinement", labels = FALSE), 500, 500)
   expect_s3_class(scene, "picture_scene")
   orange <- pixels[, , 1] > 0.9 & pixels[, , 2] > 0.35 & pixels[, , 2] < 0.6 & pixels[, , 3] < 0.2
   expect_gt(sum(orange), 50)

@@ -1,16 +1,16 @@
 test_that("the cuts are great circles of a ball, at the angles asked for", {
   ball <- specimen(Rvcg::vcgSphere(4), rbind(east = c(1, 0, 0), front = c(0, 0, 1)), id = "ball")
   angles <- c(-0.5, 0, 0.5)
-  paths <- draw_quietly(plot_cuts(ball, "east", "front", angles, engine = "picture"))
+  paths <- draw_quietly(plot(ball, what = "cuts", from = "east", to = "front", angles = angles, engine = "picture"))
   expect_equal(vapply(paths, attr, 0, "angle"), angles)
   expect_equal(attr(paths[[2]], "length"), pi / 2, tolerance = 0.01)
-  expect_error(plot_cuts(ball, "east", "nowhere", engine = "picture"), class = "crestline_error")
+  expect_error(plot(ball, what = "cuts", from = "east", to = "nowhere", engine = "picture"), class = "crestline_error")
 })
 
 test_that("rgl draws them too", {
   ball <- specimen(Rvcg::vcgSphere(4), rbind(east = c(1, 0, 0), front = c(0, 0, 1)), id = "ball")
   with_null_rgl({
-    plot_cuts(ball, "east", "front", c(0, 0.5), engine = "rgl")
+    plot(ball, what = "cuts", from = "east", to = "front", angles = c(0, 0.5), engine = "rgl")
     expect_equal(as.character(rgl::ids3d()$type), c("triangles", "linestrip", "linestrip", "spheres", "text"))
   })
 })

@@ -2,7 +2,7 @@ write_ball_page <- function(..., file = tempfile(fileext = ".html")) {
   testthat::skip_if_not_installed("htmltools")
   old <- options(rgl.useNULL = TRUE)
   on.exit(options(old))
-  write_page(file, ball_specimen(), ..., curvature = ball_curvature())
+  write_page(ball_specimen(), file, ..., curvature = ball_curvature())
 }
 
 test_that("a page is one file with the scene, the curves' table and the caption", {
@@ -53,8 +53,8 @@ test_that("text of a script cannot end it", {
 })
 
 test_that("a page needs a name that ends in .html and a folder", {
-  expect_error(write_page("page.txt", ball_specimen()), class = "crestline_error")
-  expect_error(write_page(file.path(tempdir(), "nowhere", "page.html"), ball_specimen()), class = "crestline_error")
+  expect_error(write_page(ball_specimen(), "page.txt"), class = "crestline_error")
+  expect_error(write_page(ball_specimen(), file.path(tempdir(), "nowhere", "page.html")), class = "crestline_error")
 })
 
 test_that("the page of a shape has a button for its surface and a row for each of its curves, nothing for what is missing", {
@@ -63,7 +63,7 @@ test_that("the page of a shape has a button for its surface and a row for each o
   on.exit(options(old))
   file <- tempfile(fileext = ".html")
   shape <- quad_shape()
-  write_page(file, quad_specimen(), shape, surface = "plain")
+  write_page(quad_specimen(), file, shape, surface = "plain")
   html <- paste(readLines(file, warn = FALSE), collapse = "\n")
   unlink(file)
   expect_true(grepl('"buttonLabels":"surface model"', html, fixed = TRUE))

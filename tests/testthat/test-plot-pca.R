@@ -20,7 +20,7 @@ test_that("the page has a slider a component, which holds the shapes at its ends
   pca <- stretched_balls()
   file <- tempfile(fileext = ".html")
   on.exit(unlink(file))
-  expect_identical(basename(write_pca_page(file, pca, 1:2, sd = 2)), basename(file))
+  expect_identical(basename(write_pca_page(pca, file, 1:2, sd = 2)), basename(file))
   html <- paste(readLines(file, warn = FALSE), collapse = "\n")
   expect_equal(lengths(regmatches(html, gregexpr("\"type\":\"vertexSetter\"", html))), 2)
   json <- regmatches(html, regexpr("\\{\"x\":\\{\"actions\".*?</script>", html, perl = TRUE))
@@ -30,6 +30,6 @@ test_that("the page has a slider a component, which holds the shapes at its ends
   if (is.list(values)) values <- values[[1]]
   first <- as.vector(t(shape_at(pca, 1, -2, "mesh")$vb[1:3, ]))
   expect_equal(as.vector(values[1, seq_along(first)]), first, tolerance = 1e-5)
-  expect_crestline_error(write_pca_page("x.txt", pca), "ends in .html")
-  expect_crestline_error(write_pca_page(file, shape_pca(align(posed_sample()))), "triangles")
+  expect_crestline_error(write_pca_page(pca, "x.txt"), "ends in .html")
+  expect_crestline_error(write_pca_page(shape_pca(align(posed_sample())), file), "triangles")
 })

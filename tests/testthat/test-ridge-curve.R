@@ -149,7 +149,7 @@ test_that("a plane curve is the shortest cut, with nothing to determine", {
   expect_identical(curve$points$d, numeric(7))
   expect_true(all(is.na(curve$points$se)))
   expect_true(curve$converged)
-  expect_output(print(curve), "Plane curve from a to b on graph")
+  expect_output(print(curve), "<curve> plane from a to b on graph")
 })
 
 test_that("keep_away() counts strength as 0 in the window too", {
@@ -190,7 +190,7 @@ test_that("a mesh without landmarks will do with positions", {
   curve <- curve_of(bent$mesh, bent$landmarks["a", ], bent$landmarks["b", ], "ridge", radius = 4, width = 5, n = 9)
   expect_equal(curve$points, of_bent(bent)$points, tolerance = 1e-6)
   expect_null(curve$id)
-  expect_output(print(curve), "Ridge from \\(-13.3, .*\\) to \\(13.6, ")
+  expect_output(print(curve), "<curve> ridge from \\(-13.3, .*\\) to \\(13.6, ")
 })
 
 test_that("errors name the specimen, the landmark and the remedy", {
@@ -221,7 +221,7 @@ test_that("errors name the specimen, the landmark and the remedy", {
 
 test_that("a curve prints its length, strength, error and outcome", {
   curve <- of_bent()
-  expect_output(print(curve), "Ridge from a to b on graph")
+  expect_output(print(curve), "<curve> ridge from a to b on graph")
   expect_output(print(curve), "9 points, mean strength .*, median standard error")
   expect_output(print(curve), "\n  converged")
   curve$converged <- FALSE

@@ -143,7 +143,7 @@ test_that("a face of which half is missing is slid with the others, whatever the
   gone <- fine$points$place[is.na(half$points$x)]
   expect_gt(sum(nchar(gone)), 10000)
   whole <- lapply(1:2, function(i) paired_shape(c(1, 0.95 + i / 20, 1), paste0("whole", i), fine))
-  sample <- suppressWarnings(homologise(c(whole, list(half)), settings = slide_settings(surface = "mesh"), rounds = 2,
+  sample <- suppressWarnings(homologise(c(whole, list(half)), settings = slide_settings(), rounds = 2,
                                         progress = FALSE))
   expect_identical(is.na(sample$shapes[[3]]$points$x), is.na(half$points$x))
   slid <- slide(half, sample$template)

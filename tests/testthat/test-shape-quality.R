@@ -24,7 +24,7 @@ middle_of <- function(shape, curve) {
 test_that("a good shape is green throughout, with nothing to say", {
   graded <- quality(quad_shape())
   expect_s3_class(graded, c("shape_quality", "data.frame"), exact = TRUE)
-  expect_equal(names(graded)[c(1:10, 20:21)], c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
+  expect_equal(names(graded)[c(1:10, 21:22)], c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
                                                "competing", "z", "grade", "why"))
   expect_equal(graded$part, c("a", "b", "c", "d", "bottom", "top", "left", "right", "quad"))
   expect_equal(levels(graded$grade), c("green", "amber", "red"))

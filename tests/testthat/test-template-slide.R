@@ -77,7 +77,7 @@ test_that("holes are jumped, not stopped in", {
 
 test_that("a slid shape is on its mesh, keeps what it shares, its landmarks and its ends", {
   shape <- paired_shape(c(1.2, 1, 1.1))
-  slid <- slide(shape, symmetrise(paired_shape()))
+  slid <- slide(shape, symmetrise(paired_shape()), slide_settings(curves = "held"))
   expect_on_mesh(slid$points, shape$specimen$mesh)
   first <- match(shape$scheme$points$place, shape$scheme$points$place)
   at <- unname(as.matrix(slid$points[c("x", "y", "z", "face", "w1", "w2", "w3")]))
@@ -145,7 +145,7 @@ test_that("a cut end slides along the whole curve, or stays", {
   })
   shape <- paired_shape(c(1.2, 1, 1.1), scheme = cut)
   template <- symmetrise(paired_shape(scheme = cut))
-  slid <- slide(shape, template)
+  slid <- slide(shape, template, slide_settings(curves = "held"))
   start <- function(x) unname(coords(x, "curves")["side left 1", ])
   expect_gt(sqrt(sum((start(slid) - start(shape))^2)), 0.01)
   expect_on_mesh(slid$points, shape$specimen$mesh)
@@ -167,8 +167,8 @@ test_that("standard errors go along", {
 test_that("all settings run, and none moves a point off the mesh", {
   shape <- paired_shape(c(1.2, 1, 1.1))
   template <- symmetrise(paired_shape())
-  changes <- list(list("paper"), list(energy = "all"), list(surface = "between"), list(surface_energy = "patch"),
-                  list(surface = "transect", surface_energy = "all"))
+  changes <- list(list("paper"), list(energy = "all"), list(curves = "held"), list(curves = "held", surface = "between"),
+                  list(curves = "held", surface_energy = "patch"), list(curves = "held", surface = "transect"), list(floor = 0.1))
   for (change in changes) {
     slid <- slide(shape, template, do.call(slide_settings, change))
     expect_on_mesh(slid$points, shape$specimen$mesh)

@@ -49,7 +49,7 @@ test_that("points on bounding curves are held, those inside are free", {
 
 test_that("held points of patches go along with the points of their curve", {
   shape <- paired_shape(c(1.2, 1, 1.1))
-  slid <- slide(shape, symmetrise(paired_shape()))
+  slid <- slide(shape, symmetrise(paired_shape()), slide_settings(curves = "held"))
   track <- slid$tracks[["across"]]
   middle <- points_along(track$path, track$s[3])
   expect_equal(unname(coords(slid, "surface")["belt 2", ]), unname(as.vector(middle)), tolerance = 1e-9)
@@ -58,7 +58,7 @@ test_that("held points of patches go along with the points of their curve", {
 test_that("the energy of a shape's free points is least: moving any on the mesh raises it", {
   shape <- paired_shape(c(1.2, 1, 1.1))
   template <- symmetrise(paired_shape())
-  settings <- slide_settings(surface_tolerance = 1e-9, surface_sweeps = 2000)
+  settings <- slide_settings(curves = "held", surface_tolerance = 1e-9, surface_sweeps = 2000)
   slid <- slide(shape, template, settings)
   plan <- slide_plan(template, settings)
   set <- surface_sets(slide_state(slid, settings)$store, plan)[[1]]

@@ -1,0 +1,93 @@
+# Statistics of a linear model's terms for many permutations of the residuals of the model without
+# the term.
+
+#' Whole shape: sums of squares over all co-ordinates, from the inner products of the specimens
+#'
+#' @param y n x q, centred.
+#' @param spans As of [term_spans()].
+#' @param orders n x B, the observed order first.
+#' @return List by term: `squares`, `f`, each of B.
+#' @noRd
+shape_scores <- function(y, spans, orders) {
+  # What costs less for each permutation: n^2 inner products, or n x q x p projections.
+  if (nrow(y) > ncol(y) * ncol(spans[[1]]$basis)) {
+    return(lapply(spans, function(span) {
+      found <- permuted_squares(y, span, orders)
+      as_scores(rowSums(found$own), rowSums(found$whole), sum(found$total), span)
+    }))
+  }
+  gram <- tcrossprod(y)
+  lapply(spans, function(span) {
+    half <- gram - span$without %*% crossprod(span$without, gram)
+    left <- half - tcrossprod(half %*% span$without, span$without)
+    own <- span$basis[, seq_len(span$df), drop = FALSE]
+    sums <- cpp_permuted_forms(left, tcrossprod(own), tcrossprod(span$basis), orders)
+    as_scores(sums[1, ], sums[2, ], sum(diag(left)), span)
+  })
+}
+
+#' Sums of squares of every column
+#' @return List: `own`, `whole` (B x q, in the span of the term and of the model), `total` (q).
+#' @noRd
+permuted_squares <- function(y, span, orders) {
+  left <- y - span$without %*% crossprod(span$without, y)
+  c(cpp_permuted_squares(t(left), span$basis, span$df, orders), list(total = colSums(left^2)))
+}
+
+as_scores <- function(own, whole, total, span) {
+  list(squares = own, f = own / span$df / (pmax(total - whole, 0) / span$left))
+}
+
+#' F of every column of y, some permutations at a time
+#'
+#' @param y List of n x q matrices over which squares are summed (the co-ordinates of points).
+#' @return List: `own`, `left` (B x q: sums of squares of the term and of the residuals).
+#' @noRd
+column_squares <- function(y, span, orders) {
+  each <- lapply(y, permuted_squares, span, orders)
+  add <- function(part) Reduce(`+`, lapply(each, `[[`, part))
+  own <- add("own")
+  list(own = own, left = pmax(rep(add("total"), each = nrow(own)) - add("whole"), 0))
+}
+
+#' Pillai's trace of the first components, for all permutations, and its approximate p
+#' @param u n x c scores.
+#' @noRd
+pillai_scores <- function(u, span, orders) {
+  left <- u - span$without %*% crossprod(span$without, u)
+  whole <- crossprod(left)
+  own <- seq_len(span$df)
+  trace <- apply(orders, 2, function(order) {
+    sums <- crossprod(span$basis, left[order, , drop = FALSE])
+    among <- crossprod(sums[own, , drop = FALSE])
+    error <- whole - crossprod(sums)
+    sum(diag(solve(error + among, among)))
+  })
+  c <- ncol(u)
+  s <- min(c, span$df)
+  m <- (abs(c - span$df) - 1) / 2
+  k <- (span$left - c - 1) / 2
+  df <- c(s * (2 * m + s + 1), s * (2 * k + s + 1))
+  f <- df[2] / df[1] * trace[1] / (s - trace[1])
+  list(trace = trace, parametric = stats::pf(f, df[1], df[2], lower.tail = FALSE))
+}
+
+#' Standardised effect: the observed value among the permuted ones, after a power transformation
+#' that makes these nearest to normal (Collyer and Adams 2018; as in RRPP)
+#'
+#' @param x Positive values, the observed first.
+#' @param range Powers that are looked through.
+#' @param log_below Powers nearer to 0 than that are the logarithm.
+#' @noRd
+effect_z <- function(x, range = c(-2, 2), log_below = 1e-3) {
+  if (!all(is.finite(x) & x > 0) || length(unique(x)) == 1) return(NA_real_)
+  power <- function(y, a) if (abs(a) > log_below) (y^a - 1) / a else log(y)
+  others <- x[-1] / exp(mean(log(x[-1])))
+  likelihood <- function(a) {
+    y <- power(others, a)
+    -length(y) / 2 * log(sum((y - mean(y))^2))
+  }
+  best <- stats::optimise(likelihood, range, maximum = TRUE)$maximum
+  y <- power(x, if (abs(best) < log_below) 0 else best)
+  (y[1] - mean(y)) / sqrt(mean((y - mean(y))^2))
+}

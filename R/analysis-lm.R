@@ -1,0 +1,292 @@
+# Linear models of shape: which terms act on it, and where.
+
+#' Linear models of shape
+#'
+#' Tests the terms of a linear model of shape: age, sex, size and their interactions. Each term is
+#' tested for the whole shape, for size, for principal components, and at every point, so that a map
+#' shows where it acts. [predict.shape_lm()] gives the shape that the model expects, for instance
+#' the mean face at an age of 12 and of 40.
+#'
+#' **Tests.** The residuals of the model without the term are permuted and added to its fitted
+#' values (Freedman and Lane 1983); the term is tested again on each of these samples. Sums of
+#' squares, F, Z and p of the whole shape equal those of `RRPP::lm.rrpp()` and
+#' `geomorph::procD.lm()` on the same permutations. The same orders are used for all terms, tests
+#' and levels.
+#'
+#' **Sums of squares.** Type I tests a term given those before it: the order of the formula counts.
+#' Type II tests it given all terms that do not contain it. Type III tests it given all others; main
+#' effects then depend on the coding of factors, and need sums to zero (`contrasts = list(sex =
+#' "contr.sum")`).
+#'
+#' **Size.** `size` in the formula is the centroid size of the level, in the unit of the meshes.
+#' `~ log(size) + sex` tests whether the sexes differ in more than their size makes them differ.
+#' Do not take residuals of size first and test these by sex: with groups of different size that
+#' removes part of the difference and counts too many degrees of freedom.
+#'
+#' **Blocks.** Residuals are exchanged within the blocks of `block` only (persons measured twice,
+#' families, sites). Name the block in the formula as well, first, to remove the differences
+#' between blocks. If every variable but size is constant within the blocks, the means of the blocks
+#' are modelled. In the mixed case terms that are constant within blocks have no p-value, with a
+#' warning: for these and for other random effects, and for a phylogeny, use `RRPP::lmm.rrpp()` and
+#' `RRPP::lm.rrpp()` with [as_rrpp()], see `vignette("interop")`.
+#'
+#' @param sample As in [compare_groups()].
+#' @param formula Right-hand side of a linear model, such as `~ age * sex + log(size)`. Numbers,
+#'   factors, interactions, and functions of variables such as `poly(age, 2)` and `splines::ns(age,
+#'   3)`. Characters are factors.
+#' @param data Data frame of the variables, matched to the specimens by name as in [as_geomorph()].
+#'   Not needed where `size` is the only variable.
+#' @param level,n_perm,seed,scale,weights,missing,progress As in [compare_groups()].
+#' @param tests Which: "shape", "size" (centroid size; not with `size` in the formula), "manova"
+#'   (Pillai's trace of the first components), "components" (each by itself), "points".
+#' @param components Number of principal components: a whole number, or a share of the variance
+#'   below 1.
+#' @param ss Type of the sums of squares.
+#' @param block Factor of n, or a vector that can become one; values with names are matched to the
+#'   specimens. `NULL`: all specimens are independent.
+#' @param permutations Orders to use in place of random ones, as in [compare_groups()]; those of
+#'   `RRPP:::perm.index()` give the p-values of RRPP.
+#' @param contrasts List of contrasts by factor, as in [stats::lm()].
+#' @return Object of class `shape_lm`, a list:
+#'   * `tests`: data frame `level`, `term`, `test` ("shape", "size", "manova", "PC1", ...), `df`,
+#'     `squares` (sum of squares of the term, of unit size where the alignment scales), `share` (of
+#'     all squares: R squared), `statistic` (F; of "manova" Pillai's trace), `z` (the observed
+#'     statistic among the permuted ones, transformed to normal and standardised, as in RRPP),
+#'     `p_value` (by permutation), `p_adjusted` (of components: by the greatest F over them), and
+#'     `p_parametric` (under normality; of "manova" by the approximate F);
+#'   * `points`: data frame, a row a level, term and point: `level`, `term`, `point`, `x`, `y`, `z`
+#'     (the mean), `distance` (along the normal, outward positive, for one unit of the term, or from
+#'     the reference level of a factor of two to the other; NA without triangles and for terms with
+#'     more degrees of freedom), `displacement` (root mean square of what the term moves the
+#'     specimens), both in the unit of the meshes; `statistic` (signed t where `distance` is there,
+#'     else F), `p_value`, `p_adjusted` (by the greatest F over all points of the level and term:
+#'     family-wise error);
+#'   * `parts`: data frame, the same by curve and patch: `level`, `term`, `part`, `points` (number),
+#'     `statistic` (F of all its points), `p_value`, `p_adjusted` (by the least p over all parts);
+#'   * `aligned`, `pca`, `models` (`terms`, `frame`, `matrix`, `coefficients`: p x dk): lists by
+#'     level; `left` (residual degrees of freedom); `formula`, `ss`, `n_perm`, `block`, `exchange`
+#'     ("free", "within", "whole"), `seed`, `provenance`.
+#'
+#'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a term and test and a
+#'   column a level.
+#' @section Errors: of class `crestline_error`: a variable that is no column of `data`, or has
+#'   missing or infinite values (the error names the specimens); a term that follows from others; no
+#'   residual degrees of freedom.
+#' @section Warnings: of class `crestline_contrasts`, for type III with interactions of factors that
+#'   are not coded to sum to zero; `crestline_constant_term`, for terms that are constant within
+#'   blocks.
+#' @references Freedman and Lane (1983) A nonstochastic interpretation of reported significance
+#'   levels, *Journal of Business and Economic Statistics* 1, 292-298; Collyer, Sekora and Adams
+#'   (2015) A method for analysis of phenotypic change for phenotypes described by high-dimensional
+#'   data, *Heredity* 115, 357-365; Collyer and Adams (2018) RRPP, *Methods in Ecology and
+#'   Evolution* 9, 1772-1779; Winkler, Ridgway, Webster, Smith and Nichols (2014) Permutation
+#'   inference for the general linear model, *NeuroImage* 92, 381-397.
+#' @seealso [predict.shape_lm()], [plot.shape_lm()], [compare_groups()]; `vignette("covariates")`
+#' @examples
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 20), c(4, 3, 20))
+#' shapes <- shapes + rnorm(240, sd = 0.05)
+#' people <- data.frame(id = 1:20, age = runif(20, 5, 40), sex = rep(c("F", "M"), 10))
+#' shapes[1, 3, ] <- shapes[1, 3, ] + people$age / 100
+#' model <- shape_lm(shapes, ~ age + sex, people, components = 3, n_perm = 199, seed = 1)
+#' model
+#' predict(model, data.frame(age = c(12, 40), sex = "F"))[1, , ]
+#' @export
+shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curves", "surface"),
+                     tests = c("shape", "size", "manova", "components", "points"), n_perm = 1000,
+                     components = 10, ss = c("I", "II", "III"), block = NULL, permutations = NULL,
+                     contrasts = NULL, seed = NULL, scale = TRUE, weights = NULL,
+                     missing = c("estimate", "drop", "stop"), progress = interactive()) {
+  check_given()
+  check_flags(progress)
+  seed <- check_seed(seed)
+  ss <- check_choice(ss, c("I", "II", "III"), "ss")
+  n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
+  components <- check_components(components)
+  tests <- check_choices(tests, c("shape", "size", "manova", "components", "points"), "tests")
+  terms <- model_terms(formula)
+  aligned <- aligned_levels(sample, level, scale, weights, missing)
+  columns <- model_data(terms, data, names(aligned[[1]]))
+  if ("size" %in% all.vars(terms)) tests <- setdiff(tests, "size")
+  design <- model_blocks(block, terms, columns, names(aligned[[1]]))
+  units <- if (design$kind == "whole") lapply(aligned, in_design, design) else aligned
+  if (design$kind == "whole") {
+    first <- match(levels(design$block), design$block)
+    columns <- lapply(columns, function(x) {
+      if (length(dim(x)) == 2) x[first, , drop = FALSE] else x[first]
+    })
+  }
+  n <- length(units[[1]])
+  check_memory(n * as.numeric(n_perm), n_perm, "n_perm")
+  orders <- model_orders(n, design, n_perm, permutations, seed)
+  models <- lapply(units, function(one) level_model(terms, columns, one$size, contrasts))
+  warn_contrasts(models[[1]], ss)
+  spans <- lapply(models, term_spans, ss)
+  tick <- comparison_ticks(progress, length(units) * length(spans[[1]]))
+  each <- Map(function(one, span) lm_level(one, span, orders, tests, components, tick), units,
+              spans)
+  models <- Map(function(model, one) {
+    y <- t(matrix(one$coords, length(one$mean)))
+    c(model, list(coefficients = qr.coef(qr(model$matrix, tol = 1e-7), y)))
+  }, models, units)
+  found <- structure(
+    list(tests = with_level(each, "tests"), points = with_level(each, "points"),
+         parts = with_level(each, "parts"), aligned = units, pca = lapply(each, `[[`, "pca"),
+         models = models, left = spans[[1]][[1]]$left, formula = formula, ss = ss,
+         n_perm = ncol(orders) - 1L, block = design$block, exchange = design$kind, seed = seed,
+         provenance = with_settings(aligned[[1]]$provenance, "model",
+                                    list(formula = deparse1(formula), ss = ss, n_perm = n_perm,
+                                         exchange = design$kind))),
+    class = "shape_lm"
+  )
+  without_constant_terms(found, spans, design)
+}
+
+#' What is exchanged: all specimens, those of a block, or whole blocks
+#'
+#' @return List: `kind` ("free", "within", "whole"), `block` (factor of n).
+#' @noRd
+model_blocks <- function(block, terms, columns, ids, call = rlang::caller_env()) {
+  if (is.null(block)) return(list(kind = "free"))
+  block <- check_block(block, ids, call)
+  used <- columns[intersect(names(columns), all.vars(terms))]
+  constant <- function(x) {
+    x <- if (length(dim(x)) == 2) interaction(as.data.frame(x), drop = TRUE) else x
+    all(tapply(as.character(x), block, function(own) length(unique(own))) == 1)
+  }
+  whole <- length(used) && all(vapply(used, constant, NA))
+  list(kind = if (whole) "whole" else "within", block = block)
+}
+
+#' Orders of the units, the observed one first
+#' @noRd
+model_orders <- function(n, design, n_perm, permutations, seed, call = rlang::caller_env()) {
+  random <- if (!is.null(permutations)) check_permutations(permutations, n, call) else
+    with_seed(seed, if (design$kind == "within") {
+      block <- as.integer(design$block)
+      own <- order(block)
+      drawn <- replicate(n_perm, order(block, stats::runif(n)))
+      drawn[own, ] <- drawn
+      drawn
+    } else replicate(n_perm, sample.int(n)))
+  orders <- cbind(seq_len(n), random, deparse.level = 0)
+  storage.mode(orders) <- "integer"
+  orders
+}
+
+#' Type III tests of main effects beside interactions of factors mean something where factors are
+#' coded to sum to zero
+#' @noRd
+warn_contrasts <- function(model, ss) {
+  if (ss != "III" || !any(attr(model$terms, "order") > 1)) return(invisible())
+  summed <- vapply(names(model$contrasts), function(name) {
+    coding <- stats::model.matrix(~ x, list(x = factor(levels(factor(model$frame[[name]])))),
+                                  stats::setNames(model$contrasts[name], "x"))
+    all(abs(colSums(coding[, -1, drop = FALSE])) < 1e-8)
+  }, NA)
+  if (all(summed)) return(invisible())
+  crestline_warn(sprintf("type III with interactions, and %s not coded to sum to zero.",
+                         shorten(names(summed)[!summed])),
+                 "Main effects are then those at the first level: give `contrasts`, \"contr.sum\".",
+                 stage = "model", class = "crestline_contrasts")
+}
+
+#' A model whose terms that no exchange within blocks can change have no p-values
+#' @noRd
+without_constant_terms <- function(found, spans, design) {
+  if (design$kind != "within") return(found)
+  block <- as.integer(design$block)
+  constant <- vapply(spans[[1]], function(span) {
+    own <- span$basis[, seq_len(span$df), drop = FALSE]
+    means <- rowsum(own, block) / tabulate(block)
+    max(abs(own - means[block, ])) < 1e-8
+  }, NA)
+  terms <- names(constant)[constant]
+  if (!length(terms)) return(found)
+  for (table in c("tests", "points", "parts")) {
+    at <- found[[table]]$term %in% terms
+    for (column in intersect(c("z", "p_value", "p_adjusted"), names(found[[table]]))) {
+      found[[table]][[column]][at] <- NA_real_
+    }
+  }
+  crestline_warn(sprintf("%s constant within blocks: exchange within them does not test it.",
+                         shorten(terms)),
+                 "Its p is NA. Test it with block = NULL on the blocks' means, or by lmm.rrpp().",
+                 stage = "model", class = "crestline_constant_term")
+  found
+}
+
+#' @exportS3Method
+validate.shape_lm <- function(x) {
+  levels <- names(x$aligned)
+  table <- function(value, columns) {
+    is.null(value) || is.data.frame(value) && all(columns %in% names(value)) &&
+      is.numeric(value$p_value)
+  }
+  whole <- function(model) is.list(model) && inherits(model$terms, "terms") &&
+    is.matrix(model$matrix) && is.matrix(model$coefficients)
+  right <- is.list(x$aligned) && length(levels) > 0 && identical(names(x$models), levels) &&
+    all(vapply(x$aligned, inherits, NA, "aligned")) && all(vapply(x$models, whole, NA)) &&
+    table(x$tests, c("level", "term", "test", "df", "statistic", "p_adjusted")) &&
+    table(x$points, c("level", "term", "point", "displacement", "p_adjusted")) &&
+    table(x$parts, c("level", "term", "part", "p_adjusted")) &&
+    inherits(x$formula, "formula") && is.numeric(x$n_perm) && length(x$n_perm) == 1
+  if (!right) {
+    crestline_abort("the model is damaged: its parts do not fit together.",
+                    "Fit it anew: shape_lm().", stage = "model", call = NULL)
+  }
+  for (one in x$aligned) validate(one)
+  invisible(x)
+}
+
+#' @rdname shape_lm
+#' @param x,object A `shape_lm`.
+#' @param row.names,optional,... Ignored.
+#' @export
+as.data.frame.shape_lm <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  validate(x)
+  x$tests
+}
+
+#' @rdname shape_lm
+#' @export
+summary.shape_lm <- function(object, ...) {
+  check_method_dots(...)
+  validate(object)
+  levels <- names(object$aligned)
+  rows <- unique(object$tests[c("term", "test")])
+  p <- lapply(levels, function(level) {
+    own <- object$tests[object$tests$level == level, ]
+    own$p_value[match(paste(rows$term, rows$test), paste(own$term, own$test))]
+  })
+  table <- data.frame(rows, stats::setNames(p, levels), check.names = FALSE, row.names = NULL)
+  structure(table, provenance = object$provenance, class = c("comparison_summary", "data.frame"))
+}
+
+#' @export
+print.shape_lm <- function(x, ...) {
+  check_method_dots(...)
+  printed(x, {
+    unit <- if (x$exchange == "whole") "block" else "specimen"
+    cat("<shape_lm> ", deparse1(x$formula), ", ", amount(length(x$aligned[[1]]), unit), ", type ",
+        x$ss, ", ", amount(x$n_perm, "permutation"),
+        if (x$exchange == "within") paste(" within", amount(nlevels(x$block), "block")), "\n",
+        sep = "")
+    shape <- x$tests[x$tests$test %in% "shape", ]
+    for (level in unique(shape$level)) {
+      own <- shape[shape$level == level, ]
+      cat("  ", level, ", whole shape:\n", sep = "")
+      table <- data.frame(Df = own$df, SS = own$squares, Rsq = own$share, F = own$statistic,
+                          Z = own$z, p = own$p_value, row.names = own$term)
+      print(signif(table, 4))
+    }
+    for (level in unique(x$points$level)) {
+      for (term in unique(x$points$term)) {
+        own <- x$points[x$points$level == level & x$points$term == term, ]
+        cat("  ", level, ", ", term, ": ", sum(own$p_adjusted <= 0.05, na.rm = TRUE), " of ",
+            amount(nrow(own), "point"), " (family-wise 0.05)\n", sep = "")
+      }
+    }
+    invisible(x)
+  })
+}

@@ -1,0 +1,190 @@
+# The design of a linear model of shape: its variables by specimen, its matrix, the spans of its
+# terms.
+
+#' A right-hand side as terms
+#' @noRd
+model_terms <- function(formula, call = rlang::caller_env()) {
+  fail <- function(problem, remedy) {
+    crestline_abort(problem, remedy, stage = "model", call = call)
+  }
+  if (!inherits(formula, "formula")) {
+    fail(sprintf("`formula` is %s.", describe_value(formula)), "Give one, such as ~ age + sex.")
+  }
+  if (length(formula) > 2) {
+    fail("`formula` has a left-hand side.", "Leave it out: the response is shape.")
+  }
+  terms <- tryCatch(stats::terms(formula), error = function(e) {
+    fail(sprintf("`formula` cannot be read: %s.", rlang::cnd_message(e)),
+         "Name every variable; a `.` is not known.")
+  })
+  if (!length(attr(terms, "term.labels"))) fail("`formula` has no term.", "Give ~ age, say.")
+  if (!attr(terms, "intercept")) fail("`formula` has no intercept.", "Leave out `0` or `- 1`.")
+  if (!is.null(attr(terms, "offset"))) fail("`formula` has an offset.", "Leave it out.")
+  terms
+}
+
+#' The variables of a model, in the order of the specimens
+#'
+#' A variable comes from `data`, where rows are matched by specimen. Outside of it only constants
+#' are looked for (degrees of freedom, knots): a vector from there would be matched by position.
+#'
+#' @return List of columns.
+#' @noRd
+model_data <- function(terms, data, ids, call = rlang::caller_env()) {
+  columns <- covariates(data, ids, call)
+  outside <- setdiff(all.vars(terms), c(names(columns), "size"))
+  frame <- environment(terms)
+  for (name in outside) {
+    value <- get0(name, envir = frame)
+    if (is.null(value) || is.function(value) || NROW(value) == length(ids)) {
+      crestline_abort(sprintf("`%s` of the formula is no column of `data`.", name),
+                      paste("Its columns are", shorten(c(names(columns), "size")),
+                            "(the centroid size); rows are matched to specimens there."),
+                      stage = "model", call = call)
+    }
+  }
+  columns
+}
+
+#' The model of one level
+#'
+#' @param columns As of [model_data()].
+#' @param size Centroid sizes, named.
+#' @return List: `terms` (with what prediction needs), `frame`, `xlev`, `contrasts`, `matrix` (n x
+#'   p), `assign` (term of each column, 0 the intercept), `variables`.
+#' @noRd
+level_model <- function(terms, columns, size, contrasts = NULL, call = rlang::caller_env()) {
+  ids <- names(size)
+  columns$size <- unname(size)
+  used <- columns[intersect(names(columns), all.vars(terms))]
+  used <- lapply(used, function(x) if (is.character(x)) factor(x) else x)
+  frame_data <- list2DF(used, length(ids))
+  say_missing(frame_data, ids, call)
+  frame <- tryCatch(
+    suppressWarnings(stats::model.frame(terms, frame_data, na.action = stats::na.pass,
+                                        drop.unused.levels = TRUE)),
+    error = function(e) refuse_formula(e, call)
+  )
+  say_missing(frame, ids, call)
+  terms <- attr(frame, "terms")
+  x <- tryCatch(stats::model.matrix(terms, frame, contrasts), error = function(e) {
+    refuse_formula(e, call)
+  })
+  rownames(x) <- ids
+  list(terms = terms, frame = frame, xlev = stats::.getXlevels(terms, frame),
+       contrasts = attr(x, "contrasts"), matrix = x, assign = attr(x, "assign"),
+       variables = names(used))
+}
+
+refuse_formula <- function(e, call) {
+  crestline_abort(sprintf("the model cannot be built: %s.", sub("[.]$", "", conditionMessage(e))),
+                  "Check the formula, and the columns of `data`.", stage = "model", call = call)
+}
+
+#' Stops where a variable is missing or infinite, and names the specimens
+#' @noRd
+say_missing <- function(frame, ids, call) {
+  for (name in names(frame)) {
+    value <- frame[[name]]
+    absent <- if (is.numeric(value)) !is.finite(value) else is.na(value)
+    if (is.matrix(absent)) absent <- rowSums(absent) > 0
+    if (any(absent)) {
+      crestline_abort(sprintf("`%s` is missing or infinite for %s.", name, shorten(ids[absent])),
+                      "Give these values, or leave these specimens out of the sample.",
+                      stage = "model", call = call)
+    }
+  }
+}
+
+#' Columns of the terms that a term is tested with and without
+#'
+#' Type I: those before it. Type II: all that do not contain it. Type III: all others.
+#'
+#' @return List of two logical vectors over the columns of the matrix: `without`, `with`.
+#' @noRd
+tested_columns <- function(model, term, ss) {
+  assign <- model$assign
+  if (ss == "I") return(list(without = assign < term, with = assign <= term))
+  if (ss == "III") return(list(without = assign != term, with = rep(TRUE, length(assign))))
+  shared <- crossprod(attr(model$terms, "factors"))[, term]
+  kept <- c(0, which(shared < shared[term]))
+  list(without = assign %in% kept, with = assign %in% c(kept, term))
+}
+
+#' An orthonormal basis of some columns, the first of them first
+#'
+#' @param tolerance Of [base::qr()]: below this share of its length left, a column is a sum of those
+#'   before it (that of [stats::lm()]).
+#' @noRd
+orthonormal <- function(x, tolerance = 1e-7) {
+  parts <- qr(x, tol = tolerance)
+  qr.Q(parts)[, seq_len(parts$rank), drop = FALSE]
+}
+
+#' What a term adds to a model
+#'
+#' @return List: `without` (n x r, orthonormal, of the model without it), `basis` (n x p - 1, of the
+#'   whole model, square to the mean, the term's own `df` columns first), `df`, `left` (residual
+#'   degrees of freedom of the whole model), `column` (n, the term's only column, NULL where it has
+#'   more or is not estimated alone).
+#' @noRd
+term_span <- function(model, term, ss) {
+  x <- model$matrix
+  columns <- tested_columns(model, term, ss)
+  without <- orthonormal(x[, columns$without, drop = FALSE])
+  both <- orthonormal(cbind(without, x[, columns$with, drop = FALSE]))
+  df <- ncol(both) - ncol(without)
+  own <- both[, ncol(without) + seq_len(df), drop = FALSE]
+  basis <- orthonormal(cbind(1, own, x))
+  list(without = without, basis = basis[, -1, drop = FALSE], df = df, left = nrow(x) - ncol(basis),
+       column = if (sum(model$assign == term) == 1) x[, model$assign == term])
+}
+
+#' The spans of all terms by name; stops where one adds nothing
+#' @noRd
+term_spans <- function(model, ss, call = rlang::caller_env()) {
+  labels <- attr(model$terms, "term.labels")
+  spans <- lapply(stats::setNames(seq_along(labels), labels),
+                  function(term) term_span(model, term, ss))
+  empty <- labels[vapply(spans, function(span) span$df == 0, NA)]
+  if (length(empty)) {
+    crestline_abort(sprintf("the term %s adds nothing to the others.", shorten(empty)),
+                    "Leave it out: it is constant, or follows from other terms.", stage = "model",
+                    call = call)
+  }
+  if (spans[[1]]$left < 1) {
+    crestline_abort(sprintf("the model has as many coefficients as there are specimens (%d).",
+                            nrow(model$matrix)),
+                    "Give fewer terms, or more specimens.", stage = "model", call = call)
+  }
+  spans
+}
+
+#' Matrix of a model at new values
+#'
+#' @return n x p, a row a row of `newdata`.
+#' @noRd
+model_at <- function(model, newdata, call = rlang::caller_env()) {
+  terms <- stats::delete.response(model$terms)
+  absent <- setdiff(model$variables, names(newdata))
+  if (length(absent)) {
+    crestline_abort(sprintf("`newdata` has no column `%s`.", absent[1]),
+                    paste("The model's variables are", shorten(model$variables)), stage = "model",
+                    call = call)
+  }
+  frame <- tryCatch(stats::model.frame(terms, newdata, na.action = stats::na.pass,
+                                       xlev = model$xlev),
+                    error = function(e) refuse_formula(e, call))
+  say_missing(frame, if (is.null(rownames(newdata))) seq_len(nrow(newdata)) else
+    rownames(newdata), call)
+  x <- stats::model.matrix(terms, frame, model$contrasts)
+  rows <- qr(t(model$matrix))
+  off <- sqrt(rowSums(t(qr.resid(rows, t(x)))^2) / rowSums(x^2))
+  if (any(off > 1e-6)) {
+    crestline_abort(sprintf("row %s of `newdata` is a combination of which the sample has nothing.",
+                            shorten(which(off > 1e-6))),
+                    "Predict only where the model's coefficients are estimated.", stage = "model",
+                    call = call)
+  }
+  x
+}

@@ -1,0 +1,138 @@
+# Pictures of a linear model: where a term acts, and how far each specimen follows it.
+
+#' Plot a linear model of shape
+#'
+#' @param x A `shape_lm`, as [shape_lm()] returns it.
+#' @param what "map": where a term acts, as colours on the mean. For a term of one degree of freedom
+#'   the colours show what one unit of it moves the surface by along its normal, outward positive;
+#'   for others, and for levels without triangles, the root mean square displacement. Points where
+#'   it is significant are outlined, or ringed where there are no triangles. "scores": the
+#'   regression score of every specimen on the term (its shape along the direction in which the term
+#'   moves the mean; Drake and Klingenberg 2008) against the term's variable.
+#' @param term Name of a term; the first.
+#' @param level Level; for "map" the first with triangles, if there is one.
+#' @param unit Of "map": how many units of the term the colours are for, such as 10 for 10 years.
+#' @param significance Of "map": family-wise level of the outline.
+#' @param limits,palette Of "map": range of the colours in the unit of the meshes, and colours.
+#' @param engine,view,legend,main,... As in [plot.group_comparison()]; of "scores" `...` goes to
+#'   [graphics::plot.default()].
+#' @return The scene of [draw_surface()], or a data frame with `variable` and `score` by specimen,
+#'   invisibly.
+#' @section Errors: of class `crestline_error`: no such term or level, points that were not tested.
+#' @references Drake and Klingenberg (2008) The pace of morphological change: historical
+#'   transformation of skull shape in St Bernard dogs, *Proceedings of the Royal Society B* 275,
+#'   71-76.
+#' @seealso [shape_lm()]
+#' @examples
+#' ball <- Rvcg::vcgSphere(3)
+#' xyz <- t(ball$vb[1:3, ])
+#' bump <- exp(-20 * rowSums(sweep(xyz, 2, c(0, 0, 1))^2))
+#' people <- data.frame(id = paste0("s", 1:20), age = 1:20, sex = rep(c("F", "M"), 10))
+#' balls <- lapply(1:20, function(i) xyz * (1 + 0.03 * rnorm(1) * xyz[, 1]^2 + i / 200 * bump))
+#' aligned <- align(simplify2array(setNames(balls, people$id)), "ball", triangles = ball$it)
+#' model <- shape_lm(aligned, ~ sex + age, people, n_perm = 199, components = 3, seed = 1)
+#' plot(model, "map", "age", unit = 10, engine = "picture", view = c(0.4, 0.3))
+#' plot(model, "scores", "age")
+#' @export
+plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NULL, unit = 1,
+                          significance = 0.05, limits = NULL,
+                          palette = grDevices::hcl.colors(21, "Blue-Red"),
+                          engine = if (interactive()) "rgl" else "picture", view = "front",
+                          legend = TRUE, main = NULL, ...) {
+  validate(x)
+  what <- check_choice(what, c("map", "scores"), "what")
+  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  terms <- attr(x$models[[1]]$terms, "term.labels")
+  term <- if (is.null(term)) terms[1] else check_choice(term, terms, "term")
+  levels <- names(x$aligned)
+  surfaces <- levels[!vapply(x$aligned, function(one) is.null(one$triangles), NA)]
+  level <- if (!is.null(level)) check_choice(level, levels, "level") else
+    c(if (what == "map") surfaces, levels)[1]
+  if (what == "scores") return(invisible(plot_lm_scores(x, term, level, main, ...)))
+  significance <- check_number(significance, "significance", 0, 1)
+  unit <- check_number(unit, "unit")
+  points <- x$points[x$points$level %in% level & x$points$term %in% term, ]
+  if (!NROW(points)) {
+    crestline_abort("points were not tested.", "Give shape_lm() `tests` with \"points\".",
+                    stage = "picture", call = NULL)
+  }
+  triangles <- x$aligned[[level]]$triangles
+  signed <- !anyNA(points$distance) || any(!is.na(points$distance))
+  value <- if (signed) points$distance * unit else points$displacement
+  if (is.null(limits)) limits <- c(-signed, 1) * max(abs(value), na.rm = TRUE)
+  if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
+  found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
+  words <- sprintf("%s, %s; %s: p < %g (%d of %d points)", term,
+                   if (signed) sprintf("along the normal for %g", unit) else
+                     "root mean square displacement",
+                   if (is.null(triangles)) "ringed" else "outlined", significance, found,
+                   nrow(points))
+  title <- if (is.null(main)) words else main
+  if (is.null(triangles) && engine == "picture") {
+    return(invisible(points_map(points, value, limits, palette, significance, view, legend,
+                                title)))
+  }
+  if (is.null(triangles)) triangles <- matrix(integer(), 3, 0)
+  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), triangles)
+  row <- attr(mesh, "row")
+  if (engine == "picture") {
+    old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
+    on.exit(graphics::par(old))
+  }
+  settings <- utils::modifyList(if (engine == "picture") list(ambient = 0.6, gloss = 0.03) else
+    list(), list(...))
+  colours <- surface_colours(mesh, value[row], palette, limits)
+  scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings))
+  outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
+  if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
+  if (engine == "picture") {
+    if (legend) map_legend(palette, limits)
+    graphics::title(title, font.main = 1, cex.main = 0.9)
+  }
+  invisible(scene)
+}
+
+#' A map of points that have no triangles: seen from `view`, those in front last
+#' @noRd
+points_map <- function(points, value, limits, palette, significance, view, legend, title) {
+  at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
+  if (ncol(at) == 3) at <- at %*% t(view_rotation(view))
+  colour <- palette[findInterval(value, seq(limits[1], limits[2],
+                                            length.out = length(palette) + 1),
+                                 all.inside = TRUE)]
+  order <- if (ncol(at) == 3) order(at[, 3]) else seq_len(nrow(at))
+  old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
+  on.exit(graphics::par(old))
+  graphics::plot(at[order, 1:2], asp = 1, axes = FALSE, xlab = "", ylab = "", pch = 21,
+                 bg = colour[order], cex = 1.1,
+                 col = ifelse(points$p_adjusted[order] <= significance, "black", "grey80"),
+                 lwd = ifelse(points$p_adjusted[order] <= significance, 1.6, 0.4))
+  if (legend) map_legend(palette, limits)
+  graphics::title(title, font.main = 1, cex.main = 0.9)
+  points
+}
+
+plot_lm_scores <- function(x, term, level, main, ...) {
+  model <- x$models[[level]]
+  aligned <- x$aligned[[level]]
+  at <- model$assign == match(term, attr(model$terms, "term.labels"))
+  beta <- model$coefficients[at, , drop = FALSE]
+  beta[is.na(beta)] <- 0
+  axis <- colSums(beta * apply(model$matrix[, at, drop = FALSE], 2, stats::sd))
+  weight <- rep(aligned$weights, ncol(aligned$mean))
+  flat <- matrix(aligned$coords, length(aligned$mean))
+  score <- colSums((flat - rowMeans(flat)) * axis * weight) / sqrt(sum(axis^2 * weight))
+  frame <- model$frame
+  variable <- if (term %in% names(frame) && is.null(dim(frame[[term]]))) frame[[term]] else
+    drop(model$matrix[, at, drop = FALSE] %*% rep(1, sum(at)))
+  test <- x$tests[x$tests$level == level & x$tests$term == term & x$tests$test == "shape", ]
+  title <- if (!is.null(main)) main else
+    paste(c(paste0(term, " (", level, ")"),
+            if (NROW(test)) sprintf("R2 %.3f, p %s", test$share,
+                                    format.pval(test$p_value, digits = 2, eps = 1e-4))),
+          collapse = ", ")
+  graphics::plot(if (is.character(variable)) factor(variable) else variable, score, xlab = term,
+                 ylab = "regression score", las = 1, pch = 16, ...)
+  graphics::title(title, font.main = 1, cex.main = 1)
+  data.frame(variable = variable, score = score, row.names = names(aligned))
+}
