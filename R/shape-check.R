@@ -29,16 +29,22 @@ surface_faults <- function(x, specimen, parts = "model") {
   parts <- check_names(parts, "parts")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_shape_on(x, specimen)
-  row <- attr(shape_mesh(x, parts), "row")
-  at <- x$points[x$points$level == "surface", ]
-  triangles <- x$scheme$triangles[x$scheme$triangles$part %in% parts, ]
+  triangles <- whole_triangles(x, parts)
+  faults_among(triangles, x$points[x$points$level == "surface", ], specimen$mesh)
+}
+
+#' Faults among triangles, without checks
+#'
+#' @param triangles Rows of the scheme's triangles, all their corners there.
+#' @param at The surface points.
+#' @return As [surface_faults()].
+#' @noRd
+faults_among <- function(triangles, at, mesh) {
   it <- t(as.matrix(triangles[c("v1", "v2", "v3")]))
-  whole <- colSums(matrix(it %in% row, 3)) == 3
-  triangles <- triangles[whole, ]
-  it <- it[, whole, drop = FALSE]
+  row <- sort(unique(as.vector(it)))
   xyz <- as.matrix(at[c("x", "y", "z")])
   normals <- matrix(NA_real_, nrow(at), 3)
-  normals[row, ] <- t(path_normals(specimen$mesh, at[row, ]))
+  normals[row, ] <- t(path_normals(mesh, at[row, ]))
   pairs <- crossing_pairs(xyz, it)
   least <- pmin(it[1, ], it[2, ], it[3, ])
   most <- pmax(it[1, ], it[2, ], it[3, ])
@@ -72,8 +78,8 @@ crossing_pairs <- function(xyz, it) {
   pairs <- overlapping_boxes(do.call(pmin, corner), do.call(pmax, corner))
   shared <- Reduce(`+`, lapply(1:3, function(i) is_corner(it, it[i, pairs[, 1]], pairs[, 2])))
   pairs <- pairs[shared < 2, , drop = FALSE]
-  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]) &
-                 straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
+  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]), , drop = FALSE]
+  pairs <- pairs[straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
   pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), ,
         drop = FALSE]
 }

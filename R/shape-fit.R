@@ -125,7 +125,7 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL,
+fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_settings(), passes = 1, curves = NULL,
                       cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
@@ -149,7 +149,7 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
   scan <- prepare_scan(specimen, scheme, settings, passes, column, threads)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches),
                          specimen$id)
-  given <- given_fits(specimen, scan, scheme, curves)
+  given <- if (length(curves)) given_fits(specimen, scan, scheme, curves)
   slips <- scheme_slips(specimen, scheme)
   fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
   fits[names(given)] <- given
@@ -166,7 +166,10 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1,
                      provenance = shape_provenance(specimen, named, unit,
                                                    measured_with(settings, passes, cut_scale,
                                                                  column, curves)))
-  faults <- tryCatch(surface_faults(shape, specimen), crestline_error = function(e) NULL)
+  triangles <- triangles_there(scheme$triangles, shape$points, "model")
+  faults <- if (nrow(triangles)) {
+    faults_among(triangles, shape$points[shape$points$level == "surface", ], specimen$mesh)
+  }
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, fits, faults),
                         landmark_checks(shape, specimen$placing, slips))

@@ -72,17 +72,22 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
 #' The triangles of some parts of a shape's surface that have all their points
 #' @noRd
 whole_triangles <- function(x, parts) {
-  triangles <- x$scheme$triangles
-  check_choices(parts, unique(c("model", triangles$part)), "parts")
-  there <- !is.na(coords(x, "surface")[, 1])
-  triangles <- triangles[triangles$part %in% parts, ]
-  triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
+  check_choices(parts, unique(c("model", x$scheme$triangles$part)), "parts")
+  triangles <- triangles_there(x$scheme$triangles, x$points, parts)
   if (nrow(triangles) == 0) {
     crestline_abort("no triangle of the surface has all its points.",
                     "See `status` for what is missing.",
                     stage = "shape", id = x$id)
   }
   triangles
+}
+
+#' @param points As in the value of [fit_shape()].
+#' @noRd
+triangles_there <- function(triangles, points, parts) {
+  there <- !is.na(points$x[points$level == "surface"])
+  triangles <- triangles[triangles$part %in% parts, ]
+  triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
 }
 
 #' The quads of those triangles; a quad with one corner missing is a triangle, with a corner twice
