@@ -316,26 +316,6 @@ path_distance <- function(from, to) {
 
 # Parts of paths, and a reference path that is believed in one part only.
 
-#' The part of a path between two arc lengths; run backwards where the first is the greater
-#' @noRd
-part_of_path <- function(mesh, path, from, to) {
-  range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
-  between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
-  ends <- columns_of(place_along(mesh, path, range))
-  part <- path_through(rbind(ends[1, ], between, ends[2, ]), mesh_of(path))
-  if (from > to) reversed_path(mesh, part) else part
-}
-
-#' A path run backwards: the face of a point is that of the segment that ends there
-#' @noRd
-reversed_path <- function(mesh, path) {
-  n <- nrow(path)
-  back <- columns_of(path)[n:1, ]
-  back[-1, "face"] <- path$face[n:2]
-  back[-1, 5:7] <- weights_in_faces(mesh, back[-1, "face"], back[-1, 1:3, drop = FALSE])
-  path_through(back, mesh_of(path))
-}
-
 #' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
 #'
 #' @param scan As of [walkable()].

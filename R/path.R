@@ -1,7 +1,7 @@
 # Parts of paths as a user takes them, and paths put one behind the other: arc lengths that are
 # those of the points.
 
-# What a path is without; other columns go along.
+# What a path is not without; other columns go along.
 path_columns <- c("s", mesh_columns)
 
 #' Parts of a path, and paths joined
@@ -179,4 +179,104 @@ weights_in_faces <- function(mesh, face, xyz) {
   w3 <- (uu * rowSums(w * v) - uv * rowSums(w * u)) / det
   weight <- pmax(cbind(1 - w2 - w3, w2, w3), 0)
   weight / rowSums(weight)
+}
+
+#' A path through points that follow one another on the mesh; of neighbours at one place the later
+#' goes, but not the last
+#'
+#' @param points k x 7 matrix.
+#' @param mesh The mesh that they lie on: list of `key` and `id`, as of [walkable()] or [mesh_of()].
+#' @param ... Attributes of the path.
+#' @noRd
+path_through <- function(points, mesh = NULL, ...) {
+  step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] -
+                             points[-nrow(points), 1:3, drop = FALSE]))
+  kept <- c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))]
+  columns <- lapply(1:7, function(i) as.vector(points[kept, i]))
+  columns[[4]] <- as.integer(columns[[4]])
+  columns <- c(list(c(0, cumsum(step))[kept]), columns)
+  new_mesh_path(stats::setNames(columns, c("s", mesh_columns)), sum(step), mesh$key, mesh$id, ...)
+}
+
+#' A path from its parts: all its attributes are declared here
+#'
+#' @param columns List of `s` and the columns of points on a mesh.
+#' @param length In the unit of the mesh.
+#' @param key,id Of the mesh that its faces are numbers of, and of the specimen; NULL where there is
+#'   none.
+#' @param angle,side Of a plane cut.
+#' @param type,criterion,optima,competing Of a reference path.
+#' @param trusted Arc lengths between which it is believed.
+#' @param lifted Whether a lifted curve was walked in one.
+#' @noRd
+new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL,
+                          type = NULL, criterion = NULL,
+                          optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
+  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type,
+           criterion = criterion,
+           optima = optima, competing = competing, trusted = trusted, lifted = lifted,
+           class = "mesh_path")
+}
+
+#' Refuse a path without its columns, length or order
+#' @noRd
+validate_mesh_path <- function(x) {
+  at <- if (is.data.frame(x)) place_columns(x)
+  length <- attr(x, "length")
+  right <- !is.null(at) && nrow(at) >= 2 && is.numeric(x$s) && !is.unsorted(x$s, na.rm = FALSE) &&
+    is.numeric(length) && length(length) == 1 && is.finite(length)
+  if (isTRUE(right)) return(invisible(x))
+  crestline_abort("the path lacks co-ordinates, faces, weights, rising arc lengths `s`, or its length.",
+                  "Give a path as plane_path() or reference_path() returns it, whole.",
+                  stage = "path", id = attr(x, "id"),
+                  class = "crestline_path_error", call = NULL)
+}
+
+#' @exportS3Method
+validate.mesh_path <- function(x) validate_mesh_path(x)
+
+#' Refuse a path that does not lie on a mesh
+#'
+#' @param mesh The specimen or mesh that it is to be used with.
+#' @noRd
+check_path_on <- function(path, mesh, name) {
+  if (!is.null(attr(path, "key"))) check_same_mesh(path, mesh, name)
+  check_places(path, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
+}
+
+#' @export
+print.mesh_path <- function(x, ...) {
+  check_method_dots(...)
+  printed(x, {
+    cat(sprintf("<mesh_path> %d points, length %.4g", nrow(x), attr(x, "length")))
+    if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees",
+                                                attr(x, "angle") * 180 / pi))
+    cat("\n")
+    optima <- attr(x, "optima")
+    if (!is.null(optima)) {
+      cat("Local optima:\n")
+      print(utils::head(optima, 6), digits = 3, row.names = FALSE)
+    }
+    invisible(x)
+  })
+}
+
+#' The part of a path between two arc lengths; run backwards where the first is the greater
+#' @noRd
+part_of_path <- function(mesh, path, from, to) {
+  range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
+  between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
+  ends <- columns_of(place_along(mesh, path, range))
+  part <- path_through(rbind(ends[1, ], between, ends[2, ]), mesh_of(path))
+  if (from > to) reversed_path(mesh, part) else part
+}
+
+#' A path run backwards: the face of a point is that of the segment that ends there
+#' @noRd
+reversed_path <- function(mesh, path) {
+  n <- nrow(path)
+  back <- columns_of(path)[n:1, ]
+  back[-1, "face"] <- path$face[n:2]
+  back[-1, 5:7] <- weights_in_faces(mesh, back[-1, "face"], back[-1, 1:3, drop = FALSE])
+  path_through(back, mesh_of(path))
 }

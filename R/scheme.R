@@ -299,3 +299,5 @@ plain_values <- function(x) {
   if (is.factor(x)) x <- as.character(x)
   as.vector(if (is.character(x)) enc2utf8(x) else if (is.integer(x)) as.double(x) else x)
 }
+
+scheme_provenance <- function(scheme) list(name = scheme$name, hash = scheme_hash(scheme))

@@ -125,8 +125,8 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_settings(), passes = 1, curves = NULL,
-                      cut_scale = 1, bridge = 0.2,
+fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_settings(), passes = 1,
+                      curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_given()
@@ -163,9 +163,8 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
                      tracks = curve_tracks(fits, scheme, scan$faces), column = column,
                      specimen = specimen,
-                     provenance = shape_provenance(specimen, named, unit,
-                                                   measured_with(settings, passes, cut_scale,
-                                                                 column, curves)))
+                     provenance = shape_provenance(specimen, named, unit, scan, cut_scale,
+                                                   names(curves)))
   triangles <- triangles_there(scheme$triangles, shape$points, "model")
   faults <- if (nrow(triangles)) {
     faults_among(triangles, shape$points[shape$points$level == "surface", ], specimen$mesh)
@@ -176,14 +175,24 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   shape
 }
 
-#' The arguments that a shape was measured with, for its provenance
+#' Where a measured shape came from, see [summary.shape()]
+#'
+#' @param scheme As it was given, before its lengths were brought to the unit of the mesh.
+#' @param unit Factor that its lengths were divided by.
+#' @param scan As of [prepare_scan()].
+#' @param given Names of the curves that were given.
 #' @noRd
-measured_with <- function(settings, passes, cut_scale, column, curves) {
-  list(ridge = lapply(unclass(settings), identity),
-       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge,
-                  column_angle = column$angle,
-                  column_angles = column$angles, column_reach = column$reach,
-                  given = as.character(names(curves))))
+shape_provenance <- function(specimen, scheme, unit, scan, cut_scale, given) {
+  origin <- origin_of(specimen)
+  column <- scan$column
+  fit <- list(passes = scan$passes, cut_scale = cut_scale, bridge = column$bridge,
+              column_angle = column$angle, column_angles = column$angles,
+              column_reach = column$reach, given = as.character(given))
+  c(made_with(), list(
+    scheme = c(scheme_provenance(scheme), unit = unit), mesh = mesh_provenance(specimen),
+    landmarks = origin[origin$landmark %in% scheme$landmarks$landmark, ],
+    settings = list(ridge = lapply(unclass(scan$settings), identity), fit = fit)
+  ))
 }
 
 progress_ticks <- function(progress, n, id) {
@@ -262,67 +271,4 @@ note_faults <- function(shape, faults) {
   said <- said[shape$status$part[patch]]
   shape$status$reason[patch] <- ifelse(is.na(before), said, paste(before, said, sep = "; "))
   shape
-}
-
-# A specimen made ready for a fit: what every step of it needs, looked up once.
-
-#' A scan as the steps of a fit take it
-#'
-#' @param specimen As of [with_located()].
-#' @param scheme In the unit of the specimen.
-#' @param settings [ridge_settings()].
-#' @param passes As in [ridge_curve()].
-#' @param column List of `angle`, `angles`, `reach` as the arguments of [fit_shape()], and `bridge`.
-#' @return List: the fields of [walkable()] of the mesh with its holes bridged; `faces`, how many of
-#'   its triangles are no bridges; `landmarks`, k x 3, as the specimen has them; `settings`,
-#'   `passes`, `column`; `sources`, curvature by radius, as of [curvature_source()]; and of the
-#'   scheme's landmarks those of [scan_landmarks()].
-#' @noRd
-prepare_scan <- function(specimen, scheme, settings, passes, column, threads) {
-  bridged <- bridge_holes(specimen, column$bridge)
-  curves <- scheme$curves
-  radius <- unique(curves$radius[curves$kind != "plane"])
-  sources <- lapply(radius, function(r) {
-    curvature_source(specimen$mesh, kernel_settings(r, settings$order), threads)
-  })
-  c(walkable(bridged),
-    list(faces = ncol(specimen$mesh$it), settings = settings, passes = passes, column = column,
-         sources = stats::setNames(sources, radius)),
-    scan_landmarks(specimen, bridged, scheme))
-}
-
-#' The landmarks of a scheme on a scan
-#'
-#' @param bridged The specimen with its holes bridged.
-#' @return List: `landmarks`, k x 3, of the specimen; `points`, a row a landmark of the scheme with
-#'   columns as `mesh_columns`, NA where it is not on the mesh; `reason`, why not, NA where it is;
-#'   `ends`, as `points`, but on bridges too; `lost`, failures by name of those that are not there.
-#' @noRd
-scan_landmarks <- function(specimen, bridged, scheme) {
-  names <- scheme$landmarks$landmark
-  points <- matrix(NA_real_, length(names), length(mesh_columns),
-                   dimnames = list(names, mesh_columns))
-  reason <- stats::setNames(rep(NA_character_, length(names)), names)
-  ends <- points
-  lost <- list()
-  for (name in names) {
-    found <- as_value(found_landmark(specimen, name))
-    if (!failed(found)) {
-      points[name, ] <- ends[name, ] <- unlist(found[mesh_columns])
-      next
-    }
-    reason[name] <- c(left_out_reason(specimen, name), sub("\\.$", "", found$problem))[1]
-    on_bridge <- as_value(found_landmark(bridged, name))
-    if (failed(on_bridge)) lost[[name]] <- on_bridge else
-      ends[name, ] <- unlist(on_bridge[mesh_columns])
-  }
-  near <- attr(unused_names(specimen$landmarks, scheme), "near")
-  reason[near] <- sprintf("%s; near: %s", reason[near], names(near))
-  list(landmarks = specimen$landmarks, points = points, reason = reason, ends = ends, lost = lost)
-}
-
-#' The place of a landmark of the scheme: its row of `ends`, or a failure
-#' @noRd
-scan_place <- function(scan, name) {
-  if (is.null(scan$lost[[name]])) scan$ends[name, ] else scan$lost[[name]]
 }

@@ -82,14 +82,6 @@ whole_triangles <- function(x, parts) {
   triangles
 }
 
-#' @param points As in the value of [fit_shape()].
-#' @noRd
-triangles_there <- function(triangles, points, parts) {
-  there <- !is.na(points$x[points$level == "surface"])
-  triangles <- triangles[triangles$part %in% parts, ]
-  triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
-}
-
 #' The quads of those triangles; a quad with one corner missing is a triangle, with a corner twice
 #' @noRd
 whole_quads <- function(x, parts) {

@@ -210,8 +210,3 @@ check_column <- function(column_angle, column_angles, column_reach) {
        reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
 
-#' A landmark on the mesh, NULL where it is missing
-#' @noRd
-known_point <- function(specimen, name) {
-  tryCatch(landmark_point(specimen, name)[mesh_columns], crestline_error = function(e) NULL)
-}

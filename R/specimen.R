@@ -286,3 +286,7 @@ checked_point <- function(mesh, at, name) {
   check_places(at, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
   at[mesh_columns]
 }
+
+#' Key of a specimen's mesh; worked out where an older version made it
+#' @noRd
+specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key else x$key
