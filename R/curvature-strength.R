@@ -125,10 +125,6 @@ located_regions <- function(regions, locate, id, flat = 1e-6) {
   regions
 }
 
-region_locator <- function(specimen) {
-  function(at, end) unlist(end_point(specimen, at, end)[1, c("x", "y", "z")])
-}
-
 # From the line between the first two ends of a region square up to the third.
 height_above <- function(region) {
   axis <- region$to - region$from

@@ -60,21 +60,28 @@ cut_path <- function(ends, angle, side, reach, ...) {
 #' @return List: `vb`, `it` (as kernels take them), `normals` (NULL where the mesh has none),
 #'   `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`. It serves as a mesh too.
 #' @noRd
-walkable <- function(mesh) {
-  whole <- as_mesh(mesh)
+walkable <- function(specimen) {
+  whole <- as_mesh(specimen)
   known <- passed_mesh(whole, NULL)
-  geometry <- if (inherits(mesh, "specimen")) mesh$geometry else
+  geometry <- if (inherits(specimen, "specimen")) specimen$geometry else
     mesh_topology(whole)[c("twin", "piece")]
   list(vb = known$vb, it = known$it, normals = whole$normals, twin = geometry$twin,
        piece = geometry$piece, key = known$key, diagonal = known$diagonal,
-       id = if (inherits(mesh, "specimen")) mesh$id)
+       id = if (inherits(specimen, "specimen")) specimen$id)
 }
 
 #' The ends of a path, from names of landmarks and positions as a user gives them
 #' @noRd
-located_ends <- function(mesh, scan, from, to) {
-  path_ends(scan, rbind(end_vector(mesh, scan, from, "from"), end_vector(mesh, scan, to, "to")),
-            c(end_name(from), end_name(to)))
+located_ends <- function(specimen, scan, from, to) {
+  path_ends(scan, rbind(end_vector(specimen, scan, from, "from"),
+                        end_vector(specimen, scan, to, "to")), c(end_name(from), end_name(to)))
+}
+
+#' What looks up the ends of regions, see [located_regions()]
+#' @noRd
+region_locator <- function(specimen) {
+  scan <- walkable(specimen)
+  function(at, end) end_vector(specimen, scan, at, end)[c("x", "y", "z")]
 }
 
 #' Both ends of a path: in different places, on one piece of the mesh

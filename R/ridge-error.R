@@ -20,8 +20,8 @@ ridge_error <- function(scan, coordinates, surface, line, strength, scale, radiu
                         settings) {
   problem <- ridge_problem(surface, scale, radius, settings)
   alpha <- line$alpha[-c(1, length(line$alpha))]
-  slope <- strength_jacobian(problem, surface, alpha)
   live <- which(strength$value[surface$rows] > 0 & strength$value[surface$rows] < strength$cap)
+  slope <- strength_jacobian(problem, surface, alpha, live)
   rows <- surface$rows[live]
   vb <- scan$vb
   sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(vb))
@@ -30,7 +30,7 @@ ridge_error <- function(scan, coordinates, surface, line, strength, scale, radiu
   turn <- if (type == "ridge") -1 else 1
   variance <- cpp_curvature_variance(
     vb, scan$it, coordinates$vertex[rows],
-    t(strength$direction[rows, , drop = FALSE]), turn * slope[, live, drop = FALSE], sigma,
+    t(strength$direction[rows, , drop = FALSE]), turn * slope, sigma,
     kernel_settings(radius, settings$order)
   )
   loose <- highest_line(surface, scale, radius, loosen(settings))
@@ -49,8 +49,9 @@ loosen <- function(settings, by = 10) {
 #' Derivative of the line's offsets by the strength at the vertices of the fit
 #'
 #' J = (-H)^-1 (dg / d beta) (X'X + S)^-1 X', interior grid points x vertices.
+#' @param rows Which vertices of the fit.
 #' @noRd
-strength_jacobian <- function(problem, surface, alpha) {
+strength_jacobian <- function(problem, surface, alpha, rows) {
   interior <- seq_along(alpha) + 1
   along <- margin_design(surface$margins$along, problem$u[interior])
   across <- margin_design(problem$across, alpha / problem$width, 1) / problem$width
@@ -58,5 +59,6 @@ strength_jacobian <- function(problem, surface, alpha) {
   factor <- ascent_factor(problem, alpha)
   by_beta <- backsolve(factor, backsolve(factor, by_beta, transpose = TRUE))
   smooth <- backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE))
-  tcrossprod(t(smooth), mgcv::tensor.prod.model.matrix(surface$design))
+  design <- lapply(surface$design, function(margin) margin[rows, , drop = FALSE])
+  tcrossprod(t(smooth), mgcv::tensor.prod.model.matrix(design))
 }

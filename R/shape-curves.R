@@ -8,10 +8,10 @@
 #' @param tick Called after every curve.
 #' @return List by name of curve of [new_record()]s, before they are cut off.
 #' @noRd
-fit_whole_curves <- function(fits, open, scan, scheme, tick) {
-  for (i in scheme_plan(scheme)$order) {
+fit_whole_curves <- function(fits, open, scan, tick) {
+  for (i in scheme_plan(scan$scheme)$order) {
     if (!open[i]) next
-    fits[[i]] <- fit_scheme_curve(as.list(scheme$curves[i, ]), scan, scheme$pairs, fits)
+    fits[[i]] <- fit_scheme_curve(as.list(scan$scheme$curves[i, ]), scan, fits)
     tick()
   }
   fits
@@ -22,8 +22,8 @@ fit_whole_curves <- function(fits, open, scan, scheme, tick) {
 #' @param whole As of [fit_whole_curves()].
 #' @param cut_scale As in [fit_shape()].
 #' @noRd
-finished_curves <- function(whole, open, scan, scheme, cut_scale) {
-  whole[open] <- cut_curves(scan, scheme$curves[open, ], scheme$pairs, whole[open], cut_scale)
+finished_curves <- function(whole, open, scan, cut_scale) {
+  whole[open] <- cut_curves(scan, scan$scheme$curves[open, ], whole[open], cut_scale)
   lapply(whole, without_bridges, scan$faces)
 }
 
@@ -32,10 +32,10 @@ finished_curves <- function(whole, open, scan, scheme, cut_scale) {
 #' @param row Row of the curves table, a list.
 #' @param fits Records of the curves before.
 #' @noRd
-fit_scheme_curve <- function(row, scan, pairs, fits) {
+fit_scheme_curve <- function(row, scan, fits) {
   fit <- function(from) curve_record(row_job(row, from, scan, fits))
   found <- fit(row$from)
-  far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, scan, pairs)
+  far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, scan)
   if (is.null(far)) return(found)
   followed <- sprintf("%s: followed towards %s as far as the mesh goes", found$reason, far$name)
   found <- fit(far$end)
@@ -151,14 +151,14 @@ without_bridges <- function(fit, faces) {
 #' Begin to fit the curves of a scheme again and again
 #'
 #' @param specimen,scheme,settings,bridge,threads As in [fit_shape()].
-#' @return List: `scheme`, `bridged` (the specimen with its holes bridged), `scan` of
+#' @return List: `scheme`, `scan` of
 #'   [prepare_scan()] (its sources of curvature keep what they have estimated), `whole` and `fits`
 #'   (by curve, before and after they are cut off; as yet none).
 #' @noRd
 begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
   none <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
   column <- list(bridge = bridge)
-  list(scheme = scheme, bridged = bridge_holes(specimen, bridge),
+  list(scheme = scheme,
        scan = prepare_scan(specimen, scheme, settings, 1, column, threads), whole = none,
        fits = none)
 }
@@ -175,14 +175,16 @@ begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
 #' @noRd
 refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n) function() NULL) {
   scheme <- fitting$scheme
-  fitting$bridged <- with_landmarks_of(fitting$bridged, specimen)
   touched <- touched_curves(scheme$curves, moved, fitting$whole)
-  placed <- scan_landmarks(specimen, fitting$bridged, scheme)
-  fitting$scan[names(placed)] <- placed
-  fitting$whole <- fit_whole_curves(fitting$whole, touched, fitting$scan, scheme,
-                                    progress(sum(touched)))
+  scan <- fitting$scan
+  scan$specimen <- specimen
+  scan$bridged <- with_landmarks_of(scan$bridged, specimen)
+  placed <- scan_landmarks(scan)
+  scan[names(placed)] <- placed
+  fitting$scan <- scan
+  fitting$whole <- fit_whole_curves(fitting$whole, touched, scan, progress(sum(touched)))
   every <- rep(TRUE, nrow(scheme$curves))
-  fitting$fits <- finished_curves(fitting$whole, every, fitting$scan, scheme, 1)
+  fitting$fits <- finished_curves(fitting$whole, every, scan, 1)
   fitting$refitted <- scheme$curves$curve[touched]
   fitting
 }

@@ -28,9 +28,9 @@ new_record <- function(points = NULL, path = NULL, length = NA_real_, strength =
 #' long enough, so that no two curves from one landmark keep it both. A curve that the mesh's edge
 #' ends before its far landmark costs only its own points.
 #' @noRd
-cut_curves <- function(scan, curves, pairs, fits, cut_scale) {
+cut_curves <- function(scan, curves, fits, cut_scale) {
   cut <- which(!is.na(curves$cut_share))
-  spans <- lapply(cut, function(i) cut_span(curves[i, ], scan, pairs))
+  spans <- lapply(cut, function(i) cut_span(curves[i, ], scan))
   wanted <- curves$cut_share[cut] * vapply(spans, `[[`, 0, "length")
   whole <- vapply(fits[cut],
                   function(fit) if (is.na(fit$followed)) fit$length else NA_real_, 0)
@@ -96,7 +96,8 @@ add_note <- function(fit, notes) {
 #' Where one of a left-right pair is missing: twice the distance of the other from the mirror plane.
 #' @return List: `length` (NA where it is not known), `note` (NULL where there is nothing to say).
 #' @noRd
-cut_span <- function(row, scan, pairs) {
+cut_span <- function(row, scan) {
+  pairs <- scan$scheme$pairs
   at <- landmark_places(scan, c(row$cut_from, row$cut_to))
   known <- !is.na(at[, 1])
   if (all(known)) return(list(length = sqrt(sum((at[1, ] - at[2, ])^2))))
@@ -152,16 +153,17 @@ mirror_plane <- function(specimen, pairs, flat = 0.5) {
 #' @return List: `end`, the place where the way towards the landmark leaves the mesh;
 #'   `name`, what it leads to. `NULL` where nothing is known of it.
 #' @noRd
-far_end <- function(row, scan, pairs) {
+far_end <- function(row, scan) {
   near <- scan_place(scan, row$to)
-  target <- if (!failed(near)) far_target(row$from, scan, pairs)
+  target <- if (!failed(near)) far_target(row$from, scan)
   end <- if (!is.null(target)) way_out(scan, near, target$at)
   if (!is.null(end)) list(end = end, name = target$name)
 }
 
 #' Where a landmark is in space: its own co-ordinates, or the mirror image of its pair
 #' @noRd
-far_target <- function(name, scan, pairs) {
+far_target <- function(name, scan) {
+  pairs <- scan$scheme$pairs
   own <- landmark_places(scan, name)
   if (!is.na(own[1])) return(list(at = as.vector(own), name = name))
   partner <- partner_of(name, pairs, "landmarks")
@@ -250,16 +252,17 @@ largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
 #' Tracks of curves
 #'
 #' @param fits As of [fit_scheme_curves()].
-#' @param faces Number of faces that are not bridges.
+#' @param scan As of [prepare_scan()].
 #' @return List by name of the curves that were found: `path` (`mesh_path`, uncut, over bridges
 #'   where there are holes), `s` (arc length there of each of the curve's points, NA where missing),
 #'   `kept` (length that the scheme keeps), `cut` (whether the first point stands where the scheme
 #'   cuts the curve off, and not at a landmark), `off` (rows of the path that end a segment over a
 #'   bridge).
 #' @noRd
-curve_tracks <- function(fits, scheme, faces) {
+curve_tracks <- function(fits, scan) {
   found <- Filter(function(fit) !is.null(fit$path) && !is.null(fit$points), fits)
-  cut <- !is.na(scheme$curves$cut_share[match(names(found), scheme$curves$curve)])
+  curves <- scan$scheme$curves
+  cut <- !is.na(curves$cut_share[match(names(found), curves$curve)])
   Map(function(fit, cut) {
     path <- if (is.null(fit$track)) fit$path else fit$track$path
     path <- new_mesh_path(unclass(path)[c("s", mesh_columns)], attr(path, "length"),
@@ -268,7 +271,7 @@ curve_tracks <- function(fits, scheme, faces) {
                 fit$points$s + if (is.null(fit$track)) 0 else fit$track$start)
     list(path = path, s = s, kept = if (is.null(fit$track)) fit$length else fit$track$kept,
          cut = cut,
-         off = which(path$face > faces))
+         off = which(path$face > scan$faces))
   }, found, cut)
 }
 

@@ -149,19 +149,17 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   scan <- prepare_scan(specimen, scheme, settings, passes, column, threads)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches),
                          specimen$id)
-  given <- if (length(curves)) given_fits(specimen, scan, scheme, curves)
+  given <- if (length(curves)) given_fits(scan, curves)
   slips <- scheme_slips(specimen, scheme)
   fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
   fits[names(given)] <- given
   open <- !names(fits) %in% names(given)
-  fits <- finished_curves(fit_whole_curves(fits, open, scan, scheme, tick), open, scan, scheme,
-                          cut_scale)
-  store <- place_store(scheme, scan$points, fits)
-  patches <- fit_scheme_patches(scan, scheme, fits, store, tick)
+  fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan, cut_scale)
+  patches <- fit_scheme_patches(scan, fits, place_store(scan, fits), tick)
   shape <- new_shape(specimen$id, shape_points(scheme, patches$store),
-                     shape_status(scheme, scan$reason, fits, patches$problems), scheme,
+                     shape_status(scan, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
-                     tracks = curve_tracks(fits, scheme, scan$faces), column = column,
+                     tracks = curve_tracks(fits, scan), column = column,
                      specimen = specimen,
                      provenance = shape_provenance(specimen, named, unit, scan, cut_scale,
                                                    names(curves)))
@@ -205,11 +203,12 @@ progress_ticks <- function(progress, n, id) {
 #'
 #' @return Matrix, a row a place (row names), columns x, y, z, face, w1, w2, w3, se.
 #' @noRd
-place_store <- function(scheme, landmarks, fits) {
+place_store <- function(scan, fits) {
+  scheme <- scan$scheme
   plan <- scheme_plan(scheme)
   store <- matrix(NA_real_, length(plan$places), 8,
                   dimnames = list(plan$places, c(mesh_columns, "se")))
-  store[plan$at[scheme$points$level == "landmarks"], mesh_columns] <- landmarks
+  store[plan$at[scheme$points$level == "landmarks"], mesh_columns] <- scan$points
   found <- Filter(function(fit) !is.null(fit$points), fits)
   if (!length(found)) return(store)
   values <- do.call(rbind,
@@ -226,7 +225,8 @@ shape_points <- function(scheme, store) {
   cbind(scheme$points[c("level", "part", "point")], at)
 }
 
-shape_status <- function(scheme, landmark_reasons, fits, problems) {
+shape_status <- function(scan, fits, problems) {
+  scheme <- scan$scheme
   of_curve <- function(name) {
     vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0,
            USE.NAMES = FALSE)
@@ -247,8 +247,7 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
     lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)),
-          is.na(landmark_reasons),
-          landmark_reasons),
+          is.na(scan$reason), scan$reason),
     curves,
     lines(names(blocks), "surface", rep("patch", length(blocks)), is.na(patch_reasons),
           patch_reasons)

@@ -2,18 +2,18 @@
 
 #' Fit the patches of a scheme
 #'
-#' @param scan As of [prepare_scan()]; of its fields those of [walkable()], `faces` and `column`.
+#' @param scan As of [prepare_scan()]; of its fields those of [walkable()], `scheme`, `faces` and
+#'   `column`.
 #'   After sliding, `column$follow` says whether bounding curves of another number of points take
 #'   them from their own points' places, slid ones, in place of equal chords.
-#' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
 #' @param tick Called after every block.
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches
 #'   table a list of `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
-fit_scheme_patches <- function(scan, scheme, fits, store, tick) {
-  problems <- lapply(scheme_plan(scheme)$blocks, function(block) {
+fit_scheme_patches <- function(scan, fits, store, tick) {
+  problems <- lapply(scheme_plan(scan$scheme)$blocks, function(block) {
     fit <- fit_block(block, list(scan = scan, fits = fits, store = store))
     lost <- block$place[which(fit$store[block$place, "face"] > scan$faces)]
     store <<- fit$store

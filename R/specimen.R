@@ -239,52 +239,47 @@ found_landmark <- function(specimen, name, tolerance = 0.01) {
                   size = specimen_size(specimen))$located
 }
 
-end_point <- function(mesh, at, name) {
-  if (is.character(at) && inherits(mesh, "specimen")) {
-    known <- rownames(mesh$landmarks)
-    if (!all(at %in% known)) {
-      refuse_landmarks(sprintf("there is no landmark %s (`%s`).", describe_value(at), name),
-                       near_names(at, known), mesh$id)
-    }
-    return(landmark_point(mesh, at))
-  }
-  if (is.data.frame(at) && all(mesh_columns %in% names(at)) &&
-      nrow(at) == 1) return(checked_point(mesh, at, name))
-  if (!is.numeric(at) || length(at) != 3 || !all(is.finite(at))) {
-    crestline_abort(sprintf("`%s` is %s.", name, describe_value(at)),
-                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
-                    stage = "path", class = "crestline_path_error", call = NULL)
-  }
-  surface_points(as_mesh(mesh), matrix(at, 1))
-}
 
 end_name <- function(at) {
   if (is.character(at)) return(at)
   sprintf("(%s)", paste(signif(unlist(at[1:3]), 4), collapse = ", "))
 }
 
-#' An end of a path as one row of its columns
+#' A place on a mesh, given as the name of a landmark, one row of points on the mesh, or a position
+#'
+#' @param specimen Where landmarks are looked up; a `mesh3d` has none.
+#' @param scan Its mesh: list of `vb`, `it`, `diagonal`, `id`.
+#' @param name What `at` is called.
+#' @return Numeric, named as `mesh_columns`.
 #' @noRd
-end_vector <- function(mesh, surface, at, name) {
+end_vector <- function(specimen, scan, at, name) {
+  said <- sprintf("`%s`", name)
+  row <- is.data.frame(at) && nrow(at) == 1 && all(mesh_columns %in% names(at))
+  if (row && !is.null(attr(at, "key"))) check_same_mesh(at, specimen, said)
+  if (row && anyNA(at$face)) {
+    crestline_abort(sprintf("%s is missing (NA).", said), "Choose a point that is there.",
+                    stage = "path", id = scan$id, class = "crestline_path_error", call = NULL)
+  }
+  if (row) at <- unlist(unclass(at)[mesh_columns])
   if (is.numeric(at) && identical(names(at), mesh_columns)) {
-    check_places(t(at), surface, sprintf("`%s`", name), surface$id)
+    check_places(t(at), scan, said, scan$id)
     return(at)
   }
-  unlist(unclass(end_point(mesh, at, name))[mesh_columns])
-}
-
-#' One row of a point on a mesh, after a check that it lies on this one
-#' @noRd
-checked_point <- function(mesh, at, name) {
-  name <- sprintf("`%s`", name)
-  if (!is.null(attr(at, "key"))) check_same_mesh(at, mesh, name)
-  if (anyNA(at$face)) {
-    crestline_abort(sprintf("%s is missing (NA).", name), "Choose a point that is there.",
-                    stage = "path",
-                    id = mesh_of(mesh)$id, class = "crestline_path_error", call = NULL)
+  if (is.character(at) && inherits(specimen, "specimen")) {
+    known <- rownames(specimen$landmarks)
+    if (!all(at %in% known)) {
+      refuse_landmarks(sprintf("there is no landmark %s (%s).", describe_value(at), said),
+                       near_names(at, known), specimen$id)
+    }
+    place <- landmark_point(specimen, at)
+  } else if (is.numeric(at) && length(at) == 3 && all(is.finite(at))) {
+    place <- surface_points(scan, matrix(at, 1))
+  } else {
+    crestline_abort(sprintf("%s is %s.", said, describe_value(at)),
+                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
+                    stage = "path", class = "crestline_path_error", call = NULL)
   }
-  check_places(at, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
-  at[mesh_columns]
+  unlist(unclass(place)[mesh_columns])
 }
 
 #' Key of a specimen's mesh; worked out where an older version made it

@@ -10,7 +10,7 @@
 between_curves <- function(cutting, store) {
   points <- cutting$scheme$points
   store[setdiff(points$place, points$place[points$level != "surface"]), ] <- NA
-  fit_scheme_patches(cutting$scan, cutting$scheme, cutting$fits, store, function() NULL)$store
+  fit_scheme_patches(cutting$scan, cutting$fits, store, function() NULL)$store
 }
 
 #' Slide the points inside patches

@@ -73,7 +73,7 @@ test_that("strength_jacobian() is the derivative of the ridge line by the streng
   tight <- ridge_settings(tolerance = 1e-13)
   line <- ridge_line(curve$surface, curve$scale, window$radius, tight)
   alpha <- line$alpha[2:40]
-  slope <- strength_jacobian(window$problem, curve$surface, alpha)
+  slope <- strength_jacobian(window$problem, curve$surface, alpha, seq_along(curve$surface$rows))
   expect_identical(dim(slope), c(39L, length(curve$surface$rows)))
   refit <- function(strength) {
     surface <- curve$surface
