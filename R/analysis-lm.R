@@ -75,6 +75,7 @@
 #' @section Warnings: of class `crestline_contrasts`, for type III with interactions of factors that
 #'   are not coded to sum to zero; `crestline_constant_term`, for terms that are constant within
 #'   blocks.
+#' @template glossary
 #' @references Freedman and Lane (1983) A nonstochastic interpretation of reported significance
 #'   levels, *Journal of Business and Economic Statistics* 1, 292-298; Collyer, Sekora and Adams
 #'   (2015) A method for analysis of phenotypic change for phenotypes described by high-dimensional

@@ -20,8 +20,10 @@
 #'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`;
 #'   `summary()`, `predict()` and `biplot()` are those of `prcomp`.
 #' @section Errors: of class `crestline_error`: no `aligned`, or all shapes the same.
-#' @references The paper, section 6; Dryden and Mardia (2016) *Statistical Shape Analysis*, section
-#'   7.7.
+#' @template glossary
+#' @templateVar where section 6
+#' @template paper
+#' @references Dryden and Mardia (2016) *Statistical Shape Analysis*, section 7.7.
 #' @seealso [shape_at()], [plot.shape_pca()], [write_pca_page()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -166,6 +168,7 @@ print.shape_pca <- function(x, most = 6, ...) {
 #' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those
 #'   points that have triangles (attribute `row`: which).
 #' @section Errors: of class `crestline_error`: no such component; no triangles for a mesh.
+#' @template glossary
 #' @seealso [shape_pca()]
 #' @examples
 #' square <- c(0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0)

@@ -19,6 +19,7 @@
 #' @return The scene of [draw_surface()], or a data frame with `variable` and `score` by specimen,
 #'   invisibly.
 #' @section Errors: of class `crestline_error`: no such term or level, points that were not tested.
+#' @template glossary
 #' @references Drake and Klingenberg (2008) The pace of morphological change: historical
 #'   transformation of skull shape in St Bernard dogs, *Proceedings of the Royal Society B* 275,
 #'   71-76.

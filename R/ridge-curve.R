@@ -53,7 +53,8 @@
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
 #'   determined by curvature; and that of [reference_path()].
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.
+#' @templateVar where section 3
+#' @template paper
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")

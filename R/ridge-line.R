@@ -18,8 +18,9 @@
 #'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the interior
 #'   of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the
 #'   window).
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.2.
+#' @template glossary
+#' @templateVar where section 3.2
+#' @template paper
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))

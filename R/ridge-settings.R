@@ -38,8 +38,9 @@
 #'   * `error`: whether to work out standard errors at all.
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]),
-#'   section 3.2 (12 degrees of freedom, lambda = 0.5).
+#' @template glossary
+#' @templateVar where section 3.2 (12 degrees of freedom, lambda = 0.5)
+#' @template paper
 #' @examples
 #' ridge_settings(df = 25)
 #' ridge_settings("paper")

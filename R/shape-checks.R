@@ -162,6 +162,7 @@ damage_distance <- function(places, damage, count, inner = FALSE) {
 #'   through).
 #' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another
 #'   mesh.
+#' @template glossary
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

@@ -114,7 +114,8 @@
 #'   that end there, red. Of class `crestline_unused_landmarks`, when a landmark of the scheme is
 #'   missing and the specimen has one of another name that may be meant (`prn` for `pn`, `CHL` for
 #'   `chL`).
-#' @references The paper, section 4.
+#' @templateVar where section 4
+#' @template paper
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

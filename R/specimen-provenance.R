@@ -180,6 +180,7 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #'   `file`), `landmarks` (data frame `landmark`, `how`, `file`, `time`), `template` (`id`, `hash`),
 #'   `specimens` (data frame `id`, `file`, `key`, `landmarks`), `settings`). Of a `shape_pca` that
 #'   of `prcomp` with `provenance`.
+#' @template glossary
 #' @seealso [summary.group_comparison()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")

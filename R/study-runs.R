@@ -51,8 +51,10 @@
 #'   row with `error`.
 #' @section Warnings: of class `crestline_keeping_warning`, where results could not be written to
 #'   `dir`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   5.2.
+#' @template glossary
+#' @template experimental
+#' @templateVar where section 5.2
+#' @template paper
 #' @examples
 #' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
 #' aggregate(distance ~ a + b + noise, study, mean)

@@ -22,8 +22,11 @@
 #'   that have a partner.
 #' @section Warnings: of class `crestline_unpaired`, naming the landmarks that are in no pair but
 #'   lie beside the mid-plane.
+#' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
-#'   *Evolution* 56, 1909-1920; the paper, section 4.
+#'   *Evolution* 56, 1909-1920.
+#' @templateVar where section 4
+#' @template paper
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
