@@ -173,3 +173,11 @@ cpp_vertex_normals <- function(vb, it) {
     .Call(`_crestline_cpp_vertex_normals`, vb, it)
 }
 
+cpp_permuted_forms <- function(gram, own, whole, orders) {
+    .Call(`_crestline_cpp_permuted_forms`, gram, own, whole, orders)
+}
+
+cpp_permuted_squares <- function(residuals, basis, df, orders) {
+    .Call(`_crestline_cpp_permuted_squares`, residuals, basis, df, orders)
+}
+

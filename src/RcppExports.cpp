@@ -635,6 +635,34 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_permuted_forms
+NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericMatrix whole, IntegerMatrix orders);
+RcppExport SEXP _crestline_cpp_permuted_forms(SEXP gramSEXP, SEXP ownSEXP, SEXP wholeSEXP, SEXP ordersSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type gram(gramSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type own(ownSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type whole(wholeSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type orders(ordersSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_permuted_forms(gram, own, whole, orders));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_permuted_squares
+List cpp_permuted_squares(NumericMatrix residuals, NumericMatrix basis, int df, IntegerMatrix orders);
+RcppExport SEXP _crestline_cpp_permuted_squares(SEXP residualsSEXP, SEXP basisSEXP, SEXP dfSEXP, SEXP ordersSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type residuals(residualsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type basis(basisSEXP);
+    Rcpp::traits::input_parameter< int >::type df(dfSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type orders(ordersSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_permuted_squares(residuals, basis, df, orders));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
@@ -680,6 +708,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_warp_gram", (DL_FUNC) &_crestline_cpp_warp_gram, 6},
     {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
+    {"_crestline_cpp_permuted_forms", (DL_FUNC) &_crestline_cpp_permuted_forms, 4},
+    {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 4},
     {NULL, NULL, 0}
 };
 
