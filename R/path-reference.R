@@ -75,7 +75,8 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   strength <- if (type != "plane") {
     check_number(radius, "radius", lower = 0, open = TRUE)
     source <- known_curvature(curvature, specimen, radius, threads, order)
-    regions <- in_context(located_regions(keep_away, region_locator(specimen), mesh_of(specimen)$id), mesh_of(specimen)$id)
+    id <- mesh_of(specimen)$id
+    regions <- in_context(located_regions(keep_away, region_locator(specimen), id), id)
     path_strength(source, type, regions, as_mesh(specimen))
   }
   scan <- walkable(specimen)

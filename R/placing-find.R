@@ -41,6 +41,8 @@
 #'   confidence. [quality()] grades it, and the curves that end there, amber.
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
+#' @section Keeping the result: `saveRDS(specimen, file)` keeps the specimen with its states and
+#'   confidences. [write_landmarks()] writes the positions only.
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{

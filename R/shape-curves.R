@@ -159,7 +159,7 @@ begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
   none <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
   column <- list(bridge = bridge)
   list(scheme = scheme,
-       scan = prepare_scan(specimen, scheme, settings, 1, column, threads), whole = none,
+       scan = prepare_scan(specimen, scheme, settings, NULL, column, threads), whole = none,
        fits = none)
 }
 

@@ -200,6 +200,7 @@ comment_lines.specimen <- function(x) provenance_comments(provenance_of(x))
 #' @exportS3Method
 written_landmarks.specimen <- function(x) {
   x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")
+  inform_predicted(x)
   list(landmarks = x$landmarks, curves = attr(x, "curves"))
 }
 
@@ -282,4 +283,21 @@ origin_words <- function(origin) {
            if (length(details)) sprintf(" (%s)", paste(details, collapse = "; ")))
   })
   paste(unlist(each), collapse = ", ")
+}
+
+#' Say which written landmarks read_specimen() would refuse: predicted ones that lie off the scan
+#' @param tolerance As in [specimen()].
+#' @noRd
+inform_predicted <- function(x, tolerance = 0.01) {
+  predicted <- intersect(x$placing$landmark[x$placing$state == "predicted"], rownames(x$landmarks))
+  at <- x$landmarks[predicted, , drop = FALSE]
+  at <- at[stats::complete.cases(at), , drop = FALSE]
+  if (!nrow(at)) return(invisible())
+  away <- row_lengths(as.matrix(surface_points(x$mesh, at)[c("x", "y", "z")]) - at)
+  off <- rownames(at)[away > tolerance * specimen_size(x)]
+  if (!length(off)) return(invisible())
+  crestline_inform(c(
+    sprintf("specimen %s: predicted landmarks lie off the scan: %s.", x$id, shorten(off)),
+    i = "With this file read_specimen() refuses them. saveRDS() keeps the specimen as it is."
+  ))
 }

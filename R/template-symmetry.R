@@ -162,15 +162,18 @@ template_shape <- function(shape, xyz, id, se = NA_real_) {
 #' @noRd
 mirror_places <- function(scheme) {
   points <- scheme$points
-  mirrored <- c(partner_of(points$part[points$level == "landmarks"], scheme$pairs, "landmarks"),
-                mirror_curve_rows(scheme), mirror_surface_rows(scheme))
-  level <- points$level
-  name <- c(paste(level, points$part, points$point, sep = "|"))
-  mirrored[level == "landmarks"] <- paste("landmarks", mirrored[level == "landmarks"], "1",
-                                          sep = "|")
-  place <- unique(points$place)
   first <- !duplicated(points$place)
-  match(points$place[match(mirrored[first], name)], place)
+  match(points$place[mirror_rows(scheme)[first]], points$place[first])
+}
+
+#' The row of a scheme's points that each is mirrored to, of the same level
+#' @noRd
+mirror_rows <- function(scheme) {
+  points <- scheme$points
+  own <- partner_of(points$part[points$level == "landmarks"], scheme$pairs, "landmarks")
+  mirrored <- c(paste("landmarks", own, "1", sep = "|"), mirror_curve_rows(scheme),
+                mirror_surface_rows(scheme))
+  match(mirrored, paste(points$level, points$part, points$point, sep = "|"))
 }
 
 #' Names of the points that curve points are mirrored to: a curve whose ends are exchanged runs
