@@ -25,9 +25,9 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_curvature_variance
-NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix jacobian, NumericVector sigma, List settings);
-RcppExport SEXP _crestline_cpp_curvature_variance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP jacobianSEXP, SEXP sigmaSEXP, SEXP settingsSEXP) {
+// cpp_curvature_covariance
+List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix design, NumericVector sigma, double smooth, double range, List settings);
+RcppExport SEXP _crestline_cpp_curvature_covariance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP designSEXP, SEXP sigmaSEXP, SEXP smoothSEXP, SEXP rangeSEXP, SEXP settingsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -35,10 +35,26 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
-    Rcpp::traits::input_parameter< NumericMatrix >::type jacobian(jacobianSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type design(designSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type sigma(sigmaSEXP);
+    Rcpp::traits::input_parameter< double >::type smooth(smoothSEXP);
+    Rcpp::traits::input_parameter< double >::type range(rangeSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature_variance(vb, it, targets, directions, jacobian, sigma, settings));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_covariance(vb, it, targets, directions, design, sigma, smooth, range, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_biweight_design
+NumericMatrix cpp_biweight_design(NumericVector knots, NumericVector x, double half, int derivative);
+RcppExport SEXP _crestline_cpp_biweight_design(SEXP knotsSEXP, SEXP xSEXP, SEXP halfSEXP, SEXP derivativeSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericVector >::type knots(knotsSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
+    Rcpp::traits::input_parameter< double >::type half(halfSEXP);
+    Rcpp::traits::input_parameter< int >::type derivative(derivativeSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_biweight_design(knots, x, half, derivative));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -666,7 +682,8 @@ END_RCPP
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
-    {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
+    {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 9},
+    {"_crestline_cpp_biweight_design", (DL_FUNC) &_crestline_cpp_biweight_design, 4},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
     {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
