@@ -78,8 +78,10 @@ place_selected <- function(review, point, progress = function(n) function() NULL
 #' stays what it was
 #' @noRd
 keep_selected <- function(review, progress = function(n) function() NULL) {
-  point <- if (length(review$selected)) known_point(review$specimen, review$selected)
-  if (is.null(point)) review else place_selected(review, point, progress)
+  point <- if (length(review$selected)) {
+    as_value(landmark_point(review$specimen, review$selected)[mesh_columns])
+  }
+  if (is.null(point) || failed(point)) review else place_selected(review, point, progress)
 }
 
 undo_review <- function(review) {
