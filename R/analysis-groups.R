@@ -399,7 +399,8 @@ warn_unequal_spread <- function(x, ratio = 1.5) {
   if (!x$equal_spread || is.null(worst) || min(sizes) == max(sizes) ||
       worst$statistic <= ratio) return(invisible())
   crestline_warn(
-    sprintf("the groups are unequal in size (%s), and their spreads differ by a factor of %.2g (%s).",
+    sprintf(paste("the groups are unequal in size (%s), and their spreads differ by a factor of",
+                  "%.2g (%s)."),
             paste(sizes, collapse = ", "), worst$statistic, worst$level),
     "Pooled tests then have wrong p-values: give `equal_spread = FALSE`.", stage = "comparison",
     class = "crestline_unequal_spread"

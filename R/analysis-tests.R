@@ -271,9 +271,8 @@ t2_test <- function(pca, components, labels, spread) {
   groups <- max(labels)
   u <- pca$x[, seq_len(components), drop = FALSE] / rep(pca$sdev[seq_len(components)] * sqrt(n - 1),
                                                         each = n)
-  scores <- by_block(labels,
-                     function(part) if (spread$equal) hotelling(u, part) else separate_t2_scores(u,
-                                                                                                 part))
+  score <- if (spread$equal) hotelling else separate_t2_scores
+  scores <- by_block(labels, function(part) score(u, part))
   kept <- kept_df(n, groups, spread)
   if (spread$equal) {
     statistic <- scores[1] * kept

@@ -236,13 +236,16 @@ check_radius <- function(radius, mesh) {
   if (radius > size / 2) {
     crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.",
                             radius, size),
-                    "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
+                    paste("Give `radius` in the unit of the mesh (is the mesh in metres or",
+                          "centimetres?)."),
+                    stage = "curvature")
   }
 }
 
 abort_radius <- function(neighbours, radius) {
   crestline_abort(
-    sprintf("no vertex could be fitted within %.3g of it: the balls hold %.0f vertices in the median.",
+    sprintf(paste("no vertex could be fitted within %.3g of it: the balls hold %.0f vertices in",
+                  "the median."),
             radius, stats::median(neighbours)),
     "Give a larger `radius`, in the unit of the mesh: several times the spacing of its vertices.",
     stage = "curvature"

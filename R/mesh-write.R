@@ -110,7 +110,8 @@ painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
   n <- ncol(mesh$vb)
   row <- attr(mesh, "row")
   if (identical(colour, "se")) colour <- shape_errors(shape)
-  by_row <- is.numeric(colour) && !is.null(shape) && length(colour) == sum(shape$points$level == "surface")
+  by_row <- is.numeric(colour) && !is.null(shape) &&
+    length(colour) == sum(shape$points$level == "surface")
   if (by_row) colour <- colour[row]
   value <- if (is.numeric(colour)) check_values(colour, n)
   hex <- if (is.null(colour)) vertex_colours(mesh) else

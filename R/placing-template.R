@@ -6,8 +6,8 @@
 #' package's own, for faces.
 #'
 #' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and
-#' `humface` (S. Schlager, GPL), made symmetric; the script `face-template.R` of the sources makes it,
-#' and describes how its landmarks were placed.
+#' `humface` (S. Schlager, GPL), made symmetric; the script `face-template.R` of the sources makes
+#' it, and describes how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
 #' @param predicted Names of landmarks for which the surface has no evidence, such as those at ears

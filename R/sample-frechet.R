@@ -25,7 +25,8 @@
 #' @template glossary
 #' @templateVar where section 3
 #' @template paper
-#' @references Novotni and Klein (2002) Computing geodesic distances on triangular meshes, *Journal of WSCG* 10, 341-347.
+#' @references Novotni and Klein (2002) Computing geodesic distances on triangular meshes, *Journal
+#'   of WSCG* 10, 341-347.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(c(1, 0, 0), c(0, 1, 0), c(0, 0, 1))
