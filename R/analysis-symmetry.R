@@ -185,7 +185,9 @@ symmetry_tests <- function(parts, individual, n_perm, seed) {
     if (repeated) {
       centred <- off - rep(colMeans(off), each = n)
       labels <- cbind(code, replicate(n_perm, code[sample.int(n)]), deparse.level = 0)
-      fluctuating <- permutation_p(cbind(between_total(tcrossprod(centred), labels)))
+      gram <- tcrossprod(centred)
+      among <- apply(labels, 2, function(own) sum(gram * outer(own, own, `==`) / count[own]))
+      fluctuating <- permutation_p(cbind(among))
     }
     c(NA, directional, fluctuating, if (repeated) NA)
   })
