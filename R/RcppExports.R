@@ -5,8 +5,12 @@ cpp_curvature <- function(vb, it, targets, settings, threads) {
     .Call(`_crestline_cpp_curvature`, vb, it, targets, settings, threads)
 }
 
-cpp_curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings) {
-    .Call(`_crestline_cpp_curvature_variance`, vb, it, targets, directions, jacobian, sigma, settings)
+cpp_curvature_covariance <- function(vb, it, targets, directions, design, sigma, smooth, range, settings) {
+    .Call(`_crestline_cpp_curvature_covariance`, vb, it, targets, directions, design, sigma, smooth, range, settings)
+}
+
+cpp_biweight_design <- function(knots, x, half, derivative) {
+    .Call(`_crestline_cpp_biweight_design`, knots, x, half, derivative)
 }
 
 cpp_mesh_key <- function(vb, it) {
@@ -171,5 +175,13 @@ cpp_face_normals <- function(vb, it) {
 
 cpp_vertex_normals <- function(vb, it) {
     .Call(`_crestline_cpp_vertex_normals`, vb, it)
+}
+
+cpp_permuted_forms <- function(gram, own, whole, orders) {
+    .Call(`_crestline_cpp_permuted_forms`, gram, own, whole, orders)
+}
+
+cpp_permuted_squares <- function(residuals, basis, df, orders) {
+    .Call(`_crestline_cpp_permuted_squares`, residuals, basis, df, orders)
 }
 

@@ -62,7 +62,9 @@
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and
 #'   Mardia (2016) *Statistical Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and
 #'   Bookstein (2009) Principles for the virtual reconstruction of hominin crania, *Journal of Human
-#'   Evolution* 57, 48-62 (missing points); the paper, sections 4 and 5.3.
+#'   Evolution* 57, 48-62 (missing points).
+#' @templateVar where sections 4 and 5.3
+#' @template paper
 #' @seealso [aligned] for the specimens of an alignment; [shape_pca()], [compare_groups()],
 #'   [as_geomorph()]
 #' @examples

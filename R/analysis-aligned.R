@@ -117,6 +117,7 @@ is_described <- function(x) {
 #' @section Errors: of class `crestline_error`: a specimen that is not there or is asked for twice
 #'   (the error says which there are); fewer than two; in `c()` other points, templates or settings,
 #'   and names that both have.
+#' @template glossary
 #' @seealso [align()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))

@@ -23,7 +23,9 @@
 #'   attribute `all` is such a row for all points together.
 #' @section Errors: of class `crestline_error`: no sets of curves, no part in common, different
 #'   numbers of points where points are compared or matched.
-#' @references The paper, section 5.3.
+#' @template glossary
+#' @templateVar where section 5.3
+#' @template paper
 #' @seealso [repeatability()]
 #' @examples
 #' arc <- function(n, r) {

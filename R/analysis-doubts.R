@@ -22,6 +22,7 @@
 #' @param fewest Specimens without which distances are not compared.
 #' @return List of class `sample_limits`.
 #' @section Errors: of class `crestline_error`, for values that are no numbers above 0.
+#' @template glossary
 #' @seealso [align()]
 #' @examples
 #' sample_limits(far = Inf)

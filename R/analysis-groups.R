@@ -87,16 +87,18 @@
 #'   differ by blanks or case only, permutations that are none.
 #' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in
 #'   spread and are pooled.
-#' @references The paper, section 6; Goodall (1991) Procrustes methods in the statistical analysis
-#'   of shape, *Journal of the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized
-#'   permutation tests for non-i.i.d. hypotheses, *Statistics and Probability Letters* 36, 9-21;
-#'   Brown and Forsythe (1974) The small sample behavior of some statistics which test the equality
-#'   of several means, *Technometrics* 16, 129-132; Krishnamoorthy and Yu (2004) Modified Nel and
-#'   Van der Merwe test, *Statistics and Probability Letters* 66, 161-169; Anderson (2006)
-#'   Distance-based tests for homogeneity of multivariate dispersions, *Biometrics* 62, 245-253;
-#'   Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest statistics); Phipson
-#'   and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in
-#'   Genetics and Molecular Biology* 9, 39.
+#' @templateVar where section 6
+#' @template paper
+#' @references Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of
+#'   the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized permutation tests for
+#'   non-i.i.d. hypotheses, *Statistics and Probability Letters* 36, 9-21; Brown and Forsythe (1974)
+#'   The small sample behavior of some statistics which test the equality of several means,
+#'   *Technometrics* 16, 129-132; Krishnamoorthy and Yu (2004) Modified Nel and Van der Merwe test,
+#'   *Statistics and Probability Letters* 66, 161-169; Anderson (2006) Distance-based tests for
+#'   homogeneity of multivariate dispersions, *Biometrics* 62, 245-253; Westfall and Young (1993)
+#'   *Resampling-Based Multiple Testing* (greatest statistics); Phipson and Smyth (2010) Permutation
+#'   p-values should never be zero, *Statistical Applications in Genetics and Molecular Biology* 9,
+#'   39.
 #' @seealso [plot.group_comparison()], [align()], [shape_pca()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 20), c(4, 3, 20))

@@ -29,6 +29,7 @@
 #'   one or no column of the specimens' names, or has a column `coords` or `size`.
 #' @section Warnings: of class `crestline_alike_groups`, when values of a column differ by blanks or
 #'   case only.
+#' @template glossary
 #' @seealso [compare_groups()]; `vignette("interop")`
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))

@@ -8,13 +8,13 @@
 #'
 #' @param aligned An `aligned`.
 #' @param span Of [term_spans()].
+#' @param part The part of each point, or NULL.
 #' @param block Permutations at a time: a block needs block x k numbers a co-ordinate.
 #' @return List of two data frames, `points` and `parts` (NULL where points have no parts).
 #' @noRd
-lm_points <- function(aligned, term, span, orders, block = 250) {
+lm_points <- function(aligned, term, span, orders, part = NULL, block = 250) {
   along <- !is.null(aligned$triangles)
   y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
-  part <- parts_of_points(aligned)
   as_great <- 0
   family <- numeric()
   of_parts <- NULL
@@ -60,13 +60,14 @@ term_effect <- function(aligned, span) {
   matrix(flat %*% own / sum(own * span$column), nrow(aligned$mean))
 }
 
-#' Parts that points belong to, by the names that a sample gives them: "part point"
+#' The curve or patch that each point of an alignment lies on; NULL of other levels, and where no
+#' sample says it
 #' @noRd
-parts_of_points <- function(aligned) {
-  if (!aligned$level %in% c("curves", "surface")) return(NULL)
-  name <- rownames(aligned$mean)
-  if (!all(grepl(" [0-9]+$", name))) return(NULL)
-  sub(" [0-9]+$", "", name)
+parts_of_points <- function(sample, aligned, level) {
+  if (!inherits(sample, "shape_sample") || !level %in% c("curves", "surface")) return(NULL)
+  points <- sample$template$scheme$points
+  at <- match(rownames(aligned$mean), rownames(coords(sample$template, level)))
+  points$part[points$level == level][at]
 }
 
 #' @param f B x parts.

@@ -19,6 +19,7 @@
 #' @section Errors: of class `crestline_error`: a variable that `newdata` lacks or that is missing
 #'   in it, a level of a factor that the sample has not, a combination of values for which the
 #'   sample has nothing, no triangles for a mesh.
+#' @template glossary
 #' @seealso [shape_lm()], [write_mesh()], [plot.shape_lm()]
 #' @inherit shape_lm examples
 #' @export

@@ -19,9 +19,10 @@ lm_rows <- function(term, test, span, scores, total, parametric = NA_real_) {
 #'
 #' @param aligned An `aligned`, of the units that are exchanged.
 #' @param tests,components As in [shape_lm()].
+#' @param part As in [lm_points()].
 #' @return List: `tests`, `points`, `parts`, `pca`.
 #' @noRd
-lm_level <- function(aligned, spans, orders, tests, components, tick) {
+lm_level <- function(aligned, spans, orders, tests, components, part, tick) {
   flat <- matrix(aligned$coords, length(aligned$mean))
   y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
   whole <- if ("shape" %in% tests) shape_scores(y, spans, orders)
@@ -42,7 +43,7 @@ lm_level <- function(aligned, spans, orders, tests, components, tick) {
           parametric = stats::pf(f[1, ], span$df, span$left, lower.tail = FALSE))
     }
     trace <- if ("manova" %in% tests) pillai_scores(scores, span, orders)
-    at <- if ("points" %in% tests) lm_points(aligned, term, span, orders)
+    at <- if ("points" %in% tests) lm_points(aligned, term, span, orders, part)
     rows <- list(
       if ("shape" %in% tests) row("shape", scores = whole[[term]], total = sum(y^2)),
       if ("size" %in% tests) by_column("size", cbind(aligned$size - mean(aligned$size))),

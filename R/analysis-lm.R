@@ -61,7 +61,8 @@
 #'     specimens), both in the unit of the meshes; `statistic` (signed t where `distance` is there,
 #'     else F), `p_value`, `p_adjusted` (by the greatest F over all points of the level and term:
 #'     family-wise error);
-#'   * `parts`: data frame, the same by curve and patch: `level`, `term`, `part`, `points` (number),
+#'   * `parts`: data frame, the same by curve and patch of a `shape_sample`: `level`, `term`,
+#'     `part`, `points` (number),
 #'     `statistic` (F of all its points), `p_value`, `p_adjusted` (by the least p over all parts);
 #'   * `aligned`, `pca`, `models` (`terms`, `frame`, `matrix`, `coefficients`: p x dk): lists by
 #'     level; `left` (residual degrees of freedom); `formula`, `ss`, `n_perm`, `block`, `exchange`
@@ -75,6 +76,7 @@
 #' @section Warnings: of class `crestline_contrasts`, for type III with interactions of factors that
 #'   are not coded to sum to zero; `crestline_constant_term`, for terms that are constant within
 #'   blocks.
+#' @template glossary
 #' @references Freedman and Lane (1983) A nonstochastic interpretation of reported significance
 #'   levels, *Journal of Business and Economic Statistics* 1, 292-298; Collyer, Sekora and Adams
 #'   (2015) A method for analysis of phenotypic change for phenotypes described by high-dimensional
@@ -122,8 +124,10 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
   warn_contrasts(models[[1]], ss)
   spans <- lapply(models, term_spans, ss)
   tick <- comparison_ticks(progress, length(units) * length(spans[[1]]))
-  each <- Map(function(one, span) lm_level(one, span, orders, tests, components, tick), units,
-              spans)
+  each <- Map(function(one, span, name) {
+    part <- parts_of_points(sample, one, name)
+    lm_level(one, span, orders, tests, components, part, tick)
+  }, units, spans, names(units))
   models <- Map(function(model, one) {
     y <- t(matrix(one$coords, length(one$mean)))
     c(model, list(coefficients = qr.coef(qr(model$matrix, tol = 1e-7), y)))

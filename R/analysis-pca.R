@@ -15,13 +15,16 @@
 #'   orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`.
 #'   Besides: `share` (r, of the variance), `direction` (d k x r: what one unit of a score adds to
 #'   the co-ordinates; `rotation` where all weights are 1), `mean` (k x d), `size` (mean centroid
-#'   size, in the unit of the meshes), `weights`, `level`, `triangles`.
+#'   size, in the unit of the meshes), `weights`, `level`, `triangles`, `laid` (list `mean`,
+#'   `weights`, `scale`, `tangent` of the alignment: what [predict.shape_pca()] lays new shapes by).
 #'
 #'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`;
-#'   `summary()`, `predict()` and `biplot()` are those of `prcomp`.
+#'   `summary()` and `biplot()` are those of `prcomp`; `predict()` see [predict.shape_pca()].
 #' @section Errors: of class `crestline_error`: no `aligned`, or all shapes the same.
-#' @references The paper, section 6; Dryden and Mardia (2016) *Statistical Shape Analysis*, section
-#'   7.7.
+#' @template glossary
+#' @templateVar where section 6
+#' @template paper
+#' @references Dryden and Mardia (2016) *Statistical Shape Analysis*, section 7.7.
 #' @seealso [shape_at()], [plot.shape_pca()], [write_pca_page()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -63,6 +66,7 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14) {
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)),
                  size = mean(aligned$size),
                  weights = weights, level = aligned$level, triangles = aligned$triangles,
+                 laid = fields_of(aligned, c("mean", "weights", "scale", "tangent")),
                  provenance = with_settings(aligned$provenance, "pca",
                                             list(tolerance = tolerance))),
             class = c("shape_pca", "prcomp"))
@@ -166,6 +170,7 @@ print.shape_pca <- function(x, most = 6, ...) {
 #' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those
 #'   points that have triangles (attribute `row`: which).
 #' @section Errors: of class `crestline_error`: no such component; no triangles for a mesh.
+#' @template glossary
 #' @seealso [shape_pca()]
 #' @examples
 #' square <- c(0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0)

@@ -45,6 +45,7 @@
 #'   measured twice, no point in all of them.
 #' @section Warnings: of class `crestline_failed_measurements`, when measurements are left out
 #'   because they failed.
+#' @template glossary
 #' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout
 #'   and Fleiss (1979) Intraclass correlations, *Psychological Bulletin* 86, 420-428; Klingenberg
 #'   and McIntyre (1998), *Evolution* 52, 1363-1375 (sums over co-ordinates).

@@ -16,6 +16,7 @@
 #'   mean shape's). Of components: `nobs`, `points`, `components`, `variance` (total). Of an
 #'   alignment: `nobs`, `points`, `size` (mean), `distance` (root mean square from the mean),
 #'   `missing`.
+#' @template glossary
 #' @examplesIf requireNamespace("generics", quietly = TRUE)
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' aligned <- align(shapes + rnorm(120, sd = 0.05))

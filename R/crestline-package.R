@@ -13,6 +13,11 @@
 #' are in 1 / that unit; angles are in radians; the shape index, strengths' ratios
 #' and barycentric weights have no unit.
 #'
+#' # Lifecycle
+#' Functions are meant to stay as they are. Those that are *experimental* say so in their help:
+#' simulation ([simulate_ridge()], [simulate_faces()]) and drawing step by step ([draw_surface()]).
+#' Former names are in [crestline-deprecated].
+#'
 #' # Functions by task
 #'
 #' * *Read a scan*: [read_specimen()], [specimen()]; landmarks and curves: [read_landmarks()],

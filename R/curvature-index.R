@@ -8,7 +8,7 @@
 #' atan((k1 + k2)/(k2 - k1)), k1 >= k2.} The curvedness \eqn{\sqrt{(k_1^2 + k_2^2)/2}}{sqrt((k1^2 +
 #' k2^2)/2)} is the amount of curvature.
 #'
-#' The formula as printed in the paper (see [crestline-package]) runs over \[0, 1\], where its text
+#' The formula as printed in the paper runs over \[0, 1\], where its text
 #' has cups at -1 and caps at 1; this is the text's.
 #'
 #' @param x A `curvature`, as [curvature()] returns it, or a numeric vector of principal
@@ -18,6 +18,9 @@
 #' @return A numeric vector, one value a place. `shape_index()`: in \[-1, 1\], without unit, NA
 #'   where the surface is plane (both curvatures 0) or a curvature is NA. `curvedness()`: in 1 / the
 #'   unit of length.
+#' @template glossary
+#' @templateVar where section 2
+#' @template paper
 #' @references Koenderink, J. J. and van Doorn, A. J. (1992) Surface shape and curvature scales.
 #'   *Image and Vision Computing* 10(8), 557-564.
 #' @seealso [shape_category()] for the names of the shapes, [plot_shape_scale()] for their colours.
@@ -75,6 +78,7 @@ shape_scale <- function() {
 #'   value on a limit belongs to the category above it. `shape_colours()`: colours `#RRGGBB`, the
 #'   category's own at its centre and in between (linear in red, green and blue) elsewhere.
 #' @inherit shape_index references
+#' @template glossary
 #' @examples
 #' shape_category(c(-1, -0.5, 0, 0.5, 1))
 #' shape_colours(c(-1, -0.5, 0, 0.5, 1, NA))

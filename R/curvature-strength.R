@@ -43,6 +43,7 @@ normal_curvature <- function(curved, at, direction) {
 #'   distance.
 #' @return A `keep_away` object for [reference_path()] and [ridge_curve()].
 #' @section Errors: of class `crestline_error` when a share is negative.
+#' @template glossary
 #' @seealso [keep_side()]
 #' @examples
 #' keep_away("exL", "enL") # for the left brow ridge of a face
@@ -75,6 +76,7 @@ print.keep_away <- function(x, ...) {
 #' @return A `keep_side` object, for the argument `keep_away` of [reference_path()] and
 #'   [ridge_curve()].
 #' @section Errors: of class `crestline_error`, where it is used, when the three lie on one line.
+#' @template glossary
 #' @seealso [keep_away()]
 #' @examples
 #' keep_side("exL", "enL", towards = "acL") # for the ridge of the left lower eyelid

@@ -47,7 +47,9 @@
 #'   that of another mesh.
 #' @section Errors: of class `crestline_error`, when `radius` is not a positive
 #'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 2.
+#' @template glossary
+#' @templateVar where section 2
+#' @template paper
 #' @examples
 #' data(humface, package = "Rvcg")
 #' curved <- curvature(humface, radius = 10, vertices = 1:100)

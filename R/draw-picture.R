@@ -21,6 +21,8 @@
 #' @param inside Colour of the backs of triangles, NA for none: an open surface is looked through
 #'   from behind.
 #' @return A list of these settings.
+#' @template glossary
+#' @template experimental
 #' @examples
 #' str(picture_settings(gloss = 0))
 #' @export

@@ -22,6 +22,8 @@
 #'   map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects, `diagonal` of the mesh's
 #'   box). `draw_lines()`, `draw_points()`, `draw_band()`: the scene, with the rgl `ids` added,
 #'   invisibly. `visible_points()`: logical, which points of `x` are seen.
+#' @template glossary
+#' @template experimental
 #' @examples
 #' ball <- Rvcg::vcgSphere(3)
 #' scene <- draw_surface(ball, "wheat", view = c(0.4, 0.3), engine = "picture")

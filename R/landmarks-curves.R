@@ -14,6 +14,7 @@
 #'   [fit_shape()] takes such curves in place of its own.
 #' @section Errors: of class `crestline_landmark_error`, when a curve is not in the file (near names
 #'   are given), and as [read_landmarks()].
+#' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".csv")
 #' lips <- list("upper lip" = rbind(c(0, 1, 2), c(1, 1, 3)),

@@ -85,6 +85,7 @@
 #'   named list of n x 3 matrices, each with the attribute `closed`. For a file of several
 #'   specimens, or a folder, a named list of such matrices. `write_landmarks()`: `file`, invisibly.
 #'   Errors are of class `crestline_landmark_error` and name file, line and remedy.
+#' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".csv")
 #' write_landmarks(rbind(pn = c(0, 1, 2), sn = c(NA, NA, NA)), file)

@@ -9,7 +9,7 @@ vertex_colours <- function(mesh) {
   if (length(mesh$it) && length(colour) == length(mesh$it) &&
       isTRUE(all(mesh$it >= 1 & mesh$it <= n))) {
     by_vertex <- rep(NA_character_, n)
-    by_vertex[mesh$it[length(colour):1]] <- rev(colour)
+    by_vertex[mesh$it[rev(seq_along(colour))]] <- rev(colour)
     return(ifelse(is.na(by_vertex), "#BFBFBF", by_vertex))
   }
   if (length(colour) == 1) rep(colour, n)

@@ -24,6 +24,7 @@ frame_of <- function(columns, ..., class = NULL) {
 #'   no others.
 #' @section Errors: of class `crestline_error`: a mesh without triangles, `xyz` that is no matrix of
 #'   three columns, or holds infinite numbers.
+#' @template glossary
 #' @seealso [frechet_mean()] for the mean of such places; [path_coordinates()]
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)

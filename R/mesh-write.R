@@ -42,6 +42,7 @@
 #' @section Errors: of class `crestline_error`, for an unknown extension, a file that cannot be
 #'   written, a mesh without triangles, or colours that do not fit. A warning of class
 #'   `crestline_format_warning` tells when STL leaves out colours that were asked for.
+#' @template glossary
 #' @seealso [shape_mesh()], [write_landmarks()] for the points, [write_page()] for the browser
 #' @examples
 #' file <- tempfile(fileext = ".ply")

@@ -18,8 +18,9 @@
 #'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
 #'   attributes `length` (of the path), `width`, `key` and `id` (of the mesh).
 #' @section Errors: of class `crestline_wrong_mesh`, when the path belongs to another mesh.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.2.
+#' @template glossary
+#' @templateVar where section 3.2
+#' @template paper
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))

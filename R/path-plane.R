@@ -21,8 +21,9 @@
 #'   `angle`, `side`.
 #' @section Errors: of class `crestline_path_error`, when the cut ends at a border
 #'   of the mesh (a hole between the points) or comes round without meeting `to`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.1.
+#' @template glossary
+#' @templateVar where section 3.1
+#' @template paper
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' quarter <- plane_path(ball, c(1, 0, 0), c(0, 1, 0), angle = 0)

@@ -42,8 +42,9 @@
 #' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
 #' @section Warnings: of class `crestline_rival_path`, when another optimum is
 #'   nearly as good; the warning names both angles.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.1.
+#' @template glossary
+#' @templateVar where section 3.1
+#' @template paper
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")

@@ -20,6 +20,7 @@ path_columns <- c("s", mesh_columns)
 #'   `face`, `w1`, `w2`, `w3` it is no path but a plain data frame, or a vector, as of any data
 #'   frame.
 #' @section Errors: of class `crestline_error`: rows that are not there; paths of different meshes.
+#' @template glossary
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))

@@ -17,7 +17,9 @@
 #'   left, over the specimens), in the template's unit.
 #' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the
 #'   template.
-#' @references The paper takes landmarks as given (sections 1 and 7).
+#' @template glossary
+#' @templateVar where sections 1 and 7 (which take landmarks as given)
+#' @template paper
 #' @seealso [find_landmarks()]
 #' @section Warnings: of class `crestline_unused_landmarks`, as [fit_shape()].
 #' @examples

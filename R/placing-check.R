@@ -13,6 +13,7 @@
 #' @return The specimen. Those of its landmarks that are doubtful are in it still.
 #' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's
 #'   name, the landmarks, and the picture's path.
+#' @template glossary
 #' @seealso [find_landmarks()]; [plot.specimen()] for the picture; [review_landmarks()] to correct
 #'   landmarks by hand
 #' @examples

@@ -39,7 +39,10 @@
 #'   confidence (settings `low`, `wrong`): most likely the scan is not the object, or not whole
 #'   enough. [quality()] then grades nothing green. `print()` names a single landmark with little
 #'   confidence. [quality()] grades it, and the curves that end there, amber.
-#' @references The paper takes landmarks as given (sections 1 and 7).
+#' @templateVar where sections 1 and 7 (which take landmarks as given)
+#' @template paper
+#' @section Keeping the result: `saveRDS(specimen, file)` keeps the specimen with its states and
+#'   confidences. [write_landmarks()] writes the positions only.
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{

@@ -46,8 +46,11 @@
 #'   before still is.
 #' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any
 #'   of their landmarks, `move` that names others.
-#' @references The paper, sections 1 and 7, proposes crossings of curves and places of extreme
-#'   geodesic curvature. Ends of curves, caps, cups and extremes of a profile are added here.
+#' @template glossary
+#' @templateVar where sections 1 and 7
+#' @template paper
+#' @details The paper proposes crossings of curves and places of extreme geodesic curvature. Ends of
+#'   curves, caps, cups and extremes of a profile are added here.
 #' @seealso [curve_scheme()], [find_landmarks()]
 #' @examples
 #' data(humface, package = "Rvcg")

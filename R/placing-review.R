@@ -40,7 +40,9 @@
 #'   look exchanged.
 #' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they
 #'   should be.
-#' @references The paper takes landmarks as given (sections 1 and 7).
+#' @template glossary
+#' @templateVar where sections 1 and 7 (which take landmarks as given)
+#' @template paper
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)
 #' data(humface, package = "Rvcg")

@@ -6,7 +6,7 @@
 #' package's own, for faces.
 #'
 #' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and
-#' `humface` (S. Schlager, GPL), made symmetric; `data-raw/face-template.R` of the sources makes it,
+#' `humface` (S. Schlager, GPL), made symmetric; the script `face-template.R` of the sources makes it,
 #' and describes how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
@@ -23,6 +23,7 @@
 #'   that are found), `predicted` (k x 3), `unit`, `mirror`.
 #' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or
 #'   `predicted` that name none of them.
+#' @template glossary
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examples
 #' face_template()

@@ -38,7 +38,9 @@
 #'   `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
 #' @section Errors: of class `crestline_error`: a specimen with another mesh; the panel of a plane
 #'   curve, or of one that was not found by curvature.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 3.
+#' @template glossary
+#' @templateVar where Fig. 3
+#' @template paper
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

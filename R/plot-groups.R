@@ -24,7 +24,9 @@
 #'   of [draw_surface()]; invisibly.
 #' @section Errors: of class `crestline_error`: a level without a surface, means of more than two
 #'   groups.
-#' @references The paper, Fig. 9.
+#' @template glossary
+#' @templateVar where Fig. 9
+#' @template paper
 #' @seealso [compare_groups()]
 #' @examples
 #' ball <- Rvcg::vcgSphere(3)

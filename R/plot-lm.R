@@ -19,6 +19,7 @@
 #' @return The scene of [draw_surface()], or a data frame with `variable` and `score` by specimen,
 #'   invisibly.
 #' @section Errors: of class `crestline_error`: no such term or level, points that were not tested.
+#' @template glossary
 #' @references Drake and Klingenberg (2008) The pace of morphological change: historical
 #'   transformation of skull shape in St Bernard dogs, *Proceedings of the Royal Society B* 275,
 #'   71-76.
@@ -63,8 +64,8 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
   found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
   words <- sprintf("%s, %s; %s: p < %g (%d of %d points)", term,
-                   if (signed) sprintf("along the normal for %g", unit) else
-                     "root mean square displacement",
+                   if (signed) sprintf("along the normal for %g (unit of the meshes)", unit) else
+                     "root mean square displacement (unit of the meshes)",
                    if (is.null(triangles)) "ringed" else "outlined", significance, found,
                    nrow(points))
   title <- if (is.null(main)) words else main
@@ -131,8 +132,16 @@ plot_lm_scores <- function(x, term, level, main, ...) {
             if (NROW(test)) sprintf("R2 %.3f, p %s", test$share,
                                     format.pval(test$p_value, digits = 2, eps = 1e-4))),
           collapse = ", ")
-  graphics::plot(if (is.character(variable)) factor(variable) else variable, score, xlab = term,
-                 ylab = "regression score", las = 1, pch = 16, ...)
+  old <- graphics::par(mar = c(4, 5, 2.5, 0.6), mgp = c(2.3, 0.6, 0))
+  on.exit(graphics::par(old))
+  group <- if (!is.numeric(variable)) factor(variable)
+  if (is.null(group)) {
+    graphics::plot(variable, score, xlab = term, ylab = "", las = 1, pch = 16, ...)
+  } else {
+    box_panel(score, group, "", grDevices::hcl.colors(nlevels(group), "Dark 3"), ...)
+    graphics::title(xlab = term)
+  }
+  graphics::title(ylab = "regression score", line = 3.6)
   graphics::title(title, font.main = 1, cex.main = 1)
   data.frame(variable = variable, score = score, row.names = names(aligned))
 }

@@ -20,6 +20,7 @@
 #' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`,
 #'   `view`, `band`.
 #' @return The path of the file, invisibly.
+#' @template glossary
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

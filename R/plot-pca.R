@@ -14,6 +14,7 @@
 #' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to
 #'   [graphics::plot.default()].
 #' @return The scores that are drawn, or the two scenes; invisibly.
+#' @template glossary
 #' @seealso [shape_pca()], [write_pca_page()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -77,6 +78,7 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' @return The path of the file, invisibly.
 #' @section Errors: of class `crestline_error`: no surface, no such component, no folder to write
 #'   to.
+#' @template glossary
 #' @examplesIf requireNamespace("htmltools", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(2)
 #' xyz <- t(ball$vb[1:3, ])

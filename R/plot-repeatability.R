@@ -13,6 +13,7 @@
 #' @param size Diameter of the points, as `cex` of [graphics::par()].
 #' @param ... Passed to [graphics::plot.default()] of the left panel.
 #' @return `x`, invisibly.
+#' @template glossary
 #' @seealso [repeatability()]
 #' @examples
 #' angle <- seq(0, 1, length.out = 9)

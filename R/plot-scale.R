@@ -14,6 +14,9 @@
 #' @return The scale, invisibly: a data frame with nine rows and columns `category`, `index`,
 #'   `colour`.
 #' @inherit shape_index references
+#' @template glossary
+#' @templateVar where Fig. 1
+#' @template paper
 #' @examples
 #' plot_shape_scale()
 #' @export

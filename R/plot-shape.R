@@ -20,6 +20,7 @@
 #' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
 #' @param engine,view,... As in [plot.specimen()] and [draw_surface()].
 #' @return The scene of [draw_surface()], invisibly.
+#' @template glossary
 #' @seealso [fit_shape()]
 #' @examples
 #' \donttest{

@@ -45,7 +45,9 @@
 #'   refined ("refinement"); no cut comes from one landmark to the other ("cuts").
 #' @section Warnings: of class `crestline_warning`, if some cuts are left out because they come to a
 #'   border of the mesh.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), Fig. 2.
+#' @template glossary
+#' @templateVar where Fig. 2
+#' @template paper
 #' @seealso [check_placing()], [refine_landmarks()], [reference_path()]
 #' @examples
 #' \donttest{

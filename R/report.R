@@ -17,6 +17,7 @@
 #' @return The path of the file, invisibly.
 #' @section Errors: of class `crestline_error`, as [quality()]; when the file has another ending or
 #'   its folder is not there; when a specimen has no shape.
+#' @template glossary
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

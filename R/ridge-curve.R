@@ -53,7 +53,8 @@
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
 #'   determined by curvature; and that of [reference_path()].
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section 3.
+#' @templateVar where section 3
+#' @template paper
 #' @examples
 #' data(humface, package = "Rvcg")
 #' file <- system.file("extdata", "humface_landmarks.csv", package = "crestline")
@@ -63,8 +64,8 @@
 #' as.data.frame(lip)
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
-                        keep_away = NULL, settings = ridge_settings(), passes = 1, curvature = NULL,
-                        reach = 0.5, threads = getOption("crestline.threads", 1L),
+                        keep_away = NULL, settings = ridge_settings(), passes = NULL,
+                        curvature = NULL, reach = 0.5, threads = getOption("crestline.threads", 1L),
                         trust = c(0, 1)) {
   check_given(if (identical(type, "plane")) c("radius", "width"))
   check_surface(specimen, "specimen")
@@ -74,7 +75,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   n <- check_count(n, "n", lower = 2)
-  passes <- check_count(passes, "passes", upper = 1000)
+  if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
   if (type != "plane") {
@@ -107,7 +108,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 #' @param regions As of [located_regions()]; a failure is handed on.
 #' @param angle_limit Of the planes of the reference path, in radians; NA: none.
 #' @noRd
-curve_job <- function(type, n, from, to, settings, passes = 1, radius = NULL, width = NULL,
+curve_job <- function(type, n, from, to, settings, passes = NULL, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
                       reach = 0.5) {
   list(type = type, n = n, from = from, to = to, settings = settings, passes = passes,
@@ -131,16 +132,8 @@ trace_curve <- function(scan, ends, job) {
   if (job$type == "plane") return(assembled_curve(scan, reference, reference, job))
   path <- trusted_path(job$trust, scan, reference)
   if (failed(path)) return(path)
-  # The trusted part as shares of the path, NULL where that is all of it.
-  trusted <- attr(path, "trusted") / attr(path, "length")
-  for (pass in seq_len(job$passes)) {
-    fit <- fit_ridge(scan, path, job)
-    if (failed(fit)) return(fit)
-    fit$reference <- path
-    if (!fit$found) break
-    path <- fit$path
-    if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
-  }
+  fit <- fit_passes(scan, path, job)
+  if (failed(fit)) return(fit)
   assembled_curve(scan, fit$path, fit$reference, job, fit)
 }
 
@@ -161,127 +154,10 @@ curve_reference <- function(scan, ends, job) {
   limited_cut(scan, ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }
 
-#' One pass from reference path to lifted curve
-#'
-#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
-#'   in which curvature counts.
-#' @return List of the stages, `found` and `path`; without a curve `reason`. Or a failure.
-#' @noRd
-fit_ridge <- function(scan, path, job) {
-  settings <- job$settings
-  radius <- job$radius
-  coordinates <- near_path(scan, path, min(job$width, settings$window * radius), radius)
-  strength <- window_strength(scan, coordinates, job, attr(path, "trusted"))
-  scale <- core_strength(coordinates, strength, settings$core * radius, attr(path, "trusted"))
-  stages <- list(coordinates = coordinates, strengths = strength, scale = scale, found = FALSE,
-                 path = path)
-  if (!is.finite(scale) || scale <= 0) {
-    stages$reason <- sprintf("there is no %s curvature by the reference path", job$type)
-    return(stages)
-  }
-  stages$surface <- smooth_strength(coordinates, strength$value, settings)
-  if (failed(stages$surface)) return(stages$surface)
-  stages$line <- highest_line(stages$surface, scale, radius, settings)
-  if (failed(stages$line)) return(stages$line)
-  if (settings$error) {
-    stages$line$se <- ridge_error(scan, coordinates, stages$surface, stages$line, strength,
-                                  scale, radius, job$type, settings)
-  }
-  lifted <- lifted_line(scan, coordinates, path, stages$line$s, stages$line$alpha)
-  if (failed(lifted)) {
-    stages$reason <- "the ridge line leaves the surface near the reference path"
-    return(stages)
-  }
-  stages$path <- lifted
-  stages$found <- TRUE
-  stages
-}
-
-#' Strength at the vertices inside a window as the settings define it
-#'
-#' @param job As of [curve_job()].
-#' @param trusted Arc lengths of the part of the path beside which strength counts, as 0 elsewhere;
-#'   NULL: all of it.
-#' @return List with entries for the rows of `coordinates`, NA where curvature was not estimated:
-#'   `value` (also NA where left out), `direction` (n x 3, across the path or principal), `sigma`;
-#'   `rows` (where it was estimated), `cell` (of every row, the place in `rows` of the one that
-#'   stands for it, NA outside the window); and `cap`.
-#' @noRd
-window_strength <- function(scan, coordinates, job, trusted = NULL) {
-  settings <- job$settings
-  thinned <- thinned_rows(coordinates, settings$vertices)
-  rows <- thinned$rows
-  curved <- job$source(coordinates$vertex[rows])
-  across <- cross_rows(curved$normal,
-                       columns_of(coordinates, c("tx", "ty", "tz"))[rows, , drop = FALSE])
-  across <- across / sqrt(rowSums(across^2))
-  principal <- settings$strength == "principal"
-  value <- strength_at(curved, job$type, across = if (!principal) across)
-  # No direction is across a path where it runs along the normal, or stands still.
-  value[is.nan(value)] <- NA
-  if (!is.null(job$regions)) {
-    at <- t(scan$vb[1:3, coordinates$vertex[rows], drop = FALSE])
-    value[is_kept_away(job$regions, at)] <- 0
-  }
-  if (!is.null(trusted)) value[coordinates$s[rows] < trusted[1] |
-                               coordinates$s[rows] > trusted[2]] <- 0
-  if (settings$wrong_sign == "drop") value[value == 0] <- NA
-  cap <- settings$cap * stats::quantile(value, settings$cap_quantile, na.rm = TRUE, names = FALSE)
-  own <- if (job$type == "ridge") curved$direction2 else curved$direction1
-  direction <- matrix(NA_real_, nrow(coordinates), 3)
-  direction[rows, ] <- if (principal) own else across
-  all_rows <- function(x) replace(rep(NA_real_, nrow(coordinates)), rows, x)
-  list(value = all_rows(pmin(value, cap)), direction = direction, sigma = all_rows(curved$sigma),
-       rows = rows,
-       cell = thinned$cell, cap = cap)
-}
-
-#' The rows inside a window; where there are more than `most`, the one nearest to the centre of each
-#' of as many square cells
-#'
-#' @return List: `rows`; `cell`, for every row of `coordinates` the place in `rows` of the one that
-#'   stands for it, NA outside.
-#' @noRd
-thinned_rows <- function(coordinates, most) {
-  inside <- which(coordinates$inside)
-  cell <- rep(NA_integer_, nrow(coordinates))
-  if (length(inside) <= most) {
-    cell[inside] <- seq_along(inside)
-    return(list(rows = inside, cell = cell))
-  }
-  length <- attr(coordinates, "length")
-  width <- attr(coordinates, "width")
-  columns <- ceiling(sqrt(most * length / (2 * width)))
-  half <- ceiling(most / columns / 2)
-  along <- coordinates$s[inside] / length * columns
-  across <- coordinates$d[inside] / width * half
-  own <- floor(along) * (2 * half + 2) + floor(across)
-  off <- (along - floor(along) - 0.5)^2 + (across - floor(across) - 0.5)^2
-  nearest <- order(own, off)
-  first <- nearest[!duplicated(own[nearest])]
-  cell[inside] <- match(own, own[first])
-  list(rows = inside[first], cell = cell)
-}
-
-#' Mean strength near a path
-#'
-#' @param trusted Arc lengths of the part of the path that counts; NULL: all of it.
-#' @noRd
-core_strength <- function(coordinates, strength, distance, trusted = NULL) {
-  near <- abs(coordinates$d[strength$rows]) <= distance
-  if (!is.null(trusted)) {
-    s <- coordinates$s[strength$rows]
-    near <- near & s >= trusted[1] & s <= trusted[2]
-  }
-  value <- strength$value[strength$rows[near]]
-  value[is.na(value)] <- 0
-  if (length(value)) mean(value) else NA_real_
-}
-
 #' The one place where a curve comes together
 #'
 #' @param job As of [curve_job()].
-#' @param fit As of [fit_ridge()]; NULL for plane curves.
+#' @param fit As of [fit_passes()]; NULL for plane curves.
 #' @noRd
 assembled_curve <- function(scan, path, reference, job, fit = NULL) {
   placed <- resample_path(scan, path, job$n)
@@ -298,7 +174,8 @@ assembled_curve <- function(scan, path, reference, job, fit = NULL) {
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
             strength = mean_strength(scan, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
-            even = attr(placed, "converged"))
+            even = attr(placed, "converged"), share = if (!is.null(fit)) fit$share,
+            noise_factor = if (is.null(fit$noise_factor)) NA_real_ else fit$noise_factor)
 }
 
 #' A curve from its parts: all its fields are declared here
@@ -312,7 +189,8 @@ assembled_curve <- function(scan, path, reference, job, fit = NULL) {
 #' @noRd
 new_curve <- function(points, path, reference, job, verdict, scan, coordinates = NULL,
                       surface = NULL, line = NULL,
-                      strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE) {
+                      strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE,
+                      share = NULL, noise_factor = NA_real_) {
   structure(
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
@@ -321,7 +199,8 @@ new_curve <- function(points, path, reference, job, verdict, scan, coordinates =
          to = job$to,
          type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
          width = job$width,
-         key = scan$key, converged = converged, even = even),
+         key = scan$key, converged = converged, even = even, share = share,
+         noise_factor = noise_factor),
     class = "curve"
   )
 }

@@ -1,41 +1,97 @@
 # Standard error of the ridge line by the delta method, from the heights of the mesh's vertices on.
 
-#' Standard error of a ridge line
+#' Covariance of the moments of a window's strengths under noise in the heights
 #'
-#' The offset depends on the smooth strength, that on the strength at the vertices of the window,
-#' that on the local fits, and those on the heights of the vertices, which neighbouring fits share.
-#' The chain of derivatives is followed through all of them; the heights' errors are independent
-#' with the residual standard deviation of each local fit. The result is inflated by
-#' `settings$inflation`, and the change of the line when lambda is divided by ten stands for its
-#' bias. Near an end, which is fixed, the offset is at most as large as the way from there, and so
-#' is its error.
+#' The smooth strength depends on the moments X'nu, those on the strength at the vertices of the
+#' window, that on the local fits, and those on the heights of the vertices, which neighbouring fits
+#' share. The chain of derivatives is followed through all of them. The heights' errors are those of
+#' `settings$noise`; where that is not known, independent with the residual standard deviation of
+#' each local fit.
 #'
 #' @param scan The mesh, as of [walkable()].
-#' @param coordinates,surface,line The stages of the fit.
-#' @param strength As of [window_strength()].
-#' @param scale,radius,type,settings As in [ridge_line()] and [ridge_curve()].
+#' @param window As of [ridge_window()].
+#' @param settings [ridge_settings()].
+#' @param most Where more vertices than this depend on the heights, one a cell of (s, d) stands for
+#'   the others: curvatures of neighbours, whose fits share most vertices, are nearly the same.
+#' @return List: `matrix`, of the moments (square of the order of the smooth surface); `factor`, as
+#'   of [noise_factor()], 1 where the noise is known, NULL where not all vertices were used.
+#' @noRd
+moment_noise <- function(scan, window, radius, settings, most = Inf) {
+  surface <- window$surface
+  strength <- window$strengths
+  live <- which(surface$strength > 0 & surface$strength < strength$cap)
+  rows <- surface$rows[live]
+  known <- settings$noise
+  if (anyNA(known)) {
+    sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(scan$vb))
+    fitted <- !is.na(strength$sigma)
+    sigma[window$coordinates$vertex[fitted]] <- strength$sigma[fitted]
+    smooth <- c(0, 0)
+  } else {
+    sigma <- rep(known[[1]], ncol(scan$vb))
+    smooth <- unname(known[2:3])
+  }
+  margins <- lapply(surface$design, function(design) design[live, , drop = FALSE])
+  design <- mgcv::tensor.prod.model.matrix(margins)
+  if (length(live) > most) {
+    near <- structure(window$coordinates[rows, ], length = surface$length, width = surface$width)
+    thinned <- thinned_rows(near, most)
+    design <- rowsum(design, thinned$cell)
+    rows <- rows[thinned$rows]
+  }
+  found <- cpp_curvature_covariance(
+    scan$vb, scan$it, window$coordinates$vertex[rows],
+    t(strength$direction[rows, , drop = FALSE]), design, sigma,
+    smooth[1], smooth[2], kernel_settings(radius, settings$order)
+  )
+  if (length(rows) < length(live)) return(list(matrix = found$matrix))
+  list(matrix = found$matrix,
+       factor = if (anyNA(known)) noise_factor(surface, live, margins, found) else 1)
+}
+
+#' How much more the strengths scatter about their smooth surface than under independent noise
+#'
+#' With H = X (X'X + S)^-1 X' the smoother and G the covariance of the strengths under independent
+#' noise, the residuals' expected sum of squares over the live vertices is the trace of
+#' (I - H) G (I - H)'. Smooth noise leaves small residuals in each local fit, so that its standard
+#' deviation comes out too small, but the strengths scatter, and the ratio shows it. It also shows
+#' fine relief, and lack of fit of the smooth surface to a sharp ridge: one mesh cannot tell these
+#' apart.
+#'
+#' @param live Rows of the surface's data whose strength depends on the heights.
+#' @param margins Designs there.
+#' @param covariance As of cpp_curvature_covariance().
+#' @return Sum of squares of the residuals over its expectation, at least 1.
+#' @noRd
+noise_factor <- function(surface, live, margins, covariance) {
+  fitted <- rowSums(margins$across * tcrossprod(margins$along, surface$coefficients))
+  residual <- surface$strength[live] - fitted
+  inverse <- chol2inv(surface$factor)
+  moments <- cpp_tensor_moments(margins$along, margins$across, residual)$matrix
+  twice <- inverse %*% moments %*% inverse
+  expected <- covariance$trace - 2 * sum(inverse * covariance$matrix) +
+    sum(twice * covariance$matrix)
+  max(1, sum(residual^2) / expected, na.rm = TRUE)
+}
+
+#' Standard error of a ridge line
+#'
+#' The variance of the delta method is multiplied by the noise factor and by the square of
+#' `settings$inflation`. The change of the line when lambda is divided by ten stands for its bias.
+#' Near an end, which is fixed, the offset is at most as large as the way from there, and so is its
+#' error.
+#'
+#' @param window As of [ridge_window()], with `line`.
+#' @param noise As of [moment_noise()].
+#' @param share Share of the offsets that is taken.
 #' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
 #' @noRd
-ridge_error <- function(scan, coordinates, surface, line, strength, scale, radius, type,
-                        settings) {
-  problem <- ridge_problem(surface, scale, radius, settings)
-  alpha <- line$alpha[-c(1, length(line$alpha))]
-  slope <- strength_jacobian(problem, surface, alpha)
-  live <- which(strength$value[surface$rows] > 0 & strength$value[surface$rows] < strength$cap)
-  rows <- surface$rows[live]
-  vb <- scan$vb
-  sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(vb))
-  known <- !is.na(strength$sigma)
-  sigma[coordinates$vertex[known]] <- strength$sigma[known]
-  turn <- if (type == "ridge") -1 else 1
-  variance <- cpp_curvature_variance(
-    vb, scan$it, coordinates$vertex[rows],
-    t(strength$direction[rows, , drop = FALSE]), turn * slope[, live, drop = FALSE], sigma,
-    kernel_settings(radius, settings$order)
-  )
-  loose <- highest_line(surface, scale, radius, loosen(settings))
-  bias <- line$alpha - loose$alpha
-  error <- c(0, sqrt(settings$inflation^2 * variance + bias[-c(1, length(bias))]^2), 0)
+ridge_error <- function(window, noise, radius, settings, share = 1) {
+  line <- window$line
+  variance <- offset_variance(window, noise, radius, settings)
+  loose <- highest_line(window$surface, window$scale, radius, loosen(settings), line$kernel)
+  bias <- share * line$alpha - loose$alpha
+  error <- sqrt(settings$inflation^2 * noise$factor * c(0, variance, 0) + bias^2)
   pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)
 }
 
@@ -46,17 +102,24 @@ loosen <- function(settings, by = 10) {
   settings
 }
 
-#' Derivative of the line's offsets by the strength at the vertices of the fit
-#'
-#' J = (-H)^-1 (dg / d beta) (X'X + S)^-1 X', interior grid points x vertices.
+#' Variance of a line's inner offsets by the delta method, without inflation
 #' @noRd
-strength_jacobian <- function(problem, surface, alpha) {
-  interior <- seq_along(alpha) + 1
-  along <- margin_design(surface$margins$along, problem$u[interior])
-  across <- margin_design(problem$across, alpha / problem$width, 1) / problem$width
+offset_variance <- function(window, noise, radius, settings) {
+  line <- window$line
+  problem <- ridge_problem(window$surface, window$scale, radius, settings, line$kernel)
+  slope <- offset_slope(problem, window$surface, line$alpha[-c(1, length(line$alpha))])
+  pmax(rowSums((slope %*% noise$matrix) * slope), 0)
+}
+
+#' Derivative of the line's offsets by the moments X'nu of the strengths
+#'
+#' (-H)^-1 (dg / d beta) (X'X + S)^-1, interior grid points x coefficients.
+#' @noRd
+offset_slope <- function(problem, surface, alpha) {
+  along <- margin_design(surface$margins$along, problem$u[seq_along(alpha) + 1])
+  across <- across_design(problem, alpha, 1)
   by_beta <- mgcv::tensor.prod.model.matrix(list(along, across)) * problem$weight
   factor <- ascent_factor(problem, alpha)
   by_beta <- backsolve(factor, backsolve(factor, by_beta, transpose = TRUE))
-  smooth <- backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE))
-  tcrossprod(t(smooth), mgcv::tensor.prod.model.matrix(surface$design))
+  t(backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE)))
 }

@@ -15,10 +15,12 @@
 #'   between the places of the curve.
 #' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class
 #'   `crestline_wrong_mesh`, when the path or its co-ordinates belong to another mesh.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.3. There each place is looked up in the triangles of (s, d), those of the scan or, where
-#'   there are none, a Delaunay triangulation. Here the curve is walked through the scan's own
-#'   triangles.
+#' @template glossary
+#' @templateVar where section 3.3
+#' @template paper
+#' @details The paper looks each place up in the triangles of (s, d). These are the triangles of the
+#'   scan or, if there are none, a Delaunay triangulation. Here the curve is walked through the
+#'   scan's own triangles.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))

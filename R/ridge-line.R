@@ -9,17 +9,26 @@
 #' value, steps are bounded, and halved until the criterion rises. The local optimum
 #' by the reference path is wanted: the global one is usually a competing feature.
 #'
+#' With `kernel` > 0, nu is replaced by its mean across the path under a biweight kernel,
+#' \deqn{\nu_h(u, \alpha) = \int \nu(u, d) K_h(d - \alpha) \, dd, \quad
+#' K_h(t) = \frac{15}{16 h} (1 - t^2 / h^2)^2,}
+#' and 0 outside the window. As h grows the line passes from the mode of nu to its centroid in the
+#' window. The mean is exact: it is a change of the B-splines across.
+#'
 #' @param surface A [curvature_surface()].
 #' @param scale Mean strength nu0 near the path, in 1 / unit.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh.
 #' @param settings [ridge_settings()]: `lambda`, `lambda_scale`, `grid`, `bound`, `step`,
 #'   `iterations`, `tolerance`.
+#' @param kernel Half width h of the kernel, in the unit of the mesh; 0: none. [ridge_curve()]
+#'   chooses it from the standard error.
 #' @return Object of class `ridge_line`, a list: `s` and `alpha` (unit of the mesh) at the grid;
 #'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the interior
 #'   of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the
-#'   window).
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.2.
+#'   window); `kernel`.
+#' @template glossary
+#' @templateVar where section 3.2
+#' @template paper
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))
@@ -27,19 +36,20 @@
 #' smooth <- curvature_surface(window, 1 - (window$d - 0.1 * sin(2 * window$s))^2)
 #' ridge_line(smooth, scale = 1, radius = 0.2)
 #' @export
-ridge_line <- function(surface, scale, radius, settings = ridge_settings()) {
+ridge_line <- function(surface, scale, radius, settings = ridge_settings(), kernel = 0) {
   check_given()
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   radius <- check_number(radius, "radius", lower = 0, open = TRUE)
   check_class(surface, "curvature_surface", "surface", "curvature_surface()")
   check_number(scale, "scale", lower = 0, open = TRUE)
-  in_context(highest_line(surface, scale, radius, settings), NULL)
+  kernel <- check_number(kernel, "kernel", lower = 0)
+  in_context(highest_line(surface, scale, radius, settings, kernel), NULL)
 }
 
 #' The ridge line without checks, or a failure
 #' @noRd
-highest_line <- function(surface, scale, radius, settings) {
-  problem <- ridge_problem(surface, scale, radius, settings)
+highest_line <- function(surface, scale, radius, settings, kernel = 0) {
+  problem <- ridge_problem(surface, scale, radius, settings, kernel)
   if (!all(is.finite(problem$roughness), is.finite(problem$lambda), is.finite(problem$weight))) {
     return(no_result(
       sprintf("`radius` %g or `scale` %g is beyond the numbers that can be worked with.", radius,
@@ -51,7 +61,7 @@ highest_line <- function(surface, scale, radius, settings) {
   structure(
     list(s = problem$u * surface$length, alpha = c(0, found$alpha, 0), lambda = problem$lambda,
          criterion = found$value, gradient = found$gradient, iterations = found$iterations,
-         converged = found$converged, at_bound = found$at_bound),
+         converged = found$converged, at_bound = found$at_bound, kernel = kernel),
     class = "ridge_line"
   )
 }
@@ -60,7 +70,7 @@ highest_line <- function(surface, scale, radius, settings) {
 #'
 #' `alpha` in these functions is the interior part, in the unit of the mesh.
 #' @noRd
-ridge_problem <- function(surface, scale, radius, settings) {
+ridge_problem <- function(surface, scale, radius, settings, kernel = 0) {
   grid <- settings$grid
   u <- seq(0, 1, length.out = grid)
   profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
@@ -70,7 +80,7 @@ ridge_problem <- function(surface, scale, radius, settings) {
                    grid = settings$lambda * radius^2 / (scale * (grid - 1)^3))
   list(u = u, lambda = lambda, roughness = crossprod(second) / (grid - 1),
        across = surface$margins$across, width = surface$width,
-       limit = settings$bound * surface$width,
+       limit = settings$bound * surface$width, kernel = kernel / surface$width,
        interior = profile[-c(1, grid), ], weight = rep(1 / (grid - 1), grid - 2) / scale,
        ends = sum(at_ends) / (2 * (grid - 1) * scale))
 }
@@ -78,8 +88,19 @@ ridge_problem <- function(surface, scale, radius, settings) {
 #' Smooth strength, or a derivative by the offset, at the interior grid points
 #' @noRd
 profile_at <- function(problem, alpha, derivative) {
-  basis <- margin_design(problem$across, alpha / problem$width, derivative)
-  rowSums(basis * problem$interior) / problem$width^derivative
+  rowSums(across_design(problem, alpha, derivative) * problem$interior)
+}
+
+#' B-splines across at offsets, their means under the kernel, or a derivative by the offset: n x k
+#' @noRd
+across_design <- function(problem, alpha, derivative) {
+  at <- alpha / problem$width
+  basis <- if (problem$kernel > 0) {
+    cpp_biweight_design(problem$across$knots, at, problem$kernel, derivative)
+  } else {
+    margin_design(problem$across, at, derivative)
+  }
+  basis / problem$width^derivative
 }
 
 ridge_criterion <- function(problem, alpha) {

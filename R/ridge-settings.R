@@ -1,10 +1,11 @@
 #' Settings of the ridge estimate
 #'
 #' All tuning constants of [ridge_curve()] in one place. With the preset `"crestline"` curves do not
-#' depend on the unit of the mesh or the number of grid points; `"paper"` reproduces the choices of
-#' the paper.
+#' depend on the unit of the mesh or the number of grid points. `"one pass"` is the same without the
+#' kernel and without the second pass, the former default. `"paper"` reproduces the
+#' choices of the paper.
 #'
-#' @param preset `"crestline"` or `"paper"`.
+#' @param preset `"crestline"`, `"one pass"` or `"paper"`.
 #' @param ... Settings to change, by name; print a preset to see its values. Numbers have no unit
 #'   (but see `lambda_scale`):
 #'   * `order`: polynomial of the curvature fit, as in [curvature()];
@@ -28,6 +29,19 @@
 #'   * `bound`: the ridge stays within this share of the half width;
 #'   * `step`: longest Newton step, as a share of the half width; `iterations`, `tolerance` (share
 #'     of the half width);
+#'   * `kernel`: the criterion is averaged across the path under a kernel ([ridge_line()]), whose
+#'     half width is this many standard errors of the line without it; 0: none. `kernel_most`: widest, in
+#'     radii; `kernel_least`: narrower ones, in radii, count as none; `kernel_vertices`: as
+#'     `vertices`, for this standard error;
+#'   * `second`: share of a second pass, about the curve of the first, that is taken where both
+#'     curves are equally strong; 0: one pass. `second_gain`: relative gain in strength at which
+#'     half as much again of a whole pass is taken, the loss at which it is so much less; `second_whole`:
+#'     half width of the kernel, in radii, from which the whole of it is taken;
+#'   * `mix`: half width of the kernel, in radii, from which strength is that of the principal
+#'     curvature; it is mixed with that across the path below. `Inf`: never. 0.6 suits very noisy
+#'     data;
+#'   * `noise`: the noise of the scanner, as [scan_noise()] measures it, or `NA`: not known. See
+#'     [ridge_curve()], Standard error;
 #'   * `longest`: reference paths may be this many times as long as the shortest;
 #'   * `inflation`: factor of the standard error of the delta method, for what the linear
 #'     approximation misses (what the band then covers: [ridge_curve()], Standard error);
@@ -38,24 +52,30 @@
 #'   * `error`: whether to work out standard errors at all.
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]),
-#'   section 3.2 (12 degrees of freedom, lambda = 0.5).
+#' @template glossary
+#' @templateVar where section 3.2 (12 degrees of freedom, lambda = 0.5)
+#' @template paper
 #' @examples
 #' ridge_settings(df = 25)
 #' ridge_settings("paper")
 #' @export
-ridge_settings <- function(preset = c("crestline", "paper"), ...) {
-  preset <- check_choice(preset, c("crestline", "paper"), "preset")
+ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...) {
+  preset <- check_choice(preset, c("crestline", "one pass", "paper"), "preset")
   settings <- list(order = "adaptive cubic", strength = "across", wrong_sign = "zero", cap = 2,
                    cap_quantile = 0.99, window = 1.5, vertices = 4000, basis = c(10, 10),
                    anisotropy = 10, df = 20,
                    lambda = 1e-4, lambda_scale = "feature", grid = 41, core = 0.3, bound = 0.98,
-                   step = 0.25, iterations = 100, tolerance = 1e-9, longest = 1.25, inflation = 1.5,
+                   step = 0.25, iterations = 100, tolerance = 1e-9, kernel = 12, kernel_most = 1.4,
+                   kernel_least = 0.15, kernel_vertices = 400, second = 0.5, second_gain = 0.05,
+                   second_whole = 0.6,
+                   mix = Inf, noise = NA, longest = 1.25, inflation = 1.5,
                    undetermined = 0.2, faint = 0.15, error = TRUE)
+  single <- list(kernel = 0, second = 0)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
                 window = Inf, vertices = Inf, anisotropy = 1, df = 12, lambda = 0.5,
                 lambda_scale = "grid",
                 longest = Inf)
+  if (preset != "crestline") settings[names(single)] <- single
   if (preset == "paper") settings[names(paper)] <- paper
   change <- list(...)
   unknown <- setdiff(names(change), names(settings))
@@ -72,11 +92,15 @@ ridge_settings <- function(preset = c("crestline", "paper"), ...) {
 check_settings <- function(settings) {
   positive <- c("cap", "cap_quantile", "window", "vertices", "anisotropy", "df", "lambda", "core",
                 "bound", "step",
-                "tolerance", "longest", "inflation", "undetermined", "faint")
+                "tolerance", "longest", "inflation", "undetermined", "faint", "kernel_most",
+                "kernel_least", "kernel_vertices", "second_gain", "second_whole", "mix")
   for (name in positive) {
     if (!identical(settings[[name]], Inf)) check_number(settings[[name]], name, lower = 0,
                                                         open = TRUE)
   }
+  check_number(settings$kernel, "kernel", lower = 0)
+  check_number(settings$second, "second", lower = 0, upper = 1)
+  settings$noise <- noise_setting(settings$noise)
   check_count(settings$grid, "grid", lower = 5)
   check_count(settings$iterations, "iterations")
   check_choice(settings$strength, c("across", "principal"), "strength")

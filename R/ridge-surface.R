@@ -14,11 +14,12 @@
 #'   derivative of the given order by `d`, at places (s, d).
 #' @section Errors: of class `crestline_error`, when fewer vertices are left than the fit has
 #'   degrees of freedom.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   3.2.
-#'
-#'   Eilers, P. H. C. and Marx, B. D. (1996) Flexible smoothing with B-splines and penalties.
-#'   *Statistical Science* 11(2), 89-121. Bases and penalties are those of the package mgcv.
+#' @template glossary
+#' @templateVar where section 3.2
+#' @template paper
+#' @references Eilers, P. H. C. and Marx, B. D. (1996) Flexible smoothing with B-splines and
+#'   penalties. *Statistical Science* 11(2), 89-121. Bases and penalties are those of the package
+#'   mgcv.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' path <- plane_path(ball, c(1, 0, 0), c(0, 1, 0))

@@ -31,6 +31,7 @@
 #'   `summary()`: as in [provenance].
 #' @section Errors: of class `crestline_error`: `augment()` of a plane curve, or of a curve that was
 #'   not found by curvature.
+#' @template glossary
 #' @seealso [ridge_curve()], [plot.curve()]
 #' @examples
 #' data(humface, package = "Rvcg")

@@ -22,9 +22,10 @@
 #'   Where several places have the same least sum, one of them.
 #' @section Errors: of class `crestline_error`: points that are no k x 3 matrix of numbers or lie on
 #'   separate pieces of the mesh; weights that are negative, all 0, or of another number.
-#' @references The paper, section 3, names it as an example; neither its curves nor ours use it.
-#'   Novotni and Klein (2002) Computing geodesic distances on triangular meshes,
-#'   *Journal of WSCG* 10, 341-347.
+#' @template glossary
+#' @templateVar where section 3
+#' @template paper
+#' @references Novotni and Klein (2002) Computing geodesic distances on triangular meshes, *Journal of WSCG* 10, 341-347.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(c(1, 0, 0), c(0, 1, 0), c(0, 0, 1))

@@ -55,8 +55,10 @@
 #' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last
 #'   round; of class `crestline_cut_scale`, when curves were cut off at different shares
 #'   (`cut_scale`), with the one to measure all by.
-#' @references The paper, section 4; departures: [slide_settings()], and the spacing of the mean
-#'   curves.
+#' @templateVar where section 4
+#' @template paper
+#' @details [slide_settings()] differ from the paper's, and the points of the mean curves are spaced
+#'   evenly here.
 #' @examples
 #' \donttest{
 #' mesh <- Rvcg::vcgSphere(4)

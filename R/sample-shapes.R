@@ -329,6 +329,7 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 #'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
 #'   now.
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
+#' @template glossary
 #' @seealso [warnings_of()] for the warnings of specimens that were measured.
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' bad <- tempfile(fileext = ".ply")
@@ -366,6 +367,7 @@ failures <- function(x) {
 #'   as `"crestline_mirrored"`; `problem` (what); `remedy` (what to do about it, "" where another
 #'   package warned). Those of failed specimens of a batch are in it.
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
+#' @template glossary
 #' @seealso [failures()], [quality()]
 #' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
 #' # Left and right are mirrored.

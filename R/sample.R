@@ -110,6 +110,7 @@ missing_parts <- function(shapes) {
 #' @section Errors: of class `crestline_error`: a specimen that is not there, or is asked for twice
 #'   (the error says which there are); in `c()` different schemes, templates or settings of sliding,
 #'   and ids that both have.
+#' @template glossary
 #' @seealso [homologise()], [as.array.shape_sample()]
 #' @examples
 #' \donttest{
@@ -264,6 +265,7 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y,
 #'   z and specimens; NA where missing; in the unit of the meshes, where each specimen lies.
 #' @section Errors: of class `crestline_error`, for another level.
+#' @template glossary
 #' @seealso [homologise()]
 #' @examples
 #' \donttest{

@@ -16,8 +16,10 @@
 #' finds a curve in another way than its authors do (`authors_kind`), `note` says why.
 #'
 #' @return A [curve_scheme()].
-#' @references The paper: 23 landmarks and 467 curve points (Fig. 1), 922 surface points (Fig. 6).
-#'   It does not list its curves and patches; they were read from its authors' data.
+#' @template glossary
+#' @templateVar where Fig. 1 (23 landmarks and 467 curve points) and Fig. 6 (922 surface points)
+#' @template paper
+#' @details The paper does not list its curves and patches; they were read from its authors' data.
 #' @examples
 #' face_scheme()
 #' @export

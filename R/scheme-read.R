@@ -12,6 +12,7 @@
 #'   file that is not there or cannot be read.
 #' @section Warnings: of class `crestline_unread_table`, when a file has nearly the name of a table
 #'   that is not there (`pair.csv`).
+#' @template glossary
 #' @examples
 #' face <- read_scheme(system.file("extdata", "face_scheme", package = "crestline"))
 #' head(as.data.frame(face, "curves"))

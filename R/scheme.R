@@ -84,6 +84,7 @@
 #'   outward; coinciding points by the first). `as.data.frame(scheme, table)` gives any of them.
 #' @section Errors: of class `crestline_scheme_error`, with all problems of the first table that has
 #'   any (the message shows eight).
+#' @template glossary
 #' @seealso [read_scheme()], [face_scheme()], [refine_landmarks()]
 #' @examples
 #' landmarks <- data.frame(landmark = c("tip", "left", "right"))

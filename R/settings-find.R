@@ -43,6 +43,7 @@
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not
 #'   numeric.
+#' @template glossary
 #' @examples
 #' find_settings(turns = 24)
 #' @export

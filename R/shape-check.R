@@ -15,6 +15,7 @@
 #'   through).
 #' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another
 #'   mesh.
+#' @template glossary
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

@@ -114,7 +114,8 @@
 #'   that end there, red. Of class `crestline_unused_landmarks`, when a landmark of the scheme is
 #'   missing and the specimen has one of another name that may be meant (`prn` for `pn`, `CHL` for
 #'   `chL`).
-#' @references The paper, section 4.
+#' @templateVar where section 4
+#' @template paper
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -125,13 +126,13 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = 1, curves = NULL,
+fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = NULL, curves = NULL,
                       cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_given()
   check_flags(progress)
-  passes <- check_count(passes, "passes", upper = 1000)
+  if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")

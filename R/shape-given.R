@@ -38,7 +38,7 @@ given_fit <- function(row, xyz, scan, tolerance) {
   ends <- list(from = if (is.na(row$cut_share)) scan_place(scan, row$from),
                to = scan_place(scan, row$to))
   ends <- Filter(Negate(failed), ends)
-  if (runs_backwards(xyz, ends)) xyz <- xyz[nrow(xyz):1, , drop = FALSE]
+  if (runs_backwards(xyz, ends)) xyz <- xyz[rev(seq_len(nrow(xyz))), , drop = FALSE]
   knots <- surface_points(scan, xyz)
   place <- as.matrix(knots[c("x", "y", "z")])
   off <- row_lengths(place - xyz)

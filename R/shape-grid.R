@@ -21,6 +21,7 @@
 #' @section Errors: of class `crestline_error`, when there is no such patch or block, it is a single
 #'   row of points, a bounding curve is missing, or no column is left; of class
 #'   `crestline_wrong_mesh`, for a specimen with another mesh.
+#' @template glossary
 #' @seealso [shape_mesh()]
 #' @examples
 #' \donttest{

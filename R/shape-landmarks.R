@@ -4,12 +4,18 @@
 #' @noRd
 check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::caller_env()) {
   wanted <- scheme$landmarks$landmark
+  if (!NROW(specimen$landmarks)) {
+    crestline_abort("it has no landmarks.",
+                    paste("On a face find them: find_landmarks(). Else place them by hand,",
+                          "place_landmarks(), or read them: read_specimen(file, landmarks)."),
+                    stage = "landmarks", id = specimen$id, class = "crestline_landmark_error",
+                    call = call)
+  }
   if (!any(wanted %in% rownames(specimen$landmarks))) {
     near <- attr(unused_names(specimen$landmarks, scheme), "near")
     crestline_abort(
       sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
-              shorten(wanted),
-              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
+              shorten(wanted), shorten(rownames(specimen$landmarks)),
               if (length(near)) paste("; near:", shorten(near)) else ""),
       "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
       id = specimen$id, class = "crestline_landmark_error", call = call

@@ -30,7 +30,7 @@
 #'   * `offset`: of a shape that was slid: root mean square distance of a curve's homologous points
 #'     from the curve that was measured, across it, in radii of the template (1/19 is 3 mm on a
 #'     face). The curve may run along another feature than on the other specimens. On ten simulated
-#'     faces of another population (`bench/homology.R ict`) it names 29 of 53 such cuts that nothing
+#'     faces of another population it names 29 of 53 such cuts that nothing
 #'     else names;
 #'   * `faults`: number of flipped, doubled or crossing triangles of a patch;
 #'
@@ -55,6 +55,7 @@
 #' @return List of class `quality_limits`.
 #' @section Errors: of class `crestline_error`, for a name that is no limit, and for limits in the
 #'   wrong order.
+#' @template glossary
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))
 #' @export

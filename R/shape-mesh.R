@@ -26,6 +26,7 @@
 #' @section Errors: of class `crestline_error`, when the scheme has no such part, no triangle is
 #'   left, or `dense` lacks the specimen. A warning of class `crestline_warning` tells how many
 #'   triangles a hole of the specimen costs a denser surface.
+#' @template glossary
 #' @seealso [fit_shape()]; [write_mesh()] to save it
 #' @examples
 #' \donttest{

@@ -99,6 +99,7 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' @return k x 3 matrix with columns x, y, z and row names "part point" (of landmarks: their names),
 #'   NA where missing; in the unit of the mesh.
 #' @section Errors: of class `crestline_error`, for another level.
+#' @template glossary
 #' @seealso [fit_shape()]
 #' @examples
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)

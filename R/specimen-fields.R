@@ -83,6 +83,7 @@ specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key el
 #' @return The specimen.
 #' @section Errors: of class `crestline_error`: landmarks that are no k x 3 numeric matrix with row
 #'   names, a mesh that [specimen()] refuses, a field that specimens do not have.
+#' @template glossary
 #' @seealso [specimen()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1)), id = "ball")

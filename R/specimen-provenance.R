@@ -180,6 +180,7 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #'   `file`), `landmarks` (data frame `landmark`, `how`, `file`, `time`), `template` (`id`, `hash`),
 #'   `specimens` (data frame `id`, `file`, `key`, `landmarks`), `settings`). Of a `shape_pca` that
 #'   of `prcomp` with `provenance`.
+#' @template glossary
 #' @seealso [summary.group_comparison()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
@@ -199,5 +200,23 @@ comment_lines.specimen <- function(x) provenance_comments(provenance_of(x))
 #' @exportS3Method
 written_landmarks.specimen <- function(x) {
   x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")
+  inform_predicted(x)
   list(landmarks = x$landmarks, curves = attr(x, "curves"))
+}
+
+#' Say which written landmarks read_specimen() would refuse: predicted ones that lie off the scan
+#' @param tolerance As in [specimen()].
+#' @noRd
+inform_predicted <- function(x, tolerance = 0.01) {
+  predicted <- intersect(x$placing$landmark[x$placing$state == "predicted"], rownames(x$landmarks))
+  at <- x$landmarks[predicted, , drop = FALSE]
+  at <- at[stats::complete.cases(at), , drop = FALSE]
+  if (!nrow(at)) return(invisible())
+  away <- row_lengths(as.matrix(surface_points(x$mesh, at)[c("x", "y", "z")]) - at)
+  off <- rownames(at)[away > tolerance * specimen_size(x)]
+  if (!length(off)) return(invisible())
+  crestline_inform(c(
+    sprintf("specimen %s: predicted landmarks lie off the scan: %s.", x$id, shorten(off)),
+    i = "With this file read_specimen() refuses them. saveRDS() keeps the specimen as it is."
+  ))
 }

@@ -27,6 +27,7 @@
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to
 #'   do.
+#' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".ply")
 #' Rvcg::vcgPlyWrite(Rvcg::vcgSphere(2), file)

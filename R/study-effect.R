@@ -9,6 +9,8 @@
 #'
 #' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm),
 #'   `share`.
+#' @template glossary
+#' @template experimental
 #' @seealso [simulate_faces()]
 #' @examples
 #' face_effect()

@@ -49,8 +49,12 @@
 #'     each face (k x 3 places of the template to k x 3 places of the face).
 #' @section Errors: of class `crestline_error`: arguments out of their range, places without a
 #'   column, an effect of a part that is not there.
-#' @references The paper, section 6, where the truth is not known. Rahimi and Recht (2007) Random
-#'   features for large-scale kernel machines, for the random fields.
+#' @template glossary
+#' @template experimental
+#' @templateVar where section 6
+#' @template paper
+#' @references Rahimi and Recht (2007) Random features for large-scale
+#'   kernel machines, for the random fields.
 #' @seealso [true_points()], [face_effect()], [fit_shapes()], [compare_groups()]
 #' @examples
 #' faces <- simulate_faces(2, effect = 2, seed = 1)

@@ -37,8 +37,10 @@
 #'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it; and `truth_curvature`
 #'   the locus of greatest curvature beside it, the same, NA from where it ends.
 #' @section Errors: of class `crestline_error`, for an argument out of its range.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   5.2.
+#' @template glossary
+#' @template experimental
+#' @templateVar where section 5.2
+#' @template paper
 #' @seealso [ridge_study()]
 #' @examples
 #' surface <- simulate_ridge(a = 0.25, b = 1, noise = 0.01, seed = 1)

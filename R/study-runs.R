@@ -27,6 +27,7 @@
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
 #' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
 #' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
+#'   `NULL`: the passes that the settings say.
 #' @param width As in [ridge_curve()], in the unit of the surface.
 #' @param points Number of points at which each curve is compared; the paper: 21.
 #' @param dir Folder for the results of a long run, made where it is not there. What is in it
@@ -51,8 +52,10 @@
 #'   row with `error`.
 #' @section Warnings: of class `crestline_keeping_warning`, where results could not be written to
 #'   `dir`.
-#' @references Vittert, Bowman and Katina (2019), "the paper" (see [crestline-package]), section
-#'   5.2.
+#' @template glossary
+#' @template experimental
+#' @templateVar where section 5.2
+#' @template paper
 #' @examples
 #' study <- ridge_study(n = 2, a = 0.25, b = 1, noise = c(0, 0.01))
 #' aggregate(distance ~ a + b + noise, study, mean)
@@ -63,7 +66,7 @@
 #' @export
 ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5),
                         b = c(0.25, 0.5, 1, 2),
-                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = 1, radius = 0.25,
+                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = NULL, radius = 0.25,
                         width = 0.4,
                         spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
                         progress = interactive(), largest = 2e6, ...) {
@@ -103,7 +106,7 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
                 spacing = c(finest, 0.5),
                 landmark_error = c(0, 2), noise = c(0, 2), b = c(0, 1e4), a = c(-100, 100))
   open <- c("radius", "b")
-  for (name in names(grid)) {
+  for (name in setdiff(names(grid), if (is.null(grid$passes)) "passes")) {
     if (!is.numeric(grid[[name]]) || !length(grid[[name]]) || !is.null(dim(grid[[name]]))) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])),
                       "Give one number or several.",
@@ -115,6 +118,7 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
       if (name == "passes") check_count(value, name, call = call) else value
     }, 0)
   }
+  if (is.null(grid$passes)) grid["passes"] <- NA_real_
   grid
 }
 
@@ -250,7 +254,7 @@ study_estimate <- function(method, surface, cell, constant) {
   }
   curve <- quiet(ridge_curve(surface, "from", "to", "ridge", cell$radius, constant$width, points,
                              settings = method,
-                             passes = cell$passes))
+                             passes = if (!is.na(cell$passes)) cell$passes))
   list(line = columns_of(curve$path, c("x", "y", "z")),
        at = columns_of(curve$points, c("x", "y", "z")),
        error = curve$points$se, se = curve$se, determined = curve$determined,

@@ -23,6 +23,8 @@
 #'   shift (in every co-ordinate) of each specimen's pose.
 #' @return A list of these settings, of class `scan_settings`.
 #' @section Errors: of class `crestline_error`, for a value out of its range.
+#' @template glossary
+#' @template experimental
 #' @seealso [simulate_faces()]
 #' @examples
 #' str(scan_settings(noise = 0, remesh = FALSE))

@@ -9,6 +9,8 @@
 #'   in the frame of each face. `true_effect()`: k x 3 matrix, the step from the mean of the first
 #'   group to that of the second, without size.
 #' @section Errors: of class `crestline_error`: no simulated faces, or no points.
+#' @template glossary
+#' @template experimental
 #' @seealso [simulate_faces()]
 #' @examples
 #' faces <- simulate_faces(4, effect = c(brow = 2), scan = NULL, seed = 1)

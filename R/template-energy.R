@@ -25,7 +25,10 @@
 #'   x k, 0 in rows that are left out; 1 / unit), `affine` (number of affine functions).
 #' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two
 #'   points at one place without a nugget; a configuration of other points.
-#' @references Up to a constant factor, the integral of the paper, section 4. Bookstein (1989)
+#' @template glossary
+#' @templateVar where section 4 (the same integral up to a constant factor)
+#' @template paper
+#' @references Bookstein (1989)
 #'   Principal warps, *IEEE Transactions on Pattern Analysis and Machine Intelligence* 11, 567-585;
 #'   Gunz, Mitteroecker and Bookstein (2005) Semilandmarks in three dimensions.
 #' @seealso [slide()]

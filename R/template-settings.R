@@ -70,7 +70,9 @@
 #' @return List of class `slide_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value out of
 #'   range.
-#' @references The paper, section 4.
+#' @template glossary
+#' @templateVar where section 4
+#' @template paper
 #' @examples
 #' slide_settings(strain = 0)
 #' slide_settings("paper")

@@ -48,7 +48,9 @@
 #' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not
 #'   keep its specimen; of class `crestline_wrong_mesh`: a specimen with another mesh than the
 #'   shape's.
-#' @references The paper, section 4. Where the default departs from it: `slide_settings("paper")`.
+#' @templateVar where section 4
+#' @template paper
+#' @details The defaults differ from the paper's, which are `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
 #' @examples
 #' \donttest{

@@ -22,8 +22,11 @@
 #'   that have a partner.
 #' @section Warnings: of class `crestline_unpaired`, naming the landmarks that are in no pair but
 #'   lie beside the mid-plane.
+#' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
-#'   *Evolution* 56, 1909-1920; the paper, section 4.
+#'   *Evolution* 56, 1909-1920.
+#' @templateVar where section 4
+#' @template paper
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -159,15 +162,18 @@ template_shape <- function(shape, xyz, id, se = NA_real_) {
 #' @noRd
 mirror_places <- function(scheme) {
   points <- scheme$points
-  mirrored <- c(partner_of(points$part[points$level == "landmarks"], scheme$pairs, "landmarks"),
-                mirror_curve_rows(scheme), mirror_surface_rows(scheme))
-  level <- points$level
-  name <- c(paste(level, points$part, points$point, sep = "|"))
-  mirrored[level == "landmarks"] <- paste("landmarks", mirrored[level == "landmarks"], "1",
-                                          sep = "|")
-  place <- unique(points$place)
   first <- !duplicated(points$place)
-  match(points$place[match(mirrored[first], name)], place)
+  match(points$place[mirror_rows(scheme)[first]], points$place[first])
+}
+
+#' The row of a scheme's points that each is mirrored to, of the same level
+#' @noRd
+mirror_rows <- function(scheme) {
+  points <- scheme$points
+  own <- partner_of(points$part[points$level == "landmarks"], scheme$pairs, "landmarks")
+  mirrored <- c(paste("landmarks", own, "1", sep = "|"), mirror_curve_rows(scheme),
+                mirror_surface_rows(scheme))
+  match(mirrored, paste(points$level, points$part, points$point, sep = "|"))
 }
 
 #' Names of the points that curve points are mirrored to: a curve whose ends are exchanged runs

@@ -25,9 +25,9 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_curvature_variance
-NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix jacobian, NumericVector sigma, List settings);
-RcppExport SEXP _crestline_cpp_curvature_variance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP jacobianSEXP, SEXP sigmaSEXP, SEXP settingsSEXP) {
+// cpp_curvature_covariance
+List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix design, NumericVector sigma, double smooth, double range, List settings);
+RcppExport SEXP _crestline_cpp_curvature_covariance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP designSEXP, SEXP sigmaSEXP, SEXP smoothSEXP, SEXP rangeSEXP, SEXP settingsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -35,10 +35,26 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
-    Rcpp::traits::input_parameter< NumericMatrix >::type jacobian(jacobianSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type design(designSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type sigma(sigmaSEXP);
+    Rcpp::traits::input_parameter< double >::type smooth(smoothSEXP);
+    Rcpp::traits::input_parameter< double >::type range(rangeSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature_variance(vb, it, targets, directions, jacobian, sigma, settings));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_covariance(vb, it, targets, directions, design, sigma, smooth, range, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_biweight_design
+NumericMatrix cpp_biweight_design(NumericVector knots, NumericVector x, double half, int derivative);
+RcppExport SEXP _crestline_cpp_biweight_design(SEXP knotsSEXP, SEXP xSEXP, SEXP halfSEXP, SEXP derivativeSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericVector >::type knots(knotsSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
+    Rcpp::traits::input_parameter< double >::type half(halfSEXP);
+    Rcpp::traits::input_parameter< int >::type derivative(derivativeSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_biweight_design(knots, x, half, derivative));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -635,10 +651,39 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_permuted_forms
+NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericMatrix whole, IntegerMatrix orders);
+RcppExport SEXP _crestline_cpp_permuted_forms(SEXP gramSEXP, SEXP ownSEXP, SEXP wholeSEXP, SEXP ordersSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type gram(gramSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type own(ownSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type whole(wholeSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type orders(ordersSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_permuted_forms(gram, own, whole, orders));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_permuted_squares
+List cpp_permuted_squares(NumericMatrix residuals, NumericMatrix basis, int df, IntegerMatrix orders);
+RcppExport SEXP _crestline_cpp_permuted_squares(SEXP residualsSEXP, SEXP basisSEXP, SEXP dfSEXP, SEXP ordersSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type residuals(residualsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type basis(basisSEXP);
+    Rcpp::traits::input_parameter< int >::type df(dfSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type orders(ordersSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_permuted_squares(residuals, basis, df, orders));
+    return rcpp_result_gen;
+END_RCPP
+}
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
-    {"_crestline_cpp_curvature_variance", (DL_FUNC) &_crestline_cpp_curvature_variance, 7},
+    {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 9},
+    {"_crestline_cpp_biweight_design", (DL_FUNC) &_crestline_cpp_biweight_design, 4},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
     {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
@@ -680,6 +725,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_warp_gram", (DL_FUNC) &_crestline_cpp_warp_gram, 6},
     {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
+    {"_crestline_cpp_permuted_forms", (DL_FUNC) &_crestline_cpp_permuted_forms, 4},
+    {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 4},
     {NULL, NULL, 0}
 };
 

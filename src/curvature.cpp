@@ -3,7 +3,10 @@
 #include "interrupt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -93,18 +96,30 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
   return out;
 }
 
-std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<int>& targets,
-                                       const double* directions, const double* jacobian,
-                                       int functions, const double* sigma,
-                                       const FitSettings& settings,
-                                       const std::function<void()>& between) {
+namespace {
+
+using Entry = std::pair<int, double>;
+
+// How the functions respond to the height of each vertex that any of them depends on.
+struct Responses {
+  std::vector<int> vertex;
+  std::vector<std::vector<Entry>> by_function;  // of each such vertex, what is not 0
+  std::vector<double> own;                      // sum of squares of the curvatures' own responses
+};
+
+Responses responses(const MeshView& mesh, const std::vector<int>& targets, const double* directions,
+                    const double* design, int functions, const FitSettings& settings,
+                    const std::function<void()>& between) {
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
   std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0), derivative, total;
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
   ConnectedBalls::Workspace space = balls.workspace();
   FitBuffer buffer;
   Patience patience(between);
-  std::vector<int> column(mesh.n, -1), touched;  // column of `total` of each vertex
+  std::vector<int> column(mesh.n, -1);  // of each vertex, its column of `total`
+  std::vector<Entry> row;
+  Responses out;
+  std::size_t height = functions;
   for (int cell = 0; cell < balls.cells(); ++cell) {
     fit_cell(balls, cell, mesh, targets, normals, settings, space, buffer, patience, 0,
              [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace& w) {
@@ -112,29 +127,108 @@ std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<i
                derivative.resize(fit.neighbours);
                curvature_derivative(fit, directions + 3 * static_cast<std::size_t>(t), settings,
                                     buffer, derivative.data());
-               const double* j = jacobian + static_cast<std::size_t>(functions) * t;
+               row.clear();
+               for (int g = 0; g < functions; ++g) {
+                 double value = design[t + targets.size() * g];
+                 if (value != 0) row.push_back({g, value});
+               }
                for (int i = 0; i < fit.neighbours; ++i) {
                  int v = w.candidate[w.selected[i]];
                  if (column[v] < 0) {
-                   column[v] = static_cast<int>(touched.size());
-                   touched.push_back(v);
-                   total.resize(touched.size() * functions, 0.0);
+                   column[v] = static_cast<int>(out.vertex.size());
+                   out.vertex.push_back(v);
+                   out.own.push_back(0);
+                   total.resize(out.vertex.size() * height, 0.0);
                  }
-                 double* row = &total[static_cast<std::size_t>(functions) * column[v]];
+                 double* sum = &total[height * column[v]];
                  double slope = derivative[i];
-#pragma omp simd
-                 for (int g = 0; g < functions; ++g) row[g] += slope * j[g];
+                 for (const Entry& entry : row) sum[entry.first] += slope * entry.second;
+                 out.own[column[v]] += slope * slope;
                }
              });
     patience.finish();
   }
-  std::vector<double> variance(functions, 0.0);
-  for (std::size_t c = 0; c < touched.size(); ++c)
-    for (int g = 0; g < functions; ++g) {
-      double error = total[functions * c + g] * sigma[touched[c]];
-      variance[g] += error * error;
+  out.by_function.resize(out.vertex.size());
+  for (std::size_t c = 0; c < out.vertex.size(); ++c)
+    for (int g = 0; g < functions; ++g)
+      if (total[height * c + g] != 0) out.by_function[c].push_back({g, total[height * c + g]});
+  return out;
+}
+
+// Calls use(j) for every place j (from 0, one of n, itself among them) within `reach` of each i in turn: by a grid
+// of cells of that side.
+template <class Start, class Use>
+void visit_near(const std::vector<double>& xyz, double reach, const std::function<void()>& between,
+                Start&& start, Use&& use) {
+  int n = static_cast<int>(xyz.size() / 3);
+  auto cell = [&](int i, int a) { return static_cast<long>(std::floor(xyz[3 * i + a] / reach)); };
+  std::map<std::array<long, 3>, std::vector<int>> grid;
+  for (int i = 0; i < n; ++i) grid[{cell(i, 0), cell(i, 1), cell(i, 2)}].push_back(i);
+  for (int i = 0; i < n; ++i) {
+    if (i % 256 == 0) between();
+    start(i);
+    for (long x = cell(i, 0) - 1; x <= cell(i, 0) + 1; ++x)
+      for (long y = cell(i, 1) - 1; y <= cell(i, 1) + 1; ++y)
+        for (long z = cell(i, 2) - 1; z <= cell(i, 2) + 1; ++z) {
+          auto found = grid.find({x, y, z});
+          if (found == grid.end()) continue;
+          for (int j : found->second) {
+            double square = 0;
+            for (int a = 0; a < 3; ++a) {
+              double step = xyz[3 * i + a] - xyz[3 * j + a];
+              square += step * step;
+            }
+            if (square <= reach * reach) use(i, j, square);
+          }
+        }
+  }
+}
+
+}  // namespace
+
+CurvatureCovariance curvature_covariance(const MeshView& mesh, const std::vector<int>& targets,
+                                         const double* directions, const double* design,
+                                         int functions, const HeightNoise& noise,
+                                         const FitSettings& settings,
+                                         const std::function<void()>& between) {
+  Responses r = responses(mesh, targets, directions, design, functions, settings, between);
+  std::size_t size = functions;
+  CurvatureCovariance out{std::vector<double>(size * size, 0.0), 0.0};
+  for (std::size_t c = 0; c < r.vertex.size(); ++c) {
+    double variance = noise.sigma[r.vertex[c]] * noise.sigma[r.vertex[c]];
+    out.trace += variance * r.own[c];
+    const std::vector<Entry>& row = r.by_function[c];
+    for (std::size_t p = 0; p < row.size(); ++p) {
+      double* column = &out.matrix[size * row[p].first];
+      double slope = variance * row[p].second;
+      for (std::size_t q = p; q < row.size(); ++q) column[row[q].first] += slope * row[q].second;
     }
-  return variance;
+  }
+  for (std::size_t p = 0; p < size; ++p)
+    for (std::size_t q = 0; q < p; ++q) out.matrix[size * p + q] = out.matrix[size * q + p];
+  if (noise.smooth == 0 || noise.range == 0) return out;
+  std::vector<double> xyz;
+  for (int v : r.vertex) xyz.insert(xyz.end(), mesh.xyz + 3 * v, mesh.xyz + 3 * v + 3);
+  std::vector<double> sum(size);
+  double variance = noise.smooth * noise.smooth, scale = -1 / (2 * noise.range * noise.range);
+  int last = -1;
+  auto add = [&](int i) {
+    if (i < 0) return;
+    for (const Entry& p : r.by_function[i])
+      for (std::size_t g = 0; g < size; ++g) out.matrix[size * p.first + g] += p.second * sum[g];
+  };
+  visit_near(xyz, 4 * noise.range, between,
+             [&](int i) {
+               add(last);
+               std::fill(sum.begin(), sum.end(), 0.0);
+               last = i;
+             },
+             [&](int, int j, double square) {
+               double weight = variance * std::exp(scale * square);
+               for (const Entry& q : r.by_function[j]) sum[q.first] += weight * q.second;
+             });
+  add(last);
+  return out;
 }
 
 }  // namespace crestline

@@ -26,14 +26,25 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between);
 
-// Variance of linear functions J k of the normal curvatures k at the targets, when every vertex has
-// an independent error of standard deviation sigma along the normal; curvatures of near targets
-// share vertices. directions: 3 x targets, the tangent directions of the normal curvatures;
-// jacobian: functions x targets, column major; sigma: n. Returns one variance a function.
-std::vector<double> curvature_variance(const MeshView& mesh, const std::vector<int>& targets,
-                                       const double* directions, const double* jacobian,
-                                       int functions, const double* sigma,
-                                       const FitSettings& settings,
-                                       const std::function<void()>& between);
+// Errors of the vertices along the normal: independent with standard deviation sigma (n values), and besides smooth
+// in space with standard deviation `smooth` and correlation exp(-(distance / range)^2 / 2).
+struct HeightNoise {
+  const double* sigma;
+  double smooth, range;
+};
+
+struct CurvatureCovariance {
+  std::vector<double> matrix;  // of the functions, square
+  double trace;                // sum of the variances of the curvatures themselves, of the independent errors alone
+};
+
+// Covariance of linear functions X' k of the normal curvatures k at the targets, when the vertices have errors:
+// curvatures of near targets share vertices. directions: 3 x targets, the tangent directions of the normal
+// curvatures; design: targets x functions, column major, mostly zeros.
+CurvatureCovariance curvature_covariance(const MeshView& mesh, const std::vector<int>& targets,
+                                         const double* directions, const double* design,
+                                         int functions, const HeightNoise& noise,
+                                         const FitSettings& settings,
+                                         const std::function<void()>& between);
 
 }  // namespace crestline

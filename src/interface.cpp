@@ -28,6 +28,7 @@
 #include "path_plane.h"
 #include "path_resample.h"
 #include "draw_render.h"
+#include "ridge_kernel.h"
 #include "ridge_surface.h"
 #include "shape_column.h"
 #include "template_joint.h"
@@ -206,17 +207,28 @@ List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, Li
                       _["order"] = c.order, _["sigma"] = c.sigma, _["neighbours"] = c.neighbours);
 }
 
+// design: targets x functions; sigma: one a vertex; smooth, range: of the correlated part, 0: none.
 // [[Rcpp::export]]
-NumericVector cpp_curvature_variance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets,
-                                     NumericMatrix directions, NumericMatrix jacobian,
-                                     NumericVector sigma, List settings) {
+List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets,
+                              NumericMatrix directions, NumericMatrix design, NumericVector sigma,
+                              double smooth, double range, List settings) {
   crestline::FitSettings fit = fit_settings(settings);
   crestline::Crop near = crop(vb, it, targets, fit.radius);
   std::vector<double> near_sigma;
   for (int v : near.vertex) near_sigma.push_back(sigma[v]);
-  return wrap(crestline::curvature_variance(view(near), near.local, directions.begin(),
-                                            jacobian.begin(), jacobian.nrow(), near_sigma.data(),
-                                            fit, [] { checkUserInterrupt(); }));
+  int size = design.ncol();
+  crestline::CurvatureCovariance c = crestline::curvature_covariance(
+      view(near), near.local, directions.begin(), design.begin(), size, {near_sigma.data(), smooth, range}, fit,
+      [] { checkUserInterrupt(); });
+  return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
+}
+
+// knots rising, x within them; derivative 0, 1 or 2.
+// [[Rcpp::export]]
+NumericMatrix cpp_biweight_design(NumericVector knots, NumericVector x, double half, int derivative) {
+  int k = knots.size() - 4;
+  std::vector<double> design = crestline::biweight_design(knots.begin(), k, x.begin(), x.size(), half, derivative);
+  return NumericMatrix(static_cast<int>(x.size()), k, design.begin());
 }
 
 // vb has three rows or more, it three.

@@ -1,16 +1,20 @@
-# How the sources hang together, as figures; the rules that must hold are in tests/testthat/test-layers.R.
+# How the sources hang together, as figures; the rules that must hold are in
+# tests/testthat/test-layers.R.
 #
 #   Rscript tools/architecture.R        (from the package's root; the package must be installed)
 #
-# Static, from the parsed sources: functions, longest function, internal functions with a single caller, the longest
-# chain of calls below fit_shape(), the longest chain of functions that hand an argument on under its own name.
+# Static, from the parsed sources: functions, longest function, internal functions with a single
+# caller, the longest chain of calls below fit_shape(), the longest chain of functions that hand an
+# argument on under its own name.
 # Dynamic, from one fit_shape() of Rvcg's face: calls, files entered, argument checks.
 source("tests/testthat/helper-layers.R")
 
 defined <- sources_of("R")
 calls <- calls_between(defined)
-exports <- sub("^export\\((.*)\\)$", "\\1", grep("^export\\(", readLines("NAMESPACE"), value = TRUE))
-methods <- gsub("^S3method\\((generics::)?\"?|\"?\\)$", "", grep("^S3method", readLines("NAMESPACE"), value = TRUE))
+exports <- sub("^export\\((.*)\\)$", "\\1",
+               grep("^export\\(", readLines("NAMESPACE"), value = TRUE))
+methods <- gsub("^S3method\\((generics::)?\"?|\"?\\)$", "",
+                grep("^S3method", readLines("NAMESPACE"), value = TRUE))
 methods <- sub("\"?,\"?", ".", methods)
 
 # Longest path below a function, a cycle counted as one step.
@@ -57,16 +61,20 @@ longest <- vapply(unique(chain$name), function(name) {
   1 + max(vapply(unique(own$from), depth_below, 0, own))
 }, 0)
 callers <- table(factor(calls$to, unique(names(defined))))
-internal <- setdiff(names(Filter(function(one) is_function(one$value), defined)), c(exports, methods))
+internal <- setdiff(names(Filter(function(one) is_function(one$value), defined)),
+                    c(exports, methods))
 lines <- vapply(defined, function(one) one$lines, 0)
 
-cat(sprintf("functions and values %d in %d files, %d lines of R\n", length(defined), length(unique(vapply(defined, `[[`, "", "file"))),
+cat(sprintf("functions and values %d in %d files, %d lines of R\n", length(defined),
+            length(unique(vapply(defined, `[[`, "", "file"))),
             sum(vapply(list.files("R", full.names = TRUE), function(f) length(readLines(f)), 0L))))
 cat(sprintf("longest function: %s, %d lines\n", names(which.max(lines)), max(lines)))
-cat(sprintf("internal functions with a single caller: %.0f %%\n", 100 * mean(callers[internal] == 1)))
+cat(sprintf("internal functions with a single caller: %.0f %%\n",
+            100 * mean(callers[internal] == 1)))
 cat(sprintf("depth below fit_shape(): %d\n", depth_below("fit_shape", calls)))
 longest <- sort(longest, decreasing = TRUE)
-cat("argument handed on through most functions:", paste0(names(longest)[1:5], " ", longest[1:5], collapse = ", "), "\n")
+cat("argument handed on through most functions:",
+    paste0(names(longest)[1:5], " ", longest[1:5], collapse = ", "), "\n")
 
 options(rgl.useNULL = TRUE)
 space <- asNamespace("crestline")
@@ -90,5 +98,7 @@ scheme <- face_scheme()
 rm(list = ls(tally), envir = tally)
 invisible(space$fit_shape(face, scheme, progress = FALSE))
 number <- unlist(as.list(tally))
-cat(sprintf("one fit_shape(): %d calls of %d functions in %d files, %d argument checks\n", sum(number), length(number),
-            length(unique(vapply(defined[names(number)], `[[`, "", "file"))), sum(number[grepl("^check_", names(number))])))
+cat(sprintf("one fit_shape(): %d calls of %d functions in %d files, %d argument checks\n",
+            sum(number), length(number),
+            length(unique(vapply(defined[names(number)], `[[`, "", "file"))),
+            sum(number[grepl("^check_", names(number))])))

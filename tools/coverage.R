@@ -1,4 +1,5 @@
-# Rscript tools/coverage.R TREE REPORT: runs the tests of TREE under covr and writes shares of lines run to REPORT.
+# Rscript tools/coverage.R TREE REPORT: runs the tests of TREE under covr and writes shares of lines
+# run to REPORT.
 library(covr)
 
 # covr compiles at -O0; the tests would take several times as long.
@@ -8,12 +9,14 @@ share <- function(lines) 100 * mean(lines$value > 0)
 
 file_rows <- function(lines) {
   by_file <- split(lines, lines$filename)
-  sprintf("    %6.1f %%  %5d lines  %s", vapply(by_file, share, 0), vapply(by_file, nrow, 0L), names(by_file))
+  sprintf("    %6.1f %%  %5d lines  %s", vapply(by_file, share, 0), vapply(by_file, nrow, 0L),
+          names(by_file))
 }
 
 # One line a language; UNDER marks what coverage.sh fails on.
 verdict <- function(name, lines, least) {
-  if (nrow(lines) == 0) return(sprintf("UNDER %g %%: %s has no lines that could be counted", least, name))
+  if (nrow(lines) == 0) return(sprintf("UNDER %g %%: %s has no lines that could be counted", least,
+                                       name))
   sprintf("%s %g %%: %s %.1f %% of %d lines", if (share(lines) < least) "UNDER" else "at least",
           least, name, share(lines), nrow(lines))
 }
@@ -23,5 +26,6 @@ least <- as.numeric(Sys.getenv("COVERAGE_MIN", "90"))
 lines <- tally_coverage(package_coverage(argument[1], type = "tests", quiet = FALSE), by = "line")
 is_r <- grepl("^R/", lines$filename)
 writeLines(
-  c(file_rows(lines), verdict("R", lines[is_r, ], least), verdict("C++", lines[!is_r, ], least)), argument[2]
+  c(file_rows(lines), verdict("R", lines[is_r, ], least), verdict("C++", lines[!is_r, ], least)),
+  argument[2]
 )

@@ -1,4 +1,5 @@
-# Rscript tools/lint.R R tools: every lint of the files in these folders, then their number by linter.
+# Rscript tools/lint.R R tools: every lint of the files in these folders, then their number by
+# linter.
 # Status 1 where there is any. Files are shared out among the cores.
 
 lint_file <- function(file) as.data.frame(lintr::lint(file, parse_settings = TRUE))

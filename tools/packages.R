@@ -1,7 +1,8 @@
 # Prints, one a line, R packages that DESCRIPTION asks for and this R lacks.
 #   Rscript tools/packages.R missing   those named in DESCRIPTION
 #   Rscript tools/packages.R closure   those, and what they need in turn (asks CRAN)
-#   Rscript tools/packages.R install   installs them from CRAN into the first library that can be written
+#   Rscript tools/packages.R install installs them from CRAN into the first library that can be
+#   written
 
 # Suggested packages whose current versions ask for a newer R than crestline does.
 needs_r <- c(geomorph = "4.4.0", RRPP = "4.4.0")
@@ -56,7 +57,8 @@ writable_library <- function() {
   library_path
 }
 
-# Fails where a package that crestline imports cannot be had, or one that CRAN offers cannot be installed.
+# Fails where a package that crestline imports cannot be had, or one that CRAN offers cannot be
+# installed.
 install_missing <- function(package) {
   offered <- intersect(package, rownames(with_cran()))
   lib <- writable_library()

@@ -1,5 +1,5 @@
-# The pictures of README.md: Rvcg's humface with its curves, over shape index, and the surface model between them;
-# and what the README's ten lines draw.
+# The pictures of README.md: Rvcg's humface with its curves, over shape index, and the surface model
+# between them; and what the README's ten lines draw.
 # Run from the project's root, crestline being installed: Rscript tools/readme-picture.R
 
 library(crestline)
@@ -29,9 +29,11 @@ draw_readme <- function(file, radius = 7) {
   on.exit(grDevices::dev.off())
   graphics::layout(t(1:3), widths = c(1, 1, 1.24))
   view <- function(round) upright_view(face$landmarks, round)
-  plot(shape, face, surface = "plain", patches = FALSE, band = FALSE, engine = "picture", view = view(0), legend = FALSE)
+  plot(shape, face, surface = "plain", patches = FALSE, band = FALSE, engine = "picture",
+       view = view(0), legend = FALSE)
   plot(shape, points = FALSE, engine = "picture", view = view(0.35))
-  plot(shape, face, patches = FALSE, engine = "picture", view = view(0.65), curvature = curvature(face, radius))
+  plot(shape, face, patches = FALSE, engine = "picture", view = view(0.65),
+       curvature = curvature(face, radius))
 }
 
 draw_readme(file.path("man", "figures", "README-face.jpg"))

@@ -1,6 +1,6 @@
-# Runs all tests against the installed crestline: a line a file, then what failed and was skipped, then
-#   N passed, N failed, N skipped
-# counted in test_that() blocks. An error counts as failed, one outside a block too; no test at all is a failure.
+# Runs all tests against the installed crestline: a line a file, then what failed and was skipped,
+# then N passed, N failed, N skipped counted in test_that() blocks. An error counts as failed, one
+# outside a block too; no test at all is a failure.
 suppressMessages(library(testthat))
 Sys.setenv(NOT_CRAN = "true")
 
@@ -20,7 +20,8 @@ describe <- function(block, kinds) {
 }
 
 unreadable <- function(file, problem) {
-  result <- structure(list(message = conditionMessage(problem)), class = c("expectation_error", "condition"))
+  result <- structure(list(message = conditionMessage(problem)),
+                      class = c("expectation_error", "condition"))
   list(list(file = basename(file), test = NA_character_, results = list(result)))
 }
 
@@ -53,5 +54,6 @@ print_section("Warnings:", about("expectation_warning"))
 print_section("Failed:", about(c("expectation_failure", "expectation_error")))
 count <- tally(blocks)
 if (sum(count) == 0) cat("\nNo test was run: that is a failure.\n")
-cat(sprintf("\n%d passed, %d failed, %d skipped\n", count[["passed"]], count[["failed"]], count[["skipped"]]))
+cat(sprintf("\n%d passed, %d failed, %d skipped\n", count[["passed"]], count[["failed"]],
+count[["skipped"]]))
 quit(status = as.integer(count[["failed"]] > 0 || count[["passed"]] == 0))

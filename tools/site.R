@@ -1,9 +1,10 @@
-# Builds the site with pkgdown into a folder, without a network, from the installed crestline: Rscript tools/site.R FOLDER
-# Formulas become MathML (pandoc), where pkgdown would fetch MathJax.
+# Builds the site with pkgdown into a folder, without a network, from the installed crestline:
+# Rscript tools/site.R FOLDER Formulas become MathML (pandoc), where pkgdown would fetch MathJax.
 options(pkgdown.internet = FALSE, rgl.useNULL = TRUE)
 
 # Where a package that is spoken of is not installed its address is asked of CRAN: none here.
-assignInNamespace("CRAN_urls", function() data.frame(Package = character(), URL = character()), "downlit")
+assignInNamespace("CRAN_urls", function() data.frame(Package = character(), URL = character()),
+                  "downlit")
 
 site <- normalizePath(commandArgs(TRUE)[1], mustWork = FALSE)
 
@@ -18,7 +19,8 @@ mathml <- function(formulas, sign) {
   found
 }
 
-# In articles formulas stand in \( \) and \[ \] within spans of class math, in the reference in \( \) or $$ $$ of the text.
+# In articles formulas stand in \( \) and \[ \] within spans of class math, in the reference in \(
+# \) or $$ $$ of the text.
 formula_marks <- list(
   list(place = '(?s)<span class="math inline">\\\\\\((.+?)\\\\\\)</span>', sign = "$"),
   list(place = '(?s)<span class="math display">\\\\\\[(.+?)\\\\\\]</span>', sign = "$$"),
@@ -43,7 +45,8 @@ replace_formulas <- function(file) {
   count
 }
 
-pkgdown::build_site(".", override = list(destination = site), preview = FALSE, install = FALSE, new_process = FALSE,
+pkgdown::build_site(".", override = list(destination = site), preview = FALSE, install = FALSE,
+                    new_process = FALSE,
                     lazy = FALSE)
 pages <- list.files(site, "[.]html$", recursive = TRUE, full.names = TRUE)
 formulas <- vapply(pages, replace_formulas, 0L)

@@ -1,8 +1,11 @@
-# The simulation studies behind the vignettes "How good are the curves?" and "Curvature: bias and variance": runs them
-# and says whether they agree with the tables that ship with the vignettes. From the package's root, crestline being installed:
+# The simulation studies behind the vignettes "How good are the curves?" and "Curvature: bias and
+# variance": runs them and says whether they agree with the tables that ship with the vignettes.
+# From the package's root, crestline being installed:
 #   Rscript tools/studies.R [N = 500] [write] [ridges] [alternatives] [bias]
-# N: simulations a setting; 20 is a short run, compared with the first 20 seeds of the tables. write: make the tables anew.
-# Without a name all studies run. Results are kept in studies-output/ as they come, and a run that was cut short goes on there.
+# N: simulations a setting; 20 is a short run, compared with the first 20 seeds of the tables.
+# write: make the tables anew.
+# Without a name all studies run. Results are kept in studies-output/ as they come, and a run that
+# was cut short goes on there.
 options(rgl.useNULL = TRUE)
 library(crestline)
 # In an environment of its own, that goes to the workers with the functions.
@@ -17,16 +20,19 @@ first_few <- 20L # seeds whose mean is kept beside that of all
 # The installed package's sources, so that results of other sources are not taken up.
 output <- function(name) {
   key <- system.file("source-key", package = "crestline")
-  file.path("studies-output", if (nzchar(key)) substr(readLines(key, 1), 1, 12) else "unknown", name)
+  file.path("studies-output", if (nzchar(key)) substr(readLines(key, 1), 1, 12) else "unknown",
+            name)
 }
 
-# --- Section 5.2: the paper's factors, one at a time about a = 0.25, noise 0.01, and bend x sharpness x noise in full ------------
+# --- Section 5.2: the paper's factors, one at a time about a = 0.25, noise 0.01, and three in full
+# sharpness x noise in full ----
 
 ridge_factors <- function() {
   base <- list(a = 0.25, b = c(1, 2), noise = 0.01)
   about <- function(...) utils::modifyList(base, list(...))
   list(
-    "bend, sharpness, noise" = about(a = c(0, 0.25, 0.5), b = c(0.25, 0.5, 1, 2), noise = c(0, 0.01, 0.05)),
+    "bend, sharpness, noise" = about(a = c(0, 0.25, 0.5), b = c(0.25, 0.5, 1, 2),
+                                     noise = c(0, 0.01, 0.05)),
     noise = about(noise = c(0.02, 0.1)),
     landmarks = about(landmark_error = c(0.05, 0.1, 0.2)),
     "landmarks, much noise" = about(noise = 0.05, landmark_error = 0.1),
@@ -49,7 +55,8 @@ run_alternatives <- function(n, most = 200L) {
   factors <- list("bend, sharpness, noise" = about(a = c(0, 0.25, 0.5), noise = c(0, 0.01, 0.05)),
                   landmarks = about(landmark_error = 0.1), radius = about(radius = 0.15))
   methods <- bench$alternatives()
-  if (is.null(methods$"principal curve")) cat("princurve is not installed: the principal curve is left out.\n")
+  if (is.null(methods$"principal curve")) cat(paste("princurve is not installed: the principal",
+                                                    "curve is left out.\n"))
   run_factors(factors, methods, min(n, most), output("alternatives"))
 }
 
@@ -64,15 +71,18 @@ run_factors <- function(factors, methods, n, dir) {
 
 # A row a cell: means over the simulations, and the standard error of the mean distance.
 summarise <- function(study) {
-  setting <- c("a", "b", "noise", "landmark_error", "spacing", "radius", "correlation", "passes", "method")
+  setting <- c("a", "b", "noise", "landmark_error", "spacing", "radius", "correlation", "passes",
+               "method")
   cell <- interaction(study[setting], drop = TRUE, lex.order = TRUE)
   rows <- lapply(split(study, cell), function(one) {
     average <- function(x) if (all(is.na(x))) NA else mean(x, na.rm = TRUE)
-    cbind(one[1, setting], n = nrow(one), failed = sum(!is.na(one$error)), distance = average(one$distance),
+    cbind(one[1, setting], n = nrow(one), failed = sum(!is.na(one$error)),
+          distance = average(one$distance),
           distance_error = stats::sd(one$distance, na.rm = TRUE) / sqrt(sum(!is.na(one$distance))),
           distance_first = average(one$distance[one$seed <= first_few]),
           distance_determined = average(one$distance[one$determined %in% TRUE]),
-          distance_curvature = average(one$distance_curvature), se = average(one$se), covered = average(one$covered),
+          distance_curvature = average(one$distance_curvature), se = average(one$se),
+          covered = average(one$covered),
           covered_curvature = average(one$covered_curvature), determined = average(one$determined),
           converged = average(one$converged), seconds = mean(one$seconds))
   })
@@ -81,10 +91,10 @@ summarise <- function(study) {
   out
 }
 
-# --- Tables that ship with the vignettes ---------------------------------------------------------------------------------------
+# --- Tables that ship with the vignettes ----
 
-# Equal to `same`, relatively, where neither code nor platform changed; else within `limit` standard errors of the
-# difference, or `least` spacings (per cent of bias), which is agreement too.
+# Equal to `same`, relatively, where neither code nor platform changed; else within `limit` standard
+# errors of the difference, or `least` spacings (per cent of bias), which is agreement too.
 compare <- function(found, kept, value, error, setting, same = 1e-6, limit = 4, least = 0.02) {
   key <- function(table) do.call(paste, c(lapply(table[setting], format_key), sep = " | "))
   at <- match(key(found), key(kept))
@@ -100,13 +110,15 @@ compare <- function(found, kept, value, error, setting, same = 1e-6, limit = 4, 
   verdict[is.na(verdict)] <- "differs"
   print(table(verdict, dnn = NULL))
   bad <- verdict %in% c("differs", "not in the table")
-  if (any(bad)) print(utils::head(cbind(found[setting], here = here, table = there)[bad, ], 40), row.names = FALSE)
+  if (any(bad)) print(utils::head(cbind(found[setting], here = here, table = there)[bad, ], 40),
+                      row.names = FALSE)
   !any(bad)
 }
 
 format_key <- function(x) as.character(if (is.numeric(x)) signif(x, 6) else x)
 
-# The value to be compared: of all simulations where there are as many as in the table, else of the first few.
+# The value to be compared: of all simulations where there are as many as in the table, else of the
+# first few.
 settle <- function(name, found, setting, value, error) {
   file <- file.path("vignettes", paste0(name, ".csv"))
   if ("write" %in% argument) {
@@ -123,7 +135,7 @@ settle <- function(name, found, setting, value, error) {
   compare(found, kept, value, error, setting)
 }
 
-# --- All of them ---------------------------------------------------------------------------------------------------------------
+# --- All of them ----
 
 study <- function(name, run, setting, value, error) {
   if (length(intersect(argument, names(studies))) && !name %in% argument) return(TRUE)
@@ -134,11 +146,13 @@ study <- function(name, run, setting, value, error) {
 }
 
 studies <- c(ridges = "ridge-study", alternatives = "alternatives", bias = "curvature-bias")
-ridge_setting <- c("a", "b", "noise", "landmark_error", "spacing", "radius", "correlation", "passes", "method")
+ridge_setting <- c("a", "b", "noise", "landmark_error", "spacing", "radius", "correlation",
+                   "passes", "method")
 future::plan("multisession", workers = future::availableCores())
 progressr::handlers(global = FALSE)
 agree <- c(study("ridges", run_ridges, ridge_setting, "distance", "distance_error"),
            study("alternatives", run_alternatives, ridge_setting, "distance", "distance_error"),
            study("bias", bench$run_bias, bench$bias_setting, "bias", "bias_error"))
-cat(if (all(agree)) "All studies agree with the tables in vignettes/.\n" else "Some cells differ from the tables in vignettes/.\n")
+cat(if (all(agree)) "All studies agree with" else "Some cells differ from",
+    "the tables in vignettes/.\n")
 quit(status = as.integer(!all(agree)))

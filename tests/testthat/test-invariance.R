@@ -54,7 +54,9 @@ expect_invariant <- function(specimen, curve, factors = c(1e-3, 1e3)) {
   testthat::expect_equal(moved$points$se, own$points$se, tolerance = 1e-5)
   shuffled <- curve(reordered(specimen), 1)
   testthat::expect_lt(curve_difference(own, shuffled, specimen), tolerances$invariance)
-  testthat::expect_equal(shuffled$points$d, own$points$d, tolerance = 1e-5)
+  # A length like the points' own: about a second pass's reference offsets are a small remainder.
+  size <- max(apply(specimen$mesh$vb[1:3, ], 1, function(x) diff(range(x))))
+  testthat::expect_lt(max(abs(shuffled$points$d - own$points$d)) / size, tolerances$invariance)
 }
 
 expect_reversible <- function(specimen, curve) {

@@ -4,9 +4,11 @@ as_new <- function(former) rlang::reset_message_verbosity(paste("crestline:", fo
 test_that("former names do what they did, and say once what to write", {
   curve <- equator_curve()
   as_new("plot_panel(x)")
-  expect_message(panel <- draw_quietly(plot_panel(curve, grid = c(30, 21)), 500, 300), "what = \"panel\"",
+  expect_message(panel <- draw_quietly(plot_panel(curve, grid = c(30, 21)), 500, 300),
+                 "what = \"panel\"",
                  class = "crestline_deprecated")
-  said <- testthat::capture_messages(again <- draw_quietly(plot_panel(curve, grid = c(30, 21)), 500, 300))
+  said <- testthat::capture_messages(again <- draw_quietly(plot_panel(curve, grid = c(30, 21)), 500,
+                                                           300))
   expect_identical(said, character())
   expect_identical(again, draw_quietly(plot(curve, what = "panel", grid = c(30, 21)), 500, 300))
   expect_identical(again, panel)
@@ -15,7 +17,8 @@ test_that("former names do what they did, and say once what to write", {
 test_that("cuts take their colours by the former names of arguments", {
   ball <- specimen(Rvcg::vcgSphere(4), rbind(east = c(1, 0, 0), front = c(0, 0, 1)), id = "ball")
   as_new("plot_cuts(specimen, from, to)")
-  expect_message(former <- drawn_pixels(plot_cuts(ball, "east", "front", c(0, 0.5), colour = c("red", "blue"),
+  expect_message(former <- drawn_pixels(plot_cuts(ball, "east", "front", c(0, 0.5),
+                                                  colour = c("red", "blue"),
                                                   engine = "picture"), 200, 200), "what = \"cuts\"")
   today <- drawn_pixels(plot(ball, what = "cuts", from = "east", to = "front", angles = c(0, 0.5),
                              colours = c("red", "blue"), engine = "picture"), 200, 200)
@@ -23,8 +26,10 @@ test_that("cuts take their colours by the former names of arguments", {
 })
 
 test_that("what was not found or refined has no such picture", {
-  expect_crestline_error(suppressMessages(plot_placing(ball_specimen())), "not found but given", id = "ball")
-  expect_crestline_error(suppressMessages(plot_refinement(ball_specimen())), "not refined", id = "ball")
+  expect_crestline_error(suppressMessages(plot_placing(ball_specimen())), "not found but given",
+                         id = "ball")
+  expect_crestline_error(suppressMessages(plot_refinement(ball_specimen())), "not refined",
+                         id = "ball")
   expect_crestline_error(plot(ball_specimen(), what = "other"), "`what`")
 })
 
@@ -32,7 +37,8 @@ test_that("writers take the file first, as they did, with a message", {
   skip_if_not_installed("htmltools")
   as_new("write_page(file, x)")
   files <- replicate(2, tempfile(fileext = ".html"))
-  expect_message(write_page(files[1], ball_specimen(), surface = "plain", selfcontained = FALSE), "write_page(x, file)",
+  expect_message(write_page(files[1], ball_specimen(), surface = "plain", selfcontained = FALSE),
+                 "write_page(x, file)",
                  fixed = TRUE)
   write_page(ball_specimen(), files[2], surface = "plain", selfcontained = FALSE)
   expect_gt(file.size(files[1]), 1000)

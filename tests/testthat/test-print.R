@@ -6,11 +6,16 @@ printable_objects <- function(made = argument_objects()) {
   curve <- suppressWarnings(ridge_curve(one, "aL", "aR", "ridge", radius = 20, width = 20, n = 7))
   sample <- suppressWarnings(homologise(made$shapes[1:4], rounds = 1, progress = FALSE))
   aligned <- align(sample, "landmarks")
-  list(one, shape, curve, curve$path, curve$surface, curve$line, made$scheme, sample, aligned, shape_pca(aligned),
-       suppressWarnings(compare_groups(sample, c(1, 1, 2, 2), "landmarks", n_perm = 9, components = 1, progress = FALSE)),
-       curve_distance(shape, made$shapes[[2]]), sample_limits(), quality_limits(), quality(made$shapes[1:2]),
-       repeatability(made$shapes[1:4], c("a", "a", "b", "b")), keep_away("aL", "aR"), keep_side("aL", "aR", "n"),
-       curvature(one, 20), ridge_settings(), find_settings(), slide_settings(), bending_energy(shape),
+  list(one, shape, curve, curve$path, curve$surface, curve$line, made$scheme, sample, aligned,
+       shape_pca(aligned),
+       suppressWarnings(compare_groups(sample, c(1, 1, 2, 2), "landmarks", n_perm = 9,
+                                       components = 1, progress = FALSE)),
+       curve_distance(shape, made$shapes[[2]]), sample_limits(), quality_limits(),
+       quality(made$shapes[1:2]),
+       repeatability(made$shapes[1:4], c("a", "a", "b", "b")), keep_away("aL", "aR"),
+       keep_side("aL", "aR", "n"),
+       curvature(one, 20), ridge_settings(), find_settings(), slide_settings(),
+       bending_energy(shape),
        landmark_template(one), simulate_faces(2, scan = NULL, seed = 1, progress = FALSE),
        structure(list(ids = 1:2), class = "rgl_scene"),
        draw_quietly(draw_surface(made$ball, resolution = 5, samples = 1)),
@@ -24,8 +29,15 @@ test_that("every class prints a header that names it", {
   named <- sub("^<([a-z_]+)>.*", "\\1", headers)
   expect_true(all(mapply(inherits, objects, named)), label = paste(headers, collapse = "; "))
   methods <- sub("^S3method[(]print,(.*)[)]$", "\\1",
-                 grep("^S3method[(]print,", readLines(system.file("NAMESPACE", package = "crestline")), value = TRUE))
+                 grep("^S3method[(]print,",
+                      readLines(system.file("NAMESPACE", package = "crestline")), value = TRUE))
   # Summaries print their object's header; a kept shape prints as the shape that it is read as.
-  expect_setequal(setdiff(methods, c("comparison_summary", "crestline_summary", "summary_shape_pca", "kept_shape")),
-                  named)
+  methods <- setdiff(methods,
+                     c("comparison_summary", "crestline_summary", "summary_shape_pca",
+                       "kept_shape"))
+  says <- function(class) {
+    body <- deparse(body(utils::getS3method("print", class, envir = asNamespace("crestline"))))
+    any(grepl(paste0("<", class, ">"), body, fixed = TRUE))
+  }
+  expect_identical(Filter(Negate(says), methods), character())
 })

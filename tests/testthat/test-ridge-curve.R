@@ -31,7 +31,7 @@ test_that("the valley between humface's lips: a curve on the mesh from corner to
   expect_true(all(lip$points$se[2:8] > 0))
   expect_lte(max(abs(lip$points$d)), 6)
   expect_identical(lip[c("id", "from", "to", "type", "radius", "width", "passes")],
-                   list(id = "humface", from = "chL", to = "st", type = "valley", radius = 5, width = 6, passes = 1L))
+                   list(id = "humface", from = "chL", to = "st", type = "valley", radius = 5, width = 6, passes = NULL))
 })
 
 test_that("every stage is kept, each of its class", {
@@ -47,7 +47,8 @@ test_that("every stage is kept, each of its class", {
 test_that("a ridge whose crest is known is found, better than by the reference path", {
   curve <- of_bent()
   expect_lt(off_crest(curve), 0.1)
-  expect_lt(off_crest(curve), 0.3 * mean(abs(curve$reference$y - crest(curve$reference$x))))
+  path <- reference_path(bent_ridge(), "a", "b", "ridge", 4, order = "adaptive cubic")
+  expect_lt(off_crest(curve), 0.3 * mean(abs(path$y - crest(path$x))))
   expect_true(curve$determined)
   straight <- curve_of(straight_ridge(), "a", "b", "ridge", radius = 4, width = 5, n = 9)
   expect_lt(max(abs(straight$points$y)), 0.25) # the landmarks themselves are off by 0.2
@@ -62,7 +63,7 @@ test_that("noise moves it by a share of the spacing, and its band holds the trut
 })
 
 test_that("a second pass is nearer on clean data, its reference is the first pass's curve", {
-  once <- of_bent(settings = ridge_settings(lambda = 1e-3))
+  once <- of_bent(settings = ridge_settings(lambda = 1e-3), passes = 1)
   twice <- of_bent(settings = ridge_settings(lambda = 1e-3), passes = 2)
   expect_lt(off_crest(twice), off_crest(once))
   expect_equal(attr(twice$reference, "length"), once$length)
@@ -239,12 +240,12 @@ test_that("a ridge along the edge of the window is flagged", {
 
 test_that("a ridge line that cannot be lifted leaves the reference path, with the reason", {
   bent <- bent_ridge()
-  path <- of_bent(bent)$reference
+  path <- reference_path(bent, "a", "b", "ridge", 4)
   torn <- walkable(bent)
   torn$twin[] <- 0L # every edge a border
   job <- curve_job("ridge", 9, "a", "b", ridge_settings(), radius = 4, width = 5,
                    source = known_curvature(curvature(bent, 4), bent))
-  fit <- fit_ridge(torn, path, job)
+  fit <- fit_passes(torn, path, job)
   expect_false(fit$found)
   expect_match(fit$reason, "leaves the surface")
   expect_identical(fit$path, path)
@@ -254,22 +255,6 @@ test_that("errors of any stage name the curve", {
   bent <- bent_ridge()
   expect_crestline_error(ridge_curve(bent, "a", "b", "ridge", radius = 400, width = 5, n = 9),
                          c("specimen graph", "ridge from a to b", "as large as the mesh"), id = "graph")
-})
-
-test_that("of a dense window one vertex a cell stands for the others, the nearest to the centre, and the curve hardly moves", {
-  window <- structure(data.frame(s = c(0.1, 0.5, 0.9, 1.6, 1.5, 9), d = c(0.1, 0.6, 0.4, -0.9, -0.5, 0),
-                                 inside = c(rep(TRUE, 5), FALSE)), length = 2, width = 1)
-  thinned <- thinned_rows(window, 4)
-  expect_setequal(thinned$rows, c(2, 5))
-  expect_identical(thinned$rows[thinned$cell], c(2L, 2L, 2L, 5L, 5L, NA))
-  expect_identical(thinned_rows(window, 5)$rows, 1:5)
-  dense <- bent_ridge(spacing = 0.4)
-  whole <- of_bent(dense, settings = ridge_settings(vertices = Inf))
-  some <- of_bent(dense, settings = ridge_settings(vertices = 500))
-  expect_gt(length(whole$surface$rows), 1500)
-  expect_lte(length(some$surface$rows), 550)
-  expect_lt(max(distance_from_line(xyz_of(some$path), xyz_of(whole$path))), 0.02)
-  expect_equal(some$strength, whole$strength, tolerance = 0.01)
 })
 
 test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {

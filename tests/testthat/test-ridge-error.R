@@ -7,6 +7,11 @@ fitted_window <- function(settings = ridge_settings(), radius = 4) {
        problem = ridge_problem(curve$surface, curve$scale, radius, settings))
 }
 
+# Variance of linear functions of normal curvatures, a row of `jacobian` each.
+curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings, smooth = 0, range = 0) {
+  diag(cpp_curvature_covariance(vb, it, targets, directions, t(jacobian), sigma, smooth, range, settings)$matrix)
+}
+
 # Normal curvature along `direction` at vertex `at` when vertex `moved` is lifted by h along the fit's normal there.
 curvature_when <- function(mesh, at, direction, moved, h, normal, ...) {
   mesh$vb[1:3, moved] <- mesh$vb[1:3, moved] + h * normal
@@ -33,8 +38,8 @@ test_that("the variance of a normal curvature is that of its derivatives by the 
         (up - down) / (2 * h)
       }, 0)
       sigma <- with_seed(4, stats::runif(ncol(mesh$vb), 0.1, 1))
-      variance <- cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(direction), matrix(1), sigma,
-                                         fit_settings(radius, order))
+      variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(direction), matrix(1), sigma,
+                                         kernel_settings(radius, order))
       expect_equal(sqrt(variance), sqrt(sum((slope * sigma[near])^2)), tolerance = 0.02)
     }
   }
@@ -47,9 +52,66 @@ test_that("a quadratic fit's variance is the one that least squares gives", {
   x <- mesh$vb[1, near] - mesh$vb[1, at]
   y <- mesh$vb[2, near] - mesh$vb[2, at]
   covariance <- solve(crossprod(cbind(1, x, y, x^2, x * y, y^2)))
-  variance <- cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(0.3, ncol(mesh$vb)),
-                                     fit_settings(4.3, "quadratic"))
+  variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(0.3, ncol(mesh$vb)),
+                                     kernel_settings(4.3, "quadratic"))
   expect_equal(variance, 0.3^2 * 4 * covariance[4, 4], tolerance = 1e-8)
+})
+
+test_that("under smooth noise it is the quadratic form of least squares' weights in the noise's covariance", {
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6), v = c(-6, 6)))$mesh
+  at <- which.min(colSums(mesh$vb[1:2, ]^2))
+  near <- which(colSums((mesh$vb[1:2, ] - mesh$vb[1:2, at])^2) <= 4.3^2)
+  x <- mesh$vb[1, near] - mesh$vb[1, at]
+  y <- mesh$vb[2, near] - mesh$vb[2, at]
+  design <- cbind(1, x, y, x^2, x * y, y^2)
+  weight <- 2 * solve(crossprod(design), t(design))[4, ]
+  squares <- outer(x, x, `-`)^2 + outer(y, y, `-`)^2
+  variance <- function(sigma, smooth, range) {
+    curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(sigma, ncol(mesh$vb)),
+                       kernel_settings(4.3, "quadratic"), smooth, range)
+  }
+  for (range in c(0.7, 1.5, 3)) {
+    smooth <- sum(weight * (0.2^2 * exp(-squares / (2 * range^2)) %*% weight))
+    expect_equal(variance(0, 0.2, range), smooth, tolerance = 1e-3) # correlations beyond four ranges are left out
+    expect_equal(variance(0.1, 0.2, range), smooth + 0.1^2 * sum(weight^2), tolerance = 1e-3)
+  }
+  expect_equal(variance(0, 0.2, 1e-3), 0.2^2 * sum(weight^2))
+  expect_lt(variance(0, 0.2, 1e4), 1e-6 * variance(0.2, 0, 0)) # all heights moved alike
+})
+
+test_that("the noise factor compares with the expectation that the whole covariance of the strengths gives", {
+  curve <- fitted_window(ridge_settings("one pass"))$curve
+  bent <- bent_ridge(noise = 0.05, half = c(17, 12), spacing = 1.25)
+  scan <- walkable(bent)
+  settings <- ridge_settings("one pass")
+  job <- curve_job("ridge", 9, "a", "b", settings, radius = 4, width = 5,
+                   source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
+  window <- ridge_window(scan, curve$reference, job)
+  surface <- window$surface
+  live <- which(surface$strength > 0 & surface$strength < window$strengths$cap)
+  rows <- surface$rows[live]
+  sigma <- rep(stats::median(window$strengths$sigma, na.rm = TRUE), ncol(bent$mesh$vb))
+  known <- !is.na(window$strengths$sigma)
+  sigma[window$coordinates$vertex[known]] <- window$strengths$sigma[known]
+  all <- cpp_curvature_covariance(scan$vb, scan$it, window$coordinates$vertex[rows],
+                                  t(window$strengths$direction[rows, ]), diag(length(rows)), sigma, 0, 0,
+                                  kernel_settings(4, "adaptive cubic"))$matrix
+  design <- mgcv::tensor.prod.model.matrix(surface$design)[live, ]
+  rest <- diag(length(live)) - design %*% chol2inv(surface$factor) %*% t(design)
+  residual <- surface$strength[live] - design %*% as.vector(surface$coefficients)
+  expected <- sum(diag(rest %*% all %*% t(rest)))
+  expect_equal(moment_noise(scan, window, 4, settings)$factor, max(1, sum(residual^2) / expected))
+})
+
+test_that("the noise factor sees noise that is smooth along the mesh, and known noise needs none", {
+  factor_of <- function(correlation, ...) {
+    surface <- simulate_ridge(0.25, 1, noise = 0.02, seed = 3, correlation = correlation)
+    curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 9, settings = ridge_settings(...)))
+    curve$noise_factor
+  }
+  expect_gt(factor_of(2), 10 * factor_of(0))
+  expect_lt(factor_of(0), 4)
+  expect_identical(factor_of(2, noise = c(0, 0.02, 0.14)), 1)
 })
 
 test_that("shared vertices are counted as shared: the difference of one curvature with itself has no variance", {
@@ -58,7 +120,7 @@ test_that("shared vertices are counted as shared: the difference of one curvatur
   direction <- rbind(c(1, 1), c(0, 0), c(0, 0))
   sigma <- rep(1, ncol(mesh$vb))
   variance <- function(targets, jacobian) {
-    cpp_curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, fit_settings(5, "quadratic"))
+    curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, kernel_settings(5, "quadratic"))
   }
   expect_lt(variance(c(1800L, 1800L), matrix(c(1, -1), 1)), 1e-20)
   single <- variance(at, rbind(c(1, 0), c(0, 1)))
@@ -67,20 +129,21 @@ test_that("shared vertices are counted as shared: the difference of one curvatur
   expect_equal(variance(at, rbind(c(2, 0))), 4 * single[1], tolerance = 1e-12)
 })
 
-test_that("strength_jacobian() is the derivative of the ridge line by the strength of each vertex", {
-  window <- fitted_window()
+check_slope <- function(kernel) {
+  window <- fitted_window(ridge_settings("one pass"))
   curve <- window$curve
   tight <- ridge_settings(tolerance = 1e-13)
-  line <- ridge_line(curve$surface, curve$scale, window$radius, tight)
+  line <- ridge_line(curve$surface, curve$scale, window$radius, tight, kernel)
   alpha <- line$alpha[2:40]
-  slope <- strength_jacobian(window$problem, curve$surface, alpha)
+  problem <- ridge_problem(curve$surface, curve$scale, window$radius, window$settings, kernel)
+  slope <- tcrossprod(offset_slope(problem, curve$surface, alpha), mgcv::tensor.prod.model.matrix(curve$surface$design))
   expect_identical(dim(slope), c(39L, length(curve$surface$rows)))
   refit <- function(strength) {
     surface <- curve$surface
     right <- crossprod(mgcv::tensor.prod.model.matrix(surface$design), strength)
     beta <- backsolve(surface$factor, backsolve(surface$factor, right, transpose = TRUE))
     surface$coefficients <- matrix(beta, nrow(surface$coefficients))
-    ridge_line(surface, curve$scale, window$radius, tight)$alpha[2:40]
+    ridge_line(surface, curve$scale, window$radius, tight, kernel)$alpha[2:40]
   }
   scale <- max(abs(slope))
   for (vertex in order(-colSums(slope^2))[c(1, 5, 50)]) {
@@ -88,6 +151,10 @@ test_that("strength_jacobian() is the derivative of the ridge line by the streng
     numeric_slope <- (refit(curve$surface$strength + h) - refit(curve$surface$strength - h)) / 2e-5
     expect_lt(max(abs(slope[, vertex] - numeric_slope)), 1e-3 * scale)
   }
+}
+
+test_that("offset_slope() gives the derivative of the ridge line by the strength of each vertex", {
+  for (kernel in c(0, 1.5)) check_slope(kernel)
 })
 
 test_that("the standard error is about the spread over meshes scanned again", {
@@ -104,18 +171,19 @@ test_that("the standard error is about the spread over meshes scanned again", {
 })
 
 test_that("the error grows in proportion to the noise, ends have none, and inflation multiplies", {
-  at_noise <- function(noise, ...) {
-    bent <- straight_ridge(noise = noise, half = c(17, 12), spacing = 1.25)
+  at_noise <- function(sd, ...) {
+    bent <- straight_ridge(noise = sd, half = c(17, 12), spacing = 1.25)
     ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9, settings = ridge_settings(...))
   }
+  known <- at_noise(0.02, noise = c(0.02, 0, 0))
+  expect_gt(at_noise(0.1, noise = c(0.1, 0, 0))$se, 2 * known$se)
   little <- at_noise(0.02)
-  more <- at_noise(0.1)
-  expect_gt(more$se, 2 * little$se)
   expect_identical(little$points$se[c(1, 9)], c(0, 0))
   expect_true(all(little$points$se[2:8] > 0))
   doubled <- at_noise(0.02, inflation = 3)
   expect_lte(max(doubled$line$se / little$line$se, na.rm = TRUE), 2 + 1e-9)
-  bias <- abs(little$line$alpha - ridge_line(little$surface, little$scale, 4, loosen(little$settings))$alpha)
+  loose <- ridge_line(little$surface, little$scale, 4, loosen(little$settings), little$line$kernel)
+  bias <- abs(little$line$alpha - loose$alpha)
   expect_true(all(little$line$se >= bias - 1e-12))
 })
 

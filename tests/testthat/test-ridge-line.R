@@ -43,6 +43,52 @@ test_that("gradient and Hessian are those of finite differences", {
   expect_lt(max(abs(hessian - numeric_hessian)), 1e-6 * max(abs(hessian)))
 })
 
+test_that("under a kernel the splines are their integrals, and derivatives those of finite differences", {
+  surface <- surface_of(wavy)
+  width <- 3
+  alpha <- c(-2.9, -1.2, 0, 0.31, 2.2)
+  for (kernel in c(0.05, 0.6, 2.5)) {
+    problem <- ridge_problem(surface, 0.8, 2, ridge_settings(), kernel)
+    exact <- across_design(problem, alpha, 0)
+    biweight <- function(d, at) 15 / 16 / kernel * pmax(1 - ((d - at) / kernel)^2, 0)^2
+    for (i in seq_along(alpha)) {
+      knots <- sort(c(problem$across$knots[4:11] * width, alpha[i] + c(-1, 1) * kernel))
+      knots <- knots[abs(knots) <= 1.01 * width]
+      for (j in c(1, 4, 10)) {
+        spline <- function(d) margin_design(problem$across, d / width)[, j] * biweight(d, alpha[i])
+        pieces <- vapply(seq_along(knots[-1]), function(k) stats::integrate(spline, knots[k], knots[k + 1], rel.tol = 1e-10)$value, 0)
+        expect_equal(exact[i, j], sum(pieces), tolerance = 1e-7)
+      }
+    }
+    h <- 1e-5
+    expect_equal(across_design(problem, alpha, 1),
+                 (across_design(problem, alpha + h, 0) - across_design(problem, alpha - h, 0)) / (2 * h), tolerance = 1e-6)
+    expect_equal(across_design(problem, alpha, 2),
+                 (across_design(problem, alpha + h, 1) - across_design(problem, alpha - h, 1)) / (2 * h), tolerance = 1e-5)
+  }
+})
+
+test_that("a narrow kernel changes nothing, a wide one leads from the mode to the centroid", {
+  # Strength with its mode at 0.5 and more of it on the other side.
+  skew <- function(s, d) exp(-2 * (d - 0.5)^2) + 0.6 * exp(-0.5 * (d + 0.7)^2)
+  surface <- surface_of(skew, df = 90)
+  middle <- function(kernel) {
+    line <- ridge_line(surface, 1, 2, ridge_settings(lambda = 1e-9), kernel)
+    expect_true(line$converged)
+    line$alpha[21]
+  }
+  nu <- function(d) predict(surface, 5, d)
+  mode <- stats::optimize(function(d) -nu(d), c(0, 1), tol = 1e-9)$minimum
+  expect_equal(middle(0), mode, tolerance = 0.01)
+  expect_equal(middle(1e-3), middle(0), tolerance = 1e-5)
+  under <- function(kernel) {
+    stats::optimize(function(at) -stats::integrate(function(d) nu(d) * pmax(1 - ((d - at) / kernel)^2, 0)^2, -3, 3)$value,
+                    c(-1, 1))$minimum
+  }
+  expect_equal(middle(2), under(2), tolerance = 0.01)
+  expect_lt(middle(2), middle(0) - 0.1)
+})
+
 test_that("the criterion is the integral that is written down", {
   surface <- surface_of(wavy)
   problem <- ridge_problem(surface, 0.8, 2, ridge_settings())
@@ -136,4 +182,5 @@ test_that("the grid hardly matters", {
 test_that("arguments are checked", {
   expect_crestline_error(ridge_line(list(), 1, 2), "curvature_surface")
   expect_crestline_error(ridge_line(surface_of(bowed), 0, 2), "`scale`")
+  expect_crestline_error(ridge_line(surface_of(bowed), 1, 2, kernel = -1), "`kernel`")
 })

@@ -9,7 +9,8 @@ test_that("intervals of a curve are its distance and normal quantiles of its err
   expect_equal(unname(bounds[1, ]), c(0, 0))
   half <- confint(curve, 3:4, level = 0.5)
   expect_identical(dimnames(half), list(c("3", "4"), c("25 %", "75 %")))
-  expect_equal(unname(half[, 2] - half[, 1]), 2 * 0.6744898 * curve$points$se[3:4], tolerance = 1e-6)
+  expect_equal(unname(half[, 2] - half[, 1]), 2 * 0.6744898 * curve$points$se[3:4],
+               tolerance = 1e-6)
   expect_crestline_error(confint(curve, 99), "parm")
   expect_crestline_error(confint(curve, level = 1), "level")
 })

@@ -1,0 +1,126 @@
+# The passes of a ridge estimate: windows, lines, and how much of a second pass is taken.
+
+#' The passes of a fit
+#'
+#' A first pass about the reference path gives a line and its standard error. That sets the width of
+#' the kernel under which the line is found again, and how much of the principal curvature is mixed
+#' in. A second pass is about the first one's curve; of its offsets a share is taken. With
+#' `job$passes` so many passes are made, each about the curve of the one before and counted whole.
+#'
+#' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
+#'   in which curvature counts.
+#' @return The last window as of [ridge_window()], with `line`, `path` (the curve), `reference` (the
+#'   path that the window is about), `share` (of the second pass that was taken) and `noise_factor`;
+#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure.
+#' @noRd
+fit_passes <- function(scan, path, job) {
+  settings <- job$settings
+  trusted <- attr(path, "trusted") / attr(path, "length")
+  window <- ridge_window(scan, path, job)
+  if (is.null(window$surface)) return(window)
+  kernel <- 0
+  window$line <- highest_line(window$surface, window$scale, job$radius, settings)
+  if (failed(window$line)) return(window$line)
+  edge <- window$line$at_bound
+  if (settings$kernel > 0) kernel <- kernel_width(scan, window, job$radius, settings)
+  mix <- min(1, kernel / (settings$mix * job$radius))
+  if (mix > 0) window <- ridge_window(scan, path, job, mix)
+  with_line <- function(window) {
+    if (is.null(window$surface)) return(window)
+    if (is.null(window$line) || kernel > 0) {
+      window$line <- highest_line(window$surface, window$scale, job$radius, settings, kernel)
+    }
+    if (failed(window$line)) return(window$line)
+    # Neither kernel nor passes widen the window: what ran along its edge once is in doubt.
+    window$line$at_bound <- edge <<- edge || window$line$at_bound
+    with_curve(scan, window)
+  }
+  fit <- with_line(window)
+  again <- function(fit) {
+    path <- fit$path
+    if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
+    for (name in c("type", "criterion", "optima", "competing")) {
+      attr(path, name) <- attr(fit$reference, name)
+    }
+    with_line(ridge_window(scan, path, job, mix))
+  }
+  if (is.null(job$passes)) {
+    second <- if (isTRUE(fit$found) && settings$second > 0) again(fit)
+    if (isTRUE(second$found)) {
+      strength <- path_strength(job$source, job$type, job$regions, scan)
+      second$share <- second_share(scan, fit, second, strength, kernel / job$radius, settings)
+      if (second$share > 0) fit <- second
+    }
+  } else {
+    for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- again(fit)
+  }
+  finished_fit(scan, fit, job$radius, settings)
+}
+
+#' A window with its line lifted onto the mesh
+#' @noRd
+with_curve <- function(scan, window) {
+  lifted <- lifted_line(scan, window$coordinates, window$reference, window$line$s,
+                        window$line$alpha)
+  window$found <- !failed(lifted)
+  if (window$found) window$path <- lifted else
+    window$reason <- "the ridge line leaves the surface near the reference path"
+  window
+}
+
+#' Half width of the kernel, in the unit of the mesh
+#'
+#' The peak is looked for no finer than `settings$kernel` standard errors of the line without a
+#' kernel: the median over its inner places, without inflation and bias, and without the noise
+#' factor, which on a clean scan takes fine relief for noise.
+#' @param window With its `line` without a kernel.
+#' @noRd
+kernel_width <- function(scan, window, radius, settings) {
+  noise <- moment_noise(scan, window, radius, settings, settings$kernel_vertices)
+  variance <- offset_variance(window, noise, radius, settings)
+  half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
+  if (half < settings$kernel_least) 0 else half * radius
+}
+
+#' Share of a second pass that is taken
+#'
+#' All of it under a wide kernel. Else 1/2, and more or less where the mean principal strength along
+#' the second curve is above or below that along the first. It does not switch: a choice of one or
+#' the other falls differently when the surface is scanned again.
+#'
+#' @param first,second Fits with their curves.
+#' @param strength Function of vertices.
+#' @param kernel Half width of the kernel, in radii.
+#' @param places Number of places along a curve at which its strength is taken.
+#' @return Between 0 and 1.
+#' @noRd
+second_share <- function(scan, first, second, strength, kernel, settings, places = 101) {
+  wide <- kernel / settings$second_whole
+  if (wide >= 1) return(1)
+  worth <- function(path) {
+    s <- seq(0, attr(path, "length"), length.out = places)
+    at <- place_along(scan, path, s)
+    corner <- scan$it[, at$face]
+    vertex <- unique(as.vector(corner))
+    value <- matrix(strength(vertex)[match(corner, vertex)], 3)
+    mean(colSums(rbind(at$w1, at$w2, at$w3) * value))
+  }
+  gain <- worth(second$path) / worth(first$path) - 1
+  if (!is.finite(gain)) gain <- 0
+  max(wide, min(1, max(0, settings$second + gain / (2 * settings$second_gain))))
+}
+
+#' A fit with standard errors, and with the share of its last pass taken
+#' @noRd
+finished_fit <- function(scan, fit, radius, settings) {
+  if (is.null(fit$line)) return(fit)
+  share <- if (fit$share > 0) fit$share else 1
+  if (settings$error) {
+    noise <- moment_noise(scan, fit, radius, settings)
+    fit$line$se <- ridge_error(fit, noise, radius, settings, share)
+    fit$noise_factor <- noise$factor
+  }
+  if (share == 1) return(fit)
+  fit$line$alpha <- share * fit$line$alpha
+  with_curve(scan, fit)
+}

@@ -1,0 +1,2 @@
+#' @section Lifecycle: Experimental. Arguments, names and values may change without a period of
+#'   deprecation.

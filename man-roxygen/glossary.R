@@ -1,0 +1,1 @@
+#' @seealso The glossary in [crestline-package] explains the words of this page.
