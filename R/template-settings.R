@@ -86,7 +86,7 @@ slide_settings <- function(preset = c("crestline", "paper"), ...) {
                    surface_tolerance = 1e-5, surface_sweeps = 200, rank = 1e-6, curves = "free",
                    range = 1.5, rough = 3, joint_nugget = 2, placed_nugget = 0.1,
                    found_nugget = 1, doubtful_nugget = 20, floor = 0.55, reach = 5,
-                   relaxation = 1.3, halvings = 4, joint_tolerance = 3e-6, joint_sweeps = 100)
+                   relaxation = 1.7, halvings = 4, joint_tolerance = 1e-5, joint_sweeps = 100)
   paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
                 surface_energy = "patch", surface_nugget = 0, curves = "held")
   if (preset == "paper") settings[names(paper)] <- paper
