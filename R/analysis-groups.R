@@ -62,7 +62,7 @@
 #' These orders keep pairs together, but differences between persons stay in the statistics:
 #' `block` removes them and has more power.
 #'
-#' For covariates and interactions give the sample to RRPP or geomorph: [as_geomorph()].
+#' For covariates and interactions see [shape_lm()].
 #' [crestline-package] has a glossary.
 #'
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same

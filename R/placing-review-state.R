@@ -95,8 +95,10 @@ with_landmark <- function(review, name, point) {
 #' stays what it was
 #' @noRd
 keep_selected <- function(review, progress = function(n) function() NULL) {
-  point <- if (length(review$selected)) known_point(review$specimen, review$selected)
-  if (is.null(point)) review else place_selected(review, point, progress)
+  point <- if (length(review$selected)) {
+    as_value(landmark_point(review$specimen, review$selected)[mesh_columns])
+  }
+  if (is.null(point) || failed(point)) review else place_selected(review, point, progress)
 }
 
 undo_review <- function(review) {

@@ -77,15 +77,7 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...) {
                 longest = Inf)
   if (preset != "crestline") settings[names(single)] <- single
   if (preset == "paper") settings[names(paper)] <- paper
-  change <- list(...)
-  unknown <- setdiff(names(change), names(settings))
-  if (length(unknown) > 0 || (length(change) > 0 && is.null(names(change)))) {
-    crestline_abort(sprintf("there is no setting %s.",
-                            paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Settings are: ", paste(names(settings), collapse = ", "), "."),
-                    stage = "arguments")
-  }
-  settings[names(change)] <- change
+  settings <- changed_settings(settings, list(...))
   structure(check_settings(settings), preset = preset, class = "ridge_settings")
 }
 

@@ -73,11 +73,8 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
 #' The triangles of some parts of a shape's surface that have all their points
 #' @noRd
 whole_triangles <- function(x, parts) {
-  triangles <- x$scheme$triangles
-  check_choices(parts, unique(c("model", triangles$part)), "parts")
-  there <- !is.na(coords(x, "surface")[, 1])
-  triangles <- triangles[triangles$part %in% parts, ]
-  triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
+  check_choices(parts, unique(c("model", x$scheme$triangles$part)), "parts")
+  triangles <- triangles_there(x$scheme$triangles, x$points, parts)
   if (nrow(triangles) == 0) {
     crestline_abort("no triangle of the surface has all its points.",
                     "See `status` for what is missing.",

@@ -169,3 +169,11 @@ written_landmarks.shape <- function(x) {
   check_class(x, "shape", "x", "fit_shape()")
   list(landmarks = coords(x, "landmarks"), curves = shape_curves(x))
 }
+
+#' @param points As in the value of [fit_shape()].
+#' @noRd
+triangles_there <- function(triangles, points, parts) {
+  there <- !is.na(points$x[points$level == "surface"])
+  triangles <- triangles[triangles$part %in% parts, ]
+  triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
+}

@@ -66,10 +66,6 @@ validate_located <- function(geometry, known, id) {
 
 refuse_geometry <- function(id) refuse_specimen("its `geometry` is not that of its mesh.", id)
 
-#' Key of a specimen's mesh; worked out where an older version made it
-#' @noRd
-specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key else x$key
-
 #' Change a field of a specimen
 #'
 #' `specimen$landmarks["tL", ] <- c(x, y, z)` moves or adds a landmark: it is put on the surface

@@ -201,3 +201,87 @@ new_origin <- function(landmarks, how, file = NA_character_, time = NA_character
   origin[is.na(landmarks[, 1]), c("how", "file", "time")] <- NA_character_
   origin
 }
+
+# Points of a specimen by name or place: landmarks and the ends of paths.
+
+#' One landmark as a point on the specimen's mesh
+#'
+#' @param specimen A specimen.
+#' @param name Name of the landmark.
+#' @param tolerance As in [specimen()], for landmarks changed since.
+#' @return One-row data frame `x, y, z, face, w1, w2, w3`.
+#' @noRd
+landmark_point <- function(specimen, name, tolerance = 0.01) {
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  found_landmark(specimen, name, tolerance)
+}
+
+#' The same of a specimen that has passed the door
+#' @noRd
+found_landmark <- function(specimen, name, tolerance = 0.01) {
+  id <- specimen$id
+  known <- rownames(specimen$landmarks)
+  if (!is.character(name) || length(name) != 1 || is.na(name) || !name %in% known) {
+    refuse_landmarks(sprintf("there is no landmark %s.", describe_value(name)),
+                     near_names(name, known), id)
+  }
+  at <- specimen$landmarks[name, ]
+  if (anyNA(at)) {
+    refuse_landmarks(sprintf("landmark %s is missing (NA) on this specimen.", name),
+                     "Place it, or choose curves that do without it.", id)
+  }
+  before <- match(name, rownames(specimen$geometry$landmarks))
+  if (!is.na(before) && identical(unname(at), unname(specimen$geometry$landmarks[before, ]))) {
+    return(specimen$geometry$located[before, ])
+  }
+  landmarks <- as_landmarks(specimen$landmarks[name, , drop = FALSE], id)
+  check_landmarks(landmarks, specimen$mesh, id, tolerance, character(),
+                  size = specimen_size(specimen))$located
+}
+
+
+end_name <- function(at) {
+  if (is.character(at)) return(at)
+  sprintf("(%s)", paste(signif(unlist(at[1:3]), 4), collapse = ", "))
+}
+
+#' A place on a mesh, given as the name of a landmark, one row of points on the mesh, or a position
+#'
+#' @param specimen Where landmarks are looked up; a `mesh3d` has none.
+#' @param scan Its mesh: list of `vb`, `it`, `diagonal`, `id`.
+#' @param name What `at` is called.
+#' @return Numeric, named as `mesh_columns`.
+#' @noRd
+end_vector <- function(specimen, scan, at, name) {
+  said <- sprintf("`%s`", name)
+  row <- is.data.frame(at) && nrow(at) == 1 && all(mesh_columns %in% names(at))
+  if (row && !is.null(attr(at, "key"))) check_same_mesh(at, specimen, said)
+  if (row && anyNA(at$face)) {
+    crestline_abort(sprintf("%s is missing (NA).", said), "Choose a point that is there.",
+                    stage = "path", id = scan$id, class = "crestline_path_error", call = NULL)
+  }
+  if (row) at <- unlist(unclass(at)[mesh_columns])
+  if (is.numeric(at) && identical(names(at), mesh_columns)) {
+    check_places(t(at), scan, said, scan$id)
+    return(at)
+  }
+  if (is.character(at) && inherits(specimen, "specimen")) {
+    known <- rownames(specimen$landmarks)
+    if (!all(at %in% known)) {
+      refuse_landmarks(sprintf("there is no landmark %s (%s).", describe_value(at), said),
+                       near_names(at, known), specimen$id)
+    }
+    place <- landmark_point(specimen, at)
+  } else if (is.numeric(at) && length(at) == 3 && all(is.finite(at))) {
+    place <- surface_points(scan, matrix(at, 1))
+  } else {
+    crestline_abort(sprintf("%s is %s.", said, describe_value(at)),
+                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
+                    stage = "path", class = "crestline_path_error", call = NULL)
+  }
+  unlist(unclass(place)[mesh_columns])
+}
+
+#' Key of a specimen's mesh; worked out where an older version made it
+#' @noRd
+specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key else x$key

@@ -90,15 +90,7 @@ slide_settings <- function(preset = c("crestline", "paper"), ...) {
   paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
                 surface_energy = "patch", surface_nugget = 0, curves = "held")
   if (preset == "paper") settings[names(paper)] <- paper
-  change <- list(...)
-  unknown <- setdiff(names(change), names(settings))
-  if (length(unknown) > 0 || (length(change) > 0 && is.null(names(change)))) {
-    crestline_abort(sprintf("there is no setting %s.",
-                            paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Settings are: ", paste(names(settings), collapse = ", "), "."),
-                    stage = "arguments")
-  }
-  settings[names(change)] <- change
+  settings <- changed_settings(settings, list(...))
   structure(check_slide_settings(settings), preset = preset, class = "slide_settings")
 }
 

@@ -138,6 +138,7 @@ cut_between_slid <- function(shape, state, curves, specimen) {
 cutting_of <- function(shape, fits, specimen) {
   scan <- walkable(bridge_holes(specimen, shape$column$bridge))
   scan$faces <- ncol(specimen$mesh$it)
+  scan$scheme <- shape$scheme
   scan$column <- c(shape$column, follow = TRUE)
   list(fits = fits, specimen = specimen, scan = scan, scheme = shape$scheme)
 }
