@@ -227,7 +227,8 @@ validate_mesh_path <- function(x) {
   right <- !is.null(at) && nrow(at) >= 2 && is.numeric(x$s) && !is.unsorted(x$s, na.rm = FALSE) &&
     is.numeric(length) && length(length) == 1 && is.finite(length)
   if (isTRUE(right)) return(invisible(x))
-  crestline_abort("the path lacks co-ordinates, faces, weights, rising arc lengths `s`, or its length.",
+  crestline_abort(paste("the path lacks co-ordinates, faces, weights, rising arc lengths `s`,",
+                        "or its length."),
                   "Give a path as plane_path() or reference_path() returns it, whole.",
                   stage = "path", id = attr(x, "id"),
                   class = "crestline_path_error", call = NULL)

@@ -212,7 +212,8 @@ validate_curve <- function(x) {
                     "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
     is.numeric(x$points$s) && is_error(x$points$se)
   if (right) return(validate_mesh_path(path))
-  crestline_abort("the curve lacks its path, or points with co-ordinates, faces, weights and errors.",
+  crestline_abort(paste("the curve lacks its path, or points with co-ordinates, faces, weights",
+                        "and errors."),
                   "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve",
                   id = if (is.list(x)) x$id,
                   call = NULL)

@@ -91,7 +91,8 @@ grades <- c("green", "amber", "red")
 small_is_bad <- c("confidence", "contrast", "cut", "border", "spike")
 
 check_limit <- function(x, name, falling, call = rlang::caller_env()) {
-  ordered <- is.numeric(x) && length(x) == 2 && !anyNA(x) && (if (falling) x[1] >= x[2] else x[1] <= x[2])
+  ordered <- is.numeric(x) && length(x) == 2 && !anyNA(x) &&
+    (if (falling) x[1] >= x[2] else x[1] <= x[2])
   if (!ordered) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)),
                     sprintf("Give two numbers, c(amber, red), the second %s.",

@@ -56,7 +56,8 @@
 #'     rough part, the thin-plate spline's;
 #'   * `joint_nugget` of curve and surface points, and the nuggets of landmarks that were placed by
 #'     hand (`placed_nugget`), found by [find_landmarks()] (`found_nugget`), or only predicted or
-#'     found with little confidence (`doubtful_nugget`); in units of the kernel, which is 1 at r = 0;
+#'     found with little confidence (`doubtful_nugget`); in units of the kernel, which is 1 at r =
+#'     0;
 #'   * `floor`: a ridge or valley measured with curvature of radius q counts as known, as a
 #'     homologous line, to within `floor` times q^2 / radius at best (0.5 mm on a face for q = 5 mm,
 #'     2 mm for q = 10 mm), whatever its standard error; 0 keeps points on crests;
@@ -112,9 +113,12 @@ check_slide_settings <- function(settings) {
   check_choice(settings$cut_ends, c("slide", "stay"), "cut_ends")
   check_choice(settings$surface, c("mesh", "transect", "between"), "surface")
   check_choice(settings$surface_energy, c("all", "patch"), "surface_energy")
-  if (settings$curves == "free" && (settings$surface != "mesh" || settings$surface_energy != "all")) {
-    crestline_abort("free curve points slide in one step with the points of all patches, on the mesh.",
-                    "Give `curves = \"held\"` with other settings of `surface` or `surface_energy`.",
+  if (settings$curves == "free" &&
+      (settings$surface != "mesh" || settings$surface_energy != "all")) {
+    crestline_abort(paste("free curve points slide in one step with the points of all patches,",
+                          "on the mesh."),
+                    paste("Give `curves = \"held\"` with other settings of `surface` or",
+                          "`surface_energy`."),
                     stage = "arguments")
   }
   settings
