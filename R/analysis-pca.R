@@ -88,7 +88,8 @@ validate.shape_pca <- function(x) {
   n <- length(x$sdev)
   columns <- function(value) is.numeric(value) && is.matrix(value) && ncol(value) == n
   right <- n > 0 && is.numeric(x$sdev) && numbers(x$share,
-                                                  n) && columns(x$x) && columns(x$direction) && columns(x$rotation) &&
+                                                  n) && columns(x$x) && columns(x$direction) &&
+                                                    columns(x$rotation) &&
     is.matrix(x$mean) && numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
   if (right) return(invisible(x))
   crestline_abort("the components are damaged: their parts do not fit together.",

@@ -38,6 +38,7 @@
 #'   `as.data.frame()` gives `tests`.
 #' @section Errors: of class `crestline_error`: a scheme without pairs, pairs that are none, fewer
 #'   than two individuals.
+#' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
 #'   *Evolution* 56, 1909-1920; Palmer and Strobeck (1986) Fluctuating asymmetry, *Annual Review of
 #'   Ecology and Systematics* 17, 391-421.

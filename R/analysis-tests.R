@@ -3,8 +3,8 @@
 #' Sums of squares between and within groups, for many regroupings
 #'
 #' @param about Function of an n x B matrix of 0 and 1, one group's members by regrouping, that
-#'   gives the squared sums of these members: B x q. Of [squared_sums()] or [squared_total()]. Variables
-#'   are centred, so that the sums of a group are minus those of the others.
+#'   gives the squared sums of these members: B x q. Of [squared_sums()] or [squared_total()].
+#'   Variables are centred, so that the sums of a group are minus those of the others.
 #' @param squares n x q, squared entries by specimen.
 #' @param labels n x B matrix of group numbers, every column with groups of the same sizes.
 #' @param apart Whether the squares within groups are wanted.
@@ -339,8 +339,8 @@ mean_shape_test <- function(total, labels, spread, counts) {
 
 #' All variables of a level together, as the groups are dealt
 #' @param y n x q, columns centred.
-#' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1), `df` (B x 1, of the variance
-#'   within groups, by direction; `NULL` with equal spread).
+#' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1), `df` (B x 1, of the
+#'   variance within groups, by direction; `NULL` with equal spread).
 #' @noRd
 whole_shape <- function(y, labels, spread) {
   gram <- if (nrow(y) <= ncol(y)) tcrossprod(y)

@@ -96,7 +96,8 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
                       template$id, laid$score,
                       settings$refuse)
-    remedy <- sprintf("Is it the object, and whole enough? Its lengths were multiplied by %g: else give `unit`, or place the landmarks by hand.",
+    remedy <- sprintf(paste("Is it the object, and whole enough? Its lengths were multiplied by",
+                            "%g: else give `unit`, or place the landmarks by hand."),
                       unit)
     refuse_landmarks(unlike, remedy, scan$id)
   }
@@ -130,7 +131,8 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   n <- ncol(prepared$xyz)
   own <- template$landmarks
   to_scan <- function(xyz) from_frame(xyz, laid)
-  carried <- lapply(list(bent, plain), function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
+  carried <- lapply(list(bent, plain),
+                    function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
   places <- columns_of(surface_points(scan$mesh, do.call(rbind, carried)), c("x", "y", "z"))
   with_curvature <- seq_len(nrow(own))
   at <- places[with_curvature, , drop = FALSE]

@@ -145,8 +145,9 @@ curves_at <- function(review, name) {
   curves <- review$fitting$scheme$curves
   own <- which(curves$from == name | curves$to == name)
   fits <- review$fitting$fits[own]
-  value <- function(field, none) vapply(fits,
-                                        function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  value <- function(field, none) {
+    vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  }
   data.frame(curve = curves$curve[own], kind = curves$kind[own], length = value("length", NA_real_),
              reason = value("reason", NA_character_), row.names = NULL)
 }

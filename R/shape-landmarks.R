@@ -17,7 +17,9 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
       sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
               shorten(wanted), shorten(rownames(specimen$landmarks)),
               if (length(near)) paste("; near:", shorten(near)) else ""),
-      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
+      paste("Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or",
+            "place_landmarks()."),
+      stage = "landmarks",
       id = specimen$id, class = "crestline_landmark_error", call = call
     )
   }
@@ -25,8 +27,10 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
   size <- specimen_size(specimen)
   radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
   if (radius > size / 2) {
-    crestline_abort(sprintf("the scheme's radius of %.4g is as large as the mesh, whose size is %.4g.", radius, size),
-                    "Is the mesh in another unit? For a scan in metres and a scheme in mm give `unit = 1000`.",
+    crestline_abort(sprintf(paste("the scheme's radius of %.4g is as large as the mesh, whose",
+                                  "size is %.4g."), radius, size),
+                    paste("Is the mesh in another unit? For a scan in metres and a scheme in mm",
+                          "give `unit = 1000`."),
                     stage = "curvature", id = specimen$id, call = call)
   }
 }
