@@ -10,8 +10,8 @@
 #' @param tolerance Components whose variance is below this share of the first one's are left out.
 #' @param components Number of components to find; `NULL`: all. A few of many are found by Lanczos'
 #'   method ([RSpectra::svds()]): seconds in place of minutes with thousands of specimens.
-#' @param sized A component whose scores correlate with centroid size at least that much has the sign
-#'   with which they rise with it. Of others the greatest entry of `rotation` is positive.
+#' @param sized A component whose scores correlate with centroid size at least that much has the
+#'   sign with which they rise with it. Of others the greatest entry of `rotation` is positive.
 #' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d
 #'   k x r, rows in the order of `as.vector(mean)`), `center`, `scale` (`FALSE`) are those of
 #'   [stats::prcomp()] of the n x d k matrix of co-ordinates where all weights are 1, but for
@@ -57,7 +57,8 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
     crestline_abort("all shapes are the same.", "Check that the sample is what it should be.",
                     stage = "components")
   }
-  axis <- parts$v * rep(component_signs(parts$v, y %*% parts$v, aligned$size, sized), each = ncol(y))
+  signs <- component_signs(parts$v, y %*% parts$v, aligned$size, sized)
+  axis <- parts$v * rep(signs, each = ncol(y))
   names <- paste0("PC", seq_along(parts$d))
   rows <- as.vector(outer(rownames(aligned$mean), colnames(aligned$mean), paste))
   rotation <- `dimnames<-`(axis * sqrt(weight), list(rows, names))
@@ -87,7 +88,8 @@ validate.shape_pca <- function(x) {
   n <- length(x$sdev)
   columns <- function(value) is.numeric(value) && is.matrix(value) && ncol(value) == n
   right <- n > 0 && is.numeric(x$sdev) && numbers(x$share,
-                                                  n) && columns(x$x) && columns(x$direction) && columns(x$rotation) &&
+                                                  n) && columns(x$x) && columns(x$direction) &&
+                                                    columns(x$rotation) &&
     is.matrix(x$mean) && numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
   if (right) return(invisible(x))
   crestline_abort("the components are damaged: their parts do not fit together.",

@@ -38,6 +38,7 @@
 #'   `as.data.frame()` gives `tests`.
 #' @section Errors: of class `crestline_error`: a scheme without pairs, pairs that are none, fewer
 #'   than two individuals.
+#' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
 #'   *Evolution* 56, 1909-1920; Palmer and Strobeck (1986) Fluctuating asymmetry, *Annual Review of
 #'   Ecology and Systematics* 17, 391-421.
@@ -184,7 +185,9 @@ symmetry_tests <- function(parts, individual, n_perm, seed) {
     if (repeated) {
       centred <- off - rep(colMeans(off), each = n)
       labels <- cbind(code, replicate(n_perm, code[sample.int(n)]), deparse.level = 0)
-      fluctuating <- permutation_p(cbind(between_total(tcrossprod(centred), labels)))
+      gram <- tcrossprod(centred)
+      among <- apply(labels, 2, function(own) sum(gram * outer(own, own, `==`) / count[own]))
+      fluctuating <- permutation_p(cbind(among))
     }
     c(NA, directional, fluctuating, if (repeated) NA)
   })

@@ -103,7 +103,8 @@ print.keep_side <- function(x, ...) {
 #' @param id Of the specimen.
 #' @param flat Height of the third point of a `keep_side` above the line, as a share of its length,
 #'   at which the three count as lying on a line.
-#' @return List of the regions, their ends as co-ordinates; `NULL` where there is none. Or a failure.
+#' @return List of the regions, their ends as co-ordinates; `NULL` where there is none. Or a
+#'   failure.
 #' @noRd
 located_regions <- function(regions, locate, id, flat = 1e-6) {
   if (inherits(regions, c("keep_away", "keep_side"))) regions <- list(regions)

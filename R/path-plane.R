@@ -92,8 +92,8 @@ region_locator <- function(specimen) {
 #' @param inside Barycentric weight by which ends are kept off edges and corners, so
 #'   that a plane through an end always crosses its triangle. The path begins and
 #'   stops at the exact places.
-#' @return List: `scan`, `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the axis
-#'   between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
+#' @return List: `scan`, `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the
+#'   axis between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
 #'   `axis` and is normal to `across`) and `span` (its length). Or a failure.
 #' @noRd
 path_ends <- function(scan, exact, names, inside = 1e-6) {

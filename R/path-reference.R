@@ -125,7 +125,8 @@ find_reference <- function(ends, type, strength, radius, search) {
   cut <- function(i) cut_path(ends, optima$angle[i], optima$side[i], search$reach,
                               type = type)
   path <- cut(1)
-  elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path, "length"),
+  elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path,
+                                                                                     "length"),
                     seq_len(nrow(optima))[-1])
   other <- if (is.null(elsewhere)) NA_integer_ else elsewhere
   if (type == "plane") optima$criterion <- optima$length

@@ -213,10 +213,10 @@ path_through <- function(points, mesh = NULL, ...) {
 new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL,
                           type = NULL, criterion = NULL,
                           optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
-  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type,
-           criterion = criterion,
-           optima = optima, competing = competing, trusted = trusted, lifted = lifted,
-           class = "mesh_path")
+  structure(columns, row.names = .set_row_names(length(columns[[1]])), length = length, key = key,
+            id = id, angle = angle, side = side, type = type, criterion = criterion,
+            optima = optima, competing = competing, trusted = trusted, lifted = lifted,
+            class = c("mesh_path", "data.frame"))
 }
 
 #' Refuse a path without its columns, length or order
@@ -227,7 +227,8 @@ validate_mesh_path <- function(x) {
   right <- !is.null(at) && nrow(at) >= 2 && is.numeric(x$s) && !is.unsorted(x$s, na.rm = FALSE) &&
     is.numeric(length) && length(length) == 1 && is.finite(length)
   if (isTRUE(right)) return(invisible(x))
-  crestline_abort("the path lacks co-ordinates, faces, weights, rising arc lengths `s`, or its length.",
+  crestline_abort(paste("the path lacks co-ordinates, faces, weights, rising arc lengths `s`,",
+                        "or its length."),
                   "Give a path as plane_path() or reference_path() returns it, whole.",
                   stage = "path", id = attr(x, "id"),
                   class = "crestline_path_error", call = NULL)

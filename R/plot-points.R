@@ -66,6 +66,7 @@ plot_configurations <- function(shapes, level, colour, view, legend, title) {
 #' @return Data frame of the specimens named, as of `as.data.frame()`, the farthest first;
 #'   invisibly.
 #' @section Errors: of class `crestline_error`: no `aligned`, a number of specimens that is none.
+#' @template glossary
 #' @seealso [align()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))

@@ -129,6 +129,7 @@ trace_curve <- function(job) {
   if (failed(path)) return(path)
   fit <- fit_passes(job$ends$scan, path, job)
   if (failed(fit)) return(fit)
+  fit <- finished_fit(job$ends$scan, fit, job$radius, job$settings)
   assembled_curve(fit$path, fit$reference, job, fit)
 }
 
@@ -211,7 +212,8 @@ validate_curve <- function(x) {
                     "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
     is.numeric(x$points$s) && is_error(x$points$se)
   if (right) return(validate_mesh_path(path))
-  crestline_abort("the curve lacks its path, or points with co-ordinates, faces, weights and errors.",
+  crestline_abort(paste("the curve lacks its path, or points with co-ordinates, faces, weights",
+                        "and errors."),
                   "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve",
                   id = if (is.list(x)) x$id,
                   call = NULL)

@@ -35,7 +35,9 @@ cut_curves <- function(scan, curves, fits, cut_scale) {
   whole <- vapply(fits[cut],
                   function(fit) if (is.na(fit$followed)) fit$length else NA_real_, 0)
   factor <- min(cut_scale, whole / wanted, na.rm = TRUE)
-  shared <- if (factor < cut_scale) sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
+  shared <- if (factor < cut_scale) {
+    sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
+  }
   for (k in seq_along(cut)) {
     i <- cut[k]
     if (is.null(fits[[i]]$path)) next
@@ -78,7 +80,8 @@ warn_cut_scales <- function(shapes, stage, apart = 0.02) {
   crestline_warn(
     sprintf("the curves were cut off by different factors (`cut_scale`): %s.",
             shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
-    sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.3g), then homologise().", min(scale)),
+    sprintf(paste("Their ends are not the same places. Measure all with fit_shape(cut_scale =",
+                  "%.3g), then homologise()."), min(scale)),
     stage = stage, class = "crestline_cut_scale"
   )
 }

@@ -17,7 +17,9 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
       sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
               shorten(wanted), shorten(rownames(specimen$landmarks)),
               if (length(near)) paste("; near:", shorten(near)) else ""),
-      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
+      paste("Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or",
+            "place_landmarks()."),
+      stage = "landmarks",
       id = specimen$id, class = "crestline_landmark_error", call = call
     )
   }

@@ -103,8 +103,10 @@ surface_mesh <- function(points, row, it, group) {
 }
 
 warn_left_out <- function(n, of, id) {
-  crestline_warn(sprintf("%d of %d triangles of the denser surface are left out: no cut leads to their points.", n, of),
-                 "Fill the holes of the specimen there, or try a greater `column_angle` or `column_reach`.",
+  crestline_warn(sprintf(paste("%d of %d triangles of the denser surface are left out: no cut",
+                               "leads to their points."), n, of),
+                 paste("Fill the holes of the specimen there, or try a greater `column_angle`",
+                       "or `column_reach`."),
                  stage = "shape", id = id)
 }
 

@@ -50,7 +50,8 @@ fit_block <- function(block, ground) {
   at <- intersect(block$column[open], which(!is.na(a[, "x"]) & !is.na(b[, "x"])))
   if (!length(at)) return(list(store = store, why = why))
   outside <- vapply(at, function(i) column_outside(a, b, i, block$outward), numeric(3))
-  cuts <- fit_columns(a[at, , drop = FALSE], b[at, , drop = FALSE], outside, block$rows, ground$scan)
+  cuts <- fit_columns(a[at, , drop = FALSE], b[at, , drop = FALSE], outside, block$rows,
+                      ground$scan)
   bad <- !is.na(cuts$problem)
   open <- which(open & block$column %in% at[!bad])
   row <- (match(block$column[open], at[!bad]) - 1) * block$rows + block$row[open]
@@ -171,7 +172,8 @@ fit_columns <- function(from, to, outside, rows, scan, inside = 1e-6, rim = pi /
   apart <- scan$piece[from[, "face"]] != scan$piece[to[, "face"]]
   found <- cpp_fit_columns(scan$vb, scan$it, scan$twin, from[, at, drop = FALSE],
                            to[, at, drop = FALSE],
-                           outside, rep(rows, nrow(from)), c(scan$column, inside = inside, rim = rim),
+                           outside, rep(rows, nrow(from)),
+                           c(scan$column, inside = inside, rim = rim),
                            chord_settings())
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"

@@ -39,8 +39,8 @@
 #'     pairs;
 #'   * `missing`, `cut`, `bridged`, `faults`, `roughness` (degrees): as in `checks` of
 #'     [fit_shape()];
-#'   * `offset`: root mean square distance of a curve from its homologous points, across it, in radii
-#'     of the template; NA where the shape was not slid with free curve points;
+#'   * `offset`: root mean square distance of a curve from its homologous points, across it, in
+#'     radii of the template; NA where the shape was not slid with free curve points;
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
 #'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;

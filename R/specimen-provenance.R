@@ -164,13 +164,18 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 
 #' Summaries, with provenance
 #'
-#' A summary has the lines of `print()`, and the provenance of the object. That is the version of
-#' the package and of R, the scheme with the hash of its tables, the key and file of the mesh, where
-#' each landmark came from (which file, given, found, predicted, placed or moved by hand and when,
-#' moved by its definition), the template that points were slid against, and the settings that are
-#' not the default. Shapes, samples and results keep it as `provenance`. Files that the package
-#' writes have it where their format has a place for comments, see [write_mesh()] and
-#' [write_landmarks()].
+#' A summary has the lines of `print()`, and the provenance of the object:
+#'
+#' * the versions of the package and of R;
+#' * the scheme, with the hash of its tables;
+#' * the key and file of the mesh;
+#' * the origin of each landmark: a file, given, found, predicted, placed or moved by hand (and the
+#'   time), moved by its definition;
+#' * the template against which points were slid;
+#' * the settings that are not the default.
+#'
+#' Shapes, samples and results keep it as `provenance`. Files that the package writes include it if
+#' their format has a place for comments, see [write_mesh()] and [write_landmarks()].
 #'
 #' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
 #'   `repeatability`.

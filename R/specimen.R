@@ -12,9 +12,10 @@
 #'   `landmark`, `label`), `x`, `y`, `z`; in the mesh's unit; NA: missing on this specimen.
 #' @param id Name of the specimen, one string.
 #' @param outward Ridges and valleys swap when triangles face inwards. "detect" turns a piece round,
-#'   with a warning, when its triangles clearly face the middle of the mesh (the area-weighted mean
-#'   cosine between normal and direction away from the centroid is below -0.4; face scans have 0.55
-#'   to 0.85). "keep" leaves all pieces as they are (a small or hollow surface). "flip" turns all.
+#'   with a warning, when its triangles clearly face the middle of the mesh. The measure is the
+#'   area-weighted mean cosine between the normal and the direction away from the centroid; the
+#'   limit is -0.4 (face scans have 0.55 to 0.85). "keep" leaves all pieces as they are, for a small
+#'   or hollow surface. "flip" turns all.
 #' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's
 #'   size (0.01 is 3 to 4 mm on a face). Nearer landmarks are put on the surface. Farther ones are
 #'   an error. The size is taken from where most of the surface lies, of the pieces that carry the
@@ -42,14 +43,17 @@
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #'
 #'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
-#' @section Warnings: Of class `crestline_warning`, and each of a class of its own: triangles that
-#'   were made from points (`crestline_triangulated`); more than 1 % of the triangles left out
-#'   (`crestline_triangles_dropped`); vertices 50 times as far from the middle as half of the
-#'   others, left out (`crestline_far_vertices`); triangles that touch no other
-#'   (`crestline_loose_triangles`); borders that lie beside one another (`crestline_seam`); a
-#'   surface that is there twice, one skin a hair from the other (`crestline_double_skin`). Corners
-#'   within 1e-6 of the size are joined, without a warning: both sides of a seam, single triangles,
-#'   vertices on the edge of another triangle.
+#' @section Warnings: Of class `crestline_warning`, each with a class of its own:
+#'   * `crestline_triangulated`: triangles were made from points;
+#'   * `crestline_triangles_dropped`: more than 1 % of the triangles are left out;
+#'   * `crestline_far_vertices`: vertices are left out that are 50 times as far from the middle as
+#'     half of the others;
+#'   * `crestline_loose_triangles`: triangles touch no other;
+#'   * `crestline_seam`: borders lie beside one another;
+#'   * `crestline_double_skin`: the surface is there twice, one skin a hair from the other.
+#'
+#'   Corners within 1e-6 of the size are joined without a warning: both sides of a seam, single
+#'   triangles, vertices on the edge of another triangle.
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no
 #'   triangles and gives none, faces name missing vertices; landmarks (class
 #'   `crestline_landmark_error`) without names, named twice, off the surface, in another unit.

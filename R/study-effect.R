@@ -2,10 +2,11 @@
 
 #' Where the simulated groups of faces differ
 #'
-#' The places at which the faces of [simulate_faces()] differ between the groups by default, as a
-#' table to begin from: the middle of each brow ridge (`share` 1: in the second group it stands out)
-#' and the cheek between the curves from nose and mouth to the ear (`share` -1: it is flatter). No
-#' radius (26 and 24 mm) reaches a landmark; the curves get a third of the cheek's at most.
+#' A table of the places at which the two groups of [simulate_faces()] differ by default. You can
+#' change it and pass it on. One place is the middle of each brow ridge, which stands out in the
+#' second group (`share` 1). The other is the cheek between the curves from nose and mouth to the
+#' ear, which is flatter (`share` -1). No radius (26 and 24 mm) reaches a landmark. The curves get a
+#' third of the cheek's difference at most.
 #'
 #' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm),
 #'   `share`.
