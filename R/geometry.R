@@ -13,7 +13,7 @@ unit_vector <- function(x) x / sqrt(sum(x^2))
 
 row_products <- function(a, b) a[, 1] * b[, 1] + a[, 2] * b[, 2] + a[, 3] * b[, 3]
 
-row_lengths <- function(a) sqrt(row_products(a, a))
+row_lengths <- function(a) sqrt(a[, 1] * a[, 1] + a[, 2] * a[, 2] + a[, 3] * a[, 3])
 
 #' Diagonal of the bounding box of points, 3 x n
 #' @noRd
