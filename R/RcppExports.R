@@ -184,3 +184,4 @@ cpp_permuted_forms <- function(gram, own, whole, orders) {
 cpp_permuted_squares <- function(residuals, basis, df, orders) {
     .Call(`_crestline_cpp_permuted_squares`, residuals, basis, df, orders)
 }
+
