@@ -11,8 +11,8 @@
 #'   in which curvature counts.
 #' @return The last window as of [ridge_window()], with `line`, `path` (the curve), `reference` (the
 #'   path that the window is about), `share` (of the second pass that was taken) and `noise_factor`;
-#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure. [finished_fit()] has yet
-#'   to be called.
+#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure. [finished_fit()] has
+#'   yet to be called.
 #' @noRd
 fit_passes <- function(scan, path, job) {
   settings <- job$settings

@@ -79,7 +79,8 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...) {
   if (preset == "paper") settings[names(paper)] <- paper
   settings <- changed_settings(settings, list(...))
   # The presets as they are need no checks.
-  structure(if (...length()) check_settings(settings) else settings, preset = preset, class = "ridge_settings")
+  structure(if (...length()) check_settings(settings) else settings, preset = preset,
+            class = "ridge_settings")
 }
 
 check_settings <- function(settings) {
