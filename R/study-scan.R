@@ -133,7 +133,6 @@ random_pose <- function(scan, centre) {
   axis <- axis / sqrt(sum(axis^2))
   angle <- stats::rnorm(1, 0, scan$turn)
   shift <- stats::rnorm(3, 0, scan$shift)
-  cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
-  turn <- diag(3) + sin(angle) * cross + (1 - cos(angle)) * cross %*% cross
+  turn <- rotation_about(angle * axis)
   function(xyz) sweep(sweep(xyz, 2, centre) %*% t(turn), 2, centre + shift, `+`)
 }
