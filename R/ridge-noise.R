@@ -32,10 +32,10 @@
 #'   `sd`, of both parts; `covariance`, data frame by `lag` (unit of the mesh) of the covariance of
 #'   the distances between the scans, and of what is `fitted`; `points`, the number compared;
 #'   `converged` and `rounds` of the registration.
-#'   Of simulated scans, 40 spacings wide, `sd` comes out at 0.8 to 1 times the truth, and `range` at
-#'   0.8 to 1.2 times.
-#' @section Errors: of class `crestline_error`, when fewer than 100 vertices can be compared, and when
-#'   the scans lie more than a mean edge apart.
+#'   Of simulated scans, 40 spacings wide, `sd` comes out at 0.8 to 1 times the truth, and `range`
+#'   at 0.8 to 1.2 times; on slopes less, since the distance is along the normal.
+#' @section Errors: of class `crestline_error`, when fewer than 100 vertices can be compared, and
+#'   when the scans lie more than a mean edge apart.
 #' @seealso [ridge_settings()], [ridge_curve()]
 #' @examples
 #' scans <- lapply(1:2, function(seed) {
@@ -126,7 +126,8 @@ laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
   }
   if (!is.null(both)) {
     centre <- lapply(both, colMeans)
-    rotation <- nearest_rotation(sweep(both[[1]], 2, centre[[1]]), sweep(both[[2]], 2, centre[[2]]))$rotation
+    rotation <- nearest_rotation(sweep(both[[1]], 2, centre[[1]]),
+                                 sweep(both[[2]], 2, centre[[2]]))$rotation
     move(t(rotation), centre[[2]] - as.vector(t(rotation) %*% centre[[1]]))
   }
   converged <- FALSE
@@ -182,7 +183,8 @@ lagged_covariance <- function(xyz, distance, edge, lags, block = 500) {
 #' Independent and smooth part of the noise of each scan
 #'
 #' The covariance of the differences of two scans is 2 smooth^2 exp(-lag^2 / (2 range^2)) less a
-#' constant that registration takes away, and at lag 0 (1 + weight) independent^2 besides: a closest place is a mean of three vertices. Lags below
+#' constant that registration takes away, and at lag 0 (1 + weight) independent^2 besides: a closest
+#' place is a mean of three vertices. Lags below
 #' `shortest` edges are left out, since closest places that near share vertices; a range below one
 #' edge cannot be told from independent noise.
 #' @return List: `noise` (`independent`, `smooth`, `range`), `values` (fitted by lag).

@@ -30,13 +30,13 @@
 #'   * `step`: longest Newton step, as a share of the half width; `iterations`, `tolerance` (share
 #'     of the half width);
 #'   * `kernel`: the criterion is averaged across the path under a kernel ([ridge_line()]), whose
-#'     half width is this many standard errors of the line without it; 0: none. `kernel_most`: widest, in
-#'     radii; `kernel_least`: narrower ones, in radii, count as none; `kernel_vertices`: as
+#'     half width is this many standard errors of the line without it; 0: none. `kernel_most`: widest,
+#'     in radii; `kernel_least`: narrower ones, in radii, count as none; `kernel_vertices`: as
 #'     `vertices`, for this standard error;
 #'   * `second`: share of a second pass, about the curve of the first, that is taken where both
 #'     curves are equally strong; 0: one pass. `second_gain`: relative gain in strength at which
-#'     half as much again of a whole pass is taken, the loss at which it is so much less; `second_whole`:
-#'     half width of the kernel, in radii, from which the whole of it is taken;
+#'     half as much again of a whole pass is taken, the loss at which it is so much less;
+#'     `second_whole`: half width of the kernel, in radii, from which the whole of it is taken;
 #'   * `mix`: half width of the kernel, in radii, from which strength is that of the principal
 #'     curvature; it is mixed with that across the path below. `Inf`: never. 0.6 suits very noisy
 #'     data;

@@ -4,8 +4,8 @@
 #'
 #' @param mix Share of the principal curvature in the strength.
 #' @return List: `coordinates`, `strengths` (as of [window_strength()]), `scale` (their mean near
-#'   the path), `surface`, `path` and `reference` (both the path), `share` (0), `found` (FALSE). Where
-#'   there is no such curvature by the path it has a `reason` and no `surface`. Or a failure.
+#'   the path), `surface`, `path` and `reference` (both the path), `share` (0), `found` (FALSE).
+#'   Where there is no such curvature by the path it has a `reason` and no `surface`. Or a failure.
 #' @noRd
 ridge_window <- function(scan, path, job, mix = 0) {
   settings <- job$settings
