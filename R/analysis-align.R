@@ -232,8 +232,9 @@ print.aligned <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     n <- dim(x$coords)[3]
+    scaled <- if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling"
     cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
-        if (isFALSE(x$scale)) "sizes kept" else if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling",
+        if (isFALSE(x$scale)) "sizes kept" else scaled,
         if (x$tangent) ", in tangent space", "\n", sep = "")
     table <- as.data.frame(x)
     cat(sprintf("  centroid size %.4g (%.4g to %.4g)\n", mean(table$size), min(table$size),

@@ -5,7 +5,8 @@ check_array <- function(x, call, name = "sample") {
     size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else
       describe_value(x)
     crestline_abort(sprintf("`%s` is %s.", name, size),
-                    "Give a shape_sample, as homologise() returns it, or a k x 3 x n array of numbers.", stage = "align",
+                    paste("Give a shape_sample, as homologise() returns it, or a k x 3 x n",
+                          "array of numbers."), stage = "align",
                     call = call)
   }
   if (any(is.infinite(x))) {

@@ -47,7 +47,8 @@ check_units <- function(group, call) {
   few <- names(which.min(table(group)))
   if (min(table(group)) < 2) {
     crestline_abort(sprintf("the group \"%s\" has one block.", few),
-                    "Every block lies in one group, so that blocks are compared: give every group two or more.",
+                    paste("Every block lies in one group, so that blocks are compared: give",
+                          "every group two or more."),
                     stage = "comparison", call = call)
   }
 }

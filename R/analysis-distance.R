@@ -90,7 +90,8 @@ curve_list <- function(x, level, name, call = rlang::caller_env()) {
     all(vapply(x, function(one) is.matrix(one) && is.numeric(one) && ncol(one) == 3, NA))
   if (!fine) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)),
-                    "Give a shape, a named list of k x 3 matrices, or a matrix with row names \"curve point\".",
+                    paste("Give a shape, a named list of k x 3 matrices, or a matrix with row",
+                          "names \"curve point\"."),
                     stage = "distance", call = call)
   }
   x

@@ -62,10 +62,12 @@ warn_of_doubts <- function(aligned, limits) {
 }
 
 sample_remedies <- c(
-  size = "Are they in another unit? Measure them in one unit: see `unit` of fit_shape() and read_specimen().",
+  size = paste("Are they in another unit? Measure them in one unit: see `unit` of fit_shape()",
+               "and read_specimen()."),
   far = "Look at them: are landmarks exchanged, or is it another object? Leave out what is wrong.",
   point = "Look at these points on these specimens: are two landmarks exchanged, or one misplaced?",
-  estimated = "Use missing = \"drop\", or leave such specimens out: estimates follow the others' mean.",
+  estimated = paste("Use missing = \"drop\", or leave such specimens out: estimates follow the",
+                    "others' mean."),
   beyond = "Use missing = \"drop\", or leave them out: so far out, an estimate is the others' mean."
 )
 

@@ -12,24 +12,35 @@
 #' test of the distance between the mean shapes, p-values adjusted for the number of components, a
 #' test at every point, and a test of dispersion.
 #'
-#' | test | statistic (two groups; more) | null hypothesis: equal | `p_parametric` |
+#' | test | statistic: two groups; more | null hypothesis | `p_parametric` |
 #' |---|---|---|---|
-#' | "size t" | Student's t of centroid sizes, first group less second; F | mean sizes | of t, F |
-#' | "mean shape" | Procrustes distance between the mean shapes; Goodall's F | mean shapes | none |
-#' | "T2" | Hotelling's T2 on the first components; Hotelling and Lawley's trace times (n - groups) | mean scores | of F |
-#' | "PC1", ... | t of the scores, first group less second; F | mean scores | of t, F |
-#' | points | on a surface t of the displacement along the mean's normal (F), elsewhere Goodall's F of the point | mean places | none |
-#' | "dispersion" | greatest over least spread (root mean square distance to the own mean) | mean distances | none |
+#' | "size t" | Welch's t of centroid sizes, first group less second; F of Brown and Forsythe | equal mean sizes | of t, F |
+#' | "mean shape" | Procrustes distance between the mean shapes; F of Brown and Forsythe, all co-ordinates together | equal mean shapes | none |
+#' | "T2" | T2 with separate covariances on the first components; its trace | equal mean scores | two groups: of F |
+#' | "PC1", ... | Welch's t of the scores, first group less second; F of Brown and Forsythe | equal mean scores | of t, F |
+#' | points | Welch's t of the displacement along the mean surface's normal; elsewhere F of Brown and Forsythe of the point | equal mean places | none |
+#' | "dispersion" | greatest over least spread (root mean square distance to the own mean) | equal mean distances | none |
 #'
-#' **Unequal spread.** Pooled statistics test whether the groups have one distribution, spread
-#' included. If a small group varies more than a large one, they reject although the means are
-#' equal: with 24 and 6 specimens and a threefold spread in up to 9 of 10 samples. The function
-#' warns where this can happen. With `equal_spread = FALSE` every group has a spread of its own, and
-#' only the means are compared. The permutation test of such statistics is exact if the groups have
-#' one distribution. If only their means agree, it is right in large samples (Janssen 1997). t is
-#' then Welch's, F that of Brown and Forsythe (the squares between groups over the sum of (1 - n_g /
-#' n) times the variance of group g), and T2 has separate covariances, on at most half as many
-#' components as the smallest group has degrees of freedom.
+#' **Unequal spread.** By default every group has a spread of its own, and only the means are
+#' compared. F of Brown and Forsythe is the squares between groups over the sum of (1 - n_g / n)
+#' times the variance of group g. In every regrouping it is taken to the scale of a chi-squared
+#' variable by its own degrees of freedom (Satterthwaite's; Wallace 1959), and the values on that
+#' scale are compared. T2 is compared by its approximate p in the same way. It uses at most half as
+#' many components as the summed variance has degrees of freedom. The tests are exact if the groups
+#' have one distribution. If only their means agree, they are right in large samples (Janssen 1997;
+#' Chung and Romano 2016). The page `spread.md` of the sources has their level in small ones.
+#'
+#' With `equal_spread = TRUE` variances are pooled: Student's t, Goodall's F, Hotelling's T2,
+#' Hotelling and Lawley's trace times (n - groups). The null hypothesis is then that the groups have
+#' one distribution, spread included. If a small group varies more than a large one, pooled tests
+#' reject although the means are equal: with 24 and 6 specimens and a threefold spread in up to 9 of
+#' 10 samples. The function warns where this can happen. If spreads are equal and sizes very
+#' unequal, pooled tests have more power.
+#'
+#' **Effects.** `effect` of the mean shape is the distance between the means less its mean over the
+#' regroupings, as the distance is above 0 without any difference too. `effect` of size is Cohen's
+#' d. Their intervals are quantiles of bootstrap samples within groups, about their mean. `z` is the
+#' standardised effect of RRPP.
 #'
 #' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent: name them
 #' by `block`. Some blocks hold specimens of several groups (before and after; sites with patients
@@ -37,7 +48,21 @@
 #' blocks are removed. If each block lies in one group (repeated scans of persons), the means of the
 #' blocks are compared, and whole blocks are exchanged.
 #'
-#' For covariates and interactions give the sample to RRPP or geomorph: [as_geomorph()].
+#' Other exchanges can be given as `permutations`. Pairs, as with `block`, for specimens 1 to 12
+#' before and 13 to 24 after, in the same order:
+#' ```
+#' orders <- replicate(999, {
+#'   turned <- which(runif(12) < 0.5)
+#'   order <- 1:24
+#'   order[c(turned, turned + 12)] <- c(turned + 12, turned)
+#'   order
+#' })
+#' compare_groups(sample, time, permutations = orders)
+#' ```
+#' These orders keep pairs together, but differences between persons stay in the statistics:
+#' `block` removes them and has more power.
+#'
+#' For covariates and interactions see [shape_lm()].
 #' [crestline-package] has a glossary.
 #'
 #' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same
@@ -49,7 +74,7 @@
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
 #' @param components Number of principal components: a whole number, or a share of the variance
-#'   below 1. At most n - groups - 1 are used.
+#'   below 1. At most n - groups - 1 are used; for T2 with separate covariances see above.
 #' @param seed Number that starts the random stream; the stream of the session is then left
 #'   untouched. `NULL`: the session's stream.
 #' @param tests Which: "size", "shape", "T2", "components", "points", "dispersion" (not with
@@ -62,6 +87,7 @@
 #'   specimens are independent.
 #' @param equal_spread Whether the groups are taken to be equally spread, and their variances
 #'   pooled.
+#' @param n_boot Number of bootstrap samples for the intervals of effects.
 #' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others
 #'   then have none. Not used with an `aligned`, which is aligned already.
 #' @param progress Whether to show a progress bar.
@@ -69,8 +95,10 @@
 #'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of
 #'     regroupings, the observed one among them, whose statistic is at least as great), `p_adjusted`
 #'     (for the components of a level: by the greatest statistic over them, which controls the
-#'     family-wise error; else as `p_value`), `p_parametric` (under normality), `share` (of
-#'     variance: between groups for "mean shape", of the components used for the rest);
+#'     family-wise error, and unless spreads are equal not below Sidak's correction of
+#'     `p_parametric`; else as `p_value`), `p_parametric` (under normality), `share` (of variance:
+#'     between groups for size and mean shape, of the components used for the rest), `z`, `effect`,
+#'     `lower`, `upper` (95 % bootstrap interval; NA for more than two groups);
 #'   * `points`: data frame, a row a level and point: `level`, `point`, `x`, `y`, `z` (the mean, of
 #'     mean size), `distance` (second mean less first along the normal, outward positive; NA without
 #'     triangles), `displacement` (between the means), in the unit of the meshes; `statistic`,
@@ -89,16 +117,21 @@
 #'   spread and are pooled.
 #' @templateVar where section 6
 #' @template paper
-#' @references Goodall (1991) Procrustes methods in the statistical analysis of shape, *Journal of
-#'   the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized permutation tests for
-#'   non-i.i.d. hypotheses, *Statistics and Probability Letters* 36, 9-21; Brown and Forsythe (1974)
-#'   The small sample behavior of some statistics which test the equality of several means,
-#'   *Technometrics* 16, 129-132; Krishnamoorthy and Yu (2004) Modified Nel and Van der Merwe test,
-#'   *Statistics and Probability Letters* 66, 161-169; Anderson (2006) Distance-based tests for
-#'   homogeneity of multivariate dispersions, *Biometrics* 62, 245-253; Westfall and Young (1993)
-#'   *Resampling-Based Multiple Testing* (greatest statistics); Phipson and Smyth (2010) Permutation
-#'   p-values should never be zero, *Statistical Applications in Genetics and Molecular Biology* 9,
-#'   39.
+#' @references Goodall (1991) Procrustes methods in the statistical analysis of shape,
+#'   *Journal of the Royal Statistical Society B* 53, 285-339; Janssen (1997) Studentized
+#'   permutation tests for non-i.i.d. hypotheses, *Statistics and Probability Letters* 36, 9-21;
+#'   Brown and Forsythe (1974) The small sample behavior of some statistics which test the equality
+#'   of several means, *Technometrics* 16, 129-132; Wallace (1959) Bounds on normal approximations
+#'   to Student's and the chi-square distributions, *Annals of Mathematical Statistics* 30,
+#'   1121-1130; Chung and Romano (2016) Multivariate and multiple permutation tests, *Journal of
+#'   Econometrics* 193, 76-91; Collyer and Adams (2018) RRPP: an R package for fitting linear models
+#'   to high-dimensional data using residual randomization, *Methods in Ecology and Evolution* 9,
+#'   1772-1779 (Z); Krishnamoorthy and Yu (2004) Modified Nel and
+#'   Van der Merwe test, *Statistics and Probability Letters* 66, 161-169; Anderson (2006)
+#'   Distance-based tests for homogeneity of multivariate dispersions, *Biometrics* 62, 245-253;
+#'   Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest statistics); Phipson
+#'   and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in
+#'   Genetics and Molecular Biology* 9, 39.
 #' @seealso [plot.group_comparison()], [align()], [shape_pca()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 20), c(4, 3, 20))
@@ -115,12 +148,12 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
                                                   "dispersion"),
                            exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
                            missing = c("estimate", "drop", "stop"), progress = interactive(),
-                           block = NULL,
-                           equal_spread = TRUE) {
+                           block = NULL, equal_spread = FALSE, n_boot = 200) {
   check_given()
   check_flags(progress, equal_spread)
   seed <- check_seed(seed)
   n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
+  n_boot <- check_count(n_boot, "n_boot", upper = argument_limits()$permutations)
   exact <- check_number(exact, "exact", lower = 0)
   components <- check_components(components)
   tests <- check_tests(tests)
@@ -134,11 +167,14 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   tick <- comparison_ticks(progress, length(aligned) * (1 + length(blocks) * ("points" %in% tests)))
   spread <- list(equal = equal_spread,
                  lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
+  counts <- bootstrap_counts(dealt$labels[, 1], n_boot, seed)
   if (design$kind == "within") tests <- setdiff(tests, "dispersion")
   each <- lapply(aligned, function(one) {
     tick()
-    compare_level(in_design(one, design), dealt$labels, components, tests, spread, blocks, tick)
+    compare_level(in_design(one, design), dealt$labels, components, tests, spread, blocks,
+                  counts, tick)
   })
+  each <- signs_of_first(each, nlevels(group) == 2)
   count <- vapply(each, function(one) as.integer(one$components), 0L)
   compared <- structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"),
                              aligned = aligned,
@@ -149,7 +185,8 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
                                             list(n_perm = n_perm, components = components,
                                                  tests = tests,
                                                  exchange = design$kind,
-                                                 equal_spread = equal_spread))),
+                                                 equal_spread = equal_spread,
+                                                 n_boot = n_boot))),
                         class = "group_comparison")
   warn_unequal_spread(compared)
   compared
@@ -187,19 +224,38 @@ validate.group_comparison <- function(x) {
 #' The tests of one level
 #' @return List: `tests`, `points`, `pca`, `components`.
 #' @noRd
-compare_level <- function(aligned, labels, components, tests, spread, blocks, tick) {
+compare_level <- function(aligned, labels, components, tests, spread, blocks, counts, tick) {
   wants <- function(test) test %in% tests
   flat <- matrix(aligned$coords, length(aligned$mean))
   y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
-  pca <- if (wants("T2") || wants("components")) shape_pca(aligned)
-  count <- if (is.null(pca)) NA else component_count(components, pca, labels[, 1], spread)
-  rows <- list(if (wants("size")) size_test(aligned$size, labels, spread),
-               if (wants("shape")) mean_shape_test(y, labels, spread),
-               if (wants("T2")) t2_test(pca, count, labels, spread),
-               if (wants("components")) component_tests(pca, count, labels, spread),
+  pca <- if (wants("T2") || wants("components")) {
+    shape_pca(aligned, components = if (components >= 1) components)
+  }
+  most <- if (!is.null(pca)) component_count(components, pca)
+  total <- if (wants("shape") || wants("T2") && !spread$equal) whole_shape(y, labels, spread)
+  t2 <- if (wants("T2")) t2_test(pca, most, labels, spread, total$df)
+  count <- if (!is.null(t2)) attr(t2, "components") else if (is.null(pca)) NA else most
+  rows <- list(if (wants("size")) size_test(aligned$size, labels, spread, counts),
+               if (wants("shape")) mean_shape_test(total, labels, spread, counts), t2,
+               if (wants("components")) component_tests(pca, most, labels, spread),
                if (wants("dispersion")) dispersion_test(y, labels))
   points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick)
   list(tests = do.call(rbind, rows), points = points, pca = pca, components = count)
+}
+
+#' Components of later levels turned to the side of the first level's of the same number
+#' @noRd
+signs_of_first <- function(each, two) {
+  first <- each[[1]]$pca
+  for (i in seq_along(each)[-1]) {
+    pca <- each[[i]]$pca
+    shared <- seq_len(min(length(first$sdev), length(pca$sdev)))
+    turned <- shared[colSums(first$x[, shared, drop = FALSE] * pca$x[, shared, drop = FALSE]) < 0]
+    each[[i]]$pca <- turn_components(pca, turned)
+    of_turned <- each[[i]]$tests$test %in% names_of_components(pca)[turned]
+    if (two) each[[i]]$tests$statistic[of_turned] <- -each[[i]]$tests$statistic[of_turned]
+  }
+  each
 }
 
 #' Tables of all levels in one, the level first
@@ -399,7 +455,8 @@ warn_unequal_spread <- function(x, ratio = 1.5) {
   if (!x$equal_spread || is.null(worst) || min(sizes) == max(sizes) ||
       worst$statistic <= ratio) return(invisible())
   crestline_warn(
-    sprintf("the groups are unequal in size (%s), and their spreads differ by a factor of %.2g (%s).",
+    sprintf(paste("the groups are unequal in size (%s), and their spreads differ by a factor of",
+                  "%.2g (%s)."),
             paste(sizes, collapse = ", "), worst$statistic, worst$level),
     "Pooled tests then have wrong p-values: give `equal_spread = FALSE`.", stage = "comparison",
     class = "crestline_unequal_spread"

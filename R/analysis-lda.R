@@ -32,6 +32,7 @@
 #'   (discriminant scores), with the names of the shapes.
 #' @section Errors: of class `crestline_error`: as of [compare_groups()]; a group with fewer than
 #'   three specimens; no number of components left.
+#' @template glossary
 #' @references Kovarovic, Aiello, Cardini and Lockwood (2011) Discriminant function analyses in
 #'   archaeology: are classification rates too good to be true? *Journal of Archaeological Science*
 #'   38, 3006-3018; Venables and Ripley (2002) *Modern Applied Statistics with S*, section 12.1.

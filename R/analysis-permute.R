@@ -25,11 +25,12 @@ regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL,
 
 check_permutations <- function(x, n, call) {
   if (is.list(x) && length(x) && all(lengths(x) == n)) x <- matrix(unlist(x), ncol = length(x))
-  ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2,
-                                                                                  function(order) all(sort(order) == seq_len(n))))
+  is_order <- function(order) all(sort(order) == seq_len(n))
+  ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2, is_order))
   if (!ok) {
     crestline_abort("`permutations` are not orders of all specimens.",
-                    sprintf("Give a matrix of %d rows, every column an order of 1, ..., %d; their number is `n_perm`.", n, n),
+                    sprintf(paste("Give a matrix of %d rows, every column an order of 1, ...,",
+                                  "%d; their number is `n_perm`."), n, n),
                     stage = "arguments", call = call)
   }
   # The first of RRPP's permutations is the observed order.

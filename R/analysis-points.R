@@ -27,7 +27,8 @@ point_tests <- function(aligned, labels, spread, blocks, tick) {
     tick()
   }
   described <- point_table(aligned, labels[, 1], along)
-  f <- observed_f(y, labels[, 1], spread)$f
+  squares <- Reduce(`+`, lapply(y, function(part) part^2))
+  f <- observed_f(squared_sums(y), squares, labels[, 1], spread)$f
   described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
   described$p_value <- as_great / ncol(labels)
   described$p_adjusted <- vapply(observed[1, ], function(value) mean(family >= value * (1 - 1e-10)),

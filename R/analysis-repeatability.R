@@ -118,7 +118,8 @@ failed_measurements <- function(shapes) {
     crestline_warn(sprintf("%s of %s failed and %s left out: %s.", sum(failed),
                            amount(length(failed), "measurement"),
                            if (sum(failed) == 1) "is" else "are", shorten(names(failed)[failed])),
-                   "See failures() of the batch; the specimens and observers that are left may be unbalanced.",
+                   paste("See failures() of the batch; the specimens and observers that are",
+                         "left may be unbalanced."),
                    stage = "repeatability", class = "crestline_failed_measurements")
   }
   failed
@@ -246,7 +247,8 @@ variance_components <- function(y, specimen, observer = NULL) {
                      numeric(length(spaces)))
   if (any(df == 0) || sum(df) >= length(specimen) - 1) {
     crestline_abort("specimens, observers and residual cannot be told apart in this design.",
-                    "Let observers measure the same specimens, some of them twice; or leave `observer` out.",
+                    paste("Let observers measure the same specimens, some of them twice; or",
+                          "leave `observer` out."),
                     stage = "repeatability", call = NULL)
   }
   system <- rbind(cbind(matrix(expected, length(spaces)), df),

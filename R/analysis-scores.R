@@ -21,6 +21,7 @@
 #'   the shapes of the sample).
 #' @section Errors: of class `crestline_error`: points that are not those of the sample, a shape
 #'   that was slid against another template, or not at all.
+#' @template glossary
 #' @seealso [shape_pca()], [slide()], [shape_lda()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))

@@ -12,15 +12,15 @@
 #' Degrees of freedom, sums of squares and F are those of `geomorph::bilat.symmetry()` with
 #' `object.sym = TRUE`. Its p-values come from permuted residuals of all configurations. Here
 #' directional asymmetry is tested by exchanging left and right of each specimen at random, and
-#' fluctuating asymmetry by exchanging the asymmetry of measurements between specimens: both tests
-#' are exact.
+#' fluctuating asymmetry by exchanging the asymmetry of measurements between specimens. Both tests
+#' are exact: with 5 individuals directional asymmetry has 16 exchanges, and p is at least 1/16.
 #'
 #' @param sample,level,scale,weights,missing As in [compare_groups()]. Arrays need `pairs`.
 #' @param individual Factor of n, or a vector that can become one: whose measurement each shape is.
 #'   Values with names are matched by specimen. `NULL`: each shape is of another individual.
 #' @param pairs Of arrays: two columns with names or numbers of points, left and right. Points in no
 #'   pair lie on the mid-line. For a `shape_sample` its scheme has them.
-#' @param n_perm Number of random permutations.
+#' @param n_perm Number of random permutations; fewer exchanges of sides are all used.
 #' @param seed As in [compare_groups()].
 #' @return Object of class `symmetry_parts`, a list:
 #'   * `symmetric`, `asymmetric`: lists by level of `aligned`s of the same specimens. The first are
@@ -38,6 +38,7 @@
 #'   `as.data.frame()` gives `tests`.
 #' @section Errors: of class `crestline_error`: a scheme without pairs, pairs that are none, fewer
 #'   than two individuals.
+#' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
 #'   *Evolution* 56, 1909-1920; Palmer and Strobeck (1986) Fluctuating asymmetry, *Annual Review of
 #'   Ecology and Systematics* 17, 391-421.
@@ -174,13 +175,19 @@ symmetry_tests <- function(parts, individual, n_perm, seed) {
   # Exchange of sides turns an individual's asymmetry round; its length stays.
   sums <- tcrossprod(rowsum(off, code))
   p <- with_seed(seed, {
-    sign <- cbind(1, matrix(sample(c(-1, 1), length(count) * n_perm, TRUE), length(count)))
+    units <- length(count)
+    # All exchanges where they are few: the first individual's side may stay as it is.
+    sign <- if (2^(units - 1) <= n_perm) {
+      rbind(1, t(as.matrix(expand.grid(rep(list(c(1, -1)), units - 1)))))
+    } else cbind(1, matrix(sample(c(-1, 1), units * n_perm, TRUE), units))
     directional <- permutation_p(cbind(colSums(sign * (sums %*% sign))))
     fluctuating <- NA_real_
     if (repeated) {
       centred <- off - rep(colMeans(off), each = n)
       labels <- cbind(code, replicate(n_perm, code[sample.int(n)]), deparse.level = 0)
-      fluctuating <- permutation_p(cbind(between_total(tcrossprod(centred), labels)))
+      gram <- tcrossprod(centred)
+      among <- apply(labels, 2, function(own) sum(gram * outer(own, own, `==`) / count[own]))
+      fluctuating <- permutation_p(cbind(among))
     }
     c(NA, directional, fluctuating, if (repeated) NA)
   })

@@ -1,151 +1,143 @@
 # The statistics of a comparison of groups, for all regroupings at once.
 
-#' Sums of squares between groups, by variable, for many regroupings
+#' Sums of squares between and within groups, for many regroupings
 #'
-#' @param y n x q matrix, columns centred.
+#' @param about Function of an n x B matrix of 0 and 1, one group's members by regrouping, that
+#'   gives the squared sums of these members: B x q. Of [squared_sums()] or [squared_total()].
+#'   Variables are centred, so that the sums of a group are minus those of the others.
+#' @param squares n x q, squared entries by specimen.
 #' @param labels n x B matrix of group numbers, every column with groups of the same sizes.
-#' @return B x q matrix.
+#' @param apart Whether the squares within groups are wanted.
+#' @param rounding Share of all squares, up to which those between are 0: exact duplicates then tie.
+#' @return List: `between` (B x q), `within` (list of B x q, by group).
 #' @noRd
-between_squares <- function(y, labels) {
-  sizes <- tabulate(labels[, 1])
-  groups <- seq_along(sizes)[-which.max(sizes)]
-  last <- 0
-  total <- 0
-  for (g in groups) {
-    sums <- crossprod(labels == g, y)
-    total <- total + sums^2 / sizes[g]
-    last <- last + sums
-  }
-  total + last^2 / max(sizes)
-}
-
-#' The same summed over all variables, from the inner products of the specimens
-#'
-#' @param gram n x n, of centred rows.
-#' @return B sums.
-#' @noRd
-between_total <- function(gram, labels) {
-  sizes <- tabulate(labels[, 1])
-  groups <- seq_along(sizes)[-which.max(sizes)]
-  form <- function(e) colSums(e * (gram %*% e))
-  total <- 0
-  last <- 0
-  for (g in groups) {
-    e <- labels == g
-    storage.mode(e) <- "double"
-    total <- total + form(e) / sizes[g]
-    last <- last + e
-  }
-  # The largest group's sum is minus that of the others.
-  total + (if (length(groups) == 1) form(e) else form(last)) / max(sizes)
-}
-
-#' What the columns of y are tested by, for many regroupings: greater, the more lies between the
-#' groups
-#'
-#' With equal spread: sum of squares between over that in all. Else, with F of Brown and Forsythe
-#' (1974, with two groups the square of Welch's t) on df degrees of freedom of its own
-#' (Satterthwaite's): df log(1 + (groups - 1) F / df), near to chi-squared on groups - 1 degrees
-#' whatever df is (Wallace 1959). Without that a small group of great spread, which regroupings
-#' dilute, would be compared with lighter tails than its own.
-#'
-#' @param y List of n x q matrices, columns centred, over which squares are summed (the co-ordinates
-#'   of points).
-#' @param labels As in [between_squares()].
-#' @return B x q matrix; NA where nothing varies.
-#' @noRd
-group_scores <- function(y, labels, equal_spread) {
-  squares <- Reduce(`+`, lapply(y, function(part) part^2))
-  between <- Reduce(`+`, lapply(y, between_squares, labels))
-  total <- rep(colSums(squares), each = nrow(between))
-  score <- if (equal_spread) between / total else {
-    apart <- separate_variance(y, squares, labels)
-    f_score(between, apart$variance, apart$df, max(labels))
-  }
-  score[total <= 0] <- NA
-  score
-}
-
-#' @param df Degrees of freedom of the variance.
-#' @noRd
-f_score <- function(between, variance, df, groups) {
-  f <- pmin(between / variance, .Machine$double.xmax)
-  df * log1p((groups - 1) * f / df)
-}
-
-#' Sum over groups of (1 - n_g / n) times the variance within the group, and its degrees of freedom
-#' (Satterthwaite)
-#' @return List of two B x q matrices: `variance`, `df`.
-#' @noRd
-separate_variance <- function(y, squares, labels) {
+group_squares <- function(about, squares, labels, apart, rounding = 1e-12) {
   sizes <- tabulate(labels[, 1])
   last <- which.max(sizes)
-  sums <- lapply(y, function(part) 0)
-  left <- rep(colSums(squares), each = ncol(labels))
-  variance <- 0
-  spent <- 0
-  for (g in c(seq_along(sizes)[-last], last)) {
-    if (g == last) {
-      own <- left
-      of_group <- sums
-    } else {
-      member <- labels == g
-      own <- crossprod(member, squares)
-      of_group <- lapply(y, function(part) crossprod(member, part))
-      sums <- Map(`-`, sums, of_group)
-      left <- left - own
-    }
-    about <- Reduce(`+`, lapply(of_group, function(x) x^2)) / sizes[g]
-    part <- (1 - sizes[g] / sum(sizes)) * pmax(own - about, 0) / (sizes[g] - 1)
+  left <- all <- rep(colSums(squares), each = ncol(labels))
+  within <- list()
+  between <- rest <- 0
+  for (g in seq_along(sizes)[-last]) {
+    member <- labels == g
+    storage.mode(member) <- "double"
+    rest <- rest + member
+    sums <- about(member)
+    between <- between + sums / sizes[g]
+    if (!apart) next
+    own <- crossprod(member, squares)
+    left <- left - own
+    within[[g]] <- pmax(own - sums / sizes[g], 0)
+  }
+  if (length(sizes) > 2) sums <- about(rest)
+  if (apart) within[[last]] <- pmax(left - sums / sizes[last], 0)
+  between <- between + sums / sizes[last]
+  between[between <= rounding * all] <- 0
+  list(between = between, within = within)
+}
+
+#' @param y List of n x q matrices, columns centred, over which squares are summed (the co-ordinates
+#'   of points).
+#' @noRd
+squared_sums <- function(y) {
+  function(member) Reduce(`+`, lapply(y, function(part) crossprod(member, part)^2))
+}
+
+#' The same summed over all variables, by the smaller of the two products of a matrix
+#' @noRd
+squared_total <- function(y) {
+  if (nrow(y) > ncol(y)) return(function(member) cbind(colSums(crossprod(y, member)^2)))
+  gram <- tcrossprod(y)
+  function(member) cbind(colSums(member * (gram %*% member)))
+}
+
+#' F of Brown and Forsythe (1974), with two groups the square of Welch's t: squares between over the
+#' sum of (1 - n_g / n) times the variance within group g; and the degrees of freedom of that sum
+#' (Satterthwaite)
+#' @param found As of [group_squares()].
+#' @return List of two B x q matrices: `f`, `df`.
+#' @noRd
+separate_f <- function(found, sizes) {
+  n <- sum(sizes)
+  variance <- spent <- 0
+  for (g in seq_along(sizes)) {
+    part <- (1 - sizes[g] / n) * found$within[[g]] / (sizes[g] - 1)
     variance <- variance + part
     spent <- spent + part^2 / (sizes[g] - 1)
   }
   df <- variance^2 / spent
-  df[spent <= 0] <- sum(sizes) - length(sizes)
-  list(variance = variance, df = df)
+  df[spent <= 0] <- n - length(sizes)
+  list(f = pmin(found$between / variance, .Machine$double.xmax), df = df)
 }
 
-#' The same for the sum over all variables, from the inner products of the specimens
-#' @param gram As in [between_total()].
-#' @return B values: with equal spread the share that lies between, else F of Brown and Forsythe
-#'   (1974).
+#' How many directions share the variance: trace squared over the trace of the square of a
+#' covariance (Box 1954)
+#' @param y As of [squared_sums()].
+#' @return q numbers, 1 to the number of matrices.
 #' @noRd
-total_scores <- function(gram, labels, equal_spread) {
-  between <- between_total(gram, labels)
-  if (equal_spread) return(between / sum(diag(gram)))
-  sizes <- tabulate(labels[, 1])
-  variance <- 0
-  for (g in seq_along(sizes)) {
-    e <- labels == g
-    storage.mode(e) <- "double"
-    within <- drop(crossprod(e, diag(gram))) - colSums(e * (gram %*% e)) / sizes[g]
-    variance <- variance + (1 - sizes[g] / sum(sizes)) * pmax(within, 0) / (sizes[g] - 1)
+effective_dimensions <- function(y) {
+  product <- function(a, b) colSums(y[[a]] * y[[b]])
+  each <- seq_along(y)
+  whole <- Reduce(`+`, lapply(each, function(a) product(a, a)))
+  square <- Reduce(`+`, lapply(each, function(a) {
+    Reduce(`+`, lapply(each, function(b) product(a, b)^2))
+  }))
+  ifelse(whole > 0, whole^2 / square, 1)
+}
+
+#' What variables are tested by, for many regroupings: greater, the more lies between the groups
+#'
+#' With equal spread: sum of squares between over that in all. Else F with separate variances, on
+#' degrees of freedom of its own in every regrouping: f2 log(1 + f1 F / f2), near to chi-squared on
+#' f1 degrees whatever f2 is (Wallace 1959). Without that a small group of great spread, which
+#' regroupings dilute, would be compared with lighter tails than its own.
+#'
+#' @param about,squares As in [group_squares()].
+#' @param dimensions q numbers, as of [effective_dimensions()]: both degrees of freedom are
+#'   multiplied by them.
+#' @return List of B x q matrices: `between`, `score` (0 where nothing varies), `df` (`NULL` with
+#'   equal spread).
+#' @noRd
+spread_scores <- function(about, squares, labels, equal_spread, dimensions = 1) {
+  found <- group_squares(about, squares, labels, !equal_spread)
+  total <- rep(colSums(squares), each = ncol(labels))
+  own <- NULL
+  if (equal_spread) score <- found$between / total else {
+    own <- separate_f(found, tabulate(labels[, 1]))
+    by <- rep(dimensions, each = nrow(own$f), length.out = length(own$f))
+    below <- own$df * by
+    score <- below * log1p((max(labels) - 1) * by * own$f / below)
   }
-  between / variance
+  score[total <= 0] <- 0
+  list(between = found$between, score = score, df = own$df)
+}
+
+#' @rdname spread_scores
+#' @noRd
+group_scores <- function(y, labels, equal_spread) {
+  squares <- Reduce(`+`, lapply(y, function(part) part^2))
+  spread_scores(squared_sums(y), squares, labels, equal_spread, effective_dimensions(y))$score
 }
 
 #' The F of every column of y as it is grouped, and its degrees of freedom
 #'
-#' @param y As in [group_scores()].
+#' @param about,squares As in [group_squares()].
 #' @param code Group numbers.
 #' @param spread List: `equal` (see [compare_groups()]), `lost` (degrees of freedom that the means
 #'   of blocks take).
 #' @return List: `f` (with two groups the square of t: Student's, or Welch's), `df` (below).
 #' @noRd
-observed_f <- function(y, code, spread) {
-  labels <- cbind(code)
-  n <- length(code)
+observed_f <- function(about, squares, code, spread) {
+  found <- group_squares(about, squares, cbind(code), !spread$equal)
   groups <- max(code)
-  squares <- Reduce(`+`, lapply(y, function(part) part^2))
-  between <- as.vector(Reduce(`+`, lapply(y, between_squares, labels)))
+  n <- length(code)
   if (spread$equal) {
     df <- n - spread$lost - groups
-    within <- pmax(colSums(squares) - between, 0)
-    return(list(f = between / within * df / (groups - 1), df = df))
+    within <- pmax(colSums(squares) - found$between, 0)
+    return(list(f = as.vector(found$between / within) * df / (groups - 1), df = df))
   }
-  apart <- lapply(separate_variance(y, squares, labels), as.vector)
+  own <- lapply(separate_f(found, tabulate(code)), as.vector)
   kept <- kept_df(n, groups, spread)
-  list(f = between / apart$variance * kept, df = apart$df * kept)
+  list(f = own$f * kept, df = own$df * kept)
 }
 
 #' Share of the degrees of freedom that the means of blocks leave
@@ -159,17 +151,17 @@ kept_df <- function(n, groups, spread) (n - spread$lost - groups) / (n - groups)
 #' @param u n x c, orthonormal, centred: whitened scores.
 #' @return B values.
 #' @noRd
-hotelling <- function(u, labels) {
+hotelling <- function(u, labels, rounding = 1e-12) {
   sizes <- tabulate(labels[, 1])
   n <- nrow(u)
   if (length(sizes) == 2) {
-    share <- pmin(rowSums(between_squares(u, labels)), 1)
+    share <- pmin(rowSums(group_squares(squared_sums(list(u)), u^2, labels, FALSE)$between), 1)
     return((n - 2) * share / (1 - share))
   }
   vapply(seq_len(ncol(labels)), function(b) {
     sums <- rowsum(u, labels[, b]) / sqrt(sizes)
     share <- pmin(eigen(tcrossprod(sums), symmetric = TRUE, only.values = TRUE)$values, 1)
-    (n - length(sizes)) * sum(share / (1 - share))
+    (n - length(sizes)) * sum((share / (1 - share))[share > rounding])
   }, 0)
 }
 
@@ -179,33 +171,49 @@ hotelling <- function(u, labels) {
 #' with two groups T2 = d' (S_1 / n_1 + S_2 / n_2)^-1 d. Its degrees of freedom as Krishnamoorthy
 #' and Yu (2004) have them.
 #'
+#' @param u n x c, orthonormal, centred: whitened scores.
+#' @param code Group numbers.
+#' @param count How many of the columns are used.
 #' @return `t2`, `df`; NA without an inverse.
 #' @noRd
-separate_t2 <- function(u, code) {
+separate_t2 <- function(u, code, count, rounding = 1e-12) {
+  u <- u[, seq_len(count), drop = FALSE]
   sizes <- tabulate(code)
-  p <- ncol(u)
-  each <- lapply(seq_along(sizes), function(g) {
-    (1 - sizes[g] / sum(sizes)) * stats::cov(u[code == g, , drop = FALSE])
-  })
+  n <- length(code)
+  left <- diag(count)
+  rest <- numeric(count)
+  of_last <- length(sizes)
+  each <- vector("list", of_last)
+  between <- matrix(0, count, count)
+  for (g in seq_len(of_last)) {
+    own <- if (g < of_last) u[code == g, , drop = FALSE]
+    sums <- if (g < of_last) colSums(own) else -rest
+    sums[abs(sums) <= rounding] <- 0
+    squares <- if (g < of_last) crossprod(own) else left
+    about <- tcrossprod(sums) / sizes[g]
+    between <- between + about
+    each[[g]] <- (squares - about) * ((1 - sizes[g] / n) / (sizes[g] - 1))
+    left <- left - squares
+    rest <- rest + sums
+  }
   whole <- tryCatch(chol2inv(chol(Reduce(`+`, each))), error = function(e) NULL)
   if (is.null(whole)) return(c(t2 = NA_real_, df = NA_real_))
-  mean <- rowsum(u, code) / sizes
-  spent <- vapply(seq_along(sizes), function(g) {
+  spent <- 0
+  for (g in seq_along(sizes)) {
     part <- each[[g]] %*% whole
-    (sum(part * t(part)) + sum(diag(part))^2) / (sizes[g] - 1)
-  }, 0)
-  c(t2 = sum((mean %*% whole) * mean * sizes), df = (p + p^2) / sum(spent))
+    spent <- spent + (sum(part * t(part)) + sum(diag(part))^2) / (sizes[g] - 1)
+  }
+  c(t2 = sum(between * whole), df = (count + count^2) / spent)
 }
 
 #' What T2 with separate covariances is tested by: minus the logarithm of its approximate p, as its
 #' tails depend on the grouping
+#' @param count Number of components by regrouping.
 #' @noRd
-separate_t2_scores <- function(u, labels) {
-  groups <- max(labels)
-  vapply(seq_len(ncol(labels)), function(b) {
-    own <- separate_t2(u, labels[, b])
-    -t2_tail(own[["t2"]], own[["df"]], ncol(u), groups, log = TRUE)
-  }, 0)
+separate_t2_scores <- function(u, labels, count) {
+  own <- vapply(seq_len(ncol(labels)), function(b) separate_t2(u, labels[, b], count[b]),
+                numeric(2))
+  -t2_tail(own[1, ], own[2, ], count, max(labels), log = TRUE)
 }
 
 #' Tail of F of T2 on its degrees of freedom; those below are at least `least`
@@ -236,70 +244,171 @@ hotelling_p <- function(t2, n, groups, components) {
 #' One row of the table of tests
 #' @noRd
 test_row <- function(test, statistic, p_value, p_parametric = NA_real_, p_adjusted = p_value,
-                     share = NA_real_) {
+                     share = NA_real_, z = NA_real_, effect = rep(NA_real_, 3)) {
   data.frame(test = test, statistic = statistic, p_value = p_value, p_adjusted = p_adjusted,
-             p_parametric = p_parametric,
-             share = share)
+             p_parametric = p_parametric, share = share, z = z, effect = effect[1],
+             lower = effect[2], upper = effect[3])
 }
 
-size_test <- function(size, labels, spread) {
-  y <- list(cbind(size - mean(size)))
+#' Z of a statistic among those of the regroupings
+#' @param score As of [spread_scores()].
+#' @noRd
+score_z <- function(score, equal_spread) {
+  effect_z(as.vector(if (equal_spread) score / (1 - score) else score))
+}
+
+#' Bootstrap samples within groups: how often each specimen is drawn
+#' @param code Group numbers.
+#' @return n x B matrix of counts.
+#' @noRd
+bootstrap_counts <- function(code, n_boot, seed) {
+  members <- split(seq_along(code), code)
+  with_seed(seed, replicate(n_boot, {
+    drawn <- unlist(lapply(members, function(own) own[sample.int(length(own), replace = TRUE)]))
+    tabulate(drawn, length(code))
+  }))
+}
+
+#' An estimate with the quantiles of its bootstrapped values about their mean
+#' @noRd
+with_interval <- function(estimate, values, level = 0.95) {
+  off <- values - mean(values, na.rm = TRUE)
+  estimate + c(0, stats::quantile(off, c(1 - level, 1 + level) / 2, names = FALSE, na.rm = TRUE))
+}
+
+#' Cohen's d: first mean less second, over the root of the pooled variance
+#' @param counts n x B, how often each specimen counts.
+#' @noRd
+cohen_d <- function(y, code, counts = cbind(rep(1, length(y)))) {
+  of <- function(g) {
+    own <- counts * (code == g)
+    n <- colSums(own)
+    mean <- colSums(own * y) / n
+    list(mean = mean, squares = colSums(own * y^2) - n * mean^2)
+  }
+  first <- of(1)
+  second <- of(2)
+  variance <- (first$squares + second$squares) / (length(y) - 2)
+  ifelse(variance > 0, (first$mean - second$mean) / sqrt(variance), NA)
+}
+
+size_test <- function(size, labels, spread, counts) {
+  y <- list(varying(cbind(size - mean(size)), mean(size)))
   scores <- by_block(labels, function(part) group_scores(y, part, spread$equal))
   groups <- max(labels)
-  own <- observed_f(y, labels[, 1], spread)
-  sign <- if (groups == 2) sign(mean(size[labels[, 1] == 1]) - mean(size[labels[, 1] == 2])) else NA
-  test_row(if (groups == 2) "size t" else "size F", if (groups == 2) sign * sqrt(own$f) else own$f,
-           permutation_p(scores), stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE))
+  code <- labels[, 1]
+  own <- observed_f(squared_sums(y), y[[1]]^2, code, spread)
+  between <- group_squares(squared_sums(y), y[[1]]^2, cbind(code), FALSE)$between[1]
+  two <- groups == 2
+  d <- if (two) {
+    with_interval(cohen_d(y[[1]][, 1], code), cohen_d(y[[1]][, 1], code, counts))
+  } else rep(NA_real_, 3)
+  test_row(if (two) "size t" else "size F", if (two) sign(d[1]) * sqrt(own$f) else own$f,
+           permutation_p(scores), stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE),
+           share = between / sum(y[[1]]^2), z = score_z(scores, spread$equal), effect = d)
 }
 
-mean_shape_test <- function(y, labels, spread) {
-  gram <- tcrossprod(y)
-  scores <- by_block(labels, function(part) total_scores(gram, part, spread$equal))
-  between <- between_total(gram, labels[, 1, drop = FALSE])
-  sizes <- tabulate(labels[, 1])
-  groups <- length(sizes)
-  share <- between / sum(y^2)
-  kept <- kept_df(nrow(y), groups, spread)
-  statistic <- if (groups == 2) sqrt(between * sum(1 / sizes)) else
-    kept * if (spread$equal) share / (1 - share) * (nrow(y) - groups) / (groups - 1) else scores[1]
-  test_row(if (groups == 2) "mean shape" else "mean shape F", statistic, permutation_p(scores),
-           share = share)
+#' Centred values, 0 where they differ by rounding only
+#' @param scale Size of what was centred.
+#' @param digits Greatest difference by rounding, as a share of `scale`.
+#' @noRd
+varying <- function(y, scale, digits = 1e-13) {
+  if (max(abs(y)) <= digits * abs(scale)) y[] <- 0
+  y
 }
 
-t2_test <- function(pca, components, labels, spread) {
+#' @param total List, of [whole_shape()].
+#' @noRd
+#' @param counts Of [bootstrap_counts()].
+#' @noRd
+mean_shape_test <- function(total, labels, spread, counts) {
+  code <- labels[, 1]
+  sizes <- tabulate(code)
+  share <- total$between[1] / sum(total$squares)
+  tested <- function(...) test_row(..., p_value = permutation_p(total$score), share = share,
+                                   z = score_z(total$score, spread$equal))
+  if (length(sizes) > 2) {
+    return(tested("mean shape F", observed_f(total$about, total$squares, code, spread)$f))
+  }
+  distance <- sqrt(total$between * sum(1 / sizes))
+  # Of every bootstrap sample the first mean less the second.
+  drawn <- counts * c(1, -1)[code] / sizes[code]
+  drawn <- sqrt(pmax(total$about(drawn), 0))
+  tested("mean shape", distance[1],
+         effect = with_interval(distance[1] - mean(distance), as.vector(drawn)))
+}
+
+#' All variables of a level together, as the groups are dealt
+#' @param y n x q, columns centred.
+#' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1), `df` (B x 1, of the
+#'   variance within groups, by direction; `NULL` with equal spread).
+#' @noRd
+whole_shape <- function(y, labels, spread) {
+  total <- list(about = squared_total(y), squares = cbind(rowSums(y^2)))
+  dimensions <- if (spread$equal) 1 else 1 / sum(variance_shares(y)^2)
+  each <- by_block(labels, function(part) {
+    own <- spread_scores(total$about, total$squares, part, spread$equal, dimensions)
+    cbind(own$between, own$score, own$df)
+  })
+  c(total, list(between = each[, 1, drop = FALSE], score = each[, 2, drop = FALSE],
+                df = if (!spread$equal) each[, 3]))
+}
+
+#' Shares of the variance by component; of many specimens those of the leading ones
+#' @noRd
+variance_shares <- function(y, leading = 20) {
+  most <- if (nrow(y) > ncol(y)) leading
+  value <- thin_svd(y, 0, most)$d^2
+  if (length(value)) value / sum(y^2) else 1
+}
+
+#' T2 of the first components, with separate covariances on as many in every regrouping as the
+#' degrees of freedom of its variances allow
+#' @noRd
+t2_test <- function(pca, components, labels, spread, df) {
   n <- nrow(pca$x)
   groups <- max(labels)
-  u <- pca$x[, seq_len(components), drop = FALSE] / rep(pca$sdev[seq_len(components)] * sqrt(n - 1),
-                                                        each = n)
-  scores <- by_block(labels,
-                     function(part) if (spread$equal) hotelling(u, part) else separate_t2_scores(u,
-                                                                                                 part))
+  most <- min(components, ncol(pca$x), n - spread$lost - groups - 1)
+  u <- pca$x[, seq_len(most), drop = FALSE] / rep(pca$sdev[seq_len(most)] * sqrt(n - 1), each = n)
   kept <- kept_df(n, groups, spread)
   if (spread$equal) {
+    count <- most
+    scores <- by_block(labels, function(part) hotelling(u, part))
     statistic <- scores[1] * kept
-    p <- hotelling_p(statistic, n - spread$lost, groups, components)
+    p <- hotelling_p(statistic, n - spread$lost, groups, count)
   } else {
-    own <- separate_t2(u, labels[, 1]) * kept
+    each <- pmax(1, pmin(most, df %/% 2))
+    count <- each[1]
+    scores <- separate_t2_scores(u, labels, each)
+    own <- separate_t2(u, labels[, 1], count) * kept
     statistic <- own[["t2"]]
-    p <- if (groups == 2) t2_tail(statistic, own[["df"]], components, groups) else NA_real_
+    p <- if (groups == 2) t2_tail(statistic, own[["df"]], count, groups) else NA_real_
   }
-  test_row("T2", statistic, permutation_p(scores), p, share = sum(pca$share[seq_len(components)]))
+  row <- test_row("T2", statistic, permutation_p(scores), p, share = sum(pca$share[seq_len(count)]),
+                  z = effect_z(scores))
+  structure(row, components = count)
 }
 
-#' Every component by itself; adjusted by the greatest over components
+#' Every component by itself; adjusted by the greatest over components, and with separate variances
+#' by Sidak's inequality of the parametric p as well: the greater of both
+#'
+#' Components of all specimens together lean to the group that varies most, its mean included.
+#' Regroupings do not share this where spreads are unequal.
 #' @noRd
 component_tests <- function(pca, components, labels, spread) {
   groups <- max(labels)
+  components <- min(components, ncol(pca$x), nrow(pca$x) - spread$lost - groups - 1)
   x <- pca$x[, seq_len(components), drop = FALSE]
   scores <- by_block(labels, function(part) group_scores(list(x), part, spread$equal))
-  own <- observed_f(list(x), labels[, 1], spread)
+  own <- observed_f(squared_sums(list(x)), x^2, labels[, 1], spread)
   first <- labels[, 1] == 1
   sign <- sign(colMeans(x[first, , drop = FALSE]) - colMeans(x[!first, , drop = FALSE]))
   most <- do.call(pmax, as.data.frame(scores))
+  parametric <- stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE)
+  adjusted <- permutation_p(matrix(most, length(most), components), scores[1, ])
+  if (!spread$equal) adjusted <- pmax(adjusted, 1 - (1 - parametric)^components)
   test_row(colnames(x), if (groups == 2) sign * sqrt(own$f) else own$f, permutation_p(scores),
-           stats::pf(own$f, groups - 1, own$df, lower.tail = FALSE),
-           permutation_p(matrix(most, length(most), components), scores[1, ]),
-           pca$share[seq_len(components)])
+           parametric, adjusted, pca$share[seq_len(components)])
 }
 
 #' Whether the groups are equally spread: distances of specimens to the mean of their own group
@@ -319,13 +428,9 @@ dispersion_test <- function(y, labels) {
   test_row("dispersion", max(spread) / min(spread), permutation_p(scores))
 }
 
-#' How many components: a number, or a share of variance; never more than leave a degree of freedom,
-#' and with separate covariances never more than half the degrees of freedom of the smallest group
+#' How many components: a number, or a share of variance
 #' @noRd
-component_count <- function(components, pca, code, spread) {
-  sizes <- tabulate(code)
+component_count <- function(components, pca) {
   if (components < 1) components <- which(cumsum(pca$share) >= components - 1e-12)[1]
-  most <- nrow(pca$x) - spread$lost - length(sizes) - 1
-  if (!spread$equal) most <- min(most, (min(sizes) - 1) %/% 2)
-  max(1, min(components, length(pca$sdev), most))
+  max(1, min(components, length(pca$sdev)))
 }

@@ -10,12 +10,12 @@
 #' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test),
 #'   `statistic`, `p.value`, `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point),
 #'   `estimate` (`distance` along the normal, or the displacement where there is none), `statistic`,
-#'   `p.value`, `adj.p.value`. Of a model: a row a level, term and test, point or part. Of components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as
-#'   in broom). Of an alignment: a row a specimen, as `as.data.frame()`. `glance()`: one row. Of a
-#'   comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest of the
-#'   mean shape's). Of components: `nobs`, `points`, `components`, `variance` (total). Of an
-#'   alignment: `nobs`, `points`, `size` (mean), `distance` (root mean square from the mean),
-#'   `missing`.
+#'   `p.value`, `adj.p.value`. Of a model: a row a level, term and test, point or part. Of
+#'   components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as in broom). Of an alignment: a
+#'   row a specimen, as `as.data.frame()`. `glance()`: one row. Of a comparison: `nobs`, `groups`,
+#'   `levels`, `permutations`, `exact`, `p.value` (smallest of the mean shape's). Of components:
+#'   `nobs`, `points`, `components`, `variance` (total). Of an alignment: `nobs`, `points`, `size`
+#'   (mean), `distance` (root mean square from the mean), `missing`.
 #' @template glossary
 #' @examplesIf requireNamespace("generics", quietly = TRUE)
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
@@ -117,7 +117,8 @@ glance.shape_lm <- function(x, ...) {
   check_method_dots(...)
   validate(x)
   shape <- x$tests[x$tests$test %in% "shape", ]
-  data.frame(nobs = length(x$aligned[[1]]), terms = length(attr(x$models[[1]]$terms, "term.labels")),
+  data.frame(nobs = length(x$aligned[[1]]),
+  terms = length(attr(x$models[[1]]$terms, "term.labels")),
              df.residual = x$left, levels = length(x$aligned), permutations = x$n_perm,
              p.value = if (NROW(shape)) min(shape$p_value) else NA_real_)
 }

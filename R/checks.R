@@ -195,7 +195,8 @@ check_ends <- function(..., call = rlang::caller_env()) {
     located <- is.numeric(x) && identical(names(x), mesh_columns)
     position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
     if (!position && !is_path(x)) refuse_argument(name, x,
-                                                  "Give the name of a landmark, or three finite co-ordinates.", call)
+                                                  paste("Give the name of a landmark, or three",
+                                                        "finite co-ordinates."), call)
   }
 }
 

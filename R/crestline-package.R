@@ -37,7 +37,8 @@
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],
 #'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample].
 #' * *Statistics*: generalised Procrustes analysis [align()], what it doubts [sample_limits()];
-#'   [shape_pca()], [shape_at()], [compare_groups()]; to other packages and back: [as_geomorph()],
+#'   [shape_pca()], [shape_at()], [compare_groups()], [shape_lm()], [shape_lda()],
+#'   [symmetry_parts()]; to other packages and back: [as_geomorph()],
 #'   [as_rrpp()], [as_morpho()], [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
 #' * *Pictures and pages*: `plot()` of most objects: [plot.specimen()], [plot.curve()],

@@ -98,14 +98,15 @@ print.keep_side <- function(x, ...) {
 #' Regions with their landmarks looked up
 #'
 #' @param regions `NULL`, a `keep_away` or `keep_side`, or a list of them.
-#' @param specimen Specimen or mesh on which landmarks are looked up.
 #' @param locate Function of an end and its name in the region that gives three co-ordinates, or a
-#'   failure.
+#'   failure, as of [region_locator()].
+#' @param id Of the specimen.
 #' @param flat Height of the third point of a `keep_side` above the line, as a share of its length,
 #'   at which the three count as lying on a line.
-#' @return List of the regions, their ends as co-ordinates; `NULL` where there is none. Or a failure.
+#' @return List of the regions, their ends as co-ordinates; `NULL` where there is none. Or a
+#'   failure.
 #' @noRd
-located_regions <- function(regions, specimen, locate = region_locator(specimen), flat = 1e-6) {
+located_regions <- function(regions, locate, id, flat = 1e-6) {
   if (inherits(regions, c("keep_away", "keep_side"))) regions <- list(regions)
   for (i in seq_along(regions)) {
     region <- regions[[i]]
@@ -121,14 +122,10 @@ located_regions <- function(regions, specimen, locate = region_locator(specimen)
       return(no_result(sprintf("%s lies on the line from %s to %s.", end_name(region$towards),
                                  end_name(region$from), end_name(region$to)),
                          "Give keep_side() a landmark well beside that line.", "regions",
-                         specimen$id))
+                         id))
     }
   }
   regions
-}
-
-region_locator <- function(specimen) {
-  function(at, end) unlist(end_point(specimen, at, end)[1, c("x", "y", "z")])
 }
 
 # From the line between the first two ends of a region square up to the third.

@@ -6,11 +6,11 @@
 #' of the fitted surface at the vertex's foot (its Weingarten map).
 #'
 #' Constant and linear terms are kept, so that the surface need not pass through the noisy vertex.
-#' With `order = "adaptive"` nested fits of order 2, 3 and 4 are combined: the Hessian of the higher
-#' order is taken up as far as its difference from the lower one exceeds what noise makes,
+#' With `order = "adaptive"` nested fits of order 2, 3 and 4 are combined. The Hessian of the higher
+#' order counts as far as it differs from the lower one by more than noise does:
 #' \eqn{H = H_{lo} + w (H_{hi} - H_{lo})}{H = H_lo + w (H_hi - H_lo)} with
 #' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}{w = max(0, 1 - c
-#' sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)}, where \eqn{\sigma^2 V} is the covariance of a fit's
+#' sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)}. \eqn{\sigma^2 V} is the covariance of a fit's
 #' Hessian.
 #'
 #' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
@@ -236,13 +236,16 @@ check_radius <- function(radius, mesh) {
   if (radius > size / 2) {
     crestline_abort(sprintf("a ball of radius %.4g is as large as the mesh, whose size is %.4g.",
                             radius, size),
-                    "Give `radius` in the unit of the mesh (is the mesh in metres or centimetres?).", stage = "curvature")
+                    paste("Give `radius` in the unit of the mesh (is the mesh in metres or",
+                          "centimetres?)."),
+                    stage = "curvature")
   }
 }
 
 abort_radius <- function(neighbours, radius) {
   crestline_abort(
-    sprintf("no vertex could be fitted within %.3g of it: the balls hold %.0f vertices in the median.",
+    sprintf(paste("no vertex could be fitted within %.3g of it: the balls hold %.0f vertices in",
+                  "the median."),
             radius, stats::median(neighbours)),
     "Give a larger `radius`, in the unit of the mesh: several times the spacing of its vertices.",
     stage = "curvature"

@@ -139,7 +139,8 @@ seen_from <- function(scene, view) {
   column <- floor((view[, 1] - scene$usr[1]) / scene$pixel) + 1
   row <- floor((scene$usr[4] - view[, 2]) / scene$pixel) + 1
   inside <- !is.na(column +
-                   row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 & row <= nrow(scene$depth)
+                   row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 &
+                     row <= nrow(scene$depth)
   seen <- inside
   seen[inside] <- view[inside,
                        3] >= scene$depth[cbind(row, column)[inside, ,

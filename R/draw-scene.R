@@ -10,10 +10,11 @@
 #'
 #' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
-#' @param view Where to look from: "front" (along -z at +z, y up), "left" and "right" (the subject's
-#'   own), "three-quarter" (from the subject's left and a little above), "below", "above", "back";
-#'   or two angles in radians, how far the viewer goes round to the subject's left and how far up;
-#'   or a 3 x 3 rotation that turns the mesh so that x points right, y up and z to the viewer.
+#' @param view Where to look from, one of three kinds. A name: "front" (along -z at +z, y up),
+#'   "left" and "right" (the subject's own), "three-quarter" (from the subject's left and a little
+#'   above), "below", "above", "back". Two angles in radians: how far the viewer goes round to the
+#'   subject's left, and how far up. Or a 3 x 3 rotation that turns the mesh so that x points right,
+#'   y up and z to the viewer.
 #' @param engine "picture" or "rgl".
 #' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
 #'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].

@@ -25,7 +25,8 @@ curvature_legend <- function(curvature, quantile = 0.95,
   list(colours = ramp_colours(share, palette, missing),
        ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing),
        at = (at + 1) / 2, labels = paste(signif(abs(at) * limit, 2),
-                                         c("valley", "", "", "", "ridge")))
+                                         c("valley", "", "", "", "ridge")),
+       title = "1 / unit of the mesh")
 }
 
 # The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of

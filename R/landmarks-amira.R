@@ -1,5 +1,5 @@
-# .landmarkAscii of Amira and Avizo: define Markers n, Parameters, Markers { float[3] Coordinates } @1,
-# data after @1. Several sets of co-ordinates are several specimens. Names, which the format has
+# .landmarkAscii of Amira and Avizo: define Markers n, Parameters, Markers { float[3] Coordinates }
+# @1, data after @1. Several sets of co-ordinates are several specimens. Names, which the format has
 # not, stand among the parameters; a missing point is NaN.
 
 read_landmarks_amira <- function(file, options) {
@@ -25,7 +25,8 @@ read_landmarks_amira <- function(file, options) {
 
 # The numbers after @ of every set of co-ordinates, in the order of their declaration.
 amira_sections <- function(line, file) {
-  pattern <- "Markers\\s*[{]\\s*(float|double)\\[3\\]\\s*Coordinates[0-9]*\\s*[}]\\s*=?\\s*@([0-9]+)"
+  pattern <- paste0("Markers\\s*[{]\\s*(float|double)\\[3\\]\\s*Coordinates[0-9]*",
+                    "\\s*[}]\\s*=?\\s*@([0-9]+)")
   section <- unlist(lapply(regmatches(line, regexec(pattern, line)), `[`, 3))
   section <- section[!is.na(section)]
   if (!length(section)) {

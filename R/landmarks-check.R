@@ -93,8 +93,9 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
   }
   refuse_landmarks(
     sprintf("off the surface by more than %s: %s.", signif(tolerance * size, 3), shorten(named)),
-    paste0(if (2 * length(named) > nrow(landmarks)) "Do they belong to this scan? If so, place" else "Place",
-           " them anew, set them to NA, or, where they are only a little off, give a greater `tolerance`."), id
+    paste0(if (2 * length(named) > nrow(landmarks)) "Do they belong to this scan? If so, place" else
+      "Place", " them anew, set them to NA, or, where they are only a little off, give a greater ",
+      "`tolerance`."), id
   )
 }
 
@@ -148,10 +149,11 @@ turn_words <- function(turns) {
     from <- apply(turn != 0, 2, which)
     axes <- paste0(ifelse(turn[cbind(from, 1:3)] < 0, "-", ""), c("x", "y", "z")[from],
                    collapse = ", ")
-    if (axes == "-x, -y, z") return("with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
+    if (axes == "-x, -y, z") return(paste("with x and y negated (read them with",
+                                          "read_landmarks(file, frame = \"RAS\"))"))
     sprintf("with their axes turned, as (%s)%s", axes,
-            if (det(turn) < 0) ": a mirror image" else if (grepl("^-?x, -?z",
-                                                                 axes)) ": here y, there z points up" else "")
+            if (det(turn) < 0) ": a mirror image" else
+              if (grepl("^-?x, -?z", axes)) ": here y, there z points up" else "")
   }, "")
 }
 

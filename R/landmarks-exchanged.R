@@ -277,7 +277,8 @@ warn_exchanged <- function(found, id) {
   if (!length(groups)) return(invisible())
   crestline_warn(
     sprintf("landmarks look exchanged: %s.", paste(groups, collapse = "; ")),
-    "Look at them (plot() with labels = TRUE) and exchange their names: what ends on them is elsewhere.",
+    paste("Look at them (plot() with labels = TRUE) and exchange their names: what ends on them",
+          "is elsewhere."),
     stage = "landmarks", id = id, class = "crestline_exchanged"
   )
 }

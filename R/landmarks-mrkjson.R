@@ -124,8 +124,8 @@ write_landmarks_mrkjson <- function(sets, file, options) {
       mrkjson_list(curve, type, name, sprintf("%s-%d", name, seq_len(nrow(curve))), options)
     }, curves, type, names(curves)))
   )
-  schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/",
-                   "Resources/Schema/markups-schema-v1.0.3.json#")
+  schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/",
+                   "Markups/Resources/Schema/markups-schema-v1.0.3.json#")
   comments <- attr(x, "comments")
   said <- if (length(comments)) sprintf('"provenance": [%s],\n',
                                         paste(json_text(comments), collapse = ", "))
@@ -138,7 +138,8 @@ mrkjson_list <- function(x, type, name, label, options) {
   orientation <- sprintf("[%d, 0, 0, 0, %d, 0, 0, 0, 1]", sign, sign)
   absent <- is.na(x[, 1])
   position <- ifelse(absent, '""', sprintf("[%s]", row_text(x, sep = ", ")))
-  point <- sprintf('{"id": "%d", "label": %s, "position": %s, "orientation": %s, "positionStatus": "%s"}',
+  point <- sprintf(paste('{"id": "%d", "label": %s, "position": %s, "orientation": %s,',
+                         '"positionStatus": "%s"}'),
                    seq_along(label), json_text(label), position, orientation,
                    ifelse(absent, "undefined", "defined"))
   sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", "controlPoints": [\n%s\n]}', type,

@@ -14,14 +14,15 @@ read_landmarks_nts <- function(file, options) {
 }
 
 nts_remedy <- function() {
-  "Write a line such as 1 23L 69 1 9999 DIM=3: matrix, rows (L: labelled), columns, missing, code, dimension."
+  paste("Write a line such as 1 23L 69 1 9999 DIM=3: matrix, rows (L: labelled), columns,",
+        "missing, code, dimension.")
 }
 
 nts_header <- function(text, file, line) {
   refuse <- function(problem) refuse_landmark_file(file, problem, nts_remedy(), line)
-  part <- regmatches(text, regexec(
-    "^\\s*([0-9]+)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([01])(\\s+\\S+)?\\s+DIM\\s*=\\s*([0-9])\\s*$",
-    text, ignore.case = TRUE))[[1]]
+  pattern <- paste0("^\\s*([0-9]+)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([0-9]{1,7})([A-Za-z]?)\\s+",
+                    "([01])(\\s+\\S+)?\\s+DIM\\s*=\\s*([0-9])\\s*$")
+  part <- regmatches(text, regexec(pattern, text, ignore.case = TRUE))[[1]]
   if (!length(part)) refuse("the line of parameters cannot be read")
   label <- toupper(part[c(4, 6)])
   if (part[2] != "1") refuse("not a rectangular matrix (1)")

@@ -80,7 +80,8 @@ check_pts_names <- function(name, file) {
   if (length(wrong)) {
     refuse_landmark_file(file,
                          sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
-                         "Name it otherwise: C, number, dash, number is a point of a curve; no blanks at the ends.")
+                         paste("Name it otherwise: C, number, dash, number is a point of a",
+                               "curve; no blanks at the ends."))
   }
 }
 

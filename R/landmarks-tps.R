@@ -99,7 +99,8 @@ tps_scales <- function(record, file, options) {
   if (anyNA(scale)) {
     bare <- record[[which(is.na(scale))[1]]]
     refuse_landmark_file(file,
-                         sprintf("specimens without SCALE= among others that have one (%d of %d): units would mix",
+                         sprintf(paste("specimens without SCALE= among others that have one (%d",
+                                       "of %d): units would mix"),
                                        sum(is.na(scale)), length(scale)),
                          "Give each its SCALE=, or read with scale = FALSE: all as they stand.",
                          bare$line[1])

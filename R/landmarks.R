@@ -253,7 +253,8 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf("`curves`: curve %s is %s, not an n x 3 numeric matrix with a row at least.", name, describe_shape(x)),
+    refuse_landmarks(sprintf(paste("`curves`: curve %s is %s, not an n x 3 numeric matrix with",
+                                   "a row at least."), name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
@@ -268,14 +269,16 @@ check_written <- function(sets, format, file) {
   }
   if (any(with_curves) && !format$curves) {
     refuse_landmark_file(file, "the format holds no curves",
-                         "Write a .mrk.json, .tps, .pts or .csv file, or leave them out with curves = list().")
+                         paste("Write a .mrk.json, .tps, .pts or .csv file, or leave them out",
+                               "with curves = list()."))
   }
   name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
   wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
   if (wrong || any(names(sets) != trimws(names(sets)))) {
     refuse_landmark_file(file,
                          "a name is empty or holds a line break, or two specimens have the same",
-                         "Give every specimen, landmark and curve a name of its own, in one line, no blanks at the ends.")
+                         paste("Give every specimen, landmark and curve a name of its own, in",
+                               "one line, no blanks at the ends."))
   }
 }
 
@@ -305,7 +308,8 @@ curves_as_points <- function(sets, file) {
   curves <- lapply(sets, attr, "curves")
   if (!any(lengths(curves) > 0)) return(sets)
   crestline_warn(
-    sprintf("%s: the format has no curves: their points are written as landmarks, \"%s 1\" and so on.", basename(file),
+    sprintf(paste("%s: the format has no curves: their points are written as landmarks, \"%s",
+                  "1\" and so on."), basename(file),
             unlist(lapply(curves, names))[1]),
     "read_curves() gives them back; curves = list() leaves them out.", stage = "landmarks",
     class = "crestline_format_warning"

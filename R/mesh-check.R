@@ -207,9 +207,11 @@ drop_debris <- function(mesh, id, debris) {
 }
 
 refuse_debris <- function(pieces, debris, id) {
-  refuse_mesh(sprintf("it falls apart into %d pieces, each with less than %g (`debris`) of the triangles: %s.",
+  refuse_mesh(sprintf(paste("it falls apart into %d pieces, each with less than %g (`debris`)",
+                            "of the triangles: %s."),
                       pieces, debris, "their corners do not meet"),
-              "Join them: in MeshLab by Merge Close Vertices. Real pieces so small are kept with debris = 0.", id)
+              paste("Join them: in MeshLab by Merge Close Vertices. Real pieces so small are",
+                    "kept with debris = 0."), id)
 }
 
 drop_unreferenced <- function(mesh, id) {
@@ -230,7 +232,8 @@ describe_topology <- function(mesh, topology, area) {
 # What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
 tell_contacts <- function(mesh, topology, area, id) {
   edge <- sqrt(2 / sqrt(3) *
-               stats::median(area))  # of equilateral triangles of the median area; `area` is twice it
+               # of equilateral triangles of the median area; `area` is twice it
+               stats::median(area))
   loose <- warn_loose(topology, id)
   list(tell_seams(mesh, topology, edge, id, silent = loose),
        tell_second_skin(mesh, topology, edge, id))
@@ -241,7 +244,8 @@ warn_loose <- function(topology, id, share = 0.1, least = 10) {
   loose <- sum(colSums(topology$twin > 0) == 0)
   if (loose < max(least, share * length(topology$piece))) return(FALSE)
   crestline_warn(
-    sprintf("%.0f %% of the triangles touch no other: their corners do not meet, and no curve leaves its piece.",
+    sprintf(paste("%.0f %% of the triangles touch no other: their corners do not meet, and no",
+                  "curve leaves its piece."),
             100 * loose / length(topology$piece)),
     "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id,
     class = "crestline_loose_triangles"

@@ -55,7 +55,8 @@ sound_mesh <- function(mesh, id) {
   vb <- vertex_matrix(mesh$vb, id)
   it <- face_matrix(mesh$it, 3, id)
   if (ncol(it) == 0 || length(mesh$ib)) {
-    refuse_mesh(if (ncol(it) == 0) "the mesh has no triangles." else "the mesh has quads beside its triangles.",
+    refuse_mesh(if (ncol(it) == 0) "the mesh has no triangles." else paste("the mesh has quads",
+                                                                           "beside its triangles."),
                 "Pass it through specimen(), which mends what it can.", id)
   }
   faults <- cpp_mesh_faults(vb, it)
@@ -96,7 +97,9 @@ face_matrix <- function(x, corners, id) {
     lying <- is.matrix(x) && ncol(x) == corners
     refuse_mesh(sprintf("the faces are not a numeric matrix of %d rows but %s.", corners,
                         describe_shape(x)),
-                if (lying) "Give them a column each: t(mesh$it)." else "Give `it` as 3 x m vertex numbers.", id)
+                if (lying) "Give them a column each: t(mesh$it)." else paste("Give `it` as 3 x",
+                                                                             "m vertex numbers."),
+                                                                             id)
   }
   if (is.double(x)) {
     part <- colSums(matrix(x != round(x), corners), na.rm = TRUE) > 0

@@ -126,7 +126,8 @@ tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent =
   if (beside < least) beside <- 0
   if (beside > 0 && !silent) {
     crestline_warn(
-      sprintf("%d vertices of the border lie beside another border, less than %.2g apart: no curve crosses such a seam.",
+      sprintf(paste("%d vertices of the border lie beside another border, less than %.2g apart:",
+                    "no curve crosses such a seam."),
               beside, gap * edge),
       "Join them: in MeshLab by Merge Close Vertices, with that distance.", stage = "mesh", id = id,
       class = "crestline_seam"
@@ -151,7 +152,8 @@ tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, sh
   double <- mean(is.finite(away))
   if (double >= share) {
     crestline_warn(
-      sprintf("%.0f %% of the surface is there twice, two skins about %.2g apart: landmarks of one curve may lie on different skins.",
+      sprintf(paste("%.0f %% of the surface is there twice, two skins about %.2g apart:",
+                    "landmarks of one curve may lie on different skins."),
               100 * double, stats::median(away[is.finite(away)])),
       "Fuse the scans, or take one of the skins out, before you measure.", stage = "mesh", id = id,
       class = "crestline_double_skin"

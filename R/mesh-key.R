@@ -51,7 +51,8 @@ refuse_unknown_mesh <- function(name, expected, came) {
   crestline_abort(
     sprintf("%s does not know the mesh that it was made on%s.", name,
             if (is.null(expected$id)) "" else paste(", of", expected$id)),
-    "It comes from an older version of the package, or from elsewhere: make it anew on the mesh that you have.",
+    paste("It comes from an older version of the package, or from elsewhere: make it anew on",
+          "the mesh that you have."),
     stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
   )
 }
@@ -81,7 +82,8 @@ check_places <- function(points, known, name, id = NULL, tolerance = 1e-6) {
   }
   if (is.null(problem)) return(invisible(points))
   crestline_abort(sprintf("points of %s %s.", name, problem),
-                  "They were made on another mesh, or changed since: make them anew, or give three co-ordinates.",
+                  paste("They were made on another mesh, or changed since: make them anew, or",
+                        "give three co-ordinates."),
                   stage = "mesh", id = id, class = "crestline_wrong_mesh", call = NULL)
 }
 
@@ -103,7 +105,8 @@ misplaced <- function(at, mesh, tolerance) {
   if (!all(is.finite(at))) return("lack co-ordinates or weights")
   place <- place_on_faces_of(mesh, face, at[, c("w1", "w2", "w3"), drop = FALSE])
   away <- row_lengths(place - at[, c("x", "y", "z"), drop = FALSE])
-  if (any(away > tolerance)) return(sprintf("are up to %.3g away from where their faces are on this mesh", max(away)))
+  if (any(away > tolerance)) return(sprintf(paste("are up to %.3g away from where their faces",
+                                                  "are on this mesh"), max(away)))
   if (any(at[, c("w1", "w2", "w3")] < -1e-6)) "have negative weights"
 }
 

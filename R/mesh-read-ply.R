@@ -179,7 +179,8 @@ ply_check_lines <- function(text, start, end, lines, file, id) {
                 "The header's numbers of vertices, faces or properties are wrong: export it again.")
   }
   if (rest > 0 || nzchar(text$bad)) {
-    warn_file(file, sprintf("goes on behind what its header promises, at line %d: that was passed over",
+    warn_file(file, sprintf(paste("goes on behind what its header promises, at line %d: that",
+                                  "was passed over"),
                             lines + c(text$line, text$bad_line)[length(start) + 1]),
               "See whether the surface is whole, or export it again.", id)
   }

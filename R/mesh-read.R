@@ -14,7 +14,8 @@ read_mesh <- function(file, id) {
   })
   if (!is.null(mesh$short)) {
     warn_file(file, sprintf("has %d polygons with fewer than three corners", mesh$short),
-              "Look whether the surface is whole: the header's numbers may be wrong, or export it again.", id)
+              paste("Look whether the surface is whole: the header's numbers may be wrong, or",
+                    "export it again."), id)
   }
   mesh
 }

@@ -28,10 +28,10 @@
 #' @param x A `shape` (its surface, see [shape_mesh()]), a [specimen()], or a `mesh3d` such as a
 #'   denser surface of [shape_mesh()].
 #' @param file Path of the file, ending in `.ply`, `.obj` or `.stl`.
-#' @param colour Colours of the vertices: NULL for the natural ones, if any; one colour or one for
-#'   each vertex; numbers, one for each vertex (with a shape, also one for each of its surface
-#'   points), which `palette` turns into colours; "patch" for a colour a patch (strips between
-#'   patches grey); or "se" for the standard errors of a shape's surface points (NA inside patches).
+#' @param colour Colours of the vertices. NULL: the natural ones, if any. Colours: one, or one for
+#'   each vertex. Numbers: one for each vertex (with a shape also one for each of its surface
+#'   points); `palette` turns them into colours. "patch": a colour a patch, with the strips between
+#'   patches grey. "se": the standard errors of a shape's surface points, NA inside patches.
 #' @param parts Of a shape: parts of the surface, as in [shape_mesh()].
 #' @param palette Colours from the least number to the greatest, with even steps between.
 #' @param limits The numbers at the ends of the palette; the range of the numbers unless given.
@@ -110,7 +110,8 @@ painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
   n <- ncol(mesh$vb)
   row <- attr(mesh, "row")
   if (identical(colour, "se")) colour <- shape_errors(shape)
-  by_row <- is.numeric(colour) && !is.null(shape) && length(colour) == sum(shape$points$level == "surface")
+  by_row <- is.numeric(colour) && !is.null(shape) &&
+    length(colour) == sum(shape$points$level == "surface")
   if (by_row) colour <- colour[row]
   value <- if (is.numeric(colour)) check_values(colour, n)
   hex <- if (is.null(colour)) vertex_colours(mesh) else

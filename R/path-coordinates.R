@@ -1,7 +1,7 @@
 #' Arc length and signed distance of the surface near a path
 #'
-#' Unrolls the surface near a path: each vertex gets the arc length `s` of the
-#' nearest place of the path and its signed distance `d` from there, positive to the left of
+#' Unrolls the surface near a path. Each vertex gets two numbers. `s` is the arc length of the
+#' nearest place of the path. `d` is the signed distance from that place, positive to the left of
 #' the path seen from outside (the side of normal x tangent).
 #'
 #' Only vertices connected to the path within the window and its margin are kept. Past its ends the

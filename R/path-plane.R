@@ -37,21 +37,21 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
   check_number(side, "side", lower = 0, upper = 1)
   reach <- check_reach(reach)
   scan <- walkable(mesh)
-  in_context(cut_path(scan, located_ends(mesh, scan, from, to), angle, side, reach), scan$id)
+  in_context(cut_path(located_ends(mesh, scan, from, to), angle, side, reach), scan$id)
 }
 
 #' One plane cut as a path, or a failure
 #'
-#' @param scan As of [walkable()].
 #' @param ends As of [path_ends()]; a failure is handed on.
 #' @param angle,side,reach As in [plane_path()].
 #' @param ... Attributes of the path.
 #' @noRd
-cut_path <- function(scan, ends, angle, side, reach, ...) {
+cut_path <- function(ends, angle, side, reach, ...) {
   if (failed(ends)) return(ends)
+  scan <- ends$scan
   found <- cpp_plane_path(scan$vb, scan$it, scan$twin, ends$from, ends$to,
                           plane_normal(ends, angle), side, reach * ends$span)
-  if (found$end != "arrived") return(failed_cut(found$end, ends, scan$id))
+  if (found$end != "arrived") return(failed_cut(found$end, ends))
   path_through(rbind(ends$exact[1, ], found$points, ends$exact[2, ]), scan, angle = angle,
                side = side, ...)
 }
@@ -61,21 +61,28 @@ cut_path <- function(scan, ends, angle, side, reach, ...) {
 #' @return List: `vb`, `it` (as kernels take them), `normals` (NULL where the mesh has none),
 #'   `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`. It serves as a mesh too.
 #' @noRd
-walkable <- function(mesh) {
-  whole <- as_mesh(mesh)
+walkable <- function(specimen) {
+  whole <- as_mesh(specimen)
   known <- passed_mesh(whole, NULL)
-  geometry <- if (inherits(mesh, "specimen")) mesh$geometry else
+  geometry <- if (inherits(specimen, "specimen")) specimen$geometry else
     mesh_topology(whole)[c("twin", "piece")]
   list(vb = known$vb, it = known$it, normals = whole$normals, twin = geometry$twin,
        piece = geometry$piece, key = known$key, diagonal = known$diagonal,
-       id = if (inherits(mesh, "specimen")) mesh$id)
+       id = if (inherits(specimen, "specimen")) specimen$id)
 }
 
 #' The ends of a path, from names of landmarks and positions as a user gives them
 #' @noRd
-located_ends <- function(mesh, scan, from, to) {
-  path_ends(scan, rbind(end_vector(mesh, scan, from, "from"), end_vector(mesh, scan, to, "to")),
-            c(end_name(from), end_name(to)))
+located_ends <- function(specimen, scan, from, to) {
+  path_ends(scan, rbind(end_vector(specimen, scan, from, "from"),
+                        end_vector(specimen, scan, to, "to")), c(end_name(from), end_name(to)))
+}
+
+#' What looks up the ends of regions, see [located_regions()]
+#' @noRd
+region_locator <- function(specimen) {
+  scan <- walkable(specimen)
+  function(at, end) end_vector(specimen, scan, at, end)[c("x", "y", "z")]
 }
 
 #' Both ends of a path: in different places, on one piece of the mesh
@@ -85,8 +92,8 @@ located_ends <- function(mesh, scan, from, to) {
 #' @param inside Barycentric weight by which ends are kept off edges and corners, so
 #'   that a plane through an end always crosses its triangle. The path begins and
 #'   stops at the exact places.
-#' @return List: `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the axis
-#'   between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
+#' @return List: `scan`, `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the
+#'   axis between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
 #'   `axis` and is normal to `across`) and `span` (its length). Or a failure.
 #' @noRd
 path_ends <- function(scan, exact, names, inside = 1e-6) {
@@ -109,8 +116,8 @@ path_ends <- function(scan, exact, names, inside = 1e-6) {
     return(refuse("%s and %s are too near to each other for the size of their triangle.",
                   "Check the mesh for huge triangles, and the two landmarks."))
   }
-  list(from = from, to = to, exact = exact, names = names, axis = axis$axis, across = axis$across,
-       span = axis$span)
+  list(scan = scan, from = from, to = to, exact = exact, names = names, axis = axis$axis,
+       across = axis$across, span = axis$span)
 }
 
 #' Normals of the planes at given angles, 3 x k
@@ -122,91 +129,74 @@ plane_normal <- function(ends, angle) {
   outer(ends$across, cos(angle)) + outer(turned, sin(angle))
 }
 
-#' A path through points that follow one another on the mesh; of neighbours at one place the later
-#' goes, but not the last
-#'
-#' @param points k x 7 matrix.
-#' @param mesh The mesh that they lie on: list of `key` and `id`, as of [walkable()] or [mesh_of()].
-#' @param ... Attributes of the path.
-#' @noRd
-path_through <- function(points, mesh = NULL, ...) {
-  step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] -
-                             points[-nrow(points), 1:3, drop = FALSE]))
-  kept <- c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))]
-  columns <- lapply(1:7, function(i) as.vector(points[kept, i]))
-  columns[[4]] <- as.integer(columns[[4]])
-  columns <- c(list(c(0, cumsum(step))[kept]), columns)
-  new_mesh_path(stats::setNames(columns, c("s", mesh_columns)), sum(step), mesh$key, mesh$id, ...)
-}
-
-#' A path from its parts: all its attributes are declared here
-#'
-#' @param columns List of `s` and the columns of points on a mesh.
-#' @param length In the unit of the mesh.
-#' @param key,id Of the mesh that its faces are numbers of, and of the specimen; NULL where there is
-#'   none.
-#' @param angle,side Of a plane cut.
-#' @param type,criterion,optima,competing Of a reference path.
-#' @param trusted Arc lengths between which it is believed.
-#' @param lifted Whether a lifted curve was walked in one.
-#' @noRd
-new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL,
-                          type = NULL, criterion = NULL,
-                          optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
-  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type,
-           criterion = criterion,
-           optima = optima, competing = competing, trusted = trusted, lifted = lifted,
-           class = "mesh_path")
-}
-
-#' Refuse a path without its columns, length or order
-#' @noRd
-validate_mesh_path <- function(x) {
-  at <- if (is.data.frame(x)) place_columns(x)
-  length <- attr(x, "length")
-  right <- !is.null(at) && nrow(at) >= 2 && is.numeric(x$s) && !is.unsorted(x$s, na.rm = FALSE) &&
-    is.numeric(length) && length(length) == 1 && is.finite(length)
-  if (isTRUE(right)) return(invisible(x))
-  crestline_abort("the path lacks co-ordinates, faces, weights, rising arc lengths `s`, or its length.",
-                  "Give a path as plane_path() or reference_path() returns it, whole.",
-                  stage = "path", id = attr(x, "id"),
-                  class = "crestline_path_error", call = NULL)
-}
-
-#' @exportS3Method
-validate.mesh_path <- function(x) validate_mesh_path(x)
-
-#' Refuse a path that does not lie on a mesh
-#'
-#' @param mesh The specimen or mesh that it is to be used with.
-#' @noRd
-check_path_on <- function(path, mesh, name) {
-  if (!is.null(attr(path, "key"))) check_same_mesh(path, mesh, name)
-  check_places(path, passed_mesh(as_mesh(mesh), NULL), name, mesh_of(mesh)$id)
-}
-
-failed_cut <- function(end, ends, id) {
+failed_cut <- function(end, ends) {
   why <- switch(end, border = "meets a border of the mesh",
                 round = "does not come to the second point",
                 "too far" = "strays too far from the axis")
   no_result(sprintf("the plane cut from %s to %s %s.", ends$names[1], ends$names[2], why),
               "Fill the hole between them, try another angle, or check the two landmarks.", "path",
-              id, "crestline_path_error")
+              ends$scan$id, "crestline_path_error")
 }
 
-#' @export
-print.mesh_path <- function(x, ...) {
-  check_method_dots(...)
-  printed(x, {
-    cat(sprintf("<mesh_path> %d points, length %.4g", nrow(x), attr(x, "length")))
-    if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees",
-                                                attr(x, "angle") * 180 / pi))
-    cat("\n")
-    optima <- attr(x, "optima")
-    if (!is.null(optima)) {
-      cat("Local optima:\n")
-      print(utils::head(optima, 6), digits = 3, row.names = FALSE)
-    }
-    invisible(x)
-  })
+# Holes of a mesh bridged by flat triangles, for paths to pass over; nothing that is measured may
+# lie on them.
+
+#' A specimen with its holes bridged
+#'
+#' A fan of triangles about its centre is laid over every loop of the border that is not too large.
+#' The mesh's own vertices and faces keep their numbers.
+#'
+#' @param largest Diagonal of the bounding box of a hole, as a share of the object's size
+#'   ([mesh_size()]), up to which it is bridged.
+#' @return The specimen, with more vertices and faces where there are such holes.
+#' @noRd
+bridge_holes <- function(specimen, largest) {
+  mesh <- specimen$mesh
+  corners <- lapply(cpp_border_loops(specimen$geometry$twin),
+                    function(loop) simple_loops(mesh$it[loop]))
+  corners <- unlist(corners, recursive = FALSE)
+  size <- vapply(corners, function(loop) box_diagonal(mesh$vb[1:3, loop, drop = FALSE]), 0)
+  holes <- corners[lengths(corners) >= 3 & size > 0 & size <= largest * specimen_size(specimen)]
+  if (!length(holes)) return(specimen)
+  centre <- ncol(mesh$vb) + seq_along(holes)
+  middle <- function(x) vapply(holes, function(loop) rowMeans(x[, loop, drop = FALSE]),
+                               numeric(nrow(x)))
+  mesh$vb <- cbind(mesh$vb, middle(mesh$vb))
+  mesh$normals <- cbind(mesh$normals, middle(mesh$normals))
+  fans <- Map(function(loop, centre) rbind(c(loop[-1], loop[1]), loop, centre), holes, centre)
+  mesh$it <- unname(cbind(mesh$it, do.call(cbind, fans)))
+  storage.mode(mesh$it) <- "integer"
+  geometry <- specimen$geometry
+  geometry[c("twin", "piece")] <- mesh_topology(mesh)[c("twin", "piece")]
+  with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key, geometry = geometry)
+}
+
+#' A loop of vertices taken apart where it meets itself
+#' @return List of loops in which no vertex is twice.
+#' @noRd
+simple_loops <- function(loop) {
+  found <- list()
+  while (anyDuplicated(loop)) {
+    end <- anyDuplicated(loop)
+    start <- max(which(loop[seq_len(end - 1)] == loop[end]))
+    found <- c(found, list(loop[start:(end - 1)]))
+    loop <- loop[-(start:(end - 1))]
+  }
+  c(found, list(loop))
+}
+
+#' A path without its parts on bridges: straight from rim to rim
+#' @noRd
+unbridged_path <- function(path, specimen) {
+  mesh <- specimen$mesh
+  if (is.null(path)) return(NULL)
+  attr(path, "key") <- specimen_key(specimen)
+  bridge <- path$face > ncol(mesh$it)
+  if (!any(bridge)) return(path)
+  landing <- which(bridge & !c(bridge[-1], TRUE))
+  path[landing, mesh_columns] <- surface_points(mesh, as.matrix(path[landing, c("x", "y", "z")]))
+  kept <- sort(c(which(!bridge), landing))
+  # Its arc lengths stay those of the way over the bridges, along which it was measured.
+  new_mesh_path(lapply(unclass(path)[c("s", mesh_columns)], `[`, kept), attr(path, "length"),
+                attr(path, "key"), attr(path, "id"))
 }

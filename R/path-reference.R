@@ -75,13 +75,14 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   strength <- if (type != "plane") {
     check_number(radius, "radius", lower = 0, open = TRUE)
     source <- known_curvature(curvature, specimen, radius, threads, order)
-    regions <- in_context(located_regions(keep_away, specimen), mesh_of(specimen)$id)
+    id <- mesh_of(specimen)$id
+    regions <- in_context(located_regions(keep_away, region_locator(specimen), id), id)
     path_strength(source, type, regions, as_mesh(specimen))
   }
   scan <- walkable(specimen)
   search <- search_settings(reach, longest, spacing, angles, refined, tie, distinct)
   ends <- located_ends(specimen, scan, from, to)
-  path <- in_context(find_reference(scan, ends, type, strength, radius, search), scan$id)
+  path <- in_context(find_reference(ends, type, strength, radius, search), scan$id)
   warn_rival(path, ends$names, scan$id, rival)
   path
 }
@@ -98,34 +99,34 @@ search_settings <- function(reach = 0.5, longest = 1.25, spacing = 0.25, angles 
 
 #' A reference path without checks and warnings, or a failure
 #'
-#' @param scan As of [walkable()].
 #' @param ends As of [path_ends()]; a failure is handed on.
 #' @param strength As of [path_strength()]; not used for planes.
 #' @param radius Of the curvature.
 #' @param search As of [search_settings()].
 #' @return As [reference_path()].
 #' @noRd
-find_reference <- function(scan, ends, type, strength, radius, search) {
+find_reference <- function(ends, type, strength, radius, search) {
   if (failed(ends)) return(ends)
   rate <- if (type == "plane") {
     function(found) -found$length
   } else {
-    function(found) cut_strength(scan, ends, found, search$reach, search$spacing * radius, strength)
+    function(found) cut_strength(ends, found, search$reach, search$spacing * radius, strength)
   }
-  measure <- function(angle, side) measure_cuts(scan, ends, angle, side, search$reach)
+  measure <- function(angle, side) measure_cuts(ends, angle, side, search$reach)
   optima <- cut_optima(measure, rate, search)
   if (nrow(optima) == 0) {
     return(no_result(
       sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1],
               ends$names[2], measure(0, 0L)$end),
       "Look for a hole between the landmarks, or raise `reach` if the feature bends far out.",
-      "reference path", scan$id, "crestline_path_error"
+      "reference path", ends$scan$id, "crestline_path_error"
     ))
   }
-  cut <- function(i) cut_path(scan, ends, optima$angle[i], optima$side[i], search$reach,
+  cut <- function(i) cut_path(ends, optima$angle[i], optima$side[i], search$reach,
                               type = type)
   path <- cut(1)
-  elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path, "length"),
+  elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path,
+                                                                                     "length"),
                     seq_len(nrow(optima))[-1])
   other <- if (is.null(elsewhere)) NA_integer_ else elsewhere
   if (type == "plane") optima$criterion <- optima$length
@@ -150,19 +151,20 @@ shares_of_first <- function(optima, type) {
 #' @param rate Function of measured cuts that are at most `longest` times as long as the shortest:
 #'   the greatest counts.
 #' @noRd
-limited_cut <- function(scan, ends, limit, angles, reach, rate = function(found) -found$length,
+limited_cut <- function(ends, limit, angles, reach, rate = function(found) -found$length,
                         longest = 1) {
   if (failed(ends)) return(ends)
-  found <- measure_cuts(scan, ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
-  if (all(is.na(found$length))) return(failed_cut(found$end[ceiling(angles / 2)], ends, scan$id))
+  found <- measure_cuts(ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
+  if (all(is.na(found$length))) return(failed_cut(found$end[ceiling(angles / 2)], ends))
   allowed <- found[which(found$length <= longest * min(found$length, na.rm = TRUE)), ]
-  cut_path(scan, ends, allowed$angle[which.max(rate(allowed))], 0, reach)
+  cut_path(ends, allowed$angle[which.max(rate(allowed))], 0, reach)
 }
 
 #' Lengths of plane cuts, NA where a cut does not arrive
 #' @return Data frame `angle`, `side`, `length`, `end`.
 #' @noRd
-measure_cuts <- function(scan, ends, angle, side, reach) {
+measure_cuts <- function(ends, angle, side, reach) {
+  scan <- ends$scan
   found <- cpp_plane_cuts(scan$vb, scan$it, scan$twin, ends$from, ends$to,
                           plane_normal(ends, angle), side, reach * ends$span)
   frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
@@ -173,8 +175,9 @@ measure_cuts <- function(scan, ends, angle, side, reach) {
 #' @param found Cuts as of [measure_cuts()], all arrived.
 #' @param strength Function of vertices.
 #' @noRd
-cut_strength <- function(scan, ends, found, reach, step, strength) {
+cut_strength <- function(ends, found, reach, step, strength) {
   if (nrow(found) == 0) return(numeric())
+  scan <- ends$scan
   at <- cpp_cut_weights(scan$vb, scan$it, scan$twin, ends$from, ends$to,
                         plane_normal(ends, found$angle), found$side, reach * ends$span, step)
   vertex <- unique(at$vertex)
@@ -312,4 +315,45 @@ warn_rival <- function(path, ends, id, rival = 0.05) {
 path_distance <- function(from, to) {
   xyz <- function(path) t(columns_of(path, c("x", "y", "z")))
   max(abs(cpp_path_coordinates(xyz(from), xyz(to), matrix(1, 3, nrow(to)))$d))
+}
+
+# Parts of paths, and a reference path that is believed in one part only.
+
+#' A reference path with the shortest cuts between the ends of its trusted part and the landmarks
+#'
+#' @param scan As of [walkable()].
+#' @param trust Where the trusted part begins and ends, as shares of the path's length.
+#' @return `mesh_path` with the attribute `trusted`, the arc lengths of that part; or a failure.
+#' @noRd
+trusted_path <- function(trust, scan, path) {
+  if (trust[1] <= 0 && trust[2] >= 1) return(path)
+  range <- trust * attr(path, "length")
+  at <- columns_of(place_along(scan, path, range))
+  ends <- columns_of(path)[c(1, nrow(path)), ]
+  between <- function(from, to) {
+    exact <- rbind(from, to)
+    names <- c(end_name(from), end_name(to))
+    find_reference(path_ends(scan, exact, names), "plane", NULL, NULL, search_settings())
+  }
+  parts <- list(
+    if (trust[1] > 0) between(ends[1, ], at[1, ]),
+    part_of_path(scan, path, range[1], range[2]),
+    if (trust[2] < 1) between(at[2, ], ends[2, ])
+  )
+  bad <- Find(failed, parts)
+  if (!is.null(bad)) return(bad)
+  lengths <- vapply(parts, function(part) if (is.null(part)) 0 else attr(part, "length"), 0)
+  points <- do.call(rbind, lapply(Filter(Negate(is.null), parts), columns_of))
+  path_through(points, scan, trusted = cumsum(lengths)[1:2], type = attr(path, "type"),
+               optima = attr(path, "optima"), competing = attr(path, "competing"))
+}
+
+check_trusted <- function(trust, call = rlang::caller_env()) {
+  if (!is.numeric(trust) || length(trust) != 2 || !all(is.finite(trust)) || trust[1] < 0 ||
+      trust[2] > 1 || trust[1] >= trust[2]) {
+    crestline_abort(sprintf("`trust` is %s.", describe_value(trust)),
+                    "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments",
+                    call = call)
+  }
+  trust
 }

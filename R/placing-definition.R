@@ -128,13 +128,11 @@ plane_section <- function(mesh, vertices, plane) {
 #' The curve that a definition is taken on, as a path
 #' @noRd
 definition_path <- function(specimen, definition, from, to, type, curvature, settings) {
-  scan <- walkable(specimen)
-  job <- curve_job(type, 2, end_name(from), end_name(to), settings$ridge,
+  job <- curve_job(located_ends(specimen, walkable(specimen), from, to), type, 2, settings$ridge,
                    radius = definition$radius, width = definition$width,
                    source = if (type != "plane") curvature(definition$radius))
-  doing <- sprintf("%s from %s to %s", type, job$from, job$to)
-  in_context(trace_curve(scan, located_ends(specimen, scan, from, to), job), specimen$id,
-             doing)$path
+  doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
+  in_context(trace_curve(job), specimen$id, doing)$path
 }
 
 #' Crossing of a curve with a mirror plane or another curve: that nearest to the landmark

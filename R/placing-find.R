@@ -41,6 +41,8 @@
 #'   confidence. [quality()] grades it, and the curves that end there, amber.
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
+#' @section Keeping the result: `saveRDS(specimen, file)` keeps the specimen with its states and
+#'   confidences. [write_landmarks()] writes the positions only.
 #' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
 #' @examples
 #' \donttest{
@@ -94,7 +96,8 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
                       template$id, laid$score,
                       settings$refuse)
-    remedy <- sprintf("Is it the object, and whole enough? Its lengths were multiplied by %g: else give `unit`, or place the landmarks by hand.",
+    remedy <- sprintf(paste("Is it the object, and whole enough? Its lengths were multiplied by",
+                            "%g: else give `unit`, or place the landmarks by hand."),
                       unit)
     refuse_landmarks(unlike, remedy, scan$id)
   }
@@ -128,7 +131,8 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   n <- ncol(prepared$xyz)
   own <- template$landmarks
   to_scan <- function(xyz) from_frame(xyz, laid)
-  carried <- lapply(list(bent, plain), function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
+  carried <- lapply(list(bent, plain),
+                    function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
   places <- columns_of(surface_points(scan$mesh, do.call(rbind, carried)), c("x", "y", "z"))
   with_curvature <- seq_len(nrow(own))
   at <- places[with_curvature, , drop = FALSE]

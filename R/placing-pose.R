@@ -87,7 +87,7 @@ fit_poses <- function(template, cloud, starts, reach, scale, settings, thin) {
   own <- if (thin) template$coarse else seq_len(ncol(template$xyz))
   at <- if (thin) cloud$coarse else seq_len(ncol(cloud$xyz))
   rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine,
-                kept = settings$kept,
+                kept = settings$trim_share,
                 scale = scale, saturation = settings$saturation, spacing = cloud$spacing[1 + thin])
   cpp_fit_poses(template$xyz[, own, drop = FALSE], template$normal[, own, drop = FALSE],
                 cloud$xyz[, at, drop = FALSE],

@@ -12,8 +12,10 @@ review_page <- function(title) {
         id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"), review_buttons(),
         shiny::uiOutput("list"),
         shiny::tags$p(class = "help",
-                      "Click on the surface: the chosen landmark goes there. Click on another's ball: that",
-                      "one is chosen. Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
+                      paste("Click on the surface: the chosen landmark goes there. Click on",
+                            "another's ball: that"),
+                      paste("one is chosen. Drag: turn. Wheel: nearer or farther. Right button",
+                            "and drag: shift."))
       )
     ),
     shiny::includeScript(review_file("review.js"))

@@ -95,8 +95,10 @@ with_landmark <- function(review, name, point) {
 #' stays what it was
 #' @noRd
 keep_selected <- function(review, progress = function(n) function() NULL) {
-  point <- if (length(review$selected)) known_point(review$specimen, review$selected)
-  if (is.null(point)) review else place_selected(review, point, progress)
+  point <- if (length(review$selected)) {
+    as_value(landmark_point(review$specimen, review$selected)[mesh_columns])
+  }
+  if (is.null(point) || failed(point)) review else place_selected(review, point, progress)
 }
 
 undo_review <- function(review) {
@@ -143,8 +145,9 @@ curves_at <- function(review, name) {
   curves <- review$fitting$scheme$curves
   own <- which(curves$from == name | curves$to == name)
   fits <- review$fitting$fits[own]
-  value <- function(field, none) vapply(fits,
-                                        function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  value <- function(field, none) {
+    vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  }
   data.frame(curve = curves$curve[own], kind = curves$kind[own], length = value("length", NA_real_),
              reason = value("reason", NA_character_), row.names = NULL)
 }

@@ -6,15 +6,14 @@
 #' package's own, for faces.
 #'
 #' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and
-#' `humface` (S. Schlager, GPL), made symmetric; the script `face-template.R` of the sources makes it,
-#' and describes how its landmarks were placed.
+#' `humface` (S. Schlager, GPL), made symmetric; the script `face-template.R` of the sources makes
+#' it, and describes how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
 #' @param predicted Names of landmarks for which the surface has no evidence, such as those at ears
 #'   that most scans lack. They are not searched for, but placed by the positions of the others.
-#' @param unit Length in the template's unit that the lengths of [find_settings()], which are mm of
-#'   a face, are multiplied by; the default makes a template's diagonal 280 of them, as that of a
-#'   face is.
+#' @param unit Factor on the lengths of [find_settings()], which are mm on a face, in the template's
+#'   unit. By default a template's diagonal is 280 of these lengths, as it is on a face.
 #' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are
 #'   partners, and the displacements that are tried are mostly symmetric. `NA`: where there are at
 #'   least two such pairs.

@@ -16,7 +16,7 @@
 warp_basis <- function(xyz, m, symmetric, settings) {
   affine <- settings$affine * cbind(1,
                                     sweep(xyz, 2, colMeans(xyz[seq_len(m), ])) /
-                                    settings$kernel_length[1])
+                                    settings$length_scale[1])
   if (!symmetric) {
     own <- process_basis(xyz, m, function(a, b) gauss_kernel(a, b, settings), settings$rank / 3)
     each <- cbind(own$functions, affine)
@@ -36,8 +36,8 @@ warp_basis <- function(xyz, m, symmetric, settings) {
 gauss_kernel <- function(a, b, settings) {
   d2 <- outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b)
   total <- 0
-  for (i in seq_along(settings$kernel_sd)) {
-    total <- total + settings$kernel_sd[i]^2 * exp(-d2 / (2 * settings$kernel_length[i]^2))
+  for (i in seq_along(settings$length_scale_sd)) {
+    total <- total + settings$length_scale_sd[i]^2 * exp(-d2 / (2 * settings$length_scale[i]^2))
   }
   total
 }
@@ -127,7 +127,7 @@ solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
   normal <- t(cloud$normal[, at, drop = FALSE])
   to <- t(cloud$xyz[, at, drop = FALSE])
   across <- row_products(to - moved[used, , drop = FALSE], normal)
-  weight <- 1 / ((1 + (across / settings$robust)^2) * settings$error^2)
+  weight <- 1 / ((1 + (across / settings$robust_scale)^2) * settings$error^2)
   gap <- to - xyz[used, , drop = FALSE]
   pull <- weight * ((1 - settings$along) * row_products(gap, normal) * normal + settings$along *
                     gap)

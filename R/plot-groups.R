@@ -7,11 +7,18 @@
 #'   the means as diamonds (the paper's Fig. 9, upper); "means": the two mean shapes laid over each
 #'   other, of equal size, transparent in two colours (lower); "map": the signed distance between
 #'   the means along the normal, the second's outside the first's positive, as colours on the mean
-#'   surface, points where it is significant outlined.
-#' @param level Level; the first with what the picture needs. "means" and "map" need a surface.
+#'   surface, points where it is significant outlined. Levels without a surface (landmarks, curves)
+#'   are drawn as points and lines: the means of all groups, and for the map the distance between
+#'   the means of two, significant points ringed.
+#' @param level Level; the first with a surface where the picture shows shapes, else the first.
 #' @param colour Colours of the groups.
 #' @param components Of "boxes": which components.
-#' @param significance Of "map": family-wise level of the outline.
+#' @param significance Of "map": level of the outline.
+#' @param adjust Of "map": what is held at that level. "fwe": the family-wise error, by the greatest
+#'   statistic over all points; "fdr": the false discovery rate ([stats::p.adjust()], Benjamini and
+#'   Hochberg 1995), where the alignment has weights the share of the weight, such as the area
+#'   (1997); "none": the error of each point by itself.
+#' @param length_unit Of "map": unit of lengths, for the legend.
 #' @param limits,palette Of "map": range of distances (unit of the meshes) and colours; by default
 #'   symmetric about 0.
 #' @param opacity Of "means": how much of a pixel's colour is that of the nearer surface, 0.5 to 1
@@ -22,11 +29,14 @@
 #' @param main Title; `NULL` for the p-value.
 #' @return "boxes": what [graphics::boxplot()] returns, a list by panel; "means", "map": the scene
 #'   of [draw_surface()]; invisibly.
-#' @section Errors: of class `crestline_error`: a level without a surface, means of more than two
-#'   groups.
+#' @section Errors: of class `crestline_error`: no such level; a map, or mean surfaces, of more than
+#'   two groups.
 #' @template glossary
 #' @templateVar where Fig. 9
 #' @template paper
+#' @references Benjamini and Hochberg (1995) Controlling the false discovery rate, *Journal of the
+#'   Royal Statistical Society B* 57, 289-300; (1997) Multiple hypotheses testing with weights,
+#'   *Scandinavian Journal of Statistics* 24, 407-418.
 #' @seealso [compare_groups()]
 #' @examples
 #' ball <- Rvcg::vcgSphere(3)
@@ -45,9 +55,13 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
                                   components = 1:3, significance = 0.05, limits = NULL,
                                   palette = grDevices::hcl.colors(21, "Blue-Red"), opacity = 0.8,
                                   engine = if (interactive()) "rgl" else "picture", view = "front",
-                                  legend = TRUE, main = NULL, ...) {
+                                  legend = TRUE, main = NULL, adjust = c("fwe", "fdr", "none"),
+                                  length_unit = "unit of the meshes", ...) {
   validate(x)
   what <- check_choice(what, c("boxes", "means", "map"), "what")
+  adjust <- check_choice(adjust, c("fwe", "fdr", "none"), "adjust")
+  length_unit <- check_text(length_unit, "length_unit")
+  check_colour(colour, "colour")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   level <- level_to_plot(x, level, what)
   groups <- nlevels(x$group)
@@ -57,24 +71,19 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
                   boxes = plot_boxes(x, level, colour, components, main, ...),
                   means = plot_means(x, level, colour, opacity, engine, view, legend, main, ...),
                   map = plot_map(x, level, significance, limits, palette, engine, view, legend,
-                                 main, ...))
+                                 main, adjust, length_unit, ...))
   invisible(drawn)
 }
 
 level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
-  surfaces <- names(Filter(function(one) !is.null(one$triangles), x$aligned))
-  possible <- if (what == "boxes") names(x$aligned) else surfaces
-  if (!length(possible)) {
-    crestline_abort("no level has a surface.",
-                    "Compare the level \"surface\", or give align() `triangles`.",
-                    stage = "picture", call = call)
-  }
-  if (what != "boxes" && nlevels(x$group) != 2) {
+  has_surface <- vapply(x$aligned, function(one) !is.null(one$triangles), NA)
+  possible <- names(x$aligned)[order(what != "boxes" & !has_surface)]
+  level <- if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
+  if (nlevels(x$group) != 2 && (what == "map" || what == "means" && has_surface[[level]])) {
     crestline_abort(sprintf("there are %d groups.", nlevels(x$group)),
-                    "Compare two, or plot \"boxes\".",
-                    stage = "picture", call = call)
+                    "Compare two, or plot \"boxes\".", stage = "picture", call = call)
   }
-  if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
+  level
 }
 
 plot_boxes <- function(x, level, colour, components, main, ...) {

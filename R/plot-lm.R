@@ -93,26 +93,6 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   invisible(scene)
 }
 
-#' A map of points that have no triangles: seen from `view`, those in front last
-#' @noRd
-points_map <- function(points, value, limits, palette, significance, view, legend, title) {
-  at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
-  if (ncol(at) == 3) at <- at %*% t(view_rotation(view))
-  colour <- palette[findInterval(value, seq(limits[1], limits[2],
-                                            length.out = length(palette) + 1),
-                                 all.inside = TRUE)]
-  order <- if (ncol(at) == 3) order(at[, 3]) else seq_len(nrow(at))
-  old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
-  on.exit(graphics::par(old))
-  graphics::plot(at[order, 1:2], asp = 1, axes = FALSE, xlab = "", ylab = "", pch = 21,
-                 bg = colour[order], cex = 1.1,
-                 col = ifelse(points$p_adjusted[order] <= significance, "black", "grey80"),
-                 lwd = ifelse(points$p_adjusted[order] <= significance, 1.6, 0.4))
-  if (legend) map_legend(palette, limits)
-  graphics::title(title, font.main = 1, cex.main = 0.9)
-  points
-}
-
 plot_lm_scores <- function(x, term, level, main, ...) {
   model <- x$models[[level]]
   aligned <- x$aligned[[level]]

@@ -1,7 +1,7 @@
 # Where two means differ: signed distance as colours, the significant region outlined.
 
-plot_map <- function(x, level, significance, limits, palette, engine, view, legend, main,
-                     ambient = 0.6, gloss = 0.03, ...) {
+plot_map <- function(x, level, significance, limits, palette, engine, view, legend, main, adjust,
+                     length_unit, ambient = 0.6, gloss = 0.03, ...) {
   significance <- check_number(significance, "significance", 0, 1)
   points <- x$points[x$points$level == level, ]
   if (is.null(points) || !nrow(points)) {
@@ -9,7 +9,24 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
                     stage = "picture",
                     call = NULL)
   }
-  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), x$aligned[[level]]$triangles)
+  aligned <- x$aligned[[level]]
+  points$p_adjusted <- held_p(points, adjust, aligned$weights)
+  found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
+  surface <- !is.null(aligned$triangles)
+  measure <- c(fwe = "family-wise p", fdr = "false discovery rate", none = "p of each point")
+  words <- sprintf("%s; %s: %s < %g (%d of %d points)",
+                   if (surface) sprintf("%s less %s along the normal", levels(x$group)[2],
+                                        levels(x$group)[1]) else "distance between the means",
+                   if (surface) "outlined" else "ringed", measure[[adjust]], significance, found,
+                   nrow(points))
+  title <- if (is.null(main)) words else main
+  if (!surface) {
+    if (is.null(limits)) limits <- c(0, max(points$displacement, na.rm = TRUE))
+    palette <- utils::tail(palette, ceiling(length(palette) / 2))
+    return(invisible(points_map(points, points$displacement, limits, palette, significance, view,
+                                legend, title, length_unit)))
+  }
+  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), aligned$triangles)
   row <- attr(mesh, "row")
   distance <- points$distance[row]
   if (is.null(limits)) limits <- c(-1, 1) * max(abs(distance), na.rm = TRUE)
@@ -24,21 +41,61 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
-    if (legend) map_legend(palette, limits)
-    found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
-    words <- sprintf("%s less %s along the normal; outlined: p < %g (%d of %d points)",
-                     levels(x$group)[2],
-                     levels(x$group)[1], significance,
-                     found, nrow(points))
-    graphics::title(if (is.null(main)) words else main, font.main = 1, cex.main = 0.9)
+    if (legend) map_legend(palette, limits, length_unit)
+    graphics::title(title, font.main = 1, cex.main = 0.8)
   }
   invisible(scene)
 }
 
-map_legend <- function(palette, limits) {
+#' p-values of points by what is held
+#' @param weights k numbers, of the points.
+#' @noRd
+held_p <- function(points, adjust, weights) {
+  switch(adjust, fwe = points$p_adjusted, none = points$p_value,
+         fdr = weighted_fdr(points$p_value, weights))
+}
+
+#' False discovery rate of weighted hypotheses (Benjamini and Hochberg 1997); with equal weights
+#' that of [stats::p.adjust()]
+#' @noRd
+weighted_fdr <- function(p, weights) {
+  known <- which(!is.na(p) & weights > 0)
+  order <- known[order(p[known])]
+  rate <- p[order] * sum(weights[known]) / cumsum(weights[order])
+  p[] <- NA
+  p[order] <- pmin(1, rev(cummin(rev(rate))))
+  p
+}
+
+map_legend <- function(palette, limits, title = NULL) {
   at <- pretty(limits, 5)
   at <- at[at >= limits[1] & at <= limits[2]]
-  colour_bar(palette, (at - limits[1]) / diff(limits), format(at))
+  colour_bar(palette, (at - limits[1]) / diff(limits), format(at), title = title)
+}
+
+#' A map of points that have no triangles: seen from `view`, those in front last
+#' @noRd
+points_map <- function(points, value, limits, palette, significance, view, legend, title,
+                       length_unit = NULL) {
+  at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
+  rownames(at) <- points$point
+  at <- seen_configurations(list(at), view)[[1]]
+  if (limits[2] <= limits[1]) limits <- limits[1] + c(0, 1)
+  breaks <- seq(limits[1], limits[2], length.out = length(palette) + 1)
+  colour <- palette[findInterval(value, breaks, all.inside = TRUE)]
+  order <- if (ncol(at) == 3) order(at[, 3]) else seq_len(nrow(at))
+  old <- configuration_window(list(at), 2, if (legend) 5 else 0.5)
+  on.exit(graphics::par(old))
+  for (own in curve_rows(points$point, points$level[1])) {
+    graphics::lines(at[own, 1:2, drop = FALSE], col = "grey70")
+  }
+  found <- points$p_adjusted[order] <= significance
+  graphics::points(at[order, 1:2], pch = 21, bg = colour[order], cex = 1.1,
+                   col = ifelse(found %in% TRUE, "black", "grey80"),
+                   lwd = ifelse(found %in% TRUE, 1.6, 0.4))
+  if (legend) map_legend(palette, limits, length_unit)
+  graphics::title(title, font.main = 1, cex.main = 0.8)
+  points
 }
 
 #' Lines on a mesh where a function of its vertices, linear in every triangle, has a value

@@ -1,19 +1,17 @@
-# Two mean surfaces laid over each other, transparent, in two colours.
-
-#' The mean shapes of the groups as meshes, of the sample's mean size
-#' @noRd
-group_meshes <- function(x, level) {
-  aligned <- x$aligned[[level]]
-  size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
-  lapply(stats::setNames(nm = levels(x$group)), function(g) {
-    points_mesh(size * mean_shape_of(aligned, x$group == g), aligned$triangles)
-  })
-}
+# Mean shapes laid over each other: two surfaces, transparent, or points and curves.
 
 plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
-  meshes <- group_meshes(x, level)
-  words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, "mean shape"))
+  aligned <- x$aligned[[level]]
+  size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
+  means <- lapply(stats::setNames(nm = levels(x$group)),
+                  function(g) size * mean_shape_of(aligned, x$group == g))
+  test <- intersect(c("mean shape", "mean shape F"), x$tests$test)
+  words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, c(test, NA)[1]))
   title <- if (is.null(main)) paste(words, collapse = ", ") else main
+  if (is.null(aligned$triangles)) {
+    return(plot_configurations(means, aligned$level, colour, view, legend, title))
+  }
+  meshes <- lapply(means, points_mesh, aligned$triangles)
   if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))

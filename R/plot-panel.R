@@ -16,7 +16,8 @@ draw_panel <- function(x, points = TRUE, grid = c(300, 200),
   grid <- check_size(check_numbers(grid, "grid", 2, lower = 2), "grid")
   main <- check_text(main, "main", null = TRUE)
   if (is.null(x$line)) {
-    crestline_abort(sprintf("the curve from %s to %s was not found by curvature, so it has no panel.", x$from, x$to),
+    crestline_abort(sprintf(paste("the curve from %s to %s was not found by curvature, so it",
+                                  "has no panel."), x$from, x$to),
                     "Plot a ridge or valley that was found.", stage = "picture", id = x$id)
   }
   x$coordinates <- x$coordinates[x$coordinates$inside, ]

@@ -5,12 +5,15 @@
 #' Draws the scores of the specimens on two components, or the shapes at both ends of one.
 #'
 #' @param x A `shape_pca`.
-#' @param what "scores" or "shapes": the surfaces at `-sd` and `sd` standard deviations, side by
-#'   side ("picture").
+#' @param what "scores" or "shapes": the shapes at `-sd` and `sd` standard deviations; surfaces side
+#'   by side ("picture"), landmarks and curves over each other and the mean.
 #' @param component Two components for "scores", one for "shapes".
 #' @param group Factor, one value a specimen, as in [compare_groups()], or `NULL`.
 #' @param colour Colours of the groups, or of the surfaces.
 #' @param sd Standard deviations.
+#' @param labels Of "scores": whether to write the names of the specimens.
+#' @param ellipse Of "scores": share of a normal distribution that the ellipse of each group holds,
+#'   such as 0.95; 0 for none. A group of two has none.
 #' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to
 #'   [graphics::plot.default()].
 #' @return The scores that are drawn, or the two scenes; invisibly.
@@ -23,31 +26,62 @@
 #' @export
 plot.shape_pca <- function(x, what = c("scores", "shapes"),
                            component = if (what[1] == "scores") 1:2 else 1, group = NULL,
-                           colour = c("#2F7FD1", "#E0553F"), sd = 3, view = "front", ...) {
+                           colour = c("#2F7FD1", "#E0553F"), sd = 3, view = "front",
+                           labels = FALSE, ellipse = 0, ...) {
   validate(x)
+  check_flags(labels)
+  check_colour(colour, "colour")
+  ellipse <- check_number(ellipse, "ellipse", 0, 1)
+  sd <- check_number(sd, "sd", lower = 0, open = TRUE)
   what <- check_choice(what, c("scores", "shapes"), "what")
   for (one in component) check_number(one, "component", 1, length(x$sdev))
-  drawn <- if (what == "scores") plot_scores(x, component, group, colour, ...) else
+  drawn <- if (what == "scores") plot_scores(x, component, group, colour, labels, ellipse, ...) else
     plot_ends(x, component[1], colour, sd, view, ...)
   invisible(drawn)
 }
 
-plot_scores <- function(pca, component, group, colour, ...) {
+plot_scores <- function(pca, component, group, colour, labels, ellipse, ...) {
   group <- if (is.null(group)) factor(rep("", nrow(pca$x))) else check_group(group, rownames(pca$x))
   colour <- if (length(colour) >= nlevels(group)) colour else
     grDevices::hcl.colors(nlevels(group), "Dark 3")
   names <- sprintf("PC%d (%.1f %%)", component, 100 * pca$share[component])
   at <- pca$x[, rep_len(component, 2)]
-  graphics::plot(at, asp = 1, pch = 16,
-                 col = grDevices::adjustcolor(colour[as.integer(group)], 0.8), xlab = names[1],
-                 ylab = names[length(names)], las = 1, ...)
+  rings <- if (ellipse == 0) list() else {
+    lapply(split(seq_len(nrow(at)), group), function(own) normal_ellipse(at[own, ], ellipse))
+  }
+  reach <- rbind(at, do.call(rbind, rings))
+  given <- list(...)
+  given <- utils::modifyList(list(xlim = range(reach[, 1]), ylim = range(reach[, 2]), asp = 1,
+                                  pch = 16, las = 1, xlab = names[1], ylab = names[length(names)],
+                                  col = grDevices::adjustcolor(colour[as.integer(group)], 0.8)),
+                             given)
+  do.call(graphics::plot, c(list(at), given))
+  for (g in seq_along(rings)) graphics::lines(rings[[g]], col = colour[g])
+  if (labels) graphics::text(at, rownames(pca$x), pos = 3, offset = 0.35, cex = 0.6, xpd = NA)
   graphics::abline(h = 0, v = 0, col = "grey80", lwd = 0.6)
   if (nlevels(group) > 1) graphics::legend("topright", levels(group), pch = 16, col = colour,
                                            bty = "n")
   at
 }
 
+#' The ellipse of a bivariate normal distribution that holds a share of it
+#' @noRd
+normal_ellipse <- function(xy, share, n = 100) {
+  if (nrow(xy) < 3) return(NULL)
+  turn <- seq(0, 2 * pi, length.out = n)
+  root <- eigen(stats::cov(xy), symmetric = TRUE)
+  axes <- root$vectors %*% diag(sqrt(pmax(root$values, 0) * stats::qchisq(share, 2)))
+  t(axes %*% rbind(cos(turn), sin(turn)) + colMeans(xy))
+}
+
 plot_ends <- function(pca, component, colour, sd, view, ...) {
+  if (is.null(pca$triangles)) {
+    shapes <- lapply(c(0, -sd, sd), function(at) shape_at(pca, component, at))
+    names(shapes) <- c("mean", sprintf("%+g sd", c(-sd, sd)))
+    title <- sprintf("PC%d (%.0f %%)", component, 100 * pca$share[component])
+    return(plot_configurations(shapes, pca$level, c("grey70", rep_len(colour, 2)), view, TRUE,
+                               title))
+  }
   meshes <- lapply(c(-sd, sd), function(at) shape_at(pca, component, at, "mesh"))
   around <- t(do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])))
   old <- graphics::par(mfrow = c(1, 2), mar = c(0.5, 0.5, 2, 0.5))

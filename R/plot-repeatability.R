@@ -51,7 +51,7 @@ plot_part_errors <- function(x, most, palette, ...) {
   top <- max(parts$error, if (several) parts$specimen)
   graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n",
                  ylab = "", xaxs = "i", bty = "n",
-                 xlab = "standard deviation of a point", ...)
+                 xlab = "standard deviation of a point (unit of the meshes)", ...)
   if (several) graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
   colour <- error_colours(parts$error, x, palette)
   graphics::segments(0, at, parts$error, at, col = colour, lwd = 2)
@@ -78,7 +78,8 @@ plot_point_errors <- function(x, rotation, palette, size) {
   front <- order(x$points$error)
   graphics::points(flat[front, 1:2], pch = 16, cex = size,
                    col = error_colours(x$points$error, x, palette)[front])
-  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2))
+  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2),
+             title = "unit of the meshes")
 }
 
 error_colours <- function(error, x, palette) {

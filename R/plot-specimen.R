@@ -95,14 +95,14 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   }
   if (engine == "picture") {
     graphics::title(main)
-    if (legend) colour_bar(scale$ramp, scale$at, scale$labels)
+    if (legend) colour_bar(scale$ramp, scale$at, scale$labels, title = scale$title)
   }
   invisible(scene)
 }
 
 # An upright bar of colours in the right margin, from the first at the bottom; labels at shares `at`
-# of its height.
-colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8) {
+# of its height; what they are above it.
+colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8, title = NULL) {
   line <- diff(graphics::grconvertX(0:1, "lines", "user"))
   usr <- graphics::par("usr")
   left <- usr[2] + 0.3 * line
@@ -116,4 +116,8 @@ colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8) {
                  lwd = 0.5)
   graphics::text(left + width * line, middle - half + 2 * half * at, labels, pos = 4, offset = 0.3,
                  cex = 0.75)
+  if (!is.null(title)) {
+    graphics::text(left, middle + half + 0.4 * line, paste(strwrap(title, 12), collapse = "\n"),
+                   adj = c(0, 0), cex = 0.75)
+  }
 }

@@ -53,7 +53,8 @@ report_matrix <- function(counts) {
   tags$section(
     tags$h2("Specimens by ", tags$select(id = "matrix-level", `aria-label` = "level", levels)),
     tags$p(class = "note",
-           "Rest the pointer on a cell for its reason; a click lists it below. A cross: not there."),
+           paste("Rest the pointer on a cell for its reason; a click lists it below. A cross: not",
+                 "there.")),
     tags$div(class = "scroll", tags$table(id = "matrix"))
   )
 }
@@ -108,8 +109,10 @@ report_parts <- function(table) {
     ),
     tags$div(class = "scroll", tags$table(id = "table")), tags$button(id = "more", "show more"),
     tags$p(class = "note",
-           "Lengths and standard errors (se) in the unit of the mesh, strength in 1 / unit; z: robust",
-           "z-score of the length against the other specimens; asymmetry: distance from the mirror image of the partner,",
+           paste("Lengths and standard errors (se) in the unit of the mesh, strength in 1 /",
+                 "unit; z: robust"),
+           paste("z-score of the length against the other specimens; asymmetry: distance from",
+                 "the mirror image of the partner,"),
            "as a share of the length; missing: share of its points. A click on a heading sorts.")
   )
 }
@@ -140,7 +143,8 @@ quality_meanings <- list(
   competing = "how good the best other path is, as a share of the one chosen",
   z = "size of the robust z-score of the length against other specimens",
   asymmetry = "distance from the mirror image of the partner, as a share of the length",
-  roughness = "mean angle between the normals of the triangles along the part and those at their corners, degrees",
+  roughness = paste("mean angle between the normals of the triangles along the part and those",
+                    "at their corners, degrees"),
   coarse = "mean edge of the triangles along the curve, in radii of the curvature estimate",
   bridged = "share of the curve's length that lies over holes",
   faults = "flipped, doubled or crossing triangles of the patch",

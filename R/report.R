@@ -2,10 +2,12 @@
 
 #' Write a page with the quality of measured specimens
 #'
-#' Writes one HTML file that needs no other file and no network. It has the numbers of green, amber
-#' and red parts of each specimen; for several specimens a matrix of specimens by curves (patches,
-#' landmarks); pictures of the specimens, with curves and points in the colours of their grades; and
-#' the table of [quality()], to sort and filter, with the reasons.
+#' Writes one HTML file that needs no other file and no network. The page has
+#'
+#' * the numbers of green, amber and red parts of each specimen;
+#' * for several specimens, a matrix of specimens by curves, patches and landmarks;
+#' * pictures of the specimens, with curves and points in the colours of their grades;
+#' * the table of [quality()] with the reasons, to sort and filter.
 #'
 #' @inheritParams quality
 #' @param file Where to write, ending in ".html".

@@ -94,15 +94,14 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   id <- if (inherits(specimen, "specimen")) specimen$id
   doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
   curve <- in_context(id = id, doing = doing, code = {
-    scan <- walkable(specimen)
-    job <- curve_job(type, n, end_name(from), end_name(to), settings, passes, trust = trust,
-                     reach = reach)
+    ends <- located_ends(specimen, walkable(specimen), from, to)
+    job <- curve_job(ends, type, n, settings, passes, trust = trust, reach = reach)
     if (type != "plane") {
       job[c("radius", "width")] <- list(radius, width)
       job$source <- known_curvature(curvature, specimen, radius, threads, settings$order)
-      job$regions <- located_regions(keep_away, specimen)
+      job$regions <- located_regions(keep_away, region_locator(specimen), id)
     }
-    trace_curve(scan, located_ends(specimen, scan, from, to), job)
+    trace_curve(job)
   })
   warn_rival(curve$reference, c(curve$from, curve$to), id)
   warn_undetermined(curve)
@@ -111,56 +110,55 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 
 #' What is asked of one curve
 #'
+#' @param ends As of [path_ends()]; a failure is handed on.
 #' @param type,n,settings,passes,radius,width,trust,reach As in [ridge_curve()].
-#' @param from,to Names of its ends.
 #' @param source Curvature as of [known_curvature()]; NULL for planes.
 #' @param regions As of [located_regions()]; a failure is handed on.
 #' @param angle_limit Of the planes of the reference path, in radians; NA: none.
 #' @noRd
-curve_job <- function(type, n, from, to, settings, passes = NULL, radius = NULL, width = NULL,
+curve_job <- function(ends, type, n, settings, passes = NULL, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
                       reach = 0.5) {
-  list(type = type, n = n, from = from, to = to, settings = settings, passes = passes,
-       radius = radius, width = width, source = source, regions = regions, trust = trust,
-       angle_limit = angle_limit,
+  list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius,
+       width = width, source = source, regions = regions, trust = trust, angle_limit = angle_limit,
        search = search_settings(reach, if (type == "plane") 1.25 else settings$longest))
 }
 
 #' One curve, without checks and warnings
 #'
-#' @param scan As of [walkable()].
-#' @param ends As of [path_ends()]; a failure is handed on.
 #' @param job As of [curve_job()].
 #' @return A `curve`, or a failure.
 #' @noRd
-trace_curve <- function(scan, ends, job) {
-  if (failed(ends)) return(ends)
-  if (failed(job$regions)) return(job$regions)
-  reference <- curve_reference(scan, ends, job)
+trace_curve <- function(job) {
+  for (needed in job[c("ends", "source", "regions")]) if (failed(needed)) return(needed)
+  reference <- curve_reference(job)
   if (failed(reference)) return(reference)
-  if (job$type == "plane") return(assembled_curve(scan, reference, reference, job))
-  path <- trusted_path(job$trust, scan, reference)
+  if (job$type == "plane") return(assembled_curve(reference, reference, job))
+  path <- trusted_path(job$trust, job$ends$scan, reference)
   if (failed(path)) return(path)
-  fit <- fit_passes(scan, path, job)
+  fit <- fit_passes(job$ends$scan, path, job)
   if (failed(fit)) return(fit)
-  assembled_curve(scan, fit$path, fit$reference, job, fit)
+  assembled_curve(fit$path, fit$reference, job, fit)
 }
 
 #' The reference path of a curve, among all cuts or those at small angles to the surface's normal
 #' @noRd
-curve_reference <- function(scan, ends, job) {
+curve_reference <- function(job) {
+  ends <- job$ends
   search <- job$search
-  strength <- if (job$type != "plane") path_strength(job$source, job$type, job$regions, scan)
+  strength <- if (job$type != "plane") {
+    path_strength(job$source, job$type, job$regions, ends$scan)
+  }
   if (is.na(job$angle_limit)) {
-    return(find_reference(scan, ends, job$type, strength, job$radius, search))
+    return(find_reference(ends, job$type, strength, job$radius, search))
   }
   if (is.null(strength)) {
-    return(limited_cut(scan, ends, job$angle_limit, search$limited, search$reach))
+    return(limited_cut(ends, job$angle_limit, search$limited, search$reach))
   }
   rate <- function(found) {
-    cut_strength(scan, ends, found, search$reach, search$spacing * job$radius, strength)
+    cut_strength(ends, found, search$reach, search$spacing * job$radius, strength)
   }
-  limited_cut(scan, ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
+  limited_cut(ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }
 
 #' The one place where a curve comes together
@@ -168,7 +166,8 @@ curve_reference <- function(scan, ends, job) {
 #' @param job As of [curve_job()].
 #' @param fit As of [fit_passes()]; NULL for plane curves.
 #' @noRd
-assembled_curve <- function(scan, path, reference, job, fit = NULL) {
+assembled_curve <- function(path, reference, job, fit = NULL) {
+  scan <- job$ends$scan
   placed <- resample_path(scan, path, job$n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
@@ -179,7 +178,7 @@ assembled_curve <- function(scan, path, reference, job, fit = NULL) {
   points <- frame_of(c(list(point = seq_len(job$n)), unclass(placed)[c("s", "x", "y", "z")],
                        list(d = d, se = on_line(fit$line$se)),
                        unclass(placed)[c("face", "w1", "w2", "w3")]))
-  new_curve(points, path, reference, job, judge_curve(job, fit), scan,
+  new_curve(points, path, reference, job, judge_curve(job, fit),
             coordinates = fit$coordinates, surface = fit$surface, line = fit$line,
             strength = mean_strength(scan, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
@@ -193,10 +192,9 @@ assembled_curve <- function(scan, path, reference, job, fit = NULL) {
 #'   [ridge_curve()].
 #' @param job As of [curve_job()].
 #' @param verdict List of `se`, `determined`, `reason`.
-#' @param scan List of `key` and `id` of the mesh that its faces are numbers of.
 #' @param even Whether its points stand at equal chords.
 #' @noRd
-new_curve <- function(points, path, reference, job, verdict, scan, coordinates = NULL,
+new_curve <- function(points, path, reference, job, verdict, coordinates = NULL,
                       surface = NULL, line = NULL,
                       strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE,
                       share = NULL, noise_factor = NA_real_) {
@@ -204,11 +202,11 @@ new_curve <- function(points, path, reference, job, verdict, scan, coordinates =
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
          surface = surface, line = line, strength = strength, scale = scale, se = verdict$se,
-         determined = verdict$determined, reason = verdict$reason, id = scan$id, from = job$from,
-         to = job$to,
+         determined = verdict$determined, reason = verdict$reason, id = job$ends$scan$id,
+         from = job$ends$names[1], to = job$ends$names[2],
          type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
          width = job$width,
-         key = scan$key, converged = converged, even = even, share = share,
+         key = job$ends$scan$key, converged = converged, even = even, share = share,
          noise_factor = noise_factor),
     class = "curve"
   )
@@ -222,7 +220,8 @@ validate_curve <- function(x) {
                     "mesh_path") && is.data.frame(x$points) && !is.null(place_columns(x$points)) &&
     is.numeric(x$points$s) && is_error(x$points$se)
   if (right) return(validate_mesh_path(path))
-  crestline_abort("the curve lacks its path, or points with co-ordinates, faces, weights and errors.",
+  crestline_abort(paste("the curve lacks its path, or points with co-ordinates, faces, weights",
+                        "and errors."),
                   "Give a curve as ridge_curve() returns it, whole.", stage = "ridge curve",
                   id = if (is.list(x)) x$id,
                   call = NULL)
@@ -317,3 +316,22 @@ print.curve <- function(x, ...) {
 
 #' @exportS3Method
 mesh_of.curve <- function(x) list(key = x$key, id = x$id)
+
+# How much a curve's strength stands out from what lies beside it.
+
+#' Contrast of a curve: mean strength along it over mean strength beside it
+#'
+#' Beside it are the vertices of its window that are farther than `settings$core` radii from the
+#' ridge line.
+#'
+#' @param curve A `curve`.
+#' @return One number without unit: 1 where the curve is no stronger than its surroundings, Inf
+#'   where these have no such curvature; NA for plane curves and those that were not found.
+#' @noRd
+curve_contrast <- function(curve) {
+  if (is.null(curve$line) || all(is.na(curve$points$d))) return(NA_real_)
+  window <- curve$coordinates[curve$surface$rows, ]
+  offset <- stats::approx(curve$line$s, curve$line$alpha, window$s, rule = 2)$y
+  beside <- abs(window$d - offset) > curve$settings$core * curve$radius
+  if (any(beside)) curve$strength / mean(curve$surface$strength[beside]) else NA_real_
+}

@@ -74,7 +74,8 @@ smooth_strength <- function(coordinates, strength, settings) {
 #' @noRd
 surface_factor <- function(moments) {
   tryCatch(chol(moments), error = function(e) {
-    no_result("the vertices of the window lie on a line in (s, d), or far too unevenly for a smooth surface.",
+    no_result(paste("the vertices of the window lie on a line in (s, d), or far too unevenly",
+                    "for a smooth surface."),
                 "Check the mesh by the landmarks for stretched triangles; give a larger `width`.",
                 "curvature surface")
   })

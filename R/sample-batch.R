@@ -72,7 +72,7 @@
 #' @section Warnings: of class `crestline_keeping_warning`, when the file of a result is damaged, is
 #'   gone, or has another result now. The value is then `NULL`.
 #' @seealso [failures()], [warnings_of()], [homologise()]
-#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' @examplesIf rlang::is_installed(c("future", "progressr"))
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
 #' curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"), kind = "plane",

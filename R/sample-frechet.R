@@ -5,13 +5,13 @@
 #' The point of the surface whose weighted sum of squared geodesic distances to the given points is
 #' least (Frechet mean).
 #'
-#' Geodesic distances are worked out triangle by triangle (see References): exact on a plane, about
-#' 1 % too long where they bend round a hole; on spheres of 642, 2,562 and 10,242 vertices 0.6, 0.3
-#' and 0.1 % short on average, 2.6, 1.4 and 0.8 % at most. (Paths over edges alone, as of
-#' `Rvcg::vcgDijkstra()`, are 7 % too long on all of them and 23 % at most, differently so by
-#' direction, so that they do not determine a mean.) The vertex with the least sum is found, and
-#' from there the least of a quadratic in the tangent plane: on these spheres within a tenth of an
-#' edge of the true mean.
+#' Geodesic distances are computed triangle by triangle (see References). They are exact on a plane,
+#' and about 1 % too long if they bend round a hole. On spheres of 642, 2,562 and 10,242 vertices
+#' they are 0.6, 0.3 and 0.1 % short on average, and 2.6, 1.4 and 0.8 % at most. Paths over edges
+#' alone, as of `Rvcg::vcgDijkstra()`, are 7 % too long on all of these spheres and 23 % at most.
+#' Their error depends on the direction, so that they do not determine a mean. The search begins at
+#' the vertex with the least sum. A quadratic in the tangent plane then gives the point. On these
+#' spheres it is within a tenth of an edge of the true mean.
 #'
 #' @param mesh A `mesh3d` of triangles, or a [specimen()].
 #' @param points k x 3 matrix, in the unit of the mesh; taken to the closest places of the surface.
@@ -25,7 +25,8 @@
 #' @template glossary
 #' @templateVar where section 3
 #' @template paper
-#' @references Novotni and Klein (2002) Computing geodesic distances on triangular meshes, *Journal of WSCG* 10, 341-347.
+#' @references Novotni and Klein (2002) Computing geodesic distances on triangular meshes, *Journal
+#'   of WSCG* 10, 341-347.
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(c(1, 0, 0), c(0, 1, 0), c(0, 0, 1))

@@ -331,7 +331,7 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 #' @section Errors: of class `crestline_error`, when `x` is no batch.
 #' @template glossary
 #' @seealso [warnings_of()] for the warnings of specimens that were measured.
-#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' @examplesIf rlang::is_installed(c("future", "progressr"))
 #' bad <- tempfile(fileext = ".ply")
 #' writeLines("no mesh", bad)
 #' curve <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 7)
@@ -369,7 +369,7 @@ failures <- function(x) {
 #' @section Errors: of class `crestline_error`, when `x` holds no shapes.
 #' @template glossary
 #' @seealso [failures()], [quality()]
-#' @examplesIf requireNamespace("future", quietly = TRUE) && requireNamespace("progressr", quietly = TRUE)
+#' @examplesIf rlang::is_installed(c("future", "progressr"))
 #' # Left and right are mirrored.
 #' corners <- rbind(aL = c(-1, -1, 2), aR = c(1, -1, 2), top = c(0, 2, 2), low = c(0, -2, 2))
 #' corners <- corners / sqrt(rowSums(corners^2))

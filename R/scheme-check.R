@@ -52,7 +52,8 @@ check_side_of <- function(curves) {
 
 check_scheme_patches <- function(patches, scheme) {
   blocks <- ifelse(is.na(patches$block), patches$patch, paste0(patches$patch, "|", patches$block))
-  both <- patches$patch %in% patches$patch[is.na(patches$block)] & duplicated(patches$patch) & !duplicated(blocks)
+  both <- patches$patch %in% patches$patch[is.na(patches$block)] & duplicated(patches$patch) &
+    !duplicated(blocks)
   unreadable <- function(column) which(vapply(patches[[column]],
                                               function(text) is.null(number_list(text)), NA))
   problems <- rbind(
@@ -84,7 +85,8 @@ block_problems <- function(patches) {
   columns <- lapply(patches$columns, number_list)
   rows <- lapply(patches$rows_kept, number_list)
   outside <- function(numbers, most) {
-    wrong <- function(i) min(numbers[[i]]) < 1 || max(numbers[[i]]) > most[i] || anyDuplicated(numbers[[i]]) > 0
+    wrong <- function(i) min(numbers[[i]]) < 1 || max(numbers[[i]]) > most[i] ||
+      anyDuplicated(numbers[[i]]) > 0
     which(vapply(seq_along(numbers), wrong, NA))
   }
   n <- lengths(columns) * lengths(rows)

@@ -152,15 +152,18 @@ refuse_table <- function(problems, label, names, most = 8) {
     sprintf("table %s has %d problem%s.\n%s", label, nrow(problems),
             if (nrow(problems) > 1) "s" else "",
             paste0("- ", lines, collapse = "\n")),
-    "Mend the table; rows are counted below the header. `?curve_scheme` says what each column holds.",
+    paste("Mend the table; rows are counted below the header. `?curve_scheme` says what each",
+          "column holds."),
     stage = "scheme", class = "crestline_scheme_error", call = NULL
   )
 }
 
 unknown_names <- function(x, known, column, what) {
   wrong <- which(!is.na(x) & !x %in% known)
-  nearest <- function(name) if (length(known)) known[which.min(utils::adist(name, known,
-                                                                            ignore.case = TRUE))] else "none"
+  nearest <- function(name) {
+    if (!length(known)) return("none")
+    known[which.min(utils::adist(name, known, ignore.case = TRUE))]
+  }
   near <- vapply(x[wrong], nearest, "")
   problem(wrong, column, sprintf("there is no %s \"%s\" (nearest: %s)", what, x[wrong], near))
 }

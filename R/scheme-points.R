@@ -119,3 +119,63 @@ block_surface <- function(block, curves) {
 }
 
 first_not_na <- function(x, otherwise) ifelse(is.na(x), otherwise, x)
+
+#' A scheme's tables as a fit takes them: nothing in them needs to be read again
+#'
+#' Made once for each scheme, and known again by the columns that it depends on.
+#'
+#' @param scheme A scheme, whole.
+#' @param most Number of schemes that are remembered.
+#' @return List: `order`, rows of the curves table, each after the one whose side it keeps to;
+#'   `places`, names of the places; `at`, for every point of the scheme the number of its place;
+#'   `blocks`, for every row of the patches table a list of `part`, `rows`, `outward`, `place`,
+#'   `column`, `row` (of its points), and `a`, `b`, `first`: its bounding curves as of
+#'   [compiled_side()], NULL where it has none.
+#' @noRd
+scheme_plan <- function(scheme, most = 4) {
+  structure <- c("curve", "from", "to", "n", "cut_share", "side_of")
+  of <- list(unclass(scheme$curves)[structure], unclass(scheme$patches), scheme$points$place)
+  for (known in session_values$plans) if (identical(known$of, of)) return(known)
+  curves <- scheme$curves
+  places <- unique(scheme$points$place)
+  at <- match(scheme$points$place, places)
+  surface <- at[scheme$points$level == "surface"]
+  last <- cumsum(scheme$patches$n)
+  blocks <- lapply(seq_len(nrow(scheme$patches)), function(i) {
+    block <- scheme$patches[i, ]
+    grid <- block_points(block)
+    side <- function(text, resample) if (!is.na(text)) compiled_side(text, resample, curves, places)
+    list(part = block$patch, rows = block$rows, outward = block$outward,
+         place = surface[last[i] - block$n + seq_len(block$n)], column = grid$column,
+         row = grid$row, a = side(block$curve_a, block$resample_a),
+         b = side(block$curve_b, block$resample_b), first = side(block$first_column, block$rows))
+  })
+  plan <- list(of = of, order = fitting_order(curves), places = places, at = at, blocks = blocks)
+  session_values$plans <- utils::head(c(list(plan), session_values$plans), most)
+  plan
+}
+
+#' A bounding curve, read
+#'
+#' @return List: `curve`, `point`, `place` (number of its place) of its points; `n`, how many points
+#'   it is to have.
+#' @noRd
+compiled_side <- function(text, resample, curves, places) {
+  points <- side_points(text)
+  list(curve = points$curve, point = points$point,
+       place = match(curve_places(points$curve, points$point, curves), places),
+       n = if (is.na(resample)) nrow(points) else resample)
+}
+
+#' A curve comes after the one whose side it keeps to
+#' @noRd
+fitting_order <- function(curves) {
+  before <- match(curves$side_of, curves$curve)
+  depth <- integer(nrow(curves))
+  at <- before
+  while (!all(is.na(at))) {
+    depth <- depth + !is.na(at)
+    at <- before[at]
+  }
+  order(depth)
+}

@@ -119,8 +119,10 @@ build_scheme <- function(tables, name, labels) {
   }
   scheme$curves <- with_defaults(scheme$curves)
   points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
-  new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
-                   scheme_triangles(scheme$patches, scheme$strips, points))
+  scheme <- new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
+                             scheme_triangles(scheme$patches, scheme$strips, points))
+  scheme_plan(scheme)
+  scheme
 }
 
 #' A scheme from its parts: all its fields are declared here
@@ -277,3 +279,26 @@ scheme_in_unit <- function(scheme, unit, specimen) {
   }
   scheme
 }
+
+# What a scheme is, in one string.
+
+#' Hash of a scheme's tables
+#'
+#' Names of rows, the order of columns, the scheme's own name, and whether numbers are integers do
+#' not count.
+#'
+#' @return One string of 32 characters.
+#' @noRd
+scheme_hash <- function(scheme) {
+  rlang::hash(lapply(unclass(scheme)[names(scheme_columns)], function(table) {
+    table <- as.list(table)
+    lapply(table[order(names(table), method = "radix")], plain_values)
+  }))
+}
+
+plain_values <- function(x) {
+  if (is.factor(x)) x <- as.character(x)
+  as.vector(if (is.character(x)) enc2utf8(x) else if (is.integer(x)) as.double(x) else x)
+}
+
+scheme_provenance <- function(scheme) list(name = scheme$name, hash = scheme_hash(scheme))

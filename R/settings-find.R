@@ -1,45 +1,59 @@
 #' Settings of finding landmarks
 #'
-#' All tuning constants of [find_landmarks()] in one place. Lengths are those of a face in mm and go
-#' with the size of the template: for another object they are multiplied by its template's `unit`,
-#' see [landmark_template()].
+#' All tuning constants of [find_landmarks()] in one place. Lengths are in mm, for a face. They are
+#' multiplied by the `unit` of the template, so that they fit a template of another size, see
+#' [landmark_template()].
 #'
-#' @param ... Settings to change, by name.
-#'   * `cluster`: edge of the cells in which a scan's vertices are represented by one; `coarse`: of
-#'     those for the first fits;
-#'   * `bend`, `feature`: radii of the curvature that anchors are found by, and that points are
-#'     matched by;
-#'   * `cap`: least size of both curvatures at an anchor (1 / length); `apart`: least distance of
-#'     two anchors; `anchors`: how many of a scan are tried, of caps and of cups; `own`: how many of
-#'     the template; `turns`: in how many turns about their normal;
-#'   * `reach`: of the rigid fits, at their first and last steps; `steps`: their number; `kept`:
-#'     share of matches, nearest first, that count; `followed`, `refined`: how many of the best
-#'     starts are gone on with, on thin clouds and on whole ones; `tight`, `loose`: bounds of the
-#'     scale at first and where the fit is poor;
-#'   * `cosine`: least cosine of the angle between normals of points that are matched;
-#'   * `saturation`: distance from which on a point of the template counts as not matched in the
-#'     score; `poor`: score above which other ways are tried and confidence is lowered; `refuse`:
-#'     above which there is none;
-#'   * `left_over`: weight of the share of the scan that has no like in the template, against the
-#'     share of the template without one in the scan, when poses are compared;
-#'   * `kernel_length`, `kernel_sd`: lengths and standard deviations of the Gaussian processes that
-#'     make the displacement; `affine`: standard deviation of its affine part; `uneven`: that of the
-#'     left-right antisymmetric part, as a share; `rank`: number of functions;
-#'   * `weight`: of curvature against place, in a match (length squared); `warp_reach`: reach of
-#'     matches at the first and last steps of `warp_steps`; `error`: standard deviation of a match;
-#'     `robust`: scale of the Cauchy weights; `along`: weight of a match's part along the surface;
-#'     `points`: number of the template's points; `thin`: of those for the first fits;
-#'   * `moved`: distance between the answers with and without curvature at which confidence is a
-#'     half; `off`: the same of the distance between template and scan about a landmark; `vague`:
-#'     the same of the standard deviation that what the scan lacks adds; `near`: radius of what is
-#'     about a landmark, at least so many points of the template as `about`; `lost`: share of points
-#'     without a match about a landmark at which its place is missing; `slip`: distance along the
-#'     surface, in units of `cluster`, from which on a match is none;
-#'   * `low`: confidence below which a found landmark is doubted; `wrong`: share of the found
-#'     landmarks that are doubted from which on the answer as a whole is. On 42 faces that are found
-#'     right it is at most 0.47, on two that are found wrong and on objects that are no face at
-#'     least 0.68;
-#'   * `fewest`: matches without which the template is not bent.
+#' @param ... Former names of settings: `kept`, `kernel_length`, `kernel_sd`, `robust`. They give a
+#'   message of class `crestline_deprecated`.
+#' @param cluster,coarse Edge of the cells in which one vertex stands for all: of the fits, and of
+#'   the first fits (length).
+#' @param bend,feature Radii of the curvature that anchors are found by, and that points are matched
+#'   by (length).
+#' @param cap Least size of both principal curvatures at an anchor (1 / length).
+#' @param apart Least distance of two anchors (length).
+#' @param anchors,own Number of anchors that are tried, of caps and of cups: of the scan, of the
+#'   template.
+#' @param turns Number of turns about the normal in which each pair of anchors is tried.
+#' @param reach Greatest distance of a match in the rigid fits, at the first and at the last step
+#'   (two lengths).
+#' @param steps Number of steps of a rigid fit.
+#' @param trim_share Share of the matches that count, nearest first, as in the trimmed ICP.
+#' @param followed,refined Number of the best starts that are continued: on thin clouds, on whole
+#'   ones.
+#' @param tight,loose Bounds of the scale: at first, and where the fit is poor (two numbers each).
+#' @param cosine Least cosine of the angle between the normals of two matched points.
+#' @param saturation Distance from which on a point of the template counts as not matched in the
+#'   score (length).
+#' @param poor,refuse Scores: above the first, other ways are tried and confidence is lowered; above
+#'   the second, there is no answer.
+#' @param left_over Weight of the share of the scan without a match in the template, against the
+#'   share of the template without a match in the scan, when poses are compared.
+#' @param length_scale,length_scale_sd Length scales and standard deviations of the Gaussian
+#'   processes that make the displacement (three lengths each).
+#' @param affine Standard deviation of the affine part of the displacement (length).
+#' @param uneven Standard deviation of its left-right antisymmetric part, as a share.
+#' @param rank Number of basis functions.
+#' @param weight Weight of curvature against position in a match (length squared).
+#' @param warp_reach,warp_steps Greatest distance of a match in the warp, at the first and at the
+#'   last step (two lengths); number of its steps.
+#' @param error Standard deviation of a match (length).
+#' @param robust_scale Scale of the Cauchy weights (length).
+#' @param along Weight of the part of a match that runs along the surface.
+#' @param points,thin Number of the template's points: of the fits, and of the first fits.
+#' @param moved,off,vague Distances at which confidence is a half (lengths): between the answers
+#'   with and without curvature; between template and scan near a landmark; the standard deviation
+#'   that missing parts of the scan add.
+#' @param near,about Radius of what is near a landmark (length), and the least number of the
+#'   template's points there.
+#' @param lost Share of the points near a landmark without a match at which the landmark counts as
+#'   missing.
+#' @param slip Distance along the surface from which on a match is none, in units of `cluster`.
+#' @param low Confidence below which a found landmark is doubted.
+#' @param wrong Share of doubted landmarks above which the whole answer is doubted. On 42 faces that
+#'   are found right the share is at most 0.47. On two that are found wrong, and on objects that are
+#'   no face, it is at least 0.68.
+#' @param fewest Number of matches without which the template is not bent.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not
 #'   numeric.
@@ -47,32 +61,26 @@
 #' @examples
 #' find_settings(turns = 24)
 #' @export
-find_settings <- function(...) {
-  settings <- list(cluster = 2.5, coarse = 5, bend = 12, feature = 8, cap = 0.03, apart = 12,
-                   anchors = 8, own = 2,
-                   turns = 12, reach = c(40, 10), steps = 6, kept = 0.7, followed = 40,
-                   refined = 6, tight = c(0.95, 1.05), loose = c(0.75, 1.3),
-                   cosine = 0.5, saturation = 5, poor = 0.55, refuse = 0.76, left_over = 0.5,
-                   kernel_length = c(60, 30, 15), kernel_sd = c(4, 2.5, 1.5), affine = 5,
-                   uneven = 0.3, rank = 220,
-                   weight = 80, warp_reach = c(15, 6), warp_steps = 15, error = 3, robust = 1.5,
-                   along = 0.1,
-                   points = 2500, thin = 200,
-                   moved = 2, off = 2.5, vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2,
-                   low = 0.5, wrong = 0.6, fewest = 30)
-  change <- list(...)
-  unknown <- setdiff(names(change), names(settings))
-  if (length(unknown) || (length(change) && is.null(names(change)))) {
-    crestline_abort(sprintf("there is no setting %s.",
-                            paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Settings are: ", paste(names(settings), collapse = ", "), "."),
-                    stage = "arguments")
-  }
+find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8, cap = 0.03,
+                          apart = 12, anchors = 8, own = 2, turns = 12, reach = c(40, 10),
+                          steps = 6, trim_share = 0.7, followed = 40, refined = 6,
+                          tight = c(0.95, 1.05), loose = c(0.75, 1.3), cosine = 0.5,
+                          saturation = 5, poor = 0.55, refuse = 0.76, left_over = 0.5,
+                          length_scale = c(60, 30, 15), length_scale_sd = c(4, 2.5, 1.5),
+                          affine = 5, uneven = 0.3, rank = 220, weight = 80,
+                          warp_reach = c(15, 6), warp_steps = 15, error = 3, robust_scale = 1.5,
+                          along = 0.1, points = 2500, thin = 200, moved = 2, off = 2.5,
+                          vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2, low = 0.5,
+                          wrong = 0.6, fewest = 30) {
+  sizes <- lengths(lapply(formals(find_settings)[-1], eval))
+  former <- c(kept = "trim_share", kernel_length = "length_scale", kernel_sd = "length_scale_sd",
+              robust = "robust_scale")
+  settings <- changed_settings(mget(names(sizes)), list(...), former)
   may_be_none <- c("cap", "affine", "uneven", "weight", "along", "left_over", "lost", "cosine",
                    "low")
-  for (name in names(change)) {
-    value <- change[[name]]
-    size <- length(settings[[name]])
+  for (name in names(settings)) {
+    value <- settings[[name]]
+    size <- sizes[[name]]
     low <- if (name %in% may_be_none) 0 else .Machine$double.xmin
     if (!is.numeric(value) || length(value) != size || any(!is.finite(value) | value < low)) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(value)),
@@ -80,8 +88,29 @@ find_settings <- function(...) {
                               if (low > 0) "above" else "of at least"), stage = "arguments")
     }
   }
-  settings[names(change)] <- change
   structure(settings, class = "find_settings")
+}
+
+#' Settings with those that a call changes
+#'
+#' @param settings List of all settings.
+#' @param change The further arguments of the call, a list.
+#' @param former Names of today, by former ones: these still work, with a message.
+#' @noRd
+changed_settings <- function(settings, change, former = character()) {
+  for (old in intersect(names(change), names(former))) {
+    inform_former(paste(old, "="), paste(former[[old]], "="))
+    names(change)[names(change) == old] <- former[[old]]
+  }
+  unknown <- setdiff(names(change), names(settings))
+  if (length(unknown) || (length(change) && is.null(names(change)))) {
+    crestline_abort(sprintf("there is no setting %s.",
+                            paste0("\"", unknown, "\"", collapse = ", ")),
+                    paste0("Settings are: ", paste(names(settings), collapse = ", "), "."),
+                    stage = "arguments")
+  }
+  settings[names(change)] <- change
+  settings
 }
 
 #' @export
@@ -100,8 +129,8 @@ print.find_settings <- function(x, ...) {
 #' @noRd
 scaled_settings <- function(settings, unit) {
   lengths <- c("cluster", "coarse", "bend", "feature", "apart", "reach", "saturation",
-               "kernel_length", "kernel_sd", "affine",
-               "warp_reach", "error", "robust", "moved", "off", "vague", "near")
+               "length_scale", "length_scale_sd", "affine", "warp_reach", "error",
+               "robust_scale", "moved", "off", "vague", "near")
   settings[lengths] <- lapply(settings[lengths], `*`, unit)
   settings$cap <- settings$cap / unit
   settings$weight <- settings$weight * unit^2

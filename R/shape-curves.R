@@ -1,61 +1,29 @@
 # Every curve of a scheme on one specimen: found, cut off where the scheme says so, spaced.
 
-#' A curve of a scheme on one specimen: all its fields are declared here
-#'
-#' @param points Data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA where the mesh ends
-#'   before; NULL where the curve failed.
-#' @param path,length,strength,contrast,se,se_max,competing,determined Of the curve.
-#' @param reason What there is to say, NA where nothing.
-#' @param cut Of curves that are cut off: their share of the length asked for.
-#' @param guessed Of these: whether way or length did without a landmark on the mesh.
-#' @param track Of these: list of the whole `path`, `start` (arc length there of the first point),
-#'   `kept` (length asked for).
-#' @param followed Of these: what it was followed towards, NA where it was joined to both ends.
-#' @noRd
-new_record <- function(points = NULL, path = NULL, length = NA_real_, strength = NA_real_,
-                       contrast = NA_real_, se = NA_real_, se_max = NA_real_,
-                       competing = NA_real_, determined = NA, reason = NA_character_,
-                       cut = NA_real_, guessed = NA, track = NULL, followed = NA_character_) {
-  list(points = points, path = path, length = length, strength = strength, contrast = contrast,
-       se = se, se_max = se_max, competing = competing, determined = determined, reason = reason,
-       cut = cut, guessed = guessed, track = track, followed = followed)
-}
-
 #' Fit the curves of a scheme
 #'
+#' @param fits List by name of curve of the records that there are, NULL where there is none.
+#' @param open Logical, which curves are to be found.
 #' @param scan As of [prepare_scan()].
-#' @param scheme,cut_scale As in [fit_shape()].
-#' @param given Records of curves that are not to be found, see [given_fits()].
 #' @param tick Called after every curve.
-#' @return List by name of curve of [new_record()]s.
+#' @return List by name of curve of [new_record()]s, before they are cut off.
 #' @noRd
-fit_scheme_curves <- function(scan, scheme, given, cut_scale, tick) {
-  curves <- scheme$curves
-  whole <- stats::setNames(vector("list", nrow(curves)), curves$curve)
-  whole[names(given)] <- given
-  open <- !curves$curve %in% names(given)
-  whole <- fit_whole_curves(whole, open, scan, scheme, tick)
-  finished_curves(whole, open, scan, scheme, cut_scale)
-}
-
-#' Curves before they are cut off
-#'
-#' @param fits List by name of curve of the records that there are.
-#' @param open Logical, which are to be found.
-#' @noRd
-fit_whole_curves <- function(fits, open, scan, scheme, tick) {
-  for (i in fitting_order(scheme$curves)) {
+fit_whole_curves <- function(fits, open, scan, tick) {
+  for (i in scheme_plan(scan$scheme)$order) {
     if (!open[i]) next
-    fits[[i]] <- fit_or_follow(as.list(scheme$curves[i, ]), scan, scheme$pairs, fits)
+    fits[[i]] <- fit_scheme_curve(as.list(scan$scheme$curves[i, ]), scan, fits)
     tick()
   }
   fits
 }
 
 #' Curves cut off where the scheme says so, without what lies on bridges
+#'
+#' @param whole As of [fit_whole_curves()].
+#' @param cut_scale As in [fit_shape()].
 #' @noRd
-finished_curves <- function(whole, open, scan, scheme, cut_scale) {
-  whole[open] <- cut_curves(scan, scheme$curves[open, ], scheme$pairs, whole[open], cut_scale)
+finished_curves <- function(whole, open, scan, cut_scale) {
+  whole[open] <- cut_curves(scan, scan$scheme$curves[open, ], whole[open], cut_scale)
   lapply(whole, without_bridges, scan$faces)
 }
 
@@ -64,88 +32,80 @@ finished_curves <- function(whole, open, scan, scheme, cut_scale) {
 #' @param row Row of the curves table, a list.
 #' @param fits Records of the curves before.
 #' @noRd
-fit_or_follow <- function(row, scan, pairs, fits) {
-  found <- fit_or_cut(row, scan, fits)
-  far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, scan, pairs)
+fit_scheme_curve <- function(row, scan, fits) {
+  fit <- function(from) curve_record(row_job(row, from, scan, fits))
+  found <- fit(row$from)
+  far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, scan)
   if (is.null(far)) return(found)
-  row$from <- far$end
   followed <- sprintf("%s: followed towards %s as far as the mesh goes", found$reason, far$name)
-  found <- fit_or_cut(row, scan, fits)
+  found <- fit(far$end)
   found$followed <- followed
   add_note(found, followed)
 }
 
-#' A curve, or the shortest cut in place of a ridge or valley that could not be estimated, or the
-#' reason alone
+#' A curve as a record; in place of a ridge or valley that could not be estimated the shortest cut,
+#' or the reason alone
+#'
+#' @param job As of [row_job()].
 #' @noRd
-fit_or_cut <- function(row, scan, fits) {
-  found <- fit_scheme_curve(row, scan, fits)
-  if (!failed(found)) return(found)
-  problem <- sub("\\.$", "", found$problem)
-  if (row$kind == "plane") return(new_record(reason = problem))
-  row$kind <- "plane"
-  cut <- fit_scheme_curve(row, scan, fits)
-  if (failed(cut)) return(new_record(reason = problem))
-  cut$reason <- paste("the shortest cut instead:", problem)
-  cut$determined <- FALSE
-  cut
-}
-
-#' A curve comes after the one whose side it keeps to
-#' @noRd
-fitting_order <- function(curves) {
-  before <- match(curves$side_of, curves$curve)
-  depth <- integer(nrow(curves))
-  at <- before
-  while (!all(is.na(at))) {
-    depth <- depth + !is.na(at)
-    at <- before[at]
-  }
-  order(depth)
-}
-
-#' One curve of a scheme as a record, or a failure
-#' @noRd
-fit_scheme_curve <- function(row, scan, fits) {
-  curved <- row$kind != "plane"
-  source <- if (curved) scan$sources[[as.character(row$radius)]]
-  if (curved && !is.na(row$side_of)) source <- on_side(source, row, scan, fits[[row$side_of]])
-  if (failed(source)) return(source)
-  ends <- scan_ends(scan, row$from, row$to)
-  if (failed(ends)) return(ends)
-  job <- curve_job(row$kind, row$n, end_name(row$from), row$to, scan$settings, scan$passes,
-                   row$radius, row$width, source, if (curved) row_regions(row, scan),
-                   c(row$trust_from, row$trust_to), row$angle_limit)
+curve_record <- function(job) {
   # Curvature is estimated where the search asks for it: it alone can fail on the way.
-  curve <- as_value(trace_curve(scan, ends, job))
-  if (failed(curve)) return(curve)
-  new_record(points = curve$points[c(mesh_columns, "s", "se")], path = curve$path,
-             length = curve$length, strength = curve$strength, contrast = curve_contrast(curve),
-             se = curve$se, se_max = largest(curve$points$se),
-             competing = c(attr(curve$reference, "competing"), NA)[1],
-             determined = curve$determined, reason = curve$reason)
+  curve <- as_value(trace_curve(job))
+  problem <- if (failed(curve)) sub("\\.$", "", curve$problem)
+  if (failed(curve) && job$type != "plane") {
+    job$type <- "plane"
+    job[c("source", "regions")] <- list(NULL)
+    job$search <- search_settings()
+    curve <- trace_curve(job)
+  }
+  if (failed(curve)) return(new_record(reason = problem))
+  record <- new_record(
+    points = curve$points[c(mesh_columns, "s", "se")], path = curve$path, length = curve$length,
+    strength = curve$strength, contrast = curve_contrast(curve), se = curve$se,
+    se_max = largest(curve$points$se),
+    competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined,
+    reason = curve$reason
+  )
+  if (is.null(problem)) return(record)
+  record$reason <- paste("the shortest cut instead:", problem)
+  record$determined <- FALSE
+  record
+}
+
+#' What a row of the curves table asks for, as of [curve_job()]; what is not there are failures
+#'
+#' @param from Its first end: a landmark, or a place on the mesh.
+#' @noRd
+row_job <- function(row, from, scan, fits) {
+  places <- list(if (is.character(from)) scan_place(scan, from) else from,
+                 scan_place(scan, row$to))
+  lost <- Find(failed, places)
+  ends <- if (is.null(lost)) path_ends(scan, do.call(rbind, places), c(end_name(from), row$to))
+  job <- curve_job(if (is.null(lost)) ends else lost, row$kind, row$n, scan$settings, scan$passes,
+                   row$radius, row$width, trust = c(row$trust_from, row$trust_to),
+                   angle_limit = row$angle_limit)
+  if (row$kind == "plane") return(job)
+  job$source <- scan$sources[[as.character(row$radius)]]
+  if (!is.na(row$side_of)) job$source <- on_side(job$source, row, scan, fits[[row$side_of]])
+  job$regions <- row_regions(row, scan)
+  job
 }
 
 #' The regions of a row, NULL where it has none
 #' @noRd
 row_regions <- function(row, scan) {
-  regions <- list(
-    if (!is.na(row$keep_away_from)) {
-      structure(list(from = row$keep_away_from, to = row$keep_away_to,
-                     radius = row$keep_away_radius, extension = row$keep_away_extension),
-                class = "keep_away")
-    },
-    if (!is.na(row$keep_side_from)) {
-      structure(list(from = row$keep_side_from, to = row$keep_side_to,
-                     towards = row$keep_side_towards), class = "keep_side")
-    }
-  )
-  regions <- Filter(Negate(is.null), regions)
+  region <- function(class, fields) {
+    if (is.na(row[[paste0(class, "_from")]])) return(NULL)
+    structure(stats::setNames(row[paste0(class, "_", fields)], fields), class = class)
+  }
+  regions <- list(region("keep_away", c("from", "to", "radius", "extension")),
+                  region("keep_side", c("from", "to", "towards")))
   locate <- function(name, end) {
     at <- scan_place(scan, name)
     if (failed(at)) at else at[c("x", "y", "z")]
   }
-  if (length(regions)) located_regions(regions, scan, locate)
+  regions <- Filter(Negate(is.null), regions)
+  if (length(regions)) located_regions(regions, locate, scan$id)
 }
 
 #' Curvature with none on the wrong side of another curve
@@ -184,4 +144,74 @@ without_bridges <- function(fit, faces) {
   fit$points[lost, setdiff(names(fit$points), "s")] <- NA
   add_note(fit, sprintf("%d of %d points missing: they lie in a hole of the mesh", length(lost),
                         nrow(fit$points)))
+}
+
+# The curves of a scheme while landmarks move: fitted anew are those that a move touches.
+
+#' Begin to fit the curves of a scheme again and again
+#'
+#' @param specimen,scheme,settings,bridge,threads As in [fit_shape()].
+#' @return List: `scheme`, `scan` of
+#'   [prepare_scan()] (its sources of curvature keep what they have estimated), `whole` and `fits`
+#'   (by curve, before and after they are cut off; as yet none).
+#' @noRd
+begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
+  none <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
+  column <- list(bridge = bridge)
+  list(scheme = scheme,
+       scan = prepare_scan(specimen, scheme, settings, NULL, column, threads), whole = none,
+       fits = none)
+}
+
+#' Fit those curves anew that a moved landmark touches
+#'
+#' @param fitting As of [begin_fitting()].
+#' @param specimen The specimen with its landmarks as they are now.
+#' @param moved Names of the landmarks that have moved, NULL for all curves.
+#' @param progress Function of the number of curves to be fitted, which gives a function that is
+#'   called after each.
+#' @return `fitting`, with `fits` as [fit_shape()] has them for this specimen, and `refitted`, the
+#'   names of the curves that were fitted anew.
+#' @noRd
+refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n) function() NULL) {
+  scheme <- fitting$scheme
+  touched <- touched_curves(scheme$curves, moved, fitting$whole)
+  scan <- fitting$scan
+  scan$specimen <- specimen
+  scan$bridged <- with_landmarks_of(scan$bridged, specimen)
+  placed <- scan_landmarks(scan)
+  scan[names(placed)] <- placed
+  fitting$scan <- scan
+  fitting$whole <- fit_whole_curves(fitting$whole, touched, scan, progress(sum(touched)))
+  every <- rep(TRUE, nrow(scheme$curves))
+  fitting$fits <- finished_curves(fitting$whole, every, scan, 1)
+  fitting$refitted <- scheme$curves$curve[touched]
+  fitting
+}
+
+with_landmarks_of <- function(bridged, specimen) {
+  bridged$landmarks <- specimen$landmarks
+  bridged$geometry[c("landmarks", "located")] <- specimen$geometry[c("landmarks", "located")]
+  bridged
+}
+
+#' Which curves depend on landmarks that have moved
+#'
+#' By their ends, their regions and sides, and by the curve whose side they keep to. One that is
+#' followed towards a landmark that is not on the mesh depends on all of them: the mirror plane says
+#' where that is.
+#' @param whole Fits as they are, before they are cut off.
+#' @return Logical, by row of `curves`.
+#' @noRd
+touched_curves <- function(curves, moved, whole) {
+  if (is.null(moved)) return(rep(TRUE, nrow(curves)))
+  by_name <- c("from", "to", "keep_away_from", "keep_away_to", "keep_side_from", "keep_side_to",
+               "keep_side_towards")
+  named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved))
+  unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.na(fit$followed), NA)
+  touched <- named | unsettled & !is.na(curves$cut_share)
+  for (i in fitting_order(curves)) {
+    if (curves$side_of[i] %in% curves$curve[touched]) touched[i] <- TRUE
+  }
+  touched
 }

@@ -1,20 +1,43 @@
 # Curves of which a scheme keeps the part next to one end: how much that is, and what to do where
 # the other end is not on the mesh or cannot be reached.
 
+#' A curve of a scheme on one specimen: all its fields are declared here
+#'
+#' @param points Data frame of n rows: x, y, z, face, w1, w2, w3, s, se; NA where the mesh ends
+#'   before; NULL where the curve failed.
+#' @param path,length,strength,contrast,se,se_max,competing,determined Of the curve.
+#' @param reason What there is to say, NA where nothing.
+#' @param cut Of curves that are cut off: their share of the length asked for.
+#' @param guessed Of these: whether way or length did without a landmark on the mesh.
+#' @param track Of these: list of the whole `path`, `start` (arc length there of the first point),
+#'   `kept` (length asked for).
+#' @param followed Of these: what it was followed towards, NA where it was joined to both ends.
+#' @noRd
+new_record <- function(points = NULL, path = NULL, length = NA_real_, strength = NA_real_,
+                       contrast = NA_real_, se = NA_real_, se_max = NA_real_,
+                       competing = NA_real_, determined = NA, reason = NA_character_,
+                       cut = NA_real_, guessed = NA, track = NULL, followed = NA_character_) {
+  list(points = points, path = path, length = length, strength = strength, contrast = contrast,
+       se = se, se_max = se_max, competing = competing, determined = determined, reason = reason,
+       cut = cut, guessed = guessed, track = track, followed = followed)
+}
+
 #' Cut off the curves that a scheme cuts, all of one specimen by one factor
 #'
 #' Where a curve between two landmarks is shorter than its share the factor is lowered until all are
 #' long enough, so that no two curves from one landmark keep it both. A curve that the mesh's edge
 #' ends before its far landmark costs only its own points.
 #' @noRd
-cut_curves <- function(scan, curves, pairs, fits, cut_scale) {
+cut_curves <- function(scan, curves, fits, cut_scale) {
   cut <- which(!is.na(curves$cut_share))
-  spans <- lapply(cut, function(i) cut_span(curves[i, ], scan, pairs))
+  spans <- lapply(cut, function(i) cut_span(curves[i, ], scan))
   wanted <- curves$cut_share[cut] * vapply(spans, `[[`, 0, "length")
   whole <- vapply(fits[cut],
                   function(fit) if (is.na(fit$followed)) fit$length else NA_real_, 0)
   factor <- min(cut_scale, whole / wanted, na.rm = TRUE)
-  shared <- if (factor < cut_scale) sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
+  shared <- if (factor < cut_scale) {
+    sprintf("cut at %.3g of the scheme's share, as curves are short", factor)
+  }
   for (k in seq_along(cut)) {
     i <- cut[k]
     if (is.null(fits[[i]]$path)) next
@@ -57,7 +80,8 @@ warn_cut_scales <- function(shapes, stage, apart = 0.02) {
   crestline_warn(
     sprintf("the curves were cut off by different factors (`cut_scale`): %s.",
             shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
-    sprintf("Their ends are not the same places. Measure all with fit_shape(cut_scale = %.3g), then homologise().", min(scale)),
+    sprintf(paste("Their ends are not the same places. Measure all with fit_shape(cut_scale =",
+                  "%.3g), then homologise()."), min(scale)),
     stage = stage, class = "crestline_cut_scale"
   )
 }
@@ -75,7 +99,8 @@ add_note <- function(fit, notes) {
 #' Where one of a left-right pair is missing: twice the distance of the other from the mirror plane.
 #' @return List: `length` (NA where it is not known), `note` (NULL where there is nothing to say).
 #' @noRd
-cut_span <- function(row, scan, pairs) {
+cut_span <- function(row, scan) {
+  pairs <- scan$scheme$pairs
   at <- landmark_places(scan, c(row$cut_from, row$cut_to))
   known <- !is.na(at[, 1])
   if (all(known)) return(list(length = sqrt(sum((at[1, ] - at[2, ])^2))))
@@ -131,16 +156,17 @@ mirror_plane <- function(specimen, pairs, flat = 0.5) {
 #' @return List: `end`, the place where the way towards the landmark leaves the mesh;
 #'   `name`, what it leads to. `NULL` where nothing is known of it.
 #' @noRd
-far_end <- function(row, scan, pairs) {
+far_end <- function(row, scan) {
   near <- scan_place(scan, row$to)
-  target <- if (!failed(near)) far_target(row$from, scan, pairs)
+  target <- if (!failed(near)) far_target(row$from, scan)
   end <- if (!is.null(target)) way_out(scan, near, target$at)
   if (!is.null(end)) list(end = end, name = target$name)
 }
 
 #' Where a landmark is in space: its own co-ordinates, or the mirror image of its pair
 #' @noRd
-far_target <- function(name, scan, pairs) {
+far_target <- function(name, scan) {
+  pairs <- scan$scheme$pairs
   own <- landmark_places(scan, name)
   if (!is.na(own[1])) return(list(at = as.vector(own), name = name))
   partner <- partner_of(name, pairs, "landmarks")
@@ -222,3 +248,55 @@ cut_curve <- function(mesh, fit, length, n) {
 
 #' @noRd
 largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
+
+# Where the points of a shape's curves can slide: the whole curve as it was found, before it was cut
+# off.
+
+#' Tracks of curves
+#'
+#' @param fits As of [fit_scheme_curves()].
+#' @param scan As of [prepare_scan()].
+#' @return List by name of the curves that were found: `path` (`mesh_path`, uncut, over bridges
+#'   where there are holes), `s` (arc length there of each of the curve's points, NA where missing),
+#'   `kept` (length that the scheme keeps), `cut` (whether the first point stands where the scheme
+#'   cuts the curve off, and not at a landmark), `off` (rows of the path that end a segment over a
+#'   bridge).
+#' @noRd
+curve_tracks <- function(fits, scan) {
+  found <- Filter(function(fit) !is.null(fit$path) && !is.null(fit$points), fits)
+  curves <- scan$scheme$curves
+  cut <- !is.na(curves$cut_share[match(names(found), curves$curve)])
+  Map(function(fit, cut) {
+    path <- if (is.null(fit$track)) fit$path else fit$track$path
+    path <- new_mesh_path(unclass(path)[c("s", mesh_columns)], attr(path, "length"),
+                          attr(path, "key"), attr(path, "id"))
+    s <- ifelse(is.na(fit$points$x), NA,
+                fit$points$s + if (is.null(fit$track)) 0 else fit$track$start)
+    list(path = path, s = s, kept = if (is.null(fit$track)) fit$length else fit$track$kept,
+         cut = cut,
+         off = which(path$face > scan$faces))
+  }, found, cut)
+}
+
+#' Refuse tracks that do not lie on the mesh of a shape, or whose points do not lie on them
+#'
+#' @param scan The shape's specimen with its holes bridged, as of [walkable()].
+#' @noRd
+check_tracks <- function(shape, scan) {
+  for (name in names(shape$tracks)) {
+    track <- shape$tracks[[name]]
+    said <- sprintf("the track of %s", name)
+    check_class(track$path, "mesh_path", said, "fit_shape()")
+    check_places(track$path, scan, said, shape$id)
+    s <- track$s[!is.na(track$s)]
+    right <- is.numeric(track$s) && length(track$s) == sum(shape$points$level == "curves" &
+                                                           shape$points$part == name) &&
+      !is.unsorted(s) && all(abs(s / attr(track$path, "length") - 0.5) <= 0.5 + 1e-9)
+    if (!right) {
+      crestline_abort(sprintf("%s has points that are not on it, in order.", said),
+                      "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape",
+                      id = shape$id,
+                      class = "crestline_wrong_mesh", call = NULL)
+    }
+  }
+}

@@ -126,8 +126,8 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = NULL, curves = NULL,
-                      cut_scale = 1, bridge = 0.2,
+fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_settings(), passes = NULL,
+                      curves = NULL, cut_scale = 1, bridge = 0.2,
                       column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
                       threads = getOption("crestline.threads", 1L), progress = interactive()) {
   check_given()
@@ -150,34 +150,48 @@ fit_shape <- function(specimen, scheme, settings = ridge_settings(), passes = NU
   scan <- prepare_scan(specimen, scheme, settings, passes, column, threads)
   tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches),
                          specimen$id)
-  given <- given_fits(specimen, scan, scheme, curves)
+  given <- if (length(curves)) given_fits(scan, curves)
   slips <- scheme_slips(specimen, scheme)
-  fits <- fit_scheme_curves(scan, scheme, given, cut_scale, tick)
-  store <- place_store(scheme, scan$points, fits)
-  patches <- fit_scheme_patches(scan, scheme, fits, store, tick)
-  shape <- new_shape(specimen$id, shape_points(scheme$points, patches$store),
-                     shape_status(scheme, scan$reason, fits, patches$problems), scheme,
+  fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
+  fits[names(given)] <- given
+  open <- !names(fits) %in% names(given)
+  fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan, cut_scale)
+  patches <- fit_scheme_patches(scan, fits, place_store(scan, fits), tick)
+  shape <- new_shape(specimen$id, shape_points(scheme, patches$store),
+                     shape_status(scan, fits, patches$problems), scheme,
                      paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
-                     tracks = curve_tracks(fits, scheme, scan$faces), column = column,
+                     tracks = curve_tracks(fits, scan), column = column,
                      specimen = specimen,
-                     provenance = shape_provenance(specimen, named, unit,
-                                                   measured_with(settings, passes, cut_scale,
-                                                                 column, curves)))
-  faults <- tryCatch(surface_faults(shape, specimen), crestline_error = function(e) NULL)
+                     provenance = shape_provenance(specimen, named, unit, scan, cut_scale,
+                                                   names(curves)))
+  triangles <- triangles_there(scheme$triangles, shape$points, "model")
+  faults <- if (nrow(triangles)) {
+    faults_among(triangles, shape$points[shape$points$level == "surface", ], specimen$mesh)
+  }
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, fits, faults),
                         landmark_checks(shape, specimen$placing, slips))
   shape
 }
 
-#' The arguments that a shape was measured with, for its provenance
+#' Where a measured shape came from, see [summary.shape()]
+#'
+#' @param scheme As it was given, before its lengths were brought to the unit of the mesh.
+#' @param unit Factor that its lengths were divided by.
+#' @param scan As of [prepare_scan()].
+#' @param given Names of the curves that were given.
 #' @noRd
-measured_with <- function(settings, passes, cut_scale, column, curves) {
-  list(ridge = lapply(unclass(settings), identity),
-       fit = list(passes = passes, cut_scale = cut_scale, bridge = column$bridge,
-                  column_angle = column$angle,
-                  column_angles = column$angles, column_reach = column$reach,
-                  given = as.character(names(curves))))
+shape_provenance <- function(specimen, scheme, unit, scan, cut_scale, given) {
+  origin <- origin_of(specimen)
+  column <- scan$column
+  fit <- list(passes = scan$passes, cut_scale = cut_scale, bridge = column$bridge,
+              column_angle = column$angle, column_angles = column$angles,
+              column_reach = column$reach, given = as.character(given))
+  c(made_with(), list(
+    scheme = c(scheme_provenance(scheme), unit = unit), mesh = mesh_provenance(specimen),
+    landmarks = origin[origin$landmark %in% scheme$landmarks$landmark, ],
+    settings = list(ridge = lapply(unclass(scan$settings), identity), fit = fit)
+  ))
 }
 
 progress_ticks <- function(progress, n, id) {
@@ -190,28 +204,30 @@ progress_ticks <- function(progress, n, id) {
 #'
 #' @return Matrix, a row a place (row names), columns x, y, z, face, w1, w2, w3, se.
 #' @noRd
-place_store <- function(scheme, landmarks, fits) {
-  places <- unique(scheme$points$place)
-  store <- matrix(NA_real_, length(places), 8, dimnames = list(places, c(mesh_columns, "se")))
-  store[paste0("landmarks|", rownames(landmarks)), mesh_columns] <- landmarks
+place_store <- function(scan, fits) {
+  scheme <- scan$scheme
+  plan <- scheme_plan(scheme)
+  store <- matrix(NA_real_, length(plan$places), 8,
+                  dimnames = list(plan$places, c(mesh_columns, "se")))
+  store[plan$at[scheme$points$level == "landmarks"], mesh_columns] <- scan$points
   found <- Filter(function(fit) !is.null(fit$points), fits)
   if (!length(found)) return(store)
   values <- do.call(rbind,
                     lapply(found, function(fit) columns_of(fit$points, c(mesh_columns, "se"))))
-  place <- scheme$points$place[scheme$points$level == "curves" & scheme$points$part %in%
-                               names(found)]
+  place <- plan$at[scheme$points$level == "curves" & scheme$points$part %in% names(found)]
   first <- !duplicated(place)
   fill_store(store, place[first], values[first, , drop = FALSE])
 }
 
-shape_points <- function(points, store) {
-  at <- as.data.frame(store[points$place, ], row.names = FALSE)
+shape_points <- function(scheme, store) {
+  at <- as.data.frame(store[scheme_plan(scheme)$at, ], row.names = FALSE)
   at$face <- as.integer(at$face)
   rownames(at) <- NULL
-  cbind(points[c("level", "part", "point")], at)
+  cbind(scheme$points[c("level", "part", "point")], at)
 }
 
-shape_status <- function(scheme, landmark_reasons, fits, problems) {
+shape_status <- function(scan, fits, problems) {
+  scheme <- scan$scheme
   of_curve <- function(name) {
     vapply(fits, function(fit) if (is.null(fit$path)) NA_real_ else fit[[name]], 0,
            USE.NAMES = FALSE)
@@ -232,8 +248,7 @@ shape_status <- function(scheme, landmark_reasons, fits, problems) {
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
     lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)),
-          is.na(landmark_reasons),
-          landmark_reasons),
+          is.na(scan$reason), scan$reason),
     curves,
     lines(names(blocks), "surface", rep("patch", length(blocks)), is.na(patch_reasons),
           patch_reasons)

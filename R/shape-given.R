@@ -3,12 +3,13 @@
 
 #' Records of the curves that are given
 #'
-#' @param specimen The specimen as it is.
 #' @param scan As of [prepare_scan()].
 #' @param curves As in [fit_shape()].
 #' @return Named list of the given curves, each as of [fit_scheme_curves()].
 #' @noRd
-given_fits <- function(specimen, scan, scheme, curves) {
+given_fits <- function(scan, curves) {
+  specimen <- scan$specimen
+  scheme <- scan$scheme
   for (name in names(curves)) {
     if (inherits(curves[[name]], "curve")) check_curve_on(curves[[name]], specimen,
                                                           sprintf("`curves`: %s", name))

@@ -44,8 +44,7 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_shape_on(x, specimen)
   block <- block_of(x, patch, block)
-  own <- if (is.na(block$resample_a)) nrow(side_points(block$curve_a)) else block$resample_a
-  columns <- check_count(if (is.null(columns)) own else columns, "columns", 2, upper = 10000)
+  columns <- check_count(if (is.null(columns)) block$a$n else columns, "columns", 2, upper = 10000)
   rows <- check_count(if (is.null(rows)) block$rows else rows, "rows", 2, upper = 10000)
   scan <- c(walkable(specimen),
             list(column = check_column(column_angle, column_angles, column_reach)))
@@ -53,7 +52,7 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   place <- ifelse(is.na(points$x), NA, paste(points$x, points$y, points$z))
   vertex <- match(place, unique(place[!is.na(place)]))
   outward <- if (is.na(block$outward)) "columns" else block$outward
-  triangles <- quad_triangles(matrix(vertex, columns, byrow = TRUE), outward, "model", block$patch)
+  triangles <- quad_triangles(matrix(vertex, columns, byrow = TRUE), outward, "model", patch)
   it <- t(as.matrix(triangles[stats::complete.cases(triangles), c("v1", "v2", "v3")]))
   if (!length(it)) refuse_patch(x, "no two columns side by side were found",
                                 "See `status` for what is missing.")
@@ -63,7 +62,7 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   structure(with_normals(mesh), points = cbind(points, vertex = vertex))
 }
 
-#' The row of the patches table, which must have columns
+#' One block of a patch, which must have columns, as of [scheme_plan()]
 #' @noRd
 block_of <- function(x, patch, block) {
   patches <- x$scheme$patches
@@ -82,7 +81,8 @@ block_of <- function(x, patch, block) {
     refuse_patch(x, sprintf("%s has several blocks", patch),
                  sprintf("Choose one: block = %s.", paste(blocks$block, collapse = " or ")))
   }
-  blocks
+  row <- match(rownames(blocks), rownames(patches))
+  scheme_plan(x$scheme)$blocks[[row]]
 }
 
 refuse_patch <- function(x, problem, remedy) {
@@ -96,15 +96,16 @@ block_grid <- function(x, scan, block, columns, rows) {
   store <- as.matrix(x$points[match(unique(x$scheme$points$place), x$scheme$points$place),
                               mesh_columns])
   rownames(store) <- unique(x$scheme$points$place)
-  side <- function(text, n) block_side(text, n, scan, x$scheme$curves, fits, store)
-  a <- side(block$curve_a, columns)
-  b <- side(block$curve_b, columns)
+  ground <- list(scan = scan, fits = fits, store = store)
+  side <- function(side, n) side_points_on(side, n, ground)
+  a <- side(block$a, columns)
+  b <- side(block$b, columns)
   if (!is.null(c(a$problem, b$problem))) refuse_patch(x, c(a$problem, b$problem)[1],
                                                       "See `status` for the reason.")
   outside <- vapply(seq_len(columns),
                     function(k) column_outside(a$points, b$points, k, block$outward), numeric(3))
   grid <- column_points(a$points, b$points, outside, rows, scan)
-  if (!is.na(block$first_column)) grid[[1]] <- side(block$first_column, rows)$points
+  if (!is.null(block$first)) grid[[1]] <- side(block$first, rows)$points
   data.frame(column = rep(seq_len(columns), each = rows), row = rep(seq_len(rows), columns),
              do.call(rbind, grid),
              row.names = NULL)

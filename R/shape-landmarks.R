@@ -4,14 +4,22 @@
 #' @noRd
 check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::caller_env()) {
   wanted <- scheme$landmarks$landmark
+  if (!NROW(specimen$landmarks)) {
+    crestline_abort("it has no landmarks.",
+                    paste("On a face find them: find_landmarks(). Else place them by hand,",
+                          "place_landmarks(), or read them: read_specimen(file, landmarks)."),
+                    stage = "landmarks", id = specimen$id, class = "crestline_landmark_error",
+                    call = call)
+  }
   if (!any(wanted %in% rownames(specimen$landmarks))) {
     near <- attr(unused_names(specimen$landmarks, scheme), "near")
     crestline_abort(
       sprintf("it has none of the landmarks of the scheme %s (%s), but %s%s.", scheme$name,
-              shorten(wanted),
-              if (NROW(specimen$landmarks)) shorten(rownames(specimen$landmarks)) else "no landmarks at all",
+              shorten(wanted), shorten(rownames(specimen$landmarks)),
               if (length(near)) paste("; near:", shorten(near)) else ""),
-      "Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or place_landmarks().", stage = "landmarks",
+      paste("Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or",
+            "place_landmarks()."),
+      stage = "landmarks",
       id = specimen$id, class = "crestline_landmark_error", call = call
     )
   }
@@ -19,8 +27,10 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
   size <- specimen_size(specimen)
   radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
   if (radius > size / 2) {
-    crestline_abort(sprintf("the scheme's radius of %.4g is as large as the mesh, whose size is %.4g.", radius, size),
-                    "Is the mesh in another unit? For a scan in metres and a scheme in mm give `unit = 1000`.",
+    crestline_abort(sprintf(paste("the scheme's radius of %.4g is as large as the mesh, whose",
+                                  "size is %.4g."), radius, size),
+                    paste("Is the mesh in another unit? For a scan in metres and a scheme in mm",
+                          "give `unit = 1000`."),
                     stage = "curvature", id = specimen$id, call = call)
   }
 }
@@ -130,4 +140,67 @@ left_out_reason <- function(specimen, name) {
   low <- found$state == "found" && found$confidence < find_settings()$low
   said <- "landmark %s was found with a confidence of %.2f only: left out"
   if (isTRUE(low)) sprintf(said, name, found$confidence)
+}
+
+#' A scan as the steps of a fit take it
+#'
+#' @param specimen As of [with_located()].
+#' @param scheme In the unit of the specimen.
+#' @param settings [ridge_settings()].
+#' @param passes As in [ridge_curve()].
+#' @param column List of `angle`, `angles`, `reach` as the arguments of [fit_shape()], and `bridge`.
+#' @return List: the fields of [walkable()] of the mesh with its holes bridged; `faces`, how many of
+#'   its triangles are no bridges; `specimen`; `bridged`, the same with its holes bridged; `scheme`,
+#'   `settings`, `passes`, `column`; `sources`, curvature by radius, as of [curvature_source()]; and
+#'   what [scan_landmarks()] gives.
+#' @noRd
+prepare_scan <- function(specimen, scheme, settings, passes, column, threads) {
+  bridged <- bridge_holes(specimen, column$bridge)
+  curves <- scheme$curves
+  radius <- unique(curves$radius[curves$kind != "plane"])
+  sources <- lapply(radius, function(r) {
+    curvature_source(specimen$mesh, kernel_settings(r, settings$order), threads)
+  })
+  scan <- c(walkable(bridged),
+            list(faces = ncol(specimen$mesh$it), specimen = specimen, bridged = bridged,
+                 scheme = scheme, settings = settings, passes = passes, column = column,
+                 sources = stats::setNames(sources, radius)))
+  c(scan, scan_landmarks(scan))
+}
+
+#' The landmarks of a scheme on a scan
+#'
+#' @param scan With `specimen`, `bridged` and `scheme`.
+#' @return List: `landmarks`, k x 3, of the specimen; `points`, a row a landmark of the scheme with
+#'   columns as `mesh_columns`, NA where it is not on the mesh; `reason`, why not, NA where it is;
+#'   `ends`, as `points`, but on bridges too; `lost`, failures by name of those that are not there.
+#' @noRd
+scan_landmarks <- function(scan) {
+  specimen <- scan$specimen
+  names <- scan$scheme$landmarks$landmark
+  points <- matrix(NA_real_, length(names), length(mesh_columns),
+                   dimnames = list(names, mesh_columns))
+  reason <- stats::setNames(rep(NA_character_, length(names)), names)
+  ends <- points
+  lost <- list()
+  for (name in names) {
+    found <- as_value(found_landmark(specimen, name))
+    if (!failed(found)) {
+      points[name, ] <- ends[name, ] <- unlist(found[mesh_columns])
+      next
+    }
+    reason[name] <- c(left_out_reason(specimen, name), sub("\\.$", "", found$problem))[1]
+    on_bridge <- as_value(found_landmark(scan$bridged, name))
+    if (failed(on_bridge)) lost[[name]] <- on_bridge else
+      ends[name, ] <- unlist(on_bridge[mesh_columns])
+  }
+  near <- attr(unused_names(specimen$landmarks, scan$scheme), "near")
+  reason[near] <- sprintf("%s; near: %s", reason[near], names(near))
+  list(landmarks = specimen$landmarks, points = points, reason = reason, ends = ends, lost = lost)
+}
+
+#' The place of a landmark of the scheme: its row of `ends`, or a failure
+#' @noRd
+scan_place <- function(scan, name) {
+  if (is.null(scan$lost[[name]])) scan$ends[name, ] else scan$lost[[name]]
 }

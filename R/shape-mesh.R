@@ -73,11 +73,8 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
 #' The triangles of some parts of a shape's surface that have all their points
 #' @noRd
 whole_triangles <- function(x, parts) {
-  triangles <- x$scheme$triangles
-  check_choices(parts, unique(c("model", triangles$part)), "parts")
-  there <- !is.na(coords(x, "surface")[, 1])
-  triangles <- triangles[triangles$part %in% parts, ]
-  triangles <- triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
+  check_choices(parts, unique(c("model", x$scheme$triangles$part)), "parts")
+  triangles <- triangles_there(x$scheme$triangles, x$points, parts)
   if (nrow(triangles) == 0) {
     crestline_abort("no triangle of the surface has all its points.",
                     "See `status` for what is missing.",
@@ -106,8 +103,10 @@ surface_mesh <- function(points, row, it, group) {
 }
 
 warn_left_out <- function(n, of, id) {
-  crestline_warn(sprintf("%d of %d triangles of the denser surface are left out: no cut leads to their points.", n, of),
-                 "Fill the holes of the specimen there, or try a greater `column_angle` or `column_reach`.",
+  crestline_warn(sprintf(paste("%d of %d triangles of the denser surface are left out: no cut",
+                               "leads to their points."), n, of),
+                 paste("Fill the holes of the specimen there, or try a greater `column_angle`",
+                       "or `column_reach`."),
                  stage = "shape", id = id)
 }
 

@@ -2,73 +2,62 @@
 
 #' Fit the patches of a scheme
 #'
-#' @param scan As of [prepare_scan()]; of its fields those of [walkable()], `faces` and `column`.
+#' @param scan As of [prepare_scan()]; of its fields those of [walkable()], `scheme`, `faces` and
+#'   `column`.
 #'   After sliding, `column$follow` says whether bounding curves of another number of points take
 #'   them from their own points' places, slid ones, in place of equal chords.
-#' @param scheme As in [fit_shape()].
 #' @param fits Curves as of [fit_scheme_curves()].
 #' @param store Places found so far, a matrix with row names, see [place_store()].
 #' @param tick Called after every block.
 #' @return List: `store`, with the places of the patches; `problems`, for each row of the patches
 #'   table a list of `missing` and `n` (numbers of points) and `why` (character).
 #' @noRd
-fit_scheme_patches <- function(scan, scheme, fits, store, tick) {
-  points <- scheme$points[scheme$points$level == "surface", ]
-  block_of <- rep(seq_len(nrow(scheme$patches)), scheme$patches$n)
-  problems <- vector("list", nrow(scheme$patches))
-  for (i in seq_len(nrow(scheme$patches))) {
-    block <- scheme$patches[i, ]
-    grid <- block_points(block)
-    grid$place <- points$place[block_of == i]
-    fit <- fit_block(block, grid, scan, scheme$curves, fits, store)
-    store <- fit$store
-    lost <- grid$place[which(store[grid$place, "face"] > scan$faces)]
-    store[lost, ] <- NA
-    why <- c(fit$why, if (length(lost)) sprintf("%d in a hole of the mesh", length(lost)))
-    problems[[i]] <- list(missing = sum(is.na(store[grid$place, "x"])), n = nrow(grid), why = why)
+fit_scheme_patches <- function(scan, fits, store, tick) {
+  problems <- lapply(scheme_plan(scan$scheme)$blocks, function(block) {
+    fit <- fit_block(block, list(scan = scan, fits = fits, store = store))
+    lost <- block$place[which(fit$store[block$place, "face"] > scan$faces)]
+    store <<- fit$store
+    store[lost, ] <<- NA
     tick()
-  }
+    list(missing = sum(is.na(store[block$place, "x"])), n = length(block$place),
+         why = c(fit$why, if (length(lost)) sprintf("%d in a hole of the mesh", length(lost))))
+  })
   list(store = store, problems = problems)
 }
 
 #' One block: its sides, its first column, and the cuts of the columns with points that are not
 #' there yet
+#'
+#' @param block As of [scheme_plan()].
+#' @param ground What it is laid on: list of `scan`, `fits` and `store`.
+#' @return List: `store`, `why`.
 #' @noRd
-fit_block <- function(block, grid, scan, curves, fits, store) {
-  side <- function(text, resample) block_side(text, resample, scan, curves, fits, store)
-  a <- side(block$curve_a, block$resample_a)
-  b <- if (!is.na(block$curve_b)) side(block$curve_b, block$resample_b)
-  store <- fill_store(store, grid$place[grid$row == 1],
-                      a$points[grid$column[grid$row == 1], , drop = FALSE])
-  why <- a$problem
-  if (!is.null(b)) {
-    last <- grid$row == block$rows
-    store <- fill_store(store, grid$place[last], b$points[grid$column[last], , drop = FALSE])
-    why <- c(why, b$problem)
+fit_block <- function(block, ground) {
+  store <- ground$store
+  sides <- lapply(block[c("a", "b", "first")], function(side) {
+    if (!is.null(side)) side_points_on(side, side$n, ground)
+  })
+  a <- sides$a$points
+  b <- sides$b$points
+  fill <- function(some, points, at) {
+    store <<- fill_store(store, block$place[some], points[at[some], , drop = FALSE])
   }
-  if (!is.na(block$first_column)) {
-    first <- side(block$first_column, block$rows)
-    inside <- grid$column == 1
-    store <- fill_store(store, grid$place[inside], first$points[grid$row[inside], , drop = FALSE])
-    why <- c(why, first$problem)
-  }
-  open <- grid[is.na(store[grid$place, "x"]) & grid$row > 1 & grid$row < block$rows, ]
-  whole <- which(!is.na(a$points[, "x"]) & !is.na(b$points[, "x"]))
-  at <- intersect(open$column, whole)
+  fill(block$row == 1, a, block$column)
+  if (!is.null(b)) fill(block$row == block$rows, b, block$column)
+  if (!is.null(sides$first)) fill(block$column == 1, sides$first$points, block$row)
+  why <- unlist(lapply(sides, `[[`, "problem"), use.names = FALSE)
+  open <- is.na(store[block$place, "x"]) & block$row > 1 & block$row < block$rows
+  at <- intersect(block$column[open], which(!is.na(a[, "x"]) & !is.na(b[, "x"])))
   if (!length(at)) return(list(store = store, why = why))
-  outside <- vapply(at, function(i) column_outside(a$points, b$points, i, block$outward),
-                    numeric(3))
-  cuts <- fit_columns(a$points[at, , drop = FALSE], b$points[at, , drop = FALSE], outside,
-                      block$rows, scan)
-  failed <- !is.na(cuts$problem)
-  rows <- open[open$column %in% at[!failed], ]
-  values <- do.call(rbind,
-                    cuts$points)[(match(rows$column, at[!failed]) - 1) * block$rows + rows$row, ,
-                                 drop = FALSE]
-  store <- fill_store(store, rows$place, values)
-  list(store = store, why = c(why,
-                              if (any(failed)) paste0("column ", at[failed], ": ",
-                                                      cuts$problem[failed])))
+  outside <- vapply(at, function(i) column_outside(a, b, i, block$outward), numeric(3))
+  cuts <- fit_columns(a[at, , drop = FALSE], b[at, , drop = FALSE], outside, block$rows,
+                      ground$scan)
+  bad <- !is.na(cuts$problem)
+  open <- which(open & block$column %in% at[!bad])
+  row <- (match(block$column[open], at[!bad]) - 1) * block$rows + block$row[open]
+  store <- fill_store(store, block$place[open], do.call(rbind, cuts$points)[row, , drop = FALSE])
+  if (any(bad)) why <- c(why, paste0("column ", at[bad], ": ", cuts$problem[bad]))
+  list(store = store, why = why)
 }
 
 #' Why a patch, of one or more blocks, has points missing; NA where it has none
@@ -86,51 +75,51 @@ patch_reason <- function(problems, most = 3) {
 
 #' Points of one bounding curve: its own, or spaced at equal chords
 #'
-#' @return List: `points` (K x 7 matrix, rows of NA where missing), `problem` (NULL or what is
+#' @param side As of [compiled_side()].
+#' @param n How many points.
+#' @param ground As in [fit_block()].
+#' @return List: `points` (n x 7 matrix, rows of NA where missing), `problem` (NULL or what is
 #'   missing).
 #' @noRd
-block_side <- function(text, resample, scan, curves, fits, store) {
-  knots <- side_points(text)
-  points <- store[curve_places(knots$curve, knots$point, curves), mesh_columns, drop = FALSE]
+side_points_on <- function(side, n, ground) {
+  scan <- ground$scan
+  points <- ground$store[side$place, mesh_columns, drop = FALSE]
   lost <- is.na(points[, "x"])
-  problem <- if (any(lost)) lost_points(knots, lost, fits)
-  if (is.na(resample) || resample == nrow(knots)) return(list(points = points, problem = problem))
-  spaced <- matrix(NA_real_, resample, length(mesh_columns), dimnames = list(NULL, mesh_columns))
+  problem <- if (any(lost)) lost_points(side, lost, ground$fits)
+  if (n == length(side$place)) return(list(points = points, problem = problem))
+  spaced <- matrix(NA_real_, n, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (any(lost)) return(list(points = spaced, problem = problem))
-  if (isTRUE(scan$column$follow) && length(unique(knots$curve)) == 1) {
-    placed <- follow_points(knots$point, fits[[knots$curve[1]]], resample, scan)
+  if (isTRUE(scan$column$follow) && length(unique(side$curve)) == 1) {
+    # At even shares of the way from point to point, so that they go along when those slide.
+    fit <- ground$fits[[side$curve[1]]]
+    s <- stats::approx(seq_along(side$point), fit$points$s[side$point],
+                       seq(1, length(side$point), length.out = n))$y
+    placed <- place_along(scan, fit$path, s)
   } else {
-    path <- side_path(knots, points, scan, fits)
+    path <- side_path(side, points, ground)
     if (failed(path)) return(list(points = spaced, problem = path$problem))
-    placed <- resample_path(scan, path, resample)
+    placed <- resample_path(scan, path, n)
   }
   spaced[] <- columns_of(placed)
-  spaced[c(1, resample), ] <- points[c(1, nrow(points)), ]
+  spaced[c(1, n), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
 }
 
 #' What is missing of the curves of a side, in words
 #' @noRd
-lost_points <- function(knots, lost, fits) {
-  vapply(unique(knots$curve[lost]), function(curve) {
-    gone <- lost[knots$curve == curve]
+lost_points <- function(side, lost, fits) {
+  vapply(unique(side$curve[lost]), function(curve) {
+    gone <- lost[side$curve == curve]
     if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else
       sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
   }, "", USE.NAMES = FALSE)
 }
 
-#' Places along a curve at even shares of the way from point to point, so that they go along when
-#' those slide
-#' @noRd
-follow_points <- function(point, fit, n, mesh) {
-  s <- stats::approx(seq_along(point), fit$points$s[point], seq(1, length(point), length.out = n))$y
-  place_along(mesh, fit$path, s)
-}
-
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet
 #' @noRd
-side_path <- function(knots, points, scan, fits) {
-  run <- cumsum(c(TRUE, knots$curve[-1] != knots$curve[-nrow(knots)]))
+side_path <- function(side, points, ground) {
+  scan <- ground$scan
+  run <- cumsum(c(TRUE, side$curve[-1] != side$curve[-length(side$curve)]))
   pieces <- list()
   for (r in unique(run)) {
     at <- which(run == r)
@@ -141,8 +130,8 @@ side_path <- function(knots, points, scan, fits) {
       pieces <- c(pieces, list(joint))
     }
     if (length(at) > 1) {
-      fit <- fits[[knots$curve[at[1]]]]
-      s <- fit$points$s[knots$point[range(at)]]
+      fit <- ground$fits[[side$curve[at[1]]]]
+      s <- fit$points$s[side$point[range(at)]]
       if (at[1] > at[length(at)]) s <- rev(s)
       pieces <- c(pieces, list(part_of_path(scan, fit$path, s[1], s[2])))
     }
@@ -183,7 +172,8 @@ fit_columns <- function(from, to, outside, rows, scan, inside = 1e-6, rim = pi /
   apart <- scan$piece[from[, "face"]] != scan$piece[to[, "face"]]
   found <- cpp_fit_columns(scan$vb, scan$it, scan$twin, from[, at, drop = FALSE],
                            to[, at, drop = FALSE],
-                           outside, rep(rows, nrow(from)), c(scan$column, inside = inside, rim = rim),
+                           outside, rep(rows, nrow(from)),
+                           c(scan$column, inside = inside, rim = rim),
                            chord_settings())
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
@@ -202,7 +192,7 @@ cut_between <- function(from, to, scan) {
   ends <- path_ends(scan, rbind(from[mesh_columns], to[mesh_columns]),
                     c(end_name(from), end_name(to)))
   column <- scan$column
-  limited_cut(scan, ends, column$angle, column$angles, column$reach)
+  limited_cut(ends, column$angle, column$angles, column$reach)
 }
 
 #' Fill those of the places that are still empty
@@ -212,3 +202,13 @@ fill_store <- function(store, place, values) {
   store[place[empty], colnames(values)] <- values[empty, ]
   store
 }
+
+# What the curves and patches of a shape do with paths: shortest cuts near the surface's normal,
+# joins.
+
+check_column <- function(column_angle, column_angles, column_reach) {
+  list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
+       angles = check_count(column_angles, "column_angles", upper = 10000),
+       reach = check_number(column_reach, "column_reach", 0, open = TRUE))
+}
+

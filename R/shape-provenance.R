@@ -1,21 +1,5 @@
 # Where a shape, and what is made of shapes, came from.
 
-#' Provenance of a measured shape
-#'
-#' @param scheme As it was given, before its lengths were brought to the unit of the mesh.
-#' @param unit Factor that its lengths were divided by.
-#' @param settings List of `ridge` and `fit`: arguments of [fit_shape()].
-#' @noRd
-shape_provenance <- function(specimen, scheme, unit, settings) {
-  origin <- origin_of(specimen)
-  c(made_with(), list(
-    scheme = c(scheme_provenance(scheme), unit = unit), mesh = mesh_provenance(specimen),
-    landmarks = origin[origin$landmark %in% scheme$landmarks$landmark, ], settings = settings
-  ))
-}
-
-scheme_provenance <- function(scheme) list(name = scheme$name, hash = scheme_hash(scheme))
-
 #' Hash of a template's places
 #' @noRd
 template_provenance <- function(id, xyz) list(id = id, hash = rlang::hash(unname(xyz)))

@@ -48,7 +48,8 @@ validate_shape <- function(x) {
   own <- table(points) && !is.null(place_columns(points)) && is_error(points$se) &&
     all(vapply(named, function(name) identical(as.vector(points[[name]]),
                                                as.vector(x$scheme$points[[name]])), NA))
-  if (!own) refuse("its `points` are not those of its scheme: a row was added or lost, or a column changed.")
+  if (!own) refuse(paste("its `points` are not those of its scheme: a row was added or lost, or",
+                         "a column changed."))
   if (!is.list(x$paths) ||
       !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
   kept <- function(name, is) is.null(x[[name]]) || is(x[[name]])
@@ -168,4 +169,12 @@ mesh_of.shape <- function(x) list(key = shape_key(x), id = x$id)
 written_landmarks.shape <- function(x) {
   check_class(x, "shape", "x", "fit_shape()")
   list(landmarks = coords(x, "landmarks"), curves = shape_curves(x))
+}
+
+#' @param points As in the value of [fit_shape()].
+#' @noRd
+triangles_there <- function(triangles, points, parts) {
+  there <- !is.na(points$x[points$level == "surface"])
+  triangles <- triangles[triangles$part %in% parts, ]
+  triangles[there[triangles$v1] & there[triangles$v2] & there[triangles$v3], ]
 }

@@ -10,11 +10,14 @@ validate_specimen <- function(x) {
   if (!whole) refuse_specimen("a specimen lacks its mesh, landmarks or id.", if (is.list(x)) x$id)
   known <- passed_mesh(x$mesh, x$id)
   if (!is.null(x$key) && !identical(x$key, known$key)) {
-    refuse_specimen("its mesh was changed since it was checked: landmarks and neighbours are those of the mesh before.", x$id)
+    refuse_specimen(paste("its mesh was changed since it was checked: landmarks and neighbours",
+                          "are those of the mesh before."), x$id)
   }
   if (!fits_vertices(x$mesh$normals,
                      ncol(known$vb))) refuse_specimen("its normals do not fit its vertices.", x$id)
-  if (!is_landmark_matrix(x$landmarks)) refuse_specimen("its landmarks are no k x 3 numeric matrix with row names.", x$id)
+  if (!is_landmark_matrix(x$landmarks)) refuse_specimen(paste("its landmarks are no k x 3",
+                                                              "numeric matrix with row names."),
+                                                              x$id)
   validate_geometry(x$geometry, known, x$id)
   remember_passed(x, "specimen")
 }
@@ -65,10 +68,6 @@ validate_located <- function(geometry, known, id) {
 }
 
 refuse_geometry <- function(id) refuse_specimen("its `geometry` is not that of its mesh.", id)
-
-#' Key of a specimen's mesh; worked out where an older version made it
-#' @noRd
-specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key else x$key
 
 #' Change a field of a specimen
 #'

@@ -164,13 +164,18 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 
 #' Summaries, with provenance
 #'
-#' A summary has the lines of `print()`, and the provenance of the object. That is the version of
-#' the package and of R, the scheme with the hash of its tables, the key and file of the mesh, where
-#' each landmark came from (which file, given, found, predicted, placed or moved by hand and when,
-#' moved by its definition), the template that points were slid against, and the settings that are
-#' not the default. Shapes, samples and results keep it as `provenance`. Files that the package
-#' writes have it where their format has a place for comments, see [write_mesh()] and
-#' [write_landmarks()].
+#' A summary has the lines of `print()`, and the provenance of the object:
+#'
+#' * the versions of the package and of R;
+#' * the scheme, with the hash of its tables;
+#' * the key and file of the mesh;
+#' * the origin of each landmark: a file, given, found, predicted, placed or moved by hand (and the
+#'   time), moved by its definition;
+#' * the template against which points were slid;
+#' * the settings that are not the default.
+#'
+#' Shapes, samples and results keep it as `provenance`. Files that the package writes include it if
+#' their format has a place for comments, see [write_mesh()] and [write_landmarks()].
 #'
 #' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
 #'   `repeatability`.
@@ -200,5 +205,104 @@ comment_lines.specimen <- function(x) provenance_comments(provenance_of(x))
 #' @exportS3Method
 written_landmarks.specimen <- function(x) {
   x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")
+  inform_predicted(x)
   list(landmarks = x$landmarks, curves = attr(x, "curves"))
+}
+
+# How each landmark of a specimen came to its place, and its mesh from which file.
+
+#' The time by the clock of the world
+#' @noRd
+time_stamp <- function(time = Sys.time()) format(time, "%Y-%m-%dT%H:%M:%SZ", tz = "UTC")
+
+#' The record of a specimen's landmarks as they are now; what is not recorded was given
+#' @noRd
+origin_of <- function(specimen) {
+  now <- new_origin(specimen$landmarks, "given")
+  before <- specimen$origin
+  row <- match(now$landmark, before$landmark)
+  known <- which(!is.na(row) & !is.na(now$how))
+  known <- known[!is.na(before$how[row[known]])]
+  now[known, ] <- before[row[known], names(now)]
+  now
+}
+
+#' A specimen with the record of some landmarks changed
+#' @noRd
+with_origin <- function(specimen, landmarks, how, file = NA_character_, time = NA_character_) {
+  origin <- origin_of(specimen)
+  at <- match(landmarks, origin$landmark)
+  some <- specimen$landmarks[at, , drop = FALSE]
+  origin[at, ] <- new_origin(some, how, file, time)
+  with_fields(specimen, origin = origin)
+}
+
+#' The record after landmarks were set by the user: those at another place were moved or placed by
+#' hand
+#'
+#' @param specimen As it was before.
+#' @param landmarks What they are set to.
+#' @noRd
+origin_after <- function(specimen, landmarks) {
+  given <- nrow(specimen$landmarks) == 0
+  known <- origin_of(specimen)
+  origin <- new_origin(landmarks, if (given) "given" else "placed",
+                       time = if (given) NA_character_ else time_stamp())
+  row <- match(origin$landmark, known$landmark)
+  before <- specimen$landmarks[row, , drop = FALSE]
+  there <- !is.na(before[, 1]) & !is.na(landmarks[, 1])
+  same <- there & rowSums(before != landmarks) == 0
+  origin$how[there & !same] <- "moved"
+  origin[which(same), ] <- known[row[which(same)], ]
+  origin
+}
+
+#' A specimen that was read from files
+#'
+#' @param file Path of its mesh.
+#' @param landmarks Path of its landmarks, NA where these were given.
+#' @noRd
+from_files <- function(specimen, file, landmarks = NA_character_) {
+  specimen <- with_fields(specimen, file = file)
+  if (is.na(landmarks)) return(specimen)
+  with_origin(specimen, rownames(specimen$landmarks), "file", landmarks)
+}
+
+#' The record of landmarks in words: how many came in which way, which of them by hand and when
+#' @noRd
+origin_words <- function(origin) {
+  if (is.null(origin)) return("not recorded")
+  origin <- origin[!is.na(origin$how), ]
+  if (!nrow(origin)) return("none")
+  words <- c(file = "from a file", given = "given", found = "found", predicted = "predicted",
+             placed = "placed by hand",
+             moved = "moved by hand", defined = "moved by definition")
+  each <- lapply(intersect(names(words), origin$how), function(how) {
+    own <- origin[origin$how == how, ]
+    named <- how %in% c("placed", "moved", "defined")
+    files <- unique(basename(own$file[!is.na(own$file)]))
+    times <- sort(unique(own$time[!is.na(own$time)]))
+    details <- c(if (length(files)) shorten(files, 3), if (named) shorten(own$landmark, 6),
+                 if (length(times) > 1) paste(times[1], "to", times[length(times)]) else times)
+    paste0(nrow(own), " ", words[[how]],
+           if (length(details)) sprintf(" (%s)", paste(details, collapse = "; ")))
+  })
+  paste(unlist(each), collapse = ", ")
+}
+
+#' Say which written landmarks read_specimen() would refuse: predicted ones that lie off the scan
+#' @param tolerance As in [specimen()].
+#' @noRd
+inform_predicted <- function(x, tolerance = 0.01) {
+  predicted <- intersect(x$placing$landmark[x$placing$state == "predicted"], rownames(x$landmarks))
+  at <- x$landmarks[predicted, , drop = FALSE]
+  at <- at[stats::complete.cases(at), , drop = FALSE]
+  if (!nrow(at)) return(invisible())
+  away <- row_lengths(as.matrix(surface_points(x$mesh, at)[c("x", "y", "z")]) - at)
+  off <- rownames(at)[away > tolerance * specimen_size(x)]
+  if (!length(off)) return(invisible())
+  crestline_inform(c(
+    sprintf("specimen %s: predicted landmarks lie off the scan: %s.", x$id, shorten(off)),
+    i = "With this file read_specimen() refuses them. saveRDS() keeps the specimen as it is."
+  ))
 }

@@ -12,9 +12,10 @@
 #'   `landmark`, `label`), `x`, `y`, `z`; in the mesh's unit; NA: missing on this specimen.
 #' @param id Name of the specimen, one string.
 #' @param outward Ridges and valleys swap when triangles face inwards. "detect" turns a piece round,
-#'   with a warning, when its triangles clearly face the middle of the mesh (the area-weighted mean
-#'   cosine between normal and direction away from the centroid is below -0.4; face scans have 0.55
-#'   to 0.85). "keep" leaves all pieces as they are (a small or hollow surface). "flip" turns all.
+#'   with a warning, when its triangles clearly face the middle of the mesh. The measure is the
+#'   area-weighted mean cosine between the normal and the direction away from the centroid; the
+#'   limit is -0.4 (face scans have 0.55 to 0.85). "keep" leaves all pieces as they are, for a small
+#'   or hollow surface. "flip" turns all.
 #' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's
 #'   size (0.01 is 3 to 4 mm on a face). Nearer landmarks are put on the surface. Farther ones are
 #'   an error. The size is taken from where most of the surface lies, of the pieces that carry the
@@ -42,14 +43,17 @@
 #'   * `geometry` (internal: neighbours of the triangles and the landmarks' faces and weights).
 #'
 #'   Fields are changed by assignment, which checks them: see [`$<-.specimen`][specimen-fields].
-#' @section Warnings: Of class `crestline_warning`, and each of a class of its own: triangles that
-#'   were made from points (`crestline_triangulated`); more than 1 % of the triangles left out
-#'   (`crestline_triangles_dropped`); vertices 50 times as far from the middle as half of the
-#'   others, left out (`crestline_far_vertices`); triangles that touch no other
-#'   (`crestline_loose_triangles`); borders that lie beside one another (`crestline_seam`); a
-#'   surface that is there twice, one skin a hair from the other (`crestline_double_skin`). Corners
-#'   within 1e-6 of the size are joined, without a warning: both sides of a seam, single triangles,
-#'   vertices on the edge of another triangle.
+#' @section Warnings: Of class `crestline_warning`, each with a class of its own:
+#'   * `crestline_triangulated`: triangles were made from points;
+#'   * `crestline_triangles_dropped`: more than 1 % of the triangles are left out;
+#'   * `crestline_far_vertices`: vertices are left out that are 50 times as far from the middle as
+#'     half of the others;
+#'   * `crestline_loose_triangles`: triangles touch no other;
+#'   * `crestline_seam`: borders lie beside one another;
+#'   * `crestline_double_skin`: the surface is there twice, one skin a hair from the other.
+#'
+#'   Corners within 1e-6 of the size are joined without a warning: both sides of a seam, single
+#'   triangles, vertices on the edge of another triangle.
 #' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no
 #'   triangles and gives none, faces name missing vertices; landmarks (class
 #'   `crestline_landmark_error`) without names, named twice, off the surface, in another unit.
@@ -201,3 +205,87 @@ new_origin <- function(landmarks, how, file = NA_character_, time = NA_character
   origin[is.na(landmarks[, 1]), c("how", "file", "time")] <- NA_character_
   origin
 }
+
+# Points of a specimen by name or place: landmarks and the ends of paths.
+
+#' One landmark as a point on the specimen's mesh
+#'
+#' @param specimen A specimen.
+#' @param name Name of the landmark.
+#' @param tolerance As in [specimen()], for landmarks changed since.
+#' @return One-row data frame `x, y, z, face, w1, w2, w3`.
+#' @noRd
+landmark_point <- function(specimen, name, tolerance = 0.01) {
+  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  found_landmark(specimen, name, tolerance)
+}
+
+#' The same of a specimen that has passed the door
+#' @noRd
+found_landmark <- function(specimen, name, tolerance = 0.01) {
+  id <- specimen$id
+  known <- rownames(specimen$landmarks)
+  if (!is.character(name) || length(name) != 1 || is.na(name) || !name %in% known) {
+    refuse_landmarks(sprintf("there is no landmark %s.", describe_value(name)),
+                     near_names(name, known), id)
+  }
+  at <- specimen$landmarks[name, ]
+  if (anyNA(at)) {
+    refuse_landmarks(sprintf("landmark %s is missing (NA) on this specimen.", name),
+                     "Place it, or choose curves that do without it.", id)
+  }
+  before <- match(name, rownames(specimen$geometry$landmarks))
+  if (!is.na(before) && identical(unname(at), unname(specimen$geometry$landmarks[before, ]))) {
+    return(specimen$geometry$located[before, ])
+  }
+  landmarks <- as_landmarks(specimen$landmarks[name, , drop = FALSE], id)
+  check_landmarks(landmarks, specimen$mesh, id, tolerance, character(),
+                  size = specimen_size(specimen))$located
+}
+
+
+end_name <- function(at) {
+  if (is.character(at)) return(at)
+  sprintf("(%s)", paste(signif(unlist(at[1:3]), 4), collapse = ", "))
+}
+
+#' A place on a mesh, given as the name of a landmark, one row of points on the mesh, or a position
+#'
+#' @param specimen Where landmarks are looked up; a `mesh3d` has none.
+#' @param scan Its mesh: list of `vb`, `it`, `diagonal`, `id`.
+#' @param name What `at` is called.
+#' @return Numeric, named as `mesh_columns`.
+#' @noRd
+end_vector <- function(specimen, scan, at, name) {
+  said <- sprintf("`%s`", name)
+  row <- is.data.frame(at) && nrow(at) == 1 && all(mesh_columns %in% names(at))
+  if (row && !is.null(attr(at, "key"))) check_same_mesh(at, specimen, said)
+  if (row && anyNA(at$face)) {
+    crestline_abort(sprintf("%s is missing (NA).", said), "Choose a point that is there.",
+                    stage = "path", id = scan$id, class = "crestline_path_error", call = NULL)
+  }
+  if (row) at <- unlist(unclass(at)[mesh_columns])
+  if (is.numeric(at) && identical(names(at), mesh_columns)) {
+    check_places(t(at), scan, said, scan$id)
+    return(at)
+  }
+  if (is.character(at) && inherits(specimen, "specimen")) {
+    known <- rownames(specimen$landmarks)
+    if (!all(at %in% known)) {
+      refuse_landmarks(sprintf("there is no landmark %s (%s).", describe_value(at), said),
+                       near_names(at, known), specimen$id)
+    }
+    place <- landmark_point(specimen, at)
+  } else if (is.numeric(at) && length(at) == 3 && all(is.finite(at))) {
+    place <- surface_points(scan, matrix(at, 1))
+  } else {
+    crestline_abort(sprintf("%s is %s.", said, describe_value(at)),
+                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
+                    stage = "path", class = "crestline_path_error", call = NULL)
+  }
+  unlist(unclass(place)[mesh_columns])
+}
+
+#' Key of a specimen's mesh; worked out where an older version made it
+#' @noRd
+specimen_key <- function(x) if (is.null(x$key)) passed_mesh(x$mesh, x$id)$key else x$key

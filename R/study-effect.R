@@ -2,10 +2,11 @@
 
 #' Where the simulated groups of faces differ
 #'
-#' The places at which the faces of [simulate_faces()] differ between the groups by default, as a
-#' table to begin from: the middle of each brow ridge (`share` 1: in the second group it stands out)
-#' and the cheek between the curves from nose and mouth to the ear (`share` -1: it is flatter). No
-#' radius (26 and 24 mm) reaches a landmark; the curves get a third of the cheek's at most.
+#' A table of the places at which the two groups of [simulate_faces()] differ by default. You can
+#' change it and pass it on. One place is the middle of each brow ridge, which stands out in the
+#' second group (`share` 1). The other is the cheek between the curves from nose and mouth to the
+#' ear, which is flatter (`share` -1). No radius (26 and 24 mm) reaches a landmark. The curves get a
+#' third of the cheek's difference at most.
 #'
 #' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm),
 #'   `share`.
@@ -33,7 +34,8 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
   counted <- !length(lacking) && all(vapply(places[wanted[-1]], is.numeric, NA))
   if (!counted || !all(is.finite(numbers)) || any(places$radius <= 0)) {
     crestline_abort("`places` does not say where, how wide and how strong.",
-                    "Give a data frame as face_effect() does: part, x, y, z, radius (above 0), share.",
+                    paste("Give a data frame as face_effect() does: part, x, y, z, radius",
+                          "(above 0), share."),
                     stage = "arguments", call = call)
   }
   at <- surface_points(template$mesh, numbers[, c("x", "y", "z")])
@@ -51,12 +53,13 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
 #' @noRd
 effect_by_part <- function(effect, parts, call = rlang::caller_env()) {
   named <- !is.null(names(effect))
-  ok <- is.numeric(effect) && all(is.finite(effect)) && (if (named) all(names(effect) %in%
-                                                                        parts) else length(effect) == 1)
+  ok <- is.numeric(effect) && all(is.finite(effect)) &&
+    (if (named) all(names(effect) %in% parts) else length(effect) == 1)
   if (!ok || (length(parts) == 0 && any(effect != 0))) {
     there <- if (length(parts)) shorten(parts) else "no part"
     crestline_abort(sprintf("`effect` is %s, with %s in `places`.", describe_value(effect), there),
-                    "Give one number, or numbers with names of parts; and `places` where the template is your own.",
+                    paste("Give one number, or numbers with names of parts; and `places` where",
+                          "the template is your own."),
                     stage = "arguments", call = call)
   }
   if (!named) return(stats::setNames(rep(effect, length(parts)), parts))

@@ -9,10 +9,10 @@
 #' groups, see [true_effect()]. The faces are then scanned: vertices and triangles of their own,
 #' noise, holes, landmarks placed by an observer ([scan_settings()]).
 #'
-#' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, turned and shifted where
-#' the scan asks for it. v is the random field of the face (its values have the covariance
-#' \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance r, summed over the rows of `variation`), e the
-#' effect, g = -1/2 in the first group and 1/2 in the second, c the centre of the template's
+#' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, turned and shifted if
+#' `scan` says so. Here v is the random field of the face. Its values have the covariance
+#' \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance r, summed over the rows of `variation`. e is the
+#' effect, and g is -1/2 in the first group and 1/2 in the second. c is the centre of the template's
 #' vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 + size\_effect)} and standard
 #' deviation `size_sd`. The effect e is a sum of bumps, each along one direction, that are 0 beyond
 #' their radius: the default ones, at brow and cheek ([face_effect()]), reach no landmark. With the

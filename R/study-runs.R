@@ -3,17 +3,18 @@
 
 #' Study of ridge estimates on simulated surfaces
 #'
-#' For each combination of the surface's bend and sharpness, its noise, its mesh and its landmarks,
-#' and of radius and passes, estimates the ridge of `n` simulated surfaces and measures how far it
-#' lies from the true one.
+#' Estimates the ridges of `n` simulated surfaces and measures how far they lie from the true ones.
+#' It does so for each combination of the surface's bend and sharpness, its noise, its mesh and its
+#' landmarks, of radius and of passes.
 #'
-#' Each curve is compared at `points` points along it and as many along the truth: the mean of the
-#' distances from the first to the true line and from the second to the curve, seen along z, since
-#' the noise moves points up and down only. The paper takes the mean Euclidean distance between 21
-#' equally spaced points of both. Its ranges are 0 to 0.5 for `a` and `b`, 0 to 0.1 for the error of
-#' landmarks, 0.05 to 0.1 for the distance between vertices and 0 to 0.05 for noise, with 500
-#' simulations each. There are two truths, the crest in height and the locus
-#' of greatest curvature, see [simulate_ridge()].
+#' Each curve is compared at `points` points along it, and the truth at as many. The distance is the
+#' mean of those from the first to the true line and of those from the second to the curve. It is
+#' seen along z, since the noise moves points up and down only. There are two truths, the crest in
+#' height and the locus of greatest curvature, see [simulate_ridge()].
+#'
+#' The paper takes the mean Euclidean distance between 21 equally spaced points of both. Its ranges
+#' are 0 to 0.5 for `a` and `b`, 0 to 0.1 for the error of landmarks, 0.05 to 0.1 for the distance
+#' between vertices and 0 to 0.05 for noise, with 500 simulations each.
 #'
 #' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future and
 #' progressr are there. Surfaces depend on their seeds alone, so that results do not depend on the

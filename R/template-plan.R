@@ -15,7 +15,8 @@ slide_plan <- function(template, settings) {
   radius <- sqrt(mean(rowSums(sweep(core, 2, colMeans(core))^2)))
   list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
        template = template_provenance(template$id, xyz),
-       nugget = nugget_shares(template, settings), scale = template$energy_scale, kept = new.env(parent = emptyenv()))
+       nugget = nugget_shares(template, settings), scale = template$energy_scale,
+       kept = new.env(parent = emptyenv()))
 }
 
 #' Nuggets of all places as multiples of the settings': 0 of landmarks, and 1, or as the template's

@@ -14,7 +14,7 @@
 #' Is a measured crest the homologous line? Two populations give two answers for the brow. On one
 #' the crest is the best place for the points, on the other the corresponding line moves across the
 #' crest by 2 mm from face to face. The default takes the middle: `floor` lets the points of broad
-#' ridges (brow, mandible) leave the crest by some 2 mm. For a study of the crests themselves give
+#' ridges (brow, mandible) leave the crest by some 1 mm. For a study of the crests themselves give
 #' `floor = 0`: points then stay on their ridge within its standard error. Give `curves = "held"` to
 #' keep all curve points exactly on the measured curves.
 #'
@@ -56,10 +56,10 @@
 #'     rough part, the thin-plate spline's;
 #'   * `joint_nugget` of curve and surface points, and the nuggets of landmarks that were placed by
 #'     hand (`placed_nugget`), found by [find_landmarks()] (`found_nugget`), or only predicted or
-#'     found with little confidence (`doubtful_nugget`); in units of the kernel, which is 1 at r = 0;
+#'     found with little confidence (`doubtful_nugget`); in units of the kernel, 1 at r = 0;
 #'   * `floor`: a ridge or valley measured with curvature of radius q counts as known, as a
-#'     homologous line, to within `floor` times q^2 / radius at best (0.5 mm on a face for q = 5 mm,
-#'     2 mm for q = 10 mm), whatever its standard error; 0 keeps points on crests;
+#'     homologous line, to within `floor` times q^2 / radius at best (on a face 0.25 mm for q = 5 mm
+#'     and 1 mm for 10 mm), whatever its standard error; 0 keeps points on crests;
 #'   * `reach`: a curve no longer draws points that are so many standard errors off (Tukey's
 #'     biweight; `floor` included);
 #'   * `relaxation`: factor on every step towards a point's minimiser (1: exact; less than 2);
@@ -84,21 +84,13 @@ slide_settings <- function(preset = c("crestline", "paper"), ...) {
                    tolerance = 1e-5, sweeps = 1000, surface = "mesh", surface_energy = "all",
                    surface_nugget = 5,
                    surface_tolerance = 1e-5, surface_sweeps = 200, rank = 1e-6, curves = "free",
-                   range = 1.5, rough = 0.5, joint_nugget = 2, placed_nugget = 0.05,
-                   found_nugget = 0.5, doubtful_nugget = 10, floor = 1.1, reach = 5,
-                   relaxation = 1.3, halvings = 4, joint_tolerance = 3e-5, joint_sweeps = 60)
+                   range = 1.5, rough = 3, joint_nugget = 2, placed_nugget = 0.1,
+                   found_nugget = 1, doubtful_nugget = 20, floor = 0.55, reach = 5,
+                   relaxation = 1.7, halvings = 4, joint_tolerance = 1e-5, joint_sweeps = 100)
   paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
                 surface_energy = "patch", surface_nugget = 0, curves = "held")
   if (preset == "paper") settings[names(paper)] <- paper
-  change <- list(...)
-  unknown <- setdiff(names(change), names(settings))
-  if (length(unknown) > 0 || (length(change) > 0 && is.null(names(change)))) {
-    crestline_abort(sprintf("there is no setting %s.",
-                            paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Settings are: ", paste(names(settings), collapse = ", "), "."),
-                    stage = "arguments")
-  }
-  settings[names(change)] <- change
+  settings <- changed_settings(settings, list(...))
   structure(check_slide_settings(settings), preset = preset, class = "slide_settings")
 }
 
@@ -120,9 +112,10 @@ check_slide_settings <- function(settings) {
   check_choice(settings$cut_ends, c("slide", "stay"), "cut_ends")
   check_choice(settings$surface, c("mesh", "transect", "between"), "surface")
   check_choice(settings$surface_energy, c("all", "patch"), "surface_energy")
-  if (settings$curves == "free" && (settings$surface != "mesh" || settings$surface_energy != "all")) {
-    crestline_abort("free curve points slide in one step with the points of all patches, on the mesh.",
-                    "Give `curves = \"held\"` with other settings of `surface` or `surface_energy`.",
+  joint <- settings$surface == "mesh" && settings$surface_energy == "all"
+  if (settings$curves == "free" && !joint) {
+    crestline_abort("free curve points slide together with those of all patches, on the mesh.",
+                    "Give `curves = \"held\"` with another `surface` or `surface_energy`.",
                     stage = "arguments")
   }
   settings

@@ -36,8 +36,8 @@
 #' @return The `shape` with its points slid (`se` goes along), and besides:
 #'   * a column `offset` of `points`: distance of a curve's point from the curve that was measured,
 #'     across it, positive to the curve's left as seen from outside; in the unit of the mesh; NA for
-#'     landmarks and insides of patches. And a column `offset` of `checks`: the root mean square over
-#'     each curve, in radii of the template. Both are there after the joint step only;
+#'     landmarks and insides of patches. And a column `offset` of `checks`: the root mean square
+#'     over each curve, in radii of the template. Both are there after the joint step only;
 #'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve,
 #'     "curves", "joint", "surface", or the patch): `level`, `points` (that slide), `sweeps`,
 #'     `converged`, `energy_before`, `energy_after` (unit of the mesh; of the joint step, squared),
@@ -138,6 +138,7 @@ cut_between_slid <- function(shape, state, curves, specimen) {
 cutting_of <- function(shape, fits, specimen) {
   scan <- walkable(bridge_holes(specimen, shape$column$bridge))
   scan$faces <- ncol(specimen$mesh$it)
+  scan$scheme <- shape$scheme
   scan$column <- c(shape$column, follow = TRUE)
   list(fits = fits, specimen = specimen, scan = scan, scheme = shape$scheme)
 }

@@ -10,7 +10,7 @@
 between_curves <- function(cutting, store) {
   points <- cutting$scheme$points
   store[setdiff(points$place, points$place[points$level != "surface"]), ] <- NA
-  fit_scheme_patches(cutting$scan, cutting$scheme, cutting$fits, store, function() NULL)$store
+  fit_scheme_patches(cutting$scan, cutting$fits, store, function() NULL)$store
 }
 
 #' Slide the points inside patches
@@ -63,11 +63,9 @@ surface_sets <- function(store, plan) {
 bound_places <- function(scheme) {
   points <- scheme$points
   held <- points$place[points$level != "surface"]
-  blocks <- lapply(seq_len(nrow(scheme$patches)), function(i) {
-    block <- scheme$patches[i, ]
-    at <- block_points(block)
-    at$row == 1 | (at$row == block$rows &
-                   !is.na(block$curve_b)) | (at$column == 1 & !is.na(block$first_column))
+  blocks <- lapply(scheme_plan(scheme)$blocks, function(block) {
+    block$row == 1 | (block$row == block$rows & !is.null(block$b)) |
+      (block$column == 1 & !is.null(block$first))
   })
   unique(c(held, points$place[points$level == "surface"][unlist(blocks)]))
 }
@@ -115,26 +113,24 @@ slide_transects <- function(set, store, cutting, plan) {
 #'   takes them).
 #' @noRd
 transects <- function(set, store, cutting, settings) {
-  patches <- cutting$scheme$patches
-  places <- split(cutting$scheme$points$place[cutting$scheme$points$level == "surface"],
-                  rep(seq_len(nrow(patches)), patches$n))
-  each <- lapply(which(vapply(places, function(place) any(place %in% set$free), NA)), function(i) {
-    grid <- cbind(block_points(patches[i, ]), place = places[[i]])
-    block_transects(patches[i, ], grid[grid$place %in% set$free, ], set, store, cutting, settings)
+  plan <- scheme_plan(cutting$scheme)
+  each <- lapply(plan$blocks, function(block) {
+    grid <- data.frame(column = block$column, row = block$row, place = plan$places[block$place])
+    grid <- grid[grid$place %in% set$free, ]
+    if (nrow(grid)) block_transects(block, grid, set, store, cutting, settings)
   })
   unlist(each, recursive = FALSE)
 }
 
 #' The cuts of one block with free points
 #'
-#' @param grid Its free points, as of [block_points()] with their places.
+#' @param grid Its free points: `column`, `row`, `place`.
 #' @noRd
 block_transects <- function(block, grid, set, store, cutting, settings) {
-  side <- function(text, resample) {
-    block_side(text, resample, cutting$scan, cutting$scheme$curves, cutting$fits, store)$points
-  }
-  a <- side(block$curve_a, block$resample_a)
-  b <- side(block$curve_b, block$resample_b)
+  ground <- list(scan = cutting$scan, fits = cutting$fits, store = store)
+  side <- function(side) side_points_on(side, side$n, ground)$points
+  a <- side(block$a)
+  b <- side(block$b)
   lapply(split(grid, grid$column), function(rows) {
     column <- rows$column[1]
     outside <- as.matrix(column_outside(a, b, column, block$outward))

@@ -100,11 +100,13 @@ warn_unpaired <- function(shape, xyz, mean, off_middle) {
   far <- which(off > off_middle * radius)
   if (!length(far)) return(invisible())
   said <- paste0(alone[far], " (", signif(off[far], 2), ")")
-  crestline_warn(sprintf("%s in no pair, but off the mid-plane: %s; the symmetric mean puts %s on it.",
+  crestline_warn(sprintf(paste("%s in no pair, but off the mid-plane: %s; the symmetric mean",
+                               "puts %s on it."),
                          if (length(far) == 1) "a landmark is" else "landmarks are",
                          shorten(said, 6),
                          if (length(far) == 1) "it" else "them"),
-                 "Add it with its partner to the scheme's `pairs`, or raise `off_middle` where the object is that crooked.",
+                 paste("Add it with its partner to the scheme's `pairs`, or raise `off_middle`",
+                       "where the object is that crooked."),
                  stage = "symmetry", id = shape$id, class = "crestline_unpaired")
 }
 

@@ -83,12 +83,14 @@ maps <- function() {
 # ---- allometry: two groups that differ by size only ----
 
 allometry <- function() {
+  set.seed(1)
+  mean <- matrix(rnorm(90), 30)
+  base <- list(mean = array(mean, c(30, 3, 40)), growth = mean * 0.15 * rnorm(30))
   one <- function(seed) {
     set.seed(seed)
     n <- 40
     sex <- rep(c("F", "M"), n / 2)
     size <- exp(rnorm(n, ifelse(sex == "M", 0.1, 0), 0.08))
-    base <- with_base()
     x <- base$mean + outer(base$growth, log(size)) + rnorm(length(base$mean), sd = 0.02)
     x <- sweep(x, 3, size, `*`)
     dimnames(x) <- list(NULL, NULL, paste0("s", seq_len(n)))
@@ -103,11 +105,6 @@ allometry <- function() {
     c(alone = alone$tests$p_value, given_size = given$tests$p_value[2],
       given_size_points = min(given$points$p_adjusted[given$points$term == "sex"]), residuals = wrong$tests$p_value,
       residuals_points = min(wrong$points$p_adjusted))
-  }
-  with_base <- function() {
-    set.seed(1)
-    mean <- matrix(rnorm(90), 30)
-    list(mean = array(mean, c(30, 3, 40)), growth = mean * 0.15 * rnorm(30))
   }
   rows <- by_seed("allometry", samples, one)
   cat("\ntwo groups that differ in size only (10 %),", samples, "samples; share with p <= 0.05 for sex:\n")

@@ -1,12 +1,13 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise]
-#     [slider3d]
+#     [slider3d] [gpagen FILE]
 #
 # random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean() on spheres. The others
 # use the 23 simpop faces, in dense correspondence: every point is carried to the shared topology, and its RMS distance from
 # the mean over faces taken, along its curve and in all; noise: with noise and moved landmarks. morpho (relaxLM) and slider3d need
-# Morpho.
+# Morpho, and so does the warp. gpagen writes what geomorph is to slide into FILE (with .rds), or measures what it has made of it:
+# bench/sliding-gpagen.R runs between the two, on R 4.5 (tools/chroot.sh). bench/homology.R has more populations.
 
 library(crestline)
 
@@ -141,7 +142,13 @@ fitted <- function(faces, scale = 0.82) {
   lapply(faces, function(face) suppressWarnings(fit_shape(face, face_scheme(), cut_scale = scale, progress = FALSE)))
 }
 
-stores <- function(shapes) lapply(shapes, function(shape) inner("slide_state")(shape, slide_settings())$store)
+# Matrix by place: x, y, z, face, w1, w2, w3.
+store_of <- function(shape) {
+  first <- !duplicated(shape$scheme$points$place)
+  `rownames<-`(as.matrix(shape$points[first, c("x", "y", "z", "face", "w1", "w2", "w3")]), shape$scheme$points$place[first])
+}
+
+stores <- function(shapes) lapply(shapes, store_of)
 
 mean_mesh <- function() {
   vertices <- lapply(names(simpop_landmarks()), function(id) t(simpop_mesh(id)$vb[1:3, ]))
@@ -179,29 +186,15 @@ surface_spread <- function(at, scheme) {
   sqrt(mean(apply(sweep(at[free, , ], 1:2, apply(at[free, , ], 1:2, mean)), 3, function(d) rowSums(d^2))))
 }
 
-# The warp on the landmarks: the template's points carried by the thin-plate spline, then the nearest place of the curve as
-# it was found (uncut) and, for surface points, of the mesh.
+# The warp on the landmarks as its users run it: the template's points carried by the thin-plate spline, then the closest point
+# of the mesh.
 warped <- function(shape, template) {
-  store <- stores(list(shape))[[1]]
-  from <- coords(template, "landmarks")
-  to <- coords(shape, "landmarks")
-  at <- inner("places_of")(template)
-  kernel <- function(x) -sqrt(outer(rowSums(x^2), rowSums(from^2), `+`) - 2 * x %*% t(from))
-  distance <- -as.matrix(dist(from))
-  system <- rbind(cbind(distance, 1, from), cbind(rbind(1, t(from)), matrix(0, 4, 4)))
-  weight <- solve(system, rbind(to, matrix(0, 4, 3)))
-  image <- cbind(kernel(at), 1, at) %*% weight
-  image[is.nan(image[, 1]), ] <- store[is.nan(image[, 1]), 1:3]
-  surface <- setdiff(rownames(store), with(shape$scheme$points, place[level != "surface"]))
-  store[surface, 1:7] <- as.matrix(inner("surface_points")(shape$specimen$mesh, image[surface, ]))
-  for (name in names(shape$tracks)) {
-    place <- with(shape$scheme$points, place[level == "curves" & part == name])
-    place <- place[grepl("^curves", place)]
-    if (!length(place)) next
-    path <- shape$tracks[[name]]$path
-    s <- inner("track_places")(as.matrix(path[c("s", "x", "y", "z")]), image[place, , drop = FALSE])
-    store[place, 1:7] <- as.matrix(inner("place_along")(shape$specimen$mesh, path, s)[-1])
-  }
+  store <- store_of(shape)
+  at <- setdiff(rownames(store)[!is.na(store[, 1])], inner("landmark_keys")(shape$scheme))
+  image <- Morpho::tps3d(inner("places_of")(template)[at, ], coords(template, "landmarks"), coords(shape, "landmarks"),
+                         threads = 1)
+  on <- Rvcg::vcgClostKD(image, shape$specimen$mesh, barycentric = TRUE, threads = 1)
+  store[at, ] <- cbind(t(on$vb[1:3, ]), on$faceptr, t(on$barycoords))
   store
 }
 
@@ -226,16 +219,18 @@ spread_table <- function(shapes, label) {
     time <- system.time(sample <- suppressWarnings(homologise(shapes, settings = slide_settings(...), progress = FALSE)))
     list(line = line(name, stores(sample$shapes), time[["user.self"]]), sample = sample)
   }
-  ours <- slid("default")
+  ours <- slid("default: free curve points")
   table <- rbind(
     line("as fitted, equal chords", stores(shapes)), slid("the paper's energies", "paper")$line,
-    slid("cut ends stay", cut_ends = "stay")$line,
-    slid("no nugget, no strain", nugget = 0, strain = 0)$line,
-    slid("one energy of all curves", energy = "all")$line,
     line("warp on the landmarks", lapply(shapes, warped, ours$sample$template)), ours$line,
-    slid("nugget by standard error", nugget_by = "error")$line,
-    slid("surface between slid curves, not slid", surface = "between")$line,
-    slid("surface along transects, one energy", surface = "transect")$line
+    slid("crests kept, floor 0", floor = 0)$line,
+    slid("held", curves = "held")$line,
+    slid("held, cut ends stay", curves = "held", cut_ends = "stay")$line,
+    slid("held, no nugget, no strain", curves = "held", nugget = 0, strain = 0)$line,
+    slid("held, one energy of all curves", curves = "held", energy = "all")$line,
+    slid("held, nugget by standard error", curves = "held", nugget_by = "error")$line,
+    slid("held, surface between slid curves, not slid", curves = "held", surface = "between")$line,
+    slid("held, surface along transects, one energy", curves = "held", surface = "transect")$line
   )
   cat("\n", label, "\n", sep = "")
   print(format(table, digits = 3), row.names = FALSE, width = 200)
@@ -272,11 +267,11 @@ starts <- function() {
 # model's places are free.
 morpho_start <- function(noise, moved) {
   shapes <- fitted(specimens(noise, moved))
-  sample <- homologise(shapes, progress = FALSE)
+  sample <- homologise(shapes, settings = slide_settings(curves = "held"), progress = FALSE)
   scheme <- sample$template$scheme
   place <- unique(with(scheme$points, place[level == "surface"]))
-  settings <- slide_settings(surface = "between")
-  list(shapes = shapes, sample = sample, scheme = scheme, place = place,
+  settings <- slide_settings(curves = "held", surface = "between")
+  list(shapes = shapes, sample = sample, free_sample = homologise(shapes, progress = FALSE), scheme = scheme, place = place,
        free = match(setdiff(place, inner("bound_places")(scheme)), place),
        stores = lapply(shapes, function(shape) stores(list(slide(shape, sample$template, settings)))[[1]]))
 }
@@ -325,9 +320,10 @@ morpho <- function(noise = 0, moved = 0) {
               noise, length(start$free), length(start$place), sum(gain >= 0), min(gain), max(gain)))
   cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n",
               mean(rows$seconds_ours), matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
-  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, ours %.3f\n",
+  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, held %.3f, ours %.3f\n",
               free_spread(start, lapply(compared, `[[`, "theirs")), free_spread(start, lapply(compared, `[[`, "ours")),
-              free_spread(start, stores(start$sample$shapes))))
+              free_spread(start, stores(start$sample$shapes)),
+              free_spread(start, stores(start$free_sample$shapes))))
 }
 
 # All faces at once, against their own mean: slider3d until it stands still or so many iterations; then ours from the same
@@ -355,10 +351,47 @@ against_slider3d <- function(iterations = 10) {
   cat(sprintf("ours lower on %d faces, by %.2g to %.2g; seconds %.1f and ours %.1f; theirs off the mesh by %.1e mm\n",
               sum(own <= after), min(1 - own / after), max(1 - own / after), their_time, time, max(vapply(on, `[[`, 0, "off"))))
   theirs <- lapply(on, `[[`, "store")
-  cat(sprintf("spread of surface points, mm: slider3d %.3f, ours at that criterion %.3f, ours %.3f\n",
-              free_spread(start, theirs), free_spread(start, ours), free_spread(start, stores(start$sample$shapes))))
+  cat(sprintf("spread of surface points, mm: slider3d %.3f, ours at that criterion %.3f, held %.3f, ours %.3f\n",
+              free_spread(start, theirs), free_spread(start, ours), free_spread(start, stores(start$sample$shapes)),
+              free_spread(start, stores(start$free_sample$shapes))))
+}
+
+# The points of all faces as geomorph takes them: landmarks, curves in threes (before, slider, after), surface points.
+against_gpagen <- function(file) {
+  start <- morpho_start(0, 0)
+  places <- unique(start$scheme$points$place)
+  if (!file.exists(paste0(file, "-slid.rds"))) {
+    x <- simplify2array(lapply(start$shapes, function(shape) store_of(shape)[places, 1:3]))
+    curves <- do.call(rbind, lapply(inner("places_by_curve")(start$scheme), function(place) {
+      n <- length(place)
+      matrix(match(cbind(place[1:(n - 2)], place[2:(n - 1)], place[3:n]), places), ncol = 3)
+    }))
+    surfaces <- match(start$place[start$free], places)
+    saveRDS(list(x = x, curves = curves, surfaces = surfaces), file)
+    return(cat("written: now bench/sliding-gpagen.R\n"))
+  }
+  slid <- readRDS(paste0(file, "-slid.rds"))
+  scheme <- start$scheme
+  marks <- match(inner("landmark_keys")(scheme), places)
+  theirs <- lapply(seq_along(start$shapes), function(i) {
+    shape <- start$shapes[[i]]
+    own <- store_of(shape)[places, ]
+    back <- inner("superimposition")(slid$coords[marks, , i], own[marks, 1:3], TRUE)(slid$coords[, , i])
+    free <- setdiff(seq_along(places), marks)
+    own[free, ] <- as.matrix(inner("surface_points")(shape$specimen$mesh, back[free, ]))
+    list(store = own, off = sqrt(mean(rowSums((back[free, ] - own[free, 1:3])^2))))
+  })
+  spread_of <- function(stores) {
+    at <- carried(stores, start$shapes[[1]]$specimen$mesh$it, mean_mesh())
+    curves <- curve_spread(at, scheme)
+    c(along = pooled(curves$along, curves$points), across = pooled(curves$across, curves$points),
+      curves = pooled(sqrt(curves$along^2 + curves$across^2), curves$points), surface = surface_spread(at, scheme))
+  }
+  cat(sprintf("\ngeomorph::gpagen, %.0f s; off the mesh by %.2f mm RMS before they were put back on it; spread, mm\n", slid$seconds,
+              sqrt(mean(vapply(theirs, `[[`, 0, "off")^2))))
+  print(round(rbind(gpagen = spread_of(lapply(theirs, `[[`, "store")), ours = spread_of(stores(start$free_sample$shapes))), 3))
 }
 
 sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho,
                  "morpho-noise" = function() morpho(0.2, 1), slider3d = against_slider3d)
-for (name in wanted) sections[[name]]()
+if (wanted[1] == "gpagen") against_gpagen(wanted[2]) else for (name in wanted) sections[[name]]()

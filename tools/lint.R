@@ -10,6 +10,9 @@ found <- parallel::mclapply(files, lint_file, mc.cores = parallel::detectCores()
 failed <- vapply(found, inherits, NA, "try-error")
 if (any(failed)) stop(files[failed][1], ": ", found[failed][[1]])
 found <- do.call(rbind, found)
+# Rows of tables in roxygen may be longer.
+table_row <- found$linter == "line_length_linter" & grepl("^#' [|]", found$line)
+found <- found[!table_row, ]
 if (nrow(found) > 0) {
   cat(sprintf("%s:%d: %s [%s]", found$filename, found$line_number, found$message, found$linter),
       sep = "\n")

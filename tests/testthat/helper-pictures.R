@@ -65,8 +65,8 @@ equator_curve <- function(type = "ridge") {
   coordinates <- new_path_coordinates(as.list(cbind(vertex = seq_len(nrow(window)), window, across)), pi / 2, 0.3, of)
   surface <- structure(list(), class = "test_surface")
   line <- list(s = seq(0, pi / 2, length.out = 41), alpha = rep(0, 41), se = rep(0.05, 41))
-  job <- list(from = "east", to = "front", type = type)
-  new_curve(points, path, path, job, list(se = 0.05, determined = TRUE, reason = NA_character_), of,
+  job <- list(ends = list(scan = of, names = c("east", "front")), type = type)
+  new_curve(points, path, path, job, list(se = 0.05, determined = TRUE, reason = NA_character_),
             coordinates = coordinates, surface = surface, line = line, strength = 1)
 }
 registerS3method("predict", "test_surface", function(object, s, d, ...) exp(-d^2), envir = asNamespace("stats"))

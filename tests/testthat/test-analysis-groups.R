@@ -1,4 +1,7 @@
-compare_quietly <- function(..., progress = FALSE) compare_groups(..., progress = progress)
+# Closed forms here are those of pooled spread; test-analysis-spread.R has the others.
+compare_quietly <- function(..., progress = FALSE, equal_spread = TRUE) {
+  compare_groups(..., progress = progress, equal_spread = equal_spread)
+}
 
 test_row_of <- function(compared, test) compared$tests[compared$tests$test == test, ]
 
@@ -92,9 +95,21 @@ test_that("statistics of many regroupings are the same block by block", {
   labels <- regroupings(data$group, 60, 0, seed = 1)$labels
   y <- t(matrix(align(data$x)$coords, 36))
   y <- sweep(y, 2, colMeans(y))
-  whole <- between_squares(y, labels)
-  expect_equal(by_block(labels, function(part) between_squares(y, part), 7), whole)
-  expect_equal(by_block(labels, function(part) between_total(tcrossprod(y), part), 7), rowSums(whole))
+  between <- function(about) {
+    function(part) group_squares(about, cbind(rowSums(y^2)), part, FALSE)$between
+  }
+  each <- squared_sums(list(y))
+  whole <- between(each)(labels)
+  expect_equal(by_block(labels, between(each), 7), whole)
+  expect_equal(by_block(labels, between(squared_total(y)), 7), cbind(rowSums(whole)))
+  # More specimens than variables: by the other product.
+  few <- y[, 1:4]
+  expect_equal(between(squared_total(few))(labels), cbind(rowSums(whole[, 1:4])))
+  apart <- group_squares(squared_sums(list(few)), few^2, labels[, 1, drop = FALSE], TRUE)
+  within <- lapply(split(as.data.frame(few), data$group), function(own) {
+    rbind(diag(var(own)) * (nrow(own) - 1))
+  })
+  expect_equal(apart$within, unname(within), ignore_attr = TRUE)
   expect_equal(all_regroupings(c(2L, 1L, 2L))[, 1], c(2, 1, 2))
 })
 
@@ -137,7 +152,10 @@ test_that("the answer does not depend on the names and order of specimens, unit 
   one <- compare_quietly(x, group, components = 3)
   order <- c(5, 2, 8, 1, 3, 4, 7, 6)
   other <- compare_quietly(1000 * x[, , order], group[8:1], components = 3)
-  expect_equal(other$tests, one$tests, tolerance = 1e-6)
+  # Bootstrap samples are drawn anew.
+  drawn <- c("lower", "upper")
+  expect_equal(other$tests[setdiff(names(one$tests), drawn)],
+               one$tests[setdiff(names(one$tests), drawn)], tolerance = 1e-6)
   expect_equal(other$points$displacement, 1000 * one$points$displacement, tolerance = 1e-8)
 })
 
@@ -242,4 +260,48 @@ test_that("groups go to specimens by name, from a vector or a table, in any orde
   expect_crestline_error(group_of(replace(by_name, 1, " A")), "differ by blanks or case only")
   expect_crestline_error(group_of(replace(by_name, 2, " ")), "`group` is missing for s2")
   expect_message(group_of(unname(by_name)), "in the order of the specimens")
+})
+
+test_that("effects stand beside p: Cohen's d, distance less its null mean, shares, Z", {
+  data <- grouped_sample(c(8, 11), effect = 0.05)
+  data$x <- data$x * rep(with_seed(3, runif(19, 1, 1.4)), each = 36)
+  tests <- compare_quietly(data$x, data$group, n_perm = 199, exact = 0, seed = 1)$tests
+  row <- function(test) tests[tests$test == test, ]
+  size <- align(data$x)$size
+  first <- data$group == "a"
+  pooled <- (7 * var(size[first]) + 10 * var(size[!first])) / 17
+  d <- (mean(size[first]) - mean(size[!first])) / sqrt(pooled)
+  expect_equal(row("size t")$effect, d, tolerance = 1e-10)
+  expect_equal(row("size t")$share, summary(lm(size ~ data$group))$r.squared, tolerance = 1e-10)
+  expect_true(all(tests$lower <= tests$effect & tests$effect <= tests$upper, na.rm = TRUE))
+  flat <- t(matrix(align(data$x)$coords, 36))
+  labels <- regroupings(data$group, 199, 0, seed = 1)$labels
+  distance <- apply(labels, 2, function(code) {
+    sqrt(sum((colMeans(flat[code == 1, ]) - colMeans(flat[code == 2, ]))^2))
+  })
+  shape <- row("mean shape")
+  expect_equal(shape$effect, distance[1] - mean(distance), tolerance = 1e-8)
+  share <- distance^2 * 88 / 19 / sum(sweep(flat, 2, colMeans(flat))^2)
+  expect_equal(shape$z, effect_z(share / (1 - share)), tolerance = 1e-6)
+})
+
+test_that("a bootstrap draws within groups, and its interval is the normal one in large samples", {
+  code <- rep(1:2, c(300, 500))
+  counts <- bootstrap_counts(code, 400, 1)
+  expect_equal(unique(colSums(counts[code == 1, ])), 300)
+  expect_equal(dim(counts), c(800L, 400L))
+  y <- with_seed(2, rnorm(800, code))
+  interval <- with_interval(cohen_d(y, code), cohen_d(y, code, counts))
+  se <- sqrt(1 / 300 + 1 / 500 + interval[1]^2 / 1600)
+  expect_equal(diff(interval[2:3]), 2 * 1.96 * se, tolerance = 0.12)
+})
+
+test_that("components of later levels have the sides of the first level's", {
+  data <- grouped_sample(c(9, 9), effect = 0.1)
+  levels <- list(all = align(data$x), turned = align(data$x[12:1, , ]))
+  compared <- compare_quietly(levels, data$group, n_perm = 19, seed = 1, components = 4)
+  agree <- colSums(compared$pca$all$x[, 1:4] * compared$pca$turned$x[, 1:4])
+  expect_true(all(agree > 0))
+  table <- compared$tests[grepl("^PC", compared$tests$test), ]
+  expect_equal(table$statistic[1:4], table$statistic[5:8], tolerance = 1e-6)
 })

@@ -266,3 +266,28 @@ test_that("tables, print and summary fit", {
   expect_s3_class(generics::tidy(model, "points"), "data.frame")
   expect_equal(generics::glance(model)$df.residual, 21)
 })
+
+test_that("curves and patches of a sample are tested with the family held", {
+  made <- argument_objects()
+  sample <- suppressWarnings(homologise(made$shapes, progress = FALSE))
+  data <- data.frame(id = names(sample), w = c(1, 3, 2, 5, 4, 7, 6))
+  model <- suppressWarnings(shape_lm(sample, ~ w, data, c("curves", "surface"), tests = "points", n_perm = 19))
+  expect_setequal(model$parts$part[model$parts$level == "curves"], made$scheme$curves$curve)
+  expect_true(all(model$parts$p_adjusted >= model$parts$p_value - 1e-12))
+  expect_equal(sum(model$parts$points[model$parts$level == "curves"]), nrow(coords(sample$template, "curves")))
+  meshes <- predict(model, data.frame(w = c(1, 9)), "surface", as = "mesh")
+  expect_s3_class(meshes[[1]], "mesh3d")
+  expect_error(predict(model, data.frame(w = 1), "landmarks"), "level", class = "crestline_error")
+  expect_error(predict(model, data.frame(w = 1), "curves", as = "mesh"), "triangles", class = "crestline_error")
+})
+
+test_that("a damaged model is refused by all its methods", {
+  data <- people()
+  aligned <- modelled_sample(data)
+  model <- shape_lm(aligned, ~ age, data, n_perm = 9, components = 2)
+  calls <- list(as.data.frame, summary, plot, predict, generics::tidy, generics::glance)
+  for (part in c("aligned", "models", "formula")) {
+    damaged <- structure(unclass(model)[setdiff(names(model), part)], class = "shape_lm")
+    for (call in calls) expect_error(utils::capture.output(call(damaged)), class = "crestline_error")
+  }
+})

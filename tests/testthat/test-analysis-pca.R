@@ -10,8 +10,31 @@ test_that("components are those of prcomp", {
   expect_equal(unname(pca$x), unname(theirs$x[, r]) %*% diag(sign), tolerance = 1e-8)
   expect_equal(sum(pca$share), 1)
   expect_equal(pca$share, theirs$sdev[r]^2 / sum(theirs$sdev^2), tolerance = 1e-8)
-  expect_true(all(apply(pca$rotation, 2, function(column) column[which.max(abs(column))]) > 0))
   expect_s3_class(summary(pca), "summary.prcomp")
+})
+
+test_that("scores rise with size, and the greatest entry is positive where they do not correlate", {
+  aligned <- align(posed_sample(sd = 0.1))
+  greatest <- function(pca) {
+    apply(pca$rotation, 2, function(column) column[which.max(abs(column))])
+  }
+  expect_true(all(cor(shape_pca(aligned, sized = 0)$x, aligned$size) > 0))
+  expect_true(all(greatest(shape_pca(aligned, sized = 1)) > 0))
+  pca <- shape_pca(aligned)
+  along <- cor(pca$x, aligned$size)
+  expect_true(all(along[abs(along) >= 0.1] > 0))
+  expect_true(all(greatest(pca)[abs(along) < 0.1] > 0))
+})
+
+test_that("a few of many components are those of the whole decomposition", {
+  aligned <- align(posed_sample(k = 20, n = 80, sd = 0.1))
+  whole <- shape_pca(aligned)
+  few <- shape_pca(aligned, components = 3)
+  expect_equal(few$sdev, whole$sdev[1:3], tolerance = 1e-8)
+  expect_equal(few$share, whole$share[1:3], tolerance = 1e-8)
+  expect_equal(few$x, whole$x[, 1:3], tolerance = 1e-6)
+  expect_equal(few$rotation, whole$rotation[, 1:3], tolerance = 1e-6)
+  expect_equal(shape_pca(aligned, components = 40)$sdev, whole$sdev[1:40])
 })
 
 test_that("more specimens than co-ordinates", {

@@ -24,15 +24,34 @@ test_that("sizes and scores are tested by Welch's t, on Satterthwaite's degrees 
   expect_equal(row("PC2")$p_parametric, theirs$p.value, tolerance = 1e-8)
 })
 
-test_that("T2 has separate covariances, on few components", {
+test_that("T2 has separate covariances, on as many components as the degrees of freedom allow", {
   data <- spread_sample(c(14, 9), 2, 2)
   compared <- apart_quietly(data$x, data$group, n_perm = 9, seed = 1, tests = "T2")
-  expect_equal(unname(compared$components), 4)
-  x <- shape_pca(align(data$x))$x[, 1:4]
+  aligned <- align(data$x)
   first <- data$group == "a"
+  flat <- t(matrix(aligned$coords, 24))
+  # Satterthwaite's degrees of freedom of the summed variance.
+  part <- c(sum(diag(cov(flat[first, ]))) / 14, sum(diag(cov(flat[!first, ]))) / 9)
+  count <- sum(part)^2 / sum(part^2 / c(13, 8)) / 2
+  expect_equal(unname(compared$components), floor(count))
+  x <- shape_pca(aligned)$x[, seq_len(count)]
   off <- colMeans(x[first, ]) - colMeans(x[!first, ])
-  expect_equal(compared$tests$statistic, drop(off %*% solve(cov(x[first, ]) / 14 + cov(x[!first, ]) / 9, off)),
-               tolerance = 1e-8)
+  t2 <- drop(off %*% solve(cov(x[first, ]) / 14 + cov(x[!first, ]) / 9, off))
+  expect_equal(compared$tests$statistic, t2, tolerance = 1e-8)
+})
+
+test_that("components are adjusted by regroupings and by Sidak's inequality", {
+  data <- spread_sample(c(14, 9), 2, 2)
+  own <- apart_quietly(data$x, data$group, n_perm = 99, seed = 1, tests = "components",
+                       components = 4)$tests
+  sidak <- 1 - (1 - own$p_parametric)^4
+  expect_true(all(own$p_adjusted >= sidak - 1e-12 & own$p_adjusted >= own$p_value))
+})
+
+test_that("variance in all directions alike has as many effective dimensions as directions", {
+  cross <- rbind(diag(3), -diag(3))
+  y <- lapply(1:3, function(d) cbind(cross[, d], cross[, 1]))
+  expect_equal(effective_dimensions(y), c(3, 1))
 })
 
 test_that("with more groups F is that of Brown and Forsythe", {
@@ -41,7 +60,8 @@ test_that("with more groups F is that of Brown and Forsythe", {
   variance <- tapply(size, code, var)
   n <- c(6, 8, 5)
   f <- sum(n * (tapply(size, code, mean) - mean(size))^2) / sum((1 - n / 19) * variance)
-  own <- observed_f(list(cbind(size - mean(size))), code, list(equal = FALSE, lost = 0))
+  y <- cbind(size - mean(size))
+  own <- observed_f(squared_sums(list(y)), y^2, code, list(equal = FALSE, lost = 0))
   expect_equal(own$f, f)
   part <- (1 - n / 19) * variance
   expect_equal(own$df, sum(part)^2 / sum(part^2 / (n - 1)))
@@ -64,7 +84,10 @@ test_that("where a small group varies most, pooled tests reject equal means and 
 
 test_that("unequal groups of unequal spread are warned of, and only these", {
   data <- spread_sample(c(20, 6), 3, 1)
-  quietly <- function(data, ...) compare_groups(data$x, data$group, n_perm = 19, seed = 1, progress = FALSE, ...)
+  quietly <- function(data, equal_spread = TRUE) {
+    suppressWarnings(compare_groups(data$x, data$group, n_perm = 19, seed = 1, progress = FALSE,
+                                    equal_spread = equal_spread), "crestline_sample_doubt")
+  }
   expect_warning(quietly(data), "differ by a factor of 2[.]", class = "crestline_unequal_spread")
   class <- "crestline_unequal_spread"
   expect_no_warning(quietly(data, equal_spread = FALSE), class = class)
@@ -72,6 +95,25 @@ test_that("unequal groups of unequal spread are warned of, and only these", {
   even <- spread_sample(c(20, 6), 1, 1)
   expect_no_warning(quietly(even), class = class)
   expect_match(capture.output(quietly(even)), "dispersion: the spreads of the groups differ", all = FALSE)
+})
+
+test_that("exact duplicates do not differ", {
+  compare_groups <- function(...) suppressWarnings(crestline::compare_groups(...))
+  shape <- with_seed(1, matrix(rnorm(24), 8))
+  other <- shape + with_seed(2, matrix(rnorm(24, sd = 0.01), 8))
+  x <- simplify2array(rep(list(shape, other, 3 * shape), 4))
+  group <- rep(c("a", "b"), each = 6)
+  for (equal in c(TRUE, FALSE)) {
+    found <- compare_groups(x, group, n_perm = 99, seed = 1, progress = FALSE,
+                            equal_spread = equal)
+    expect_true(all(found$tests$p_value == 1))
+    expect_true(all(found$points$p_value == 1))
+    alike <- x
+    for (i in 1:12) alike[, , i] <- x[, , i] / sqrt(sum(scale(x[, , i], scale = FALSE)^2))
+    size <- compare_groups(alike, rep(c("a", "b"), c(5, 7)), n_perm = 99, seed = 1,
+                           progress = FALSE, equal_spread = equal, tests = "size")$tests
+    expect_equal(size$p_value, 1)
+  }
 })
 
 test_that("dispersion is found where there is one, by its ratio", {

@@ -100,3 +100,8 @@ test_that("sums of squares and F are those of geomorph's bilat.symmetry()", {
   expect_equal(ours$squares, theirs$shape.anova$SS[1:4], tolerance = 1e-5)
   expect_equal(ours$statistic[1:3], theirs$shape.anova$F[1:3], tolerance = 1e-5)
 })
+
+test_that("few individuals have all exchanges of sides", {
+  found <- symmetry_parts(mirrored_sample(5, directional = 0.3), pairs = two_pairs)
+  expect_equal(found$tests$p_value[2], 1 / 16)
+})

@@ -43,7 +43,7 @@ test_that("what is not given is told of by name", {
   expect_crestline_error(ridge_curve(ball, "a", "b"), c("`radius`", "`width`", "`n` are not given"))
   expect_crestline_error(curvature(), c("`mesh`", "`radius`"))
   expect_crestline_error(curvature(ball), "`radius` is not given")
-  expect_crestline_error(fit_shape(ball), "`scheme`")
+  expect_crestline_error(fit_shape(), "`specimen`")
   expect_crestline_error(draw_lines(), c("`scene`", "`x`"))
   expect_s3_class(ridge_curve(ball, "a", "b", "plane", n = 5), "curve")
 })

@@ -12,7 +12,7 @@ circles <- list(
   # read_landmarks() of a folder reads its files by read_landmarks().
   c("landmarks-beside.R", "landmarks.R"),
   # A denser surface is straightened where its triangles are flipped, which is looked for on the surface.
-  c("shape-check.R", "shape-dense.R", "shape-mesh.R")
+  c("shape-checks.R", "shape-dense.R", "shape-mesh.R")
 )
 
 # Calls to a later floor that stay, each with its reason.

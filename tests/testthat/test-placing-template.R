@@ -28,7 +28,10 @@ test_that("a template stands in its own mirror's frame, and says what it lacks",
 
 test_that("settings are checked, and their lengths go with the template", {
   expect_crestline_error(find_settings(turn = 3), "no setting")
+  expect_crestline_error(find_settings(5), "no setting")
   expect_crestline_error(find_settings(turns = "many"), "turns")
+  expect_message(former <- find_settings(kept = 0.6, robust = 2), class = "crestline_deprecated")
+  expect_equal(former, find_settings(trim_share = 0.6, robust_scale = 2))
   expect_crestline_error(find_settings(reach = 3), "Give 2")
   expect_crestline_error(find_settings(cluster = 0), "above 0")
   expect_equal(find_settings(uneven = 0)$uneven, 0)

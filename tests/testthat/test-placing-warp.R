@@ -28,7 +28,7 @@ test_that("a basis has the kernel's variance, and symmetric displacements are sy
   moved <- displaced(basis, coefficients)
   expect_equal(moved[partner, ], moved %*% diag(c(-1, 1, 1)), tolerance = 1e-6, ignore_attr = TRUE)
   own <- warp_basis(xyz, nrow(xyz), FALSE, settings)
-  expect_equal(rowSums(own[[1]]^2), rep(sum(settings$kernel_sd^2), nrow(xyz)), tolerance = 1e-3)
+  expect_equal(rowSums(own[[1]]^2), rep(sum(settings$length_scale_sd^2), nrow(xyz)), tolerance = 1e-3)
 })
 
 test_that("a template bent by a known displacement is bent back to it", {

@@ -70,7 +70,6 @@ test_that("both turn in rgl", {
 test_that("what cannot be drawn is refused", {
   data <- grouped_sample(c(4, 4))
   compared <- compare_groups(data$x, data$group, n_perm = 9, components = 2, progress = FALSE)
-  expect_crestline_error(plot(compared, "map"), "no level has a surface")
   ball <- bumped_balls()
   expect_crestline_error(plot(ball, level = "curves"), "`level`")
   three <- compare_groups(ball$aligned, rep(1:4, 4), n_perm = 9, tests = "points", progress = FALSE)
@@ -91,4 +90,34 @@ test_that("boxes of whole blocks show the means of the blocks", {
   compared <- compare_groups(data$x, data$group, n_perm = 9, components = 2, block = person, progress = FALSE)
   drawn <- plot(compared, components = 1)
   expect_equal(drawn[["centroid size"]]$n, c(3, 3))
+})
+
+test_that("levels without a surface are drawn as points: means of all groups, a map of two", {
+  data <- grouped_sample(c(6, 6), effect = 0.5, sd = 0.02)
+  rownames(data$x) <- paste("rim", 1:12)
+  aligned <- align(data$x, "curves")
+  compared <- compare_groups(aligned, data$group, n_perm = 99, seed = 1, components = 2,
+                             progress = FALSE)
+  means <- draw_quietly(plot(compared, "means"))
+  expect_named(means, c("a", "b"))
+  size <- mean(aligned$size)
+  expect_equal(means$b, size * apply(aligned$coords[, , 7:12], 1:2, mean), ignore_attr = TRUE)
+  map <- draw_quietly(plot(compared, "map", engine = "picture", length_unit = "mm"))
+  expect_equal(map$displacement, compared$points$displacement)
+  three <- compare_groups(aligned, rep(1:3, 4), n_perm = 9, tests = "shape", progress = FALSE)
+  expect_length(draw_quietly(plot(three, "means")), 3)
+  expect_crestline_error(plot(three, "map"), "3 groups")
+  expect_equal(curve_rows(c("a 1", "a 2", "b c 1"), "curves"), list(a = 1:2, "b c" = 3))
+})
+
+test_that("a map holds what is asked", {
+  p <- c(0.001, 0.04, 0.02, NA, 0.6)
+  expect_equal(weighted_fdr(p, rep(1, 5)), p.adjust(p, "BH"))
+  # Twice the weight is the point twice.
+  expect_equal(weighted_fdr(p, c(1, 2, 1, 1, 1))[c(1, 2, 2, 3, 5)],
+               p.adjust(p[c(1, 2, 2, 3, 5)], "BH"))
+  expect_true(is.na(weighted_fdr(p, c(0, 1, 1, 1, 1))[1]))
+  points <- data.frame(p_value = p, p_adjusted = 2 * p)
+  expect_equal(held_p(points, "fwe", 1), 2 * p)
+  expect_equal(held_p(points, "none", 1), p)
 })

@@ -33,3 +33,15 @@ test_that("the page has a slider a component, which holds the shapes at its ends
   expect_crestline_error(write_pca_page(pca, "x.txt"), "ends in .html")
   expect_crestline_error(write_pca_page(shape_pca(align(posed_sample())), file), "triangles")
 })
+
+test_that("scores have labels and ellipses, and shapes without a surface are drawn as points", {
+  pca <- shape_pca(align(posed_sample(sd = 0.1)))
+  drawn <- draw_quietly(plot(pca, group = rep(1:3, c(7, 6, 2)), labels = TRUE, ellipse = 0.9))
+  expect_equal(drawn, pca$x[, 1:2])
+  ends <- draw_quietly(plot(pca, "shapes", component = 2, sd = 1.5))
+  expect_equal(ends[["+1.5 sd"]], shape_at(pca, 2, 1.5), ignore_attr = TRUE)
+  xy <- with_seed(1, matrix(rnorm(60), 30) %*% rbind(c(2, 0), c(1, 0.5)))
+  ring <- normal_ellipse(xy, 0.9)
+  expect_equal(mahalanobis(ring, colMeans(xy), cov(xy)), rep(qchisq(0.9, 2), 100))
+  expect_crestline_error(plot(pca, ellipse = 2), "`ellipse`")
+})

@@ -158,7 +158,7 @@ test_that("keep_away() counts strength as 0 in the window too", {
   region <- keep_away(c(-4, crest(-0.5), 6), c(4, crest(0.5), 6), radius = 0.5)
   curve <- suppressWarnings(of_bent(bent, keep_away = region))
   at <- curve$coordinates$vertex[curve$surface$rows]
-  inside <- is_kept_away(located_regions(region, bent), t(bent$mesh$vb[1:3, at]))
+  inside <- is_kept_away(located_regions(region, region_locator(bent), NULL), t(bent$mesh$vb[1:3, at]))
   expect_gt(sum(inside), 10)
   expect_true(all(curve$surface$strength[inside] == 0))
   expect_gt(min(curve$surface$strength[!inside & abs(curve$coordinates$d[curve$surface$rows]) < 1]), 0)
@@ -243,7 +243,8 @@ test_that("a ridge line that cannot be lifted leaves the reference path, with th
   path <- reference_path(bent, "a", "b", "ridge", 4)
   torn <- walkable(bent)
   torn$twin[] <- 0L # every edge a border
-  job <- curve_job("ridge", 9, "a", "b", ridge_settings(), radius = 4, width = 5,
+  ends <- located_ends(bent, torn, "a", "b")
+  job <- curve_job(ends, "ridge", 9, ridge_settings(), radius = 4, width = 5,
                    source = known_curvature(curvature(bent, 4), bent))
   fit <- fit_passes(torn, path, job)
   expect_false(fit$found)
@@ -260,12 +261,12 @@ test_that("errors of any stage name the curve", {
 test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {
   u <- straight_ridge()
   path <- reference_path(u, "a", "b", "plane")
-  job <- curve_job("ridge", 5, "a", "b", ridge_settings(), radius = 4)
+  job <- curve_job(located_ends(u, walkable(u), "a", "b"), "ridge", 5, ridge_settings(), radius = 4)
   fit <- list(found = FALSE, reason = "not lifted", line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)),
               scale = 1, coordinates = path_coordinates(u, path, 4))
   every <- seq_len(nrow(fit$coordinates))
   fit$strengths <- list(value = rep(1, length(every)), rows = every, cell = every)
-  curve <- assembled_curve(walkable(u), path, path, job, fit)
+  curve <- assembled_curve(path, path, job, fit)
   expect_warning(warn_undetermined(curve), "not lifted", class = "crestline_undetermined")
   expect_true(all(is.na(curve$points$d)) && all(is.na(curve$points$se)))
   expect_false(curve$determined)
@@ -279,8 +280,41 @@ test_that("no strength is NaN where no direction is across the path", {
   along <- which(window$inside)[1]
   normal <- source(window$vertex[along])$normal
   window[along, c("tx", "ty", "tz")] <- as.list(normal)
-  job <- curve_job("ridge", 9, "a", "b", ridge_settings(), source = source)
+  job <- curve_job(located_ends(face, walkable(face), "a", "b"), "ridge", 9, ridge_settings(), source = source)
   strength <- window_strength(walkable(face), window, job)
   expect_true(is.na(strength$value[along]) && !any(is.nan(strength$value)))
   expect_gt(sum(!is.na(strength$value)), 10)
+})
+
+# A window of strength 2 within 0.5 of the line, `beside` farther off.
+striped_curve <- function(beside, offset = 0) {
+  window <- expand.grid(s = seq(0, 10, by = 0.5), d = seq(-3, 3, by = 0.25))
+  structure(
+    list(line = list(s = c(0, 10), alpha = c(offset, offset)), points = data.frame(d = rep(offset, 3)), coordinates = window,
+         surface = list(rows = seq_len(nrow(window)), strength = ifelse(abs(window$d - offset) <= 0.5, 2, beside)),
+         settings = ridge_settings(core = 0.5), radius = 1, strength = 2, type = "ridge"),
+    class = "curve"
+  )
+}
+
+test_that("contrast is the strength along the curve over that beside it", {
+  expect_equal(curve_contrast(striped_curve(0.4)), 5)
+  expect_equal(curve_contrast(striped_curve(0.4, offset = 1)), 5)
+  expect_equal(curve_contrast(striped_curve(2)), 1)
+  expect_equal(curve_contrast(striped_curve(0)), Inf)
+})
+
+test_that("plane curves, and those that stayed on the reference path, have none", {
+  curve <- striped_curve(1)
+  curve$points$d <- NA_real_
+  expect_true(is.na(curve_contrast(curve)))
+  plane <- ridge_curve(quad_specimen(), "a", "b", "plane", n = 5)
+  expect_true(is.na(curve_contrast(plane)))
+})
+
+test_that("a sharp ridge stands out more than a blunt one", {
+  contrast <- function(b) {
+    curve_contrast(suppressWarnings(ridge_curve(simulate_ridge(a = 0, b = b, seed = 1), "from", "to", "ridge", 0.25, 0.4, 9)))
+  }
+  expect_gt(contrast(2), contrast(0.5))
 })

@@ -84,7 +84,7 @@ test_that("the noise factor compares with the expectation that the whole covaria
   bent <- bent_ridge(noise = 0.05, half = c(17, 12), spacing = 1.25)
   scan <- walkable(bent)
   settings <- ridge_settings("one pass")
-  job <- curve_job("ridge", 9, "a", "b", settings, radius = 4, width = 5,
+  job <- curve_job(located_ends(bent, scan, "a", "b"), "ridge", 9, settings, radius = 4, width = 5,
                    source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
   window <- ridge_window(scan, curve$reference, job)
   surface <- window$surface

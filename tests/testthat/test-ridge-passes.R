@@ -36,7 +36,8 @@ test_that("the kernel is a dozen standard errors wide, between its limits, and n
 })
 
 job_of <- function(bent, settings) {
-  curve_job("ridge", 9, "a", "b", settings, radius = 4, width = 5, source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
+  curve_job(located_ends(bent, walkable(bent), "a", "b"), "ridge", 9, settings, radius = 4, width = 5,
+            source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
 }
 
 test_that("the standard error of a first line alone sets the kernel", {

@@ -134,10 +134,10 @@ test_that("the order of specimens changes nothing", {
 test_that("landmarks count by how they came", {
   shape <- shapes[[1]]
   names <- rownames(paired_corners())
-  expect_equal(unname(landmark_nuggets(shape, slide_settings())), rep(0.05, 6))
+  expect_equal(unname(landmark_nuggets(shape, slide_settings())), rep(0.1, 6))
   shape$placing <- data.frame(landmark = names, state = c("found", "found", "predicted", "placed", "absent", "found"),
                               confidence = c(0.9, 0.1, NA, NA, NA, 0.8))
-  expect_equal(unname(landmark_nuggets(shape, slide_settings())), c(0.5, 10, 10, 0.05, 0.05, 0.5))
+  expect_equal(unname(landmark_nuggets(shape, slide_settings())), c(1, 20, 20, 0.1, 0.1, 1))
 })
 
 test_that("a curve that runs along another feature is let go of, and named by quality()", {

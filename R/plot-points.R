@@ -1,0 +1,117 @@
+# Configurations of points that have no surface: curves and landmarks from one side.
+
+#' Points of configurations as one sees them
+#'
+#' @param shapes List of k x d matrices, d 2 or 3.
+#' @return List of k x 2 matrices, with the depth as third column where d is 3.
+#' @noRd
+seen_configurations <- function(shapes, view) {
+  rotation <- view_rotation(view)
+  lapply(shapes, function(xyz) if (ncol(xyz) == 3) xyz %*% t(rotation) else xyz)
+}
+
+#' Rows of every curve of a level, of which neighbours are joined by lines
+#' @noRd
+curve_rows <- function(names, level) {
+  if (!identical(level, "curves")) return(list())
+  part <- sub(" [^ ]+$", "", names)
+  split(seq_along(names), factor(part, unique(part)))
+}
+
+#' An empty plot of equal scale that holds configurations
+#' @noRd
+configuration_window <- function(seen, margin = 2, right = 0.5) {
+  all <- do.call(rbind, lapply(seen, function(xy) xy[, 1:2, drop = FALSE]))
+  old <- graphics::par(mar = c(0.5, 0.5, margin, right))
+  graphics::plot.new()
+  graphics::plot.window(range(all[, 1], na.rm = TRUE), range(all[, 2], na.rm = TRUE), asp = 1)
+  old
+}
+
+draw_configuration <- function(xy, rows, colour, size = 0.8, width = 2) {
+  for (own in rows) graphics::lines(xy[own, 1:2, drop = FALSE], col = colour, lwd = width)
+  graphics::points(xy[, 1:2, drop = FALSE], pch = 16, col = colour, cex = size)
+}
+
+#' Some configurations laid over each other, each in its colour
+#' @param shapes Named list; the names are the legend.
+#' @noRd
+plot_configurations <- function(shapes, level, colour, view, legend, title) {
+  seen <- seen_configurations(shapes, view)
+  old <- configuration_window(seen)
+  on.exit(graphics::par(old))
+  rows <- curve_rows(rownames(shapes[[1]]), level)
+  size <- if (length(rows)) 0.5 else 0.9
+  Map(function(xy, colour) draw_configuration(xy, rows, colour, size), seen,
+      rep_len(colour, length(seen)))
+  if (legend) graphics::legend("bottomleft", names(shapes), pch = 16, col = colour, bty = "n",
+                               cex = 0.8)
+  graphics::title(title, font.main = 1, cex.main = 0.9)
+  invisible(seen)
+}
+
+#' Plot an alignment
+#'
+#' Draws all specimens over their mean, the farthest in colours and named.
+#'
+#' @param x An `aligned`, as [align()] returns it, or a `shape_sample`, which is aligned first.
+#' @param level Of a `shape_sample`: the level that is aligned, as in [align()].
+#' @param most How many of the farthest specimens are named.
+#' @param colour Colours of these.
+#' @param view Where to look from, as in [draw_surface()].
+#' @param legend Whether to draw the legend: ids and Procrustes distances from the mean (without
+#'   unit; with `scale = FALSE` in the unit of the meshes).
+#' @param main Title; `NULL` for the number of specimens and the level.
+#' @param ... Of a `shape_sample`: passed to [align()]; else ignored.
+#' @return Data frame of the specimens named, as of `as.data.frame()`, the farthest first;
+#'   invisibly.
+#' @section Errors: of class `crestline_error`: no `aligned`, a number of specimens that is none.
+#' @template glossary
+#' @seealso [align()]
+#' @examples
+#' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
+#' plot(align(shapes + rnorm(120, sd = 0.05)))
+#' @export
+plot.aligned <- function(x, most = 3, colour = grDevices::hcl.colors(most, "Dark 3"),
+                         view = "front", legend = TRUE, main = NULL, ...) {
+  check_method_dots(...)
+  validate(x)
+  most <- min(check_count(most, "most"), length(x))
+  colour <- rep_len(check_colour(colour, "colour"), most)
+  check_flags(legend)
+  main <- check_text(main, "main", null = TRUE)
+  table <- as.data.frame(x)
+  far <- order(table$distance, decreasing = TRUE)[seq_len(most)]
+  shapes <- lapply(seq_len(dim(x$coords)[3]), function(i) {
+    matrix(x$coords[, , i], nrow(x$mean), dimnames = dimnames(x$mean))
+  })
+  seen <- seen_configurations(c(shapes, list(x$mean)), view)
+  old <- configuration_window(seen)
+  on.exit(graphics::par(old))
+  rows <- curve_rows(rownames(x$mean), x$level)
+  for (xy in seen[seq_along(shapes)]) {
+    graphics::points(xy[, 1:2], pch = 16, cex = 0.35, col = "#80808080")
+  }
+  draw_configuration(seen[[length(seen)]], rows, "black", if (length(rows)) 0.3 else 0.7, 1.2)
+  for (i in seq_along(far)) {
+    draw_configuration(seen[[far[i]]], rows, colour[i], 0.55, 1)
+  }
+  if (legend) {
+    words <- sprintf("%s (%.3g)", table$id[far], table$distance[far])
+    graphics::legend("bottomleft", c("mean", words), pch = 16, col = c("black", colour), bty = "n",
+                     cex = 0.8)
+  }
+  title <- sprintf("%s over their mean (%s), the farthest named", amount(length(x), "specimen"),
+                   x$level)
+  graphics::title(if (is.null(main)) title else main, font.main = 1, cex.main = 0.9)
+  invisible(table[far, ])
+}
+
+#' @rdname plot.aligned
+#' @export
+plot.shape_sample <- function(x, level = "curves", most = 3,
+                              colour = grDevices::hcl.colors(most, "Dark 3"), view = "front",
+                              legend = TRUE, main = NULL, ...) {
+  check_class(x, "shape_sample", "x", "homologise()")
+  plot.aligned(align(x, level, ...), most, colour, view, legend, main)
+}

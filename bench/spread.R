@@ -1,0 +1,142 @@
+# Level and power of the tests of groups, where groups differ in size and spread.
+#
+#   nice Rscript bench/spread.R [samples] [file] [level|power|designs]
+#
+# A sample: shapes of 20 points about one mean, of eight modes of falling variance and noise, all
+# in the space tangent to the shapes at the mean, so that means are equal whatever the spread;
+# normal centroid sizes. Groups after the first have `ratio` times the first one's spread. 99
+# permutations. Adds a row a sample to `file` as it goes (columns: what, sizes, ratio, spread, seed,
+# and the p-values), goes on where it stopped, and prints the shares of p-values up to 0.05.
+
+library(crestline)
+
+argument <- commandArgs(TRUE)
+samples <- if (length(argument) > 0) as.integer(argument[1]) else 500L
+file <- if (length(argument) > 1) argument[2] else file.path(tempdir(), "spread.csv")
+wanted <- if (length(argument) > 2) argument[3] else c("level", "power", "designs")
+
+# Deviations in the tangent space at `mean` (k x 3, centred, of unit size).
+tangent_to <- function(mean) {
+  turn <- sapply(list(1:2, c(1, 3), 2:3), function(pair) {
+    moved <- 0 * mean
+    moved[, pair[1]] <- -mean[, pair[2]]
+    moved[, pair[2]] <- mean[, pair[1]]
+    as.vector(moved)
+  })
+  off <- qr(cbind(as.vector(mean), turn, kronecker(diag(3), rep(1, nrow(mean)))))
+  function(x) matrix(qr.resid(off, as.vector(x)), nrow(mean))
+}
+
+# `effect`: of shape at four points (unit of centroid size), and of size (share).
+draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k = 20) {
+  set.seed(seed)
+  mean <- scale(matrix(rnorm(3 * k), k), scale = FALSE)
+  mean <- mean / sqrt(sum(mean^2))
+  tangent <- tangent_to(mean)
+  sd <- spread / sqrt(3 * k)
+  modes <- replicate(8, tangent(matrix(rnorm(3 * k), k)), simplify = FALSE)
+  modes <- Map(`*`, modes, 2 * sd * 0.8^(0:7))
+  bump <- tangent(replace(0 * mean, cbind(1:4, 3), 1))
+  group <- rep(seq_along(sizes), sizes)
+  own <- c(1, rep_len(ratio, length(sizes) - 1))[group]
+  shapes <- lapply(seq_along(group), function(i) {
+    noise <- 0.7 * sd * tangent(matrix(rnorm(3 * k), k))
+    off <- Reduce(`+`, Map(`*`, modes, rnorm(8))) + noise
+    shape <- mean + own[i] * off + effect[1] * (group[i] == 2) * bump
+    size <- 1 + 0.04 * own[i] * rnorm(1) + effect[2] * (group[i] == 2)
+    size * shape / sqrt(sum(shape^2))
+  })
+  list(x = simplify2array(shapes), group = factor(letters[group]))
+}
+
+p_values <- function(data, seed, ...) {
+  compared <- suppressMessages(suppressWarnings(
+    compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = seed, progress = FALSE, ...)
+  ))
+  tests <- compared$tests
+  p <- function(test) c(tests$p_value[tests$test %in% test], NA)[1]
+  data.frame(size = p(c("size t", "size F")), shape = p(c("mean shape", "mean shape F")),
+             t2 = p("T2"), pc1 = p("PC1"),
+             components = min(tests$p_adjusted[grepl("^PC", tests$test)]),
+             points = min(compared$points$p_adjusted), dispersion = p("dispersion"))
+}
+
+done <- if (file.exists(file)) read.csv(file, colClasses = c(sizes = "character"))
+
+cell <- function(what, sizes, ratio, equal, p_of) {
+  key <- data.frame(what = what, sizes = paste(sizes, collapse = ":"), ratio = ratio,
+                    spread = if (equal) "pooled" else "separate")
+  there <- if (!is.null(done)) merge(done, key)$seed
+  for (seed in setdiff(seq_len(samples), there)) {
+    new <- !file.exists(file)
+    write.table(cbind(key, seed = seed, p_of(seed)), file, append = !new, sep = ",",
+                row.names = FALSE, col.names = new, quote = FALSE)
+  }
+  message(what, " ", key$sizes, " ratio ", ratio, " ", key$spread, " done")
+}
+
+of_groups <- function(what, sizes, ratio, equal, effect = c(0, 0)) {
+  cell(what, sizes, ratio, equal, function(seed) {
+    p_values(draw_groups(sizes, ratio, seed, effect), seed, equal_spread = equal)
+  })
+}
+
+two <- list(c(15, 15), c(24, 6), c(6, 24))
+three <- list(c(10, 10, 10), c(18, 6, 6))
+if ("level" %in% wanted) {
+  for (ratio in c(3, 2, 1)) for (sizes in two) of_groups("level", sizes, ratio, FALSE)
+  for (ratio in c(3, 1)) for (sizes in three) of_groups("level", sizes, ratio, FALSE)
+  of_groups("level", c(24, 6), 1.5, FALSE)
+  of_groups("level", c(24, 6), 3, TRUE)
+}
+if ("power" %in% wanted) {
+  for (sizes in two) for (equal in c(FALSE, TRUE)) {
+    for (effect in list(c(0.005, 0.03), c(0.01, 0.05))) {
+      of_groups(paste("power", effect[1]), sizes, 1, equal, effect)
+    }
+  }
+}
+
+# Persons differ by three times what a repeat of one differs by.
+draw_blocks <- function(persons, repeats, seed, effect = 0) {
+  data <- draw_groups(c(persons, 0), 1, seed, spread = 0.06)
+  error <- draw_groups(c(persons * repeats, 0), 1, seed + 10000)
+  mean <- apply(error$x, 1:2, mean)
+  x <- data$x[, , rep(seq_len(persons), repeats)] + error$x - as.vector(mean)
+  second <- seq_len(persons * repeats) > persons
+  x[1:4, 3, second] <- x[1:4, 3, second] + effect
+  list(x = x, person = rep(seq_len(persons), repeats), second = second)
+}
+
+if ("designs" %in% wanted) {
+  pairs <- function(effect, blocked) function(seed) {
+    drawn <- draw_blocks(12, 2, seed, effect)
+    data <- list(x = drawn$x, group = factor(ifelse(drawn$second, "after", "before")))
+    p_values(data, seed, block = if (blocked) drawn$person)
+  }
+  repeats <- function(blocked) function(seed) {
+    drawn <- draw_blocks(20, 2, seed)
+    data <- list(x = drawn$x, group = factor(c("a", "b")[drawn$person %% 2 + 1]))
+    p_values(data, seed, block = if (blocked) drawn$person)
+  }
+  # Two sites with scanners of their own; patients mostly at the second.
+  sites <- function(blocked) function(seed) {
+    data <- draw_groups(c(15, 15), 1, seed, c(0.02, 0.05))
+    site <- data$group
+    data$group <- factor(rep(c("control", "patient", "control", "patient"), c(11, 4, 4, 11)))
+    p_values(data, seed, block = if (blocked) site)
+  }
+  for (blocked in c(TRUE, FALSE)) {
+    way <- if (blocked) "block" else "independent"
+    cell(paste("pairs none", way), c(12, 12), 1, FALSE, pairs(0, blocked))
+    cell(paste("pairs effect", way), c(12, 12), 1, FALSE, pairs(0.01, blocked))
+    cell(paste("repeats", way), c(20, 20), 1, FALSE, repeats(blocked))
+    cell(paste("sites", way), c(15, 15), 1, FALSE, sites(blocked))
+  }
+}
+
+found <- read.csv(file, colClasses = c(sizes = "character"))
+key <- found[c("what", "sizes", "ratio", "spread")]
+rate <- aggregate(found[6:12] <= 0.05, key, mean)
+print(cbind(rate[1:4], round(rate[5:11], 3), n = aggregate(found$seed, key, length)$x),
+      row.names = FALSE)
