@@ -30,15 +30,9 @@
 #'   * `step`: longest Newton step, as a share of the half width; `iterations`, `tolerance` (share
 #'     of the half width);
 #'   * `kernel`: the criterion is averaged across the path under a kernel ([ridge_line()]), whose
-<<<<<<< HEAD
-#'     half width is this many standard errors of the line without it; 0: none. `kernel_most`: widest,
-#'     in radii; `kernel_least`: narrower ones, in radii, count as none; `kernel_vertices`: as
-#'     `vertices`, for this standard error;
-=======
 #'     half width is this many standard errors of the line without it; 0: none. `kernel_most`:
 #'     widest, in radii; `kernel_least`: narrower ones, in radii, count as none; `kernel_vertices`:
 #'     as `vertices`, for this standard error;
->>>>>>> stage
 #'   * `second`: share of a second pass, about the curve of the first, that is taken where both
 #'     curves are equally strong; 0: one pass. `second_gain`: relative gain in strength at which
 #'     half as much again of a whole pass is taken, the loss at which it is so much less;
