@@ -128,19 +128,7 @@ nearest_distances <- function(a, b) {
   a <- known_rows(a)
   b <- known_rows(b)
   if (!nrow(a) || !nrow(b)) return(NA_real_)
-  c(polyline_distances(a, b), polyline_distances(b, a))
-}
-
-polyline_distances <- function(points, line) {
-  nearest <- row_lengths(sweep(points, 2, line[1, ]))
-  for (i in seq_len(nrow(line) - 1)) {
-    step <- line[i + 1, ] - line[i, ]
-    off <- sweep(points, 2, line[i, ])
-    share <- if (any(step != 0)) pmin(pmax(drop(off %*% step) / sum(step^2), 0), 1) else
-      numeric(nrow(points))
-    nearest <- pmin(nearest, row_lengths(off - outer(share, step)))
-  }
-  nearest
+  c(nearest_on_polyline(a, b)$distance, nearest_on_polyline(b, a)$distance)
 }
 
 #' @export

@@ -25,10 +25,10 @@
 #' compared. F of Brown and Forsythe is the squares between groups over the sum of (1 - n_g / n)
 #' times the variance of group g. In every regrouping it is taken to the scale of a chi-squared
 #' variable by its own degrees of freedom (Satterthwaite's; Wallace 1959), and the values on that
-#' scale are compared. T2 is compared by its approximate p in the same way. It uses at most half as
-#' many components as the summed variance has degrees of freedom. The tests are exact if the groups
-#' have one distribution. If only their means agree, they are right in large samples (Janssen 1997;
-#' Chung and Romano 2016). The page `spread.md` of the sources has their level in small ones.
+#' scale are compared. T2 is compared by its approximate p in the same way. It uses at most a third
+#' as many components as the summed variance has degrees of freedom. The tests are exact if the
+#' groups have one distribution. If only their means agree, they are right in large samples (Janssen
+#' 1997; Chung and Romano 2016). The page `spread.md` of the sources has their level in small ones.
 #'
 #' With `equal_spread = TRUE` variances are pooled: Student's t, Goodall's F, Hotelling's T2,
 #' Hotelling and Lawley's trace times (n - groups). The null hypothesis is then that the groups have

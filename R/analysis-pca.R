@@ -57,8 +57,8 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
     crestline_abort("all shapes are the same.", "Check that the sample is what it should be.",
                     stage = "components")
   }
-  axis <- parts$v * rep(component_signs(parts$v, y %*% parts$v, aligned$size, sized),
-                        each = ncol(y))
+  signs <- component_signs(parts$v, y %*% parts$v, aligned$size, sized)
+  axis <- parts$v * rep(signs, each = ncol(y))
   names <- paste0("PC", seq_along(parts$d))
   rows <- as.vector(outer(rownames(aligned$mean), colnames(aligned$mean), paste))
   rotation <- `dimnames<-`(axis * sqrt(weight), list(rows, names))

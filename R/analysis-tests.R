@@ -44,9 +44,8 @@ squared_sums <- function(y) {
 
 #' The same summed over all variables, by the smaller of the two products of a matrix
 #' @noRd
-squared_total <- function(y) {
-  if (nrow(y) > ncol(y)) return(function(member) cbind(colSums(crossprod(y, member)^2)))
-  gram <- tcrossprod(y)
+squared_total <- function(y, gram = if (nrow(y) <= ncol(y)) tcrossprod(y)) {
+  if (is.null(gram)) return(function(member) cbind(colSums(crossprod(y, member)^2)))
   function(member) cbind(colSums(member * (gram %*% member)))
 }
 
@@ -344,8 +343,10 @@ mean_shape_test <- function(total, labels, spread, counts) {
 #'   variance within groups, by direction; `NULL` with equal spread).
 #' @noRd
 whole_shape <- function(y, labels, spread) {
-  total <- list(about = squared_total(y), squares = cbind(rowSums(y^2)))
-  dimensions <- if (spread$equal) 1 else 1 / sum(variance_shares(y)^2)
+  gram <- if (nrow(y) <= ncol(y)) tcrossprod(y)
+  total <- list(about = squared_total(y, gram), squares = cbind(rowSums(y^2)))
+  square <- if (spread$equal) NA else if (is.null(gram)) leading_squares(y) else sum(gram^2)
+  dimensions <- if (spread$equal) 1 else max(1, sum(y^2)^2 / square, na.rm = TRUE)
   each <- by_block(labels, function(part) {
     own <- spread_scores(total$about, total$squares, part, spread$equal, dimensions)
     cbind(own$between, own$score, own$df)
@@ -354,13 +355,9 @@ whole_shape <- function(y, labels, spread) {
                 df = if (!spread$equal) each[, 3]))
 }
 
-#' Shares of the variance by component; of many specimens those of the leading ones
+#' Sum of the squared variances by component, by the leading ones
 #' @noRd
-variance_shares <- function(y, leading = 20) {
-  most <- if (nrow(y) > ncol(y)) leading
-  value <- thin_svd(y, 0, most)$d^2
-  if (length(value)) value / sum(y^2) else 1
-}
+leading_squares <- function(y, leading = 20) sum(thin_svd(y, 0, leading)$d^4)
 
 #' T2 of the first components, with separate covariances on as many in every regrouping as the
 #' degrees of freedom of its variances allow
@@ -377,7 +374,7 @@ t2_test <- function(pca, components, labels, spread, df) {
     statistic <- scores[1] * kept
     p <- hotelling_p(statistic, n - spread$lost, groups, count)
   } else {
-    each <- pmax(1, pmin(most, df %/% 2))
+    each <- pmax(1, pmin(most, df %/% 3))
     count <- each[1]
     scores <- separate_t2_scores(u, labels, each)
     own <- separate_t2(u, labels[, 1], count) * kept

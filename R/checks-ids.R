@@ -154,7 +154,15 @@ rows_of_specimens <- function(data, ids, name, fail) {
   }
   key <- c(names(keys), "")[1]
   column <- setdiff(names(data), key)
-  same <- function(i) same_rows(data[column], i)
+  same <- function(i) {
+    # Whether some rows of a table are the same, in all of its columns, matrices and tables among
+    # them
+    row <- function(k) {
+      cells <- lapply(data[column], function(x) as.list(if (length(dim(x)) == 2) x[k, ] else x[k]))
+      unname(unlist(cells, recursive = FALSE))
+    }
+    all(vapply(i[-1], function(k) identical(row(k), row(i[1])), NA))
+  }
   own <- if (length(keys)) keys[[1]]
   place <- places_of_specimens(own, nrow(data), ids, what, "row", same, fail)
   for (other in names(keys)[-1][known[names(keys)[-1]] == 1]) {
@@ -164,16 +172,6 @@ rows_of_specimens <- function(data, ids, name, fail) {
     }
   }
   structure(place, key = key)
-}
-
-#' Whether some rows of a table are the same, in all of its columns, matrices and tables among them
-#' @noRd
-same_rows <- function(data, i) {
-  row <- function(k) {
-    cells <- lapply(data, function(x) as.list(if (length(dim(x)) == 2) x[k, ] else x[k]))
-    unname(unlist(cells, recursive = FALSE))
-  }
-  all(vapply(i[-1], function(k) identical(row(k), row(i[1])), NA))
 }
 
 #' What may be a table's key: columns by their names, and row names that were given

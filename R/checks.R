@@ -130,6 +130,16 @@ check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
   x
 }
 
+# Colours of vertices: one, or one for each.
+check_colours <- function(colour, n, call = rlang::caller_env()) {
+  check_colour(colour, "colour", call = call)
+  if (!length(colour) %in% c(1L, n)) {
+    crestline_abort(sprintf("`colour` has %d values for %d vertices.", length(colour), n),
+                    "Give one colour, or one for each vertex.", stage = "picture", call = call)
+  }
+  rep_len(colour, n)
+}
+
 #' An object of a class of ours, or of `mesh3d`, with the parts that it has at least
 #' @noRd
 check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
@@ -138,8 +148,13 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
                                            sprintf("%s, not of class \"%s\"", describe_value(x),
                                                    class))
   parts <- class_parts[[class]]
-  lacks <- names(parts)[!vapply(names(parts), function(part) is_of_kind(x[[part]], parts[[part]]),
-                                NA)]
+  is_there <- vapply(names(parts), function(part) {
+    value <- x[[part]]
+    switch(parts[[part]], list = is.list(value), table = is.data.frame(value),
+           numbers = is.numeric(value), id = is.character(value) && length(value) == 1,
+           inherits(value, parts[[part]]))
+  }, NA)
+  lacks <- names(parts)[!is_there]
   if (length(lacks)) {
     refuse_argument(name, x, make, call,
                     sprintf("a damaged \"%s\": it has no proper %s", class,
@@ -195,15 +210,9 @@ check_ends <- function(..., call = rlang::caller_env()) {
     located <- is.numeric(x) && identical(names(x), mesh_columns)
     position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
     if (!position && !is_path(x)) refuse_argument(name, x,
-                                                  paste("Give the name of a landmark, or three",
-                                                        "finite co-ordinates."), call)
+                                                  paste0("Give the name of a landmark, or three ",
+                                                         "finite co-ordinates."), call)
   }
-}
-
-is_of_kind <- function(x, kind) {
-  switch(kind, list = is.list(x), table = is.data.frame(x), numbers = is.numeric(x),
-         id = is.character(x) && length(x) == 1,
-         inherits(x, kind))
 }
 
 #' Regions in which strength does not count: one, a list of them, or NULL
@@ -236,17 +245,6 @@ check_list <- function(x, class, name, maker, call = rlang::caller_env()) {
   if (inherits(x, class)) x <- list(x)
   if (!is.list(x) || is.object(x) || !length(x)) check_class(x, class, name, maker, call)
   for (one in x) check_class(one, class, name, maker, call)
-  x
-}
-
-#' A matrix of numbers with so many columns
-#' @noRd
-check_matrix <- function(x, name, columns = 3, call = rlang::caller_env()) {
-  if (!is.matrix(x) || !is.numeric(x) || !ncol(x) %in% columns) {
-    refuse_argument(name, x,
-                    sprintf("Give a matrix of numbers with %s columns.",
-                            paste(columns, collapse = " or ")), call)
-  }
   x
 }
 

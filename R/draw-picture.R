@@ -37,7 +37,7 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
     crestline_abort("`light` is not a direction.", "Give three finite numbers, not all 0.",
                     stage = "picture")
   }
-  list(light = light / sqrt(sum(light^2)),
+  list(light = unit_vector(light),
        ambient = check_number(ambient, "ambient", 0, 1), wrap = check_number(wrap, "wrap", 0, 1),
        gloss = check_number(gloss, "gloss", 0, 1),
        sharpness = check_number(sharpness, "sharpness", 0),
@@ -67,26 +67,23 @@ picture_surface <- function(mesh, colour, rotation, settings) {
   render <- function(xyz, rgb, it) cpp_render_mesh(xyz, rgb, it, frame$width, frame$height,
                                                    settings$samples)
   seen <- render(xyz, shade_vertices(colour, normals, settings), mesh$it)
-  if (!is.na(settings$inside)) seen <- seen_with_inside(seen, render, xyz, colour, normals, mesh$it,
-                                                        settings, tolerance)
+  if (!is.na(settings$inside)) {
+    # Fronts and backs; where a back is seen, what lies on its front side is not, so that its
+    # depth is brought forward.
+    inside <- rep(settings$inside, ncol(xyz))
+    rgb <- cbind(shade_vertices(colour, normals, settings),
+                 shade_vertices(inside, -normals, settings))
+    both <- render(cbind(xyz, xyz), rgb, cbind(mesh$it, mesh$it[c(1, 3, 2), ] + ncol(xyz)))
+    back <- both$depth > seen$depth
+    both$depth[back] <- both$depth[back] + 2 * tolerance
+    seen <- both
+  }
   right <- frame$usr[1] + frame$width * frame$pixel
   bottom <- frame$usr[4] - frame$height * frame$pixel
   graphics::rasterImage(seen$rgba, frame$usr[1], bottom, right, frame$usr[4])
   structure(list(rotation = rotation, pixel = frame$pixel, depth = seen$depth, usr = frame$usr,
                  plt = graphics::par("plt"), tolerance = tolerance),
             class = "picture_scene")
-}
-
-# Fronts and backs; where a back is seen, what lies on its front side is not, so that its depth is
-# brought forward.
-seen_with_inside <- function(front, render, xyz, colour, normals, it, settings, tolerance) {
-  inside <- rep(settings$inside, ncol(xyz))
-  rgb <- cbind(shade_vertices(colour, normals, settings),
-               shade_vertices(inside, -normals, settings))
-  both <- render(cbind(xyz, xyz), rgb, cbind(it, it[c(1, 3, 2), ] + ncol(xyz)))
-  back <- both$depth > front$depth
-  both$depth[back] <- both$depth[back] + 2 * tolerance
-  both
 }
 
 # A new plot, equal in scale, that just holds the turned points (3 x n); its limits, and the size of
@@ -118,7 +115,7 @@ shade_vertices <- function(colour, normals, settings) {
   rgb <- grDevices::col2rgb(colour) / 255
   normals <- normals / rep(pmax(sqrt(colSums(normals^2)), .Machine$double.xmin), each = 3)
   half <- settings$light + c(0, 0, 1)
-  half <- half / sqrt(sum(half^2))
+  half <- unit_vector(half)
   lit <- pmax(0, drop(settings$light %*% normals) + settings$wrap) / (1 + settings$wrap)
   lamp <- settings$ambient + (1 - settings$ambient) * lit
   shine <- settings$gloss * pmax(0, drop(half %*% normals))^settings$sharpness
@@ -138,13 +135,11 @@ view_points <- function(scene, x) x %*% t(scene$rotation)
 seen_from <- function(scene, view) {
   column <- floor((view[, 1] - scene$usr[1]) / scene$pixel) + 1
   row <- floor((scene$usr[4] - view[, 2]) / scene$pixel) + 1
-  inside <- !is.na(column +
-                   row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 &
-                     row <= nrow(scene$depth)
+  inside <- !is.na(column + row) & column >= 1 & column <= ncol(scene$depth) & row >= 1 &
+    row <= nrow(scene$depth)
+  depth <- scene$depth[cbind(row, column)[inside, , drop = FALSE]]
   seen <- inside
-  seen[inside] <- view[inside,
-                       3] >= scene$depth[cbind(row, column)[inside, ,
-                                                            drop = FALSE]] - scene$tolerance
+  seen[inside] <- view[inside, 3] >= depth - scene$tolerance
   seen
 }
 

@@ -109,7 +109,16 @@ draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) {
 }
 
 view_rotation <- function(view, call = rlang::caller_env()) {
-  if (is.matrix(view) && is.numeric(view)) return(check_rotation(view, call))
+  if (is.matrix(view) && is.numeric(view)) {
+    proper <- identical(dim(view), c(3L, 3L)) && all(is.finite(view)) &&
+      max(abs(crossprod(view) - diag(3))) < 1e-6 && det(view) > 0
+    if (!proper) {
+      crestline_abort("`view` is a matrix but not a 3 x 3 rotation.",
+                      "Its rows must be orthonormal and its determinant 1.", stage = "picture",
+                      call = call)
+    }
+    return(unname(view))
+  }
   angles <- list("front" = c(0, 0), "left" = c(pi / 2, 0), "right" = c(-pi / 2, 0),
                  "three-quarter" = c(pi / 5, pi / 18), "below" = c(0, -pi / 2),
                  "above" = c(0, pi / 2), "back" = c(pi, 0))
@@ -125,17 +134,7 @@ view_rotation <- function(view, call = rlang::caller_env()) {
         c(sin(round) * cos(up), sin(up), cos(round) * cos(up)))
 }
 
-check_rotation <- function(view, call) {
-  proper <- identical(dim(view), c(3L, 3L)) && all(is.finite(view)) &&
-    max(abs(crossprod(view) - diag(3))) < 1e-6 && det(view) > 0
-  if (!proper) {
-    crestline_abort("`view` is a matrix but not a 3 x 3 rotation.",
-                    "Its rows must be orthonormal and its determinant 1.", stage = "picture",
-                    call = call)
-  }
-  unname(view)
-}
-
 with_normals <- function(mesh) {
-  if (is.null(mesh$normals)) Rvcg::vcgUpdateNormals(mesh, silent = TRUE) else mesh
+  if (is.null(mesh$normals)) mesh$normals <- vertex_normals(mesh)
+  mesh
 }

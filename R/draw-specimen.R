@@ -32,3 +32,6 @@ curvature_legend <- function(curvature, quantile = 0.95,
 # The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of
 # the way. What the colours of a specimen's surface may show.
 surface_choices <- c("natural", "shape index", "curvature", "plain")
+
+# Colours of curves by their kind.
+kind_colours <- c(ridge = "#A0002A", valley = "#16218C", plane = "#202020")

@@ -13,7 +13,7 @@ unit_vector <- function(x) x / sqrt(sum(x^2))
 
 row_products <- function(a, b) a[, 1] * b[, 1] + a[, 2] * b[, 2] + a[, 3] * b[, 3]
 
-row_lengths <- function(a) sqrt(row_products(a, a))
+row_lengths <- function(a) sqrt(a[, 1] * a[, 1] + a[, 2] * a[, 2] + a[, 3] * a[, 3])
 
 #' Diagonal of the bounding box of points, 3 x n
 #' @noRd
@@ -37,6 +37,34 @@ rotation_about <- function(turn) {
   axis <- turn / angle
   cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
   diag(3) + sin(angle) * cross + (1 - cos(angle)) * cross %*% cross
+}
+
+# Main direction of rows of vectors, up to sign: of the differences between points and their mirror
+# partners the normal of the mirror.
+main_direction <- function(x) eigen(crossprod(x), symmetric = TRUE)$vectors[, 1]
+
+#' The place of a polyline that is nearest to each of some points
+#'
+#' @param xyz k x 3.
+#' @param line n x 3, a row a vertex; with one row that is the nearest place.
+#' @return List of vectors, one value a point: `distance`, `segment` (its first vertex), `share` (of
+#'   the way along the segment).
+#' @noRd
+nearest_on_polyline <- function(xyz, line) {
+  distance <- row_lengths(sweep(xyz, 2, line[1, ]))
+  segment <- rep(1L, nrow(xyz))
+  share <- numeric(nrow(xyz))
+  for (i in seq_len(nrow(line) - 1)) {
+    step <- line[i + 1, ] - line[i, ]
+    off <- sweep(xyz, 2, line[i, ])
+    along <- if (any(step != 0)) pmin(pmax(drop(off %*% step) / sum(step^2), 0), 1) else share * 0
+    here <- row_lengths(off - outer(along, step))
+    nearer <- which(here < distance)
+    distance[nearer] <- here[nearer]
+    segment[nearer] <- i
+    share[nearer] <- along[nearer]
+  }
+  list(distance = distance, segment = segment, share = share)
 }
 
 mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)

@@ -1,6 +1,6 @@
-# .landmarkAscii of Amira and Avizo: define Markers n, Parameters, Markers { float[3] Coordinates }
-# @1, data after @1. Several sets of co-ordinates are several specimens. Names, which the format has
-# not, stand among the parameters; a missing point is NaN.
+# .landmarkAscii of Amira and Avizo: define Markers n, Parameters,
+# Markers { float[3] Coordinates } @1, data after @1. Several sets of co-ordinates are several
+# specimens. The format has no names: they stand among the parameters. A missing point is NaN.
 
 read_landmarks_amira <- function(file, options) {
   line <- file_lines(file)
@@ -16,24 +16,19 @@ read_landmarks_amira <- function(file, options) {
   }
   n <- as.integer(count[!is.na(count)][1])
   name <- amira_names(line, "Names", n)
-  section <- amira_sections(line, file)
-  sets <- lapply(section, function(at) landmark_set(amira_rows(line, at, n, file), name))
-  specimen <- amira_names(line, "Sets", length(sets))
-  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen),
-            numbered = is.null(specimen))
-}
-
-# The numbers after @ of every set of co-ordinates, in the order of their declaration.
-amira_sections <- function(line, file) {
-  pattern <- paste0("Markers\\s*[{]\\s*(float|double)\\[3\\]\\s*Coordinates[0-9]*",
-                    "\\s*[}]\\s*=?\\s*@([0-9]+)")
+  # The numbers after @ of every set of co-ordinates, in the order of their declaration.
+  pattern <- paste0("Markers\\s*[{]\\s*(float|double)\\[3\\]\\s*",
+                    "Coordinates[0-9]*\\s*[}]\\s*=?\\s*@([0-9]+)")
   section <- unlist(lapply(regmatches(line, regexec(pattern, line)), `[`, 3))
   section <- section[!is.na(section)]
   if (!length(section)) {
     refuse_landmark_file(file, "no co-ordinates are declared",
                          "Write: Markers { float[3] Coordinates } @1.")
   }
-  section
+  sets <- lapply(section, function(at) landmark_set(amira_rows(line, at, n, file), name))
+  specimen <- amira_names(line, "Sets", length(sets))
+  structure(stats::setNames(sets, if (is.null(specimen)) seq_along(sets) else specimen),
+            numbered = is.null(specimen))
 }
 
 amira_rows <- function(line, section, n, file) {

@@ -10,24 +10,8 @@
 #'   by more than the tolerance.
 #' @noRd
 landmarks_beside <- function(file) {
-  beside <- landmark_files_beside(file)
-  if (length(beside) < 2) return(c(beside, "")[1])
-  sets <- lapply(beside, read_landmarks)
-  differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
-  if (length(differs)) {
-    two <- basename(beside[c(1, differs[1] + 1)])
-    refuse_landmarks(
-      sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
-      "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL
-    )
-  }
-  beside[1]
-}
-
-#' All of them; where none has the mesh's name exactly, those that differ in case and are not of
-#' another mesh
-#' @noRd
-landmark_files_beside <- function(file) {
+  # All of them; where none has the mesh's name exactly, those that differ in case and are not of
+  # another mesh
   stem <- sub("[.][^.]*$", "", basename(file))
   name <- list.files(dirname(file), all.files = TRUE)
   name <- name[startsWith(tolower(name), tolower(stem))]
@@ -41,33 +25,18 @@ landmark_files_beside <- function(file) {
   name <- name[fits][order(match(end[fits], known))]
   beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else
     file.path(dirname(file), name)
-  beside[vapply(beside, is_landmark_file, NA)]
-}
-
-#' Whether a file of a format's extension holds landmarks, as far as other programs use the
-#' extension too
-#' @noRd
-is_landmark_file <- function(file) {
-  if (dir.exists(file)) return(FALSE)
-  other <- grepl("(?<![.]mrk)[.]json$", tolower(file), perl = TRUE)
-  if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
-  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
-                      error = function(e) NULL)
-  is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
-}
-
-#' Whether two sets have the same landmarks in the same places
-#'
-#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks:
-#'   formats differ in their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
-#' @noRd
-same_landmarks <- function(a, b, tolerance = 1e-4) {
-  if (is.list(a) || is.list(b)) return(identical(a, b))
-  if (!setequal(rownames(a), rownames(b))) return(FALSE)
-  b <- b[rownames(a), , drop = FALSE]
-  if (!identical(is.na(unname(a)), is.na(unname(b)))) return(FALSE)
-  extent <- max(abs(sweep(a, 2, colMeans(a, na.rm = TRUE))), 0, na.rm = TRUE)
-  max(abs(a - b), 0, na.rm = TRUE) <= tolerance * extent
+  beside <- beside[vapply(beside, is_landmark_file, NA)]
+  if (length(beside) < 2) return(c(beside, "")[1])
+  sets <- lapply(beside, read_landmarks)
+  differs <- which(!vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+  if (length(differs)) {
+    two <- basename(beside[c(1, differs[1] + 1)])
+    refuse_landmarks(
+      sprintf("two landmark files of %s differ: %s and %s.", basename(file), two[1], two[2]),
+      "Delete or rename the wrong one, or name the right one as `landmarks`.", id = NULL
+    )
+  }
+  beside[1]
 }
 
 #' Landmarks of some specimens, by their ids
@@ -98,7 +67,17 @@ landmarks_for <- function(landmarks, ids, ...) {
   }
   place <- id_places(ids, names(source$sets))
   if (!is.null(source$alias) && !any(lengths(place))) place <- id_places(ids, source$alias)
-  problem <- unlist(Map(function(id, place) landmarks_problem(source, id, place), ids, place))
+  problem <- unlist(Map(function(id, place) {
+    # Why a specimen has no landmarks among some sets, NA where it has
+    if (!length(place)) {
+      return(sprintf("%s has no landmarks of %s. %s", source$what, id,
+                     near_names(id, unique(names(source$sets)))))
+    }
+    if (same_sets(source$sets[place])) return(NA_character_)
+    file <- Filter(is.character, source$sets[place])
+    from <- if (length(file)) paste0(": ", shorten(basename(unlist(file))))
+    paste0(source$what, " has different landmarks of ", id, from, ".")
+  }, ids, place))
   if (!any(is.na(problem))) {
     refuse_landmarks(
       if (length(ids) == 1) problem[[1]] else
@@ -111,27 +90,6 @@ landmarks_for <- function(landmarks, ids, ...) {
   fine <- is.na(problem)
   sets[fine] <- source$sets[vapply(place[fine], `[`, 1L, 1L)]
   for_ids(sets, ids, problem)
-}
-
-#' Why a specimen has no landmarks among some sets, NA where it has
-#' @noRd
-landmarks_problem <- function(source, id, place) {
-  if (!length(place)) {
-    return(sprintf("%s has no landmarks of %s. %s", source$what, id,
-                   near_names(id, unique(names(source$sets)))))
-  }
-  if (same_sets(source$sets[place])) return(NA_character_)
-  file <- Filter(is.character, source$sets[place])
-  from <- if (length(file)) paste0(": ", shorten(basename(unlist(file))))
-  paste0(source$what, " has different landmarks of ", id, from, ".")
-}
-
-#' Whether sets, perhaps in files, are all the same
-#' @noRd
-same_sets <- function(sets) {
-  if (length(sets) < 2) return(TRUE)
-  sets <- lapply(sets, function(one) if (is.character(one)) read_landmarks(one) else one)
-  all(vapply(sets[-1], same_landmarks, NA, sets[[1]]))
 }
 
 #' Landmarks of one specimen, as [specimen()] takes them
@@ -208,7 +166,19 @@ paths_by_name <- function(landmarks, ids) {
 #' @noRd
 given_sets <- function(x) {
   if (is.data.frame(x)) {
-    found <- table_sets(x)
+    # Landmarks of a data frame as of a file
+    refuse <- function(problem, line = NULL) {
+      refuse_landmarks(sprintf("the table of landmarks cannot be read: %s.", problem),
+                       "Give the columns name, x, y, z, and one of the specimens.", id = NULL)
+    }
+    text <- lapply(x, function(column) {
+      if (is.double(column)) number_text(column, "") else as.character(column)
+    })
+    text <- lapply(text, function(column) replace(column, is.na(column), ""))
+    table <- structure(text, names = trimws(names(x)), row.names = seq_len(nrow(x)),
+                       class = "data.frame")
+    found <- csv_sets(structure(table, line = seq_len(nrow(x)), sep = ","), "the table",
+                      list(frame = "LPS"), refuse)
     return(if (is.matrix(found)) list(found) else found)
   }
   if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
@@ -226,56 +196,4 @@ given_sets <- function(x) {
   }
   x[specimen] <- lapply(x[specimen], `[[`, "landmarks")
   lapply(x, function(one) if (is.character(one)) one else as_landmarks(one))
-}
-
-#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have
-#' no names
-#' @noRd
-array_sets <- function(x) {
-  point <- if (is.null(dimnames(x)[[1]])) as.character(seq_len(dim(x)[1])) else dimnames(x)[[1]]
-  sets <- lapply(seq_len(dim(x)[3]), function(i) {
-    matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL))
-  })
-  stats::setNames(sets, dimnames(x)[[3]])
-}
-
-#' The landmark files of a folder, named by specimen
-#' @noRd
-landmark_folder <- function(dir) {
-  file <- list.files(dir, full.names = TRUE)
-  known <- paste0("[.](", paste(c(names(landmark_formats()), "json"), collapse = "|"), ")$")
-  file <- file[grepl(known, file, ignore.case = TRUE)]
-  file <- file[vapply(file, is_landmark_file, NA)]
-  if (!length(file)) {
-    known <- paste0(".", names(landmark_formats()), collapse = ", ")
-    refuse_landmarks(sprintf("the folder %s has no landmark files.", dir),
-                     sprintf("Known: %s.", known), id = NULL)
-  }
-  name <- sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE)
-  stats::setNames(file, sub(id_extension(), "", name, ignore.case = TRUE))
-}
-
-#' @param ... As of read_sets().
-#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of
-#'   one specimen must agree.
-#' @noRd
-read_landmark_folder <- function(dir, ...) {
-  file <- landmark_folder(dir)
-  sets <- do.call(c, unname(Map(function(path, name) {
-    found <- read_sets(path, ...)
-    if (is.matrix(found)) found <- list(found)
-    if (isTRUE(attr(found, "numbered"))) names(found) <- paste(name, seq_along(found))
-    if (length(found) == 1) names(found) <- name
-    found
-  }, file, names(file))))
-  name <- names(sets)
-  for (twice in unique(name[duplicated(name)])) {
-    if (!same_sets(sets[name == twice])) {
-      from <- basename(file[names(file) == twice])
-      from <- if (length(from) > 1) paste0(": ", shorten(from))
-      refuse_landmarks(paste0(dir, " has different landmarks of ", twice, from, "."),
-                       "Leave one of them.", id = NULL)
-    }
-  }
-  sets[!duplicated(name)]
 }

@@ -3,7 +3,16 @@
 # As a k x 3 numeric matrix with row names, or an error.
 as_landmarks <- function(x, id = NULL) {
   if (is.null(x)) return(matrix(0, 0, 3, dimnames = list(character(), c("x", "y", "z"))))
-  if (is.data.frame(x)) x <- landmarks_of_table(x)
+  if (is.data.frame(x)) {
+    label <- which(tolower(names(x)) %in% c("name", "landmark", "label"))
+    xyz <- match(c("x", "y", "z"), tolower(names(x)))
+    x <- if (anyNA(xyz)) x else {
+      matrix <- as.matrix(x[xyz])
+      rownames(matrix) <- if (length(label)) as.character(x[[label[1]]]) else
+        if (is.character(attr(x, "row.names"))) row.names(x)
+      matrix
+    }
+  }
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3) {
     refuse_landmarks(sprintf("`landmarks` are %s, not a k x 3 numeric matrix.", describe_shape(x)),
                      "Give a matrix with one row a landmark, or a data frame name, x, y, z.", id)
@@ -21,16 +30,6 @@ as_landmarks <- function(x, id = NULL) {
   }
   x[rowSums(!is.finite(x)) > 0, ] <- NA
   matrix(as.numeric(x), ncol = 3, dimnames = list(name, c("x", "y", "z")))
-}
-
-landmarks_of_table <- function(x) {
-  label <- which(tolower(names(x)) %in% c("name", "landmark", "label"))
-  xyz <- match(c("x", "y", "z"), tolower(names(x)))
-  if (anyNA(xyz)) return(x)
-  matrix <- as.matrix(x[xyz])
-  rownames(matrix) <- if (length(label)) as.character(x[[label[1]]]) else
-    if (is.character(attr(x, "row.names"))) row.names(x)
-  matrix
 }
 
 refuse_landmarks <- function(problem, remedy, id) {
@@ -52,8 +51,12 @@ refuse_landmarks <- function(problem, remedy, id) {
 #' @noRd
 check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NULL, size = NULL) {
   located <- surface_points(mesh, landmarks)
-  if (is.null(size)) size <- carrying_size(mesh, piece, located)
-  away <- sqrt(rowSums((as.matrix(located[c("x", "y", "z")]) - landmarks)^2))
+  if (is.null(size)) {
+    # Size of the pieces of a mesh that carry its landmarks; of all where none does
+    on <- unique(piece[located$face[!is.na(located$face)]])
+    size <- mesh_size(mesh, if (length(on)) piece %in% on, columns_of(located, c("x", "y", "z")))
+  }
+  away <- row_lengths(as.matrix(located[c("x", "y", "z")]) - landmarks)
   if (any(away > tolerance * size,
           na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance, size)
   slips <- slips_by_name(landmarks, located, mesh, midline)
@@ -94,8 +97,9 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
   refuse_landmarks(
     sprintf("off the surface by more than %s: %s.", signif(tolerance * size, 3), shorten(named)),
     paste0(if (2 * length(named) > nrow(landmarks)) "Do they belong to this scan? If so, place" else
-      "Place", " them anew, set them to NA, or, where they are only a little off, give a greater ",
-      "`tolerance`."), id
+             "Place",
+           paste0(" them anew, set them to NA, or, where they are only a little off, give a ",
+                  "greater `tolerance`.")), id
   )
 }
 
@@ -113,7 +117,14 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
                            tried = 6) {
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
   if (nrow(given) < 2) return(NULL)
-  turns <- axis_turns()
+  # The 47 ways to exchange axes and turn their signs, as matrices for points in rows
+  orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
+  signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
+  all <- unlist(lapply(orders,
+                       function(order) lapply(seq_len(8),
+                                              function(i) diag(3)[, order] %*% diag(signs[i, ]))),
+                recursive = FALSE)
+  turns <- all[-1]
   turned <- vapply(turns, function(turn) det(turn) > 0, NA)
   units <- lapply(c(factors, 1 / factors), diag, 3)
   words <- c(paste("multiplied by", factors), paste("divided by", factors))
@@ -126,22 +137,23 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
          words = paste(words[both$unit], "and", turn_words(turns)[both$turn]))
   )
   for (kind in kinds) {
-    near <- utils::head(order(centre_misfits(kind$change, given, mesh)), tried)
-    misfit <- vapply(kind$change[near], surface_misfit, 0, given, mesh, tolerance)
+    # Median distance from the nearest centre of a triangle after each change, as a share of the
+    # spread
+    moved <- lapply(kind$change, function(change) given %*% change)
+    centre <- face_centres(mesh)
+    at <- do.call(rbind, moved)
+    away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]),
+                   nrow(given))
+    near <- utils::head(order(apply(away, 2, stats::median) / vapply(moved, spread_of, 0)), tried)
+    # The same from the surface; Inf where that is too much.
+    misfit <- vapply(kind$change[near], function(change) {
+      moved <- given %*% change
+      away <- stats::median(row_lengths(as.matrix(surface_points(mesh, moved)[1:3]) - moved))
+      spread <- spread_of(moved)
+      if (away <= min(tolerance, spread / 2)) away / spread else Inf
+    }, 0)
     if (any(is.finite(misfit))) return(kind$words[near[which.min(misfit)]])
   }
-}
-
-#' The 47 ways to exchange axes and turn their signs, as matrices for points in rows
-#' @noRd
-axis_turns <- function() {
-  orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
-  signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
-  all <- unlist(lapply(orders,
-                       function(order) lapply(seq_len(8),
-                                              function(i) diag(3)[, order] %*% diag(signs[i, ]))),
-                recursive = FALSE)
-  all[-1]
 }
 
 turn_words <- function(turns) {
@@ -149,35 +161,19 @@ turn_words <- function(turns) {
     from <- apply(turn != 0, 2, which)
     axes <- paste0(ifelse(turn[cbind(from, 1:3)] < 0, "-", ""), c("x", "y", "z")[from],
                    collapse = ", ")
-    if (axes == "-x, -y, z") return(paste("with x and y negated (read them with",
-                                          "read_landmarks(file, frame = \"RAS\"))"))
-    sprintf("with their axes turned, as (%s)%s", axes,
-            if (det(turn) < 0) ": a mirror image" else
-              if (grepl("^-?x, -?z", axes)) ": here y, there z points up" else "")
+    if (axes == "-x, -y, z") {
+      return("with x and y negated (read them with read_landmarks(file, frame = \"RAS\"))")
+    }
+    what <- if (det(turn) < 0) ": a mirror image" else
+      if (grepl("^-?x, -?z", axes)) ": here y, there z points up" else ""
+    sprintf("with their axes turned, as (%s)%s", axes, what)
   }, "")
-}
-
-#' Median distance from the nearest centre of a triangle after each change, as a share of the spread
-#' @noRd
-centre_misfits <- function(changes, given, mesh) {
-  moved <- lapply(changes, function(change) given %*% change)
-  centre <- face_centres(mesh)
-  at <- do.call(rbind, moved)
-  away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]),
-                 nrow(given))
-  apply(away, 2, stats::median) / vapply(moved, spread_of, 0)
 }
 
 spread_of <- function(xyz) sqrt(sum(apply(xyz, 2, stats::var)))
 
-#' The same from the surface; Inf where that is too much
-#' @noRd
-surface_misfit <- function(change, given, mesh, tolerance) {
-  moved <- given %*% change
-  away <- stats::median(row_lengths(as.matrix(surface_points(mesh, moved)[1:3]) - moved))
-  spread <- spread_of(moved)
-  if (away <= min(tolerance, spread / 2)) away / spread else Inf
-}
+# Whether names end in L or R, for left and right.
+is_sided <- function(names) endsWith(names, "L") | endsWith(names, "R")
 
 #' Names that end in L and R, as partners
 #' @noRd

@@ -10,10 +10,28 @@ read_landmarks_ckpt <- function(file, options) {
                          "Save it anew from Checkpoint, or export .pts.")
   }
   row <- ckpt_rows(line, "NumberOfPoints", file)
-  part <- ckpt_parts(line[row], file, row)
+  # Number, state, co-ordinates and name of every point
+  pattern <- paste0("^\\s*([0-9]+):\\s+\\S+\\s+(\\S+)\\s+\\S+\\s+(\\S+)\\s+(\\S+)\\s+(\\S+)",
+                    "(?:\\s+[^\\s\"]+)*\\s+\"(.*)\"[^\"]*$")
+  part <- regmatches(line[row], regexec(pattern, line[row], perl = TRUE))
+  wrong <- which(lengths(part) == 0)
+  if (length(wrong)) {
+    refuse_landmark_file(file, "not a point of Checkpoint",
+                         "Write: 0: 0 N 0x8 x y z, a normal, \"name\" 0 1.", row[wrong[1]])
+  }
+  part <- matrix(as.character(unlist(part)), ncol = 7, byrow = TRUE)[, -1, drop = FALSE]
+  state <- which(!part[, 2] %in% c("N", "M", "U"))
+  if (length(state)) {
+    said <- sprintf("the state of a point is \"%s\", not N or M", part[state[1], 2])
+    refuse_landmark_file(file, said, "Save it anew.", row[state[1]])
+  }
   x <- matrix(landmark_numbers(part[, 3:5], file, rep(row, 3)), ncol = 3)
   x[part[, 2] != "N", ] <- NA
-  single <- ckpt_single(line, part[, 1], file)
+  # Which points are landmarks: all where the file does not say
+  number <- part[, 1]
+  row <- ckpt_rows(line, "NumberOfSinglePoints", file, needed = FALSE)
+  single <- if (is.null(row)) rep(TRUE, length(number)) else number %in%
+    sub("^\\s*[0-9]+:\\s*([0-9]+).*$", "\\1", line[row])
   if (any(!single)) {
     crestline_warn(
       sprintf("%s: %d points of curves and patches are left out.", basename(file), sum(!single)),
@@ -42,32 +60,4 @@ ckpt_rows <- function(line, key, file, needed = TRUE) {
                          "Put the whole file.", at)
   }
   row
-}
-
-#' Number, state, co-ordinates and name of every point
-#' @noRd
-ckpt_parts <- function(text, file, line) {
-  pattern <- paste0("^\\s*([0-9]+):\\s+\\S+\\s+(\\S+)\\s+\\S+\\s+(\\S+)\\s+(\\S+)\\s+(\\S+)",
-                    "(?:\\s+[^\\s\"]+)*\\s+\"(.*)\"[^\"]*$")
-  part <- regmatches(text, regexec(pattern, text, perl = TRUE))
-  wrong <- which(lengths(part) == 0)
-  if (length(wrong)) {
-    refuse_landmark_file(file, "not a point of Checkpoint",
-                         "Write: 0: 0 N 0x8 x y z, a normal, \"name\" 0 1.", line[wrong[1]])
-  }
-  part <- matrix(as.character(unlist(part)), ncol = 7, byrow = TRUE)[, -1, drop = FALSE]
-  state <- which(!part[, 2] %in% c("N", "M", "U"))
-  if (length(state)) {
-    said <- sprintf("the state of a point is \"%s\", not N or M", part[state[1], 2])
-    refuse_landmark_file(file, said, "Save it anew.", line[state[1]])
-  }
-  part
-}
-
-#' Which points are landmarks: all where the file does not say
-#' @noRd
-ckpt_single <- function(line, number, file) {
-  row <- ckpt_rows(line, "NumberOfSinglePoints", file, needed = FALSE)
-  if (is.null(row)) return(rep(TRUE, length(number)))
-  number %in% sub("^\\s*[0-9]+:\\s*([0-9]+).*$", "\\1", line[row])
 }

@@ -7,29 +7,20 @@ read_landmarks_csv <- function(file, options) {
   csv_sets(text_table(file_lines(file), refuse), file, options, refuse)
 }
 
-#' Landmarks of a data frame as of a file
-#' @noRd
-table_sets <- function(x) {
-  refuse <- function(problem, line = NULL) {
-    refuse_landmarks(sprintf("the table of landmarks cannot be read: %s.", problem),
-                     "Give the columns name, x, y, z, and one of the specimens.", id = NULL)
-  }
-  text <- lapply(x, function(column) {
-    if (is.double(column)) number_text(column, "") else as.character(column)
-  })
-  text <- lapply(text, function(column) replace(column, is.na(column), ""))
-  table <- structure(text, names = trimws(names(x)), row.names = seq_len(nrow(x)),
-                     class = "data.frame")
-  csv_sets(structure(table, line = seq_len(nrow(x)), sep = ","), "the table", list(frame = "LPS"),
-           refuse)
-}
-
 #' @param table As of [text_table()].
 #' @return One set, or a named list where a column names specimens.
 #' @noRd
 csv_sets <- function(table, file, options, refuse) {
   names(table) <- tolower(names(table))
-  frame <- csv_frame(table, refuse)
+  # The columns of co-ordinates, and the frame that their names say (NULL: x, y, z say none).
+  known <- list(c("x", "y", "z"), RAS = c("r", "a", "s"), LPS = c("l", "p", "s"))
+  whole <- which(vapply(known, function(one) all(one %in% names(table)), NA))
+  if (length(whole) > 1) refuse(sprintf("co-ordinates twice: %s", toString(unlist(known[whole]))))
+  if (!length(whole)) {
+    refuse(sprintf("no column %s among %s", toString(setdiff(known[[1]], names(table))),
+                   shorten(names(table))))
+  }
+  frame <- list(columns = known[[whole]], frame = if (whole > 1) names(known)[whole])
   table <- decimal_points(table, frame$columns, refuse)
   line <- attr(table, "line")
   x <- vapply(frame$columns, function(name) landmark_numbers(table[[name]], file, line),
@@ -39,22 +30,21 @@ csv_sets <- function(table, file, options, refuse) {
   if (!is.null(frame$frame)) x <- change_frame(x, frame$frame, options$frame)
   column <- csv_columns(table, frame$columns)
   if (is.null(column$specimen)) return(csv_set(x, table, column$label, line, refuse))
-  specimen <- csv_specimens(table[[column$specimen]], line, refuse)
+  # Ids of specimens, blanks at their ends aside.
+  id <- table[[column$specimen]]
+  id <- trimws(id)
+  if (any(!nzchar(id))) refuse("no specimen is named", line[!nzchar(id)][1])
+  name <- unique(id)
+  alike <- which(duplicated(plain_id(name)))
+  if (length(alike)) {
+    first <- name[match(plain_id(name[alike[1]]), plain_id(name))]
+    refuse(sprintf("\"%s\" and \"%s\" seem to be one specimen", first, name[alike[1]]),
+           line[match(name[alike[1]], id)])
+  }
+  specimen <- id
   lapply(split(seq_along(specimen), factor(specimen, unique(specimen))), function(row) {
     csv_set(x[row, , drop = FALSE], table[row, , drop = FALSE], column$label, line[row], refuse)
   })
-}
-
-# The columns of co-ordinates, and the frame that their names say (NULL: x, y, z say none).
-csv_frame <- function(table, refuse) {
-  known <- list(c("x", "y", "z"), RAS = c("r", "a", "s"), LPS = c("l", "p", "s"))
-  whole <- which(vapply(known, function(one) all(one %in% names(table)), NA))
-  if (length(whole) > 1) refuse(sprintf("co-ordinates twice: %s", toString(unlist(known[whole]))))
-  if (!length(whole)) {
-    refuse(sprintf("no column %s among %s", toString(setdiff(known[[1]], names(table))),
-                   shorten(names(table))))
-  }
-  list(columns = known[[whole]], frame = if (whole > 1) names(known)[whole])
 }
 
 #' Which column names the landmarks, and which the specimens
@@ -82,20 +72,6 @@ csv_columns <- function(table, xyz) {
   one
 }
 
-# Ids of specimens, blanks at their ends aside.
-csv_specimens <- function(id, line, refuse) {
-  id <- trimws(id)
-  if (any(!nzchar(id))) refuse("no specimen is named", line[!nzchar(id)][1])
-  name <- unique(id)
-  alike <- which(duplicated(plain_id(name)))
-  if (length(alike)) {
-    first <- name[match(plain_id(name[alike[1]]), plain_id(name))]
-    refuse(sprintf("\"%s\" and \"%s\" seem to be one specimen", first, name[alike[1]]),
-           line[match(name[alike[1]], id)])
-  }
-  id
-}
-
 csv_set <- function(x, table, label, line, refuse) {
   curve <- if (is.null(table$curve)) character(nrow(table)) else table$curve
   single <- !nzchar(curve)
@@ -104,31 +80,25 @@ csv_set <- function(x, table, label, line, refuse) {
     name <- character()
   } else {
     name <- table[[label]][single]
-    check_csv_names(name, x[single, , drop = FALSE], line[single], refuse)
+    # Every landmark has a name; the same name twice has the same place.
+    if (any(!nzchar(name))) refuse("a point has no name", line[single][!nzchar(name)][1])
+    again <- if (anyDuplicated(name))
+      which(duplicated(name) & !duplicated(data.frame(name, x[single, , drop = FALSE])))
+    if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]),
+                              line[single][again[1]])
   }
-  landmark_set(x[single, , drop = FALSE], name, csv_curves(x, curve, table))
-}
-
-# Every landmark has a name; the same name twice has the same place.
-check_csv_names <- function(name, x, line, refuse) {
-  if (any(!nzchar(name))) refuse("a point has no name", line[!nzchar(name)][1])
-  again <- if (anyDuplicated(name)) which(duplicated(name) & !duplicated(data.frame(name, x)))
-  if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]),
-                            line[again[1]])
-}
-
-# The points of a curve by their numbers in a column `point` where there are such, else in the order
-# of the rows.
-csv_curves <- function(x, curve, table) {
-  name <- unique(curve[nzchar(curve)])
+  # The points of a curve by their numbers in a column `point` where there are such, else in the
+  # order of the rows.
+  curves <- unique(curve[nzchar(curve)])
   is_closed <- tolower(table$closed) %in% c("true", "t", "yes", "1")
   number <- if (is.null(table$point)) seq_along(curve) else
     suppressWarnings(as.numeric(table$point))
-  lapply(stats::setNames(name, name), function(one) {
+  curves <- lapply(stats::setNames(nm = curves), function(one) {
     row <- which(curve == one)
     if (!anyNA(number[row])) row <- row[order(number[row])]
     landmark_curve(x[row, , drop = FALSE], isTRUE(is_closed[row[1]]))
   })
+  landmark_set(x[single, , drop = FALSE], name, curves)
 }
 
 refuse_csv <- function(file, reason, line = NULL) {

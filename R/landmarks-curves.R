@@ -27,40 +27,28 @@ read_curves <- function(file, curves = NULL, ...) {
   check_dots(..., known = names(formals(read_landmarks))[-1])
   curves <- check_names(curves, "curves", null = TRUE)
   sets <- read_landmarks(file, ...)
-  of_set <- function(set) chosen_curves(curves_of_set(set), curves, file)
-  if (is.list(sets)) lapply(sets, of_set) else of_set(sets)
-}
-
-curves_of_set <- function(set) {
-  curves <- attr(set, "curves")
-  if (!is.null(curves)) return(curves)
-  part <- regmatches(rownames(set), regexec("^(.*\\S) ([1-9][0-9]*)$", rownames(set)))
-  row <- which(lengths(part) == 3)
-  name <- vapply(part[row], `[`, "", 2)
-  number <- as.numeric(vapply(part[row], `[`, "", 3))
-  rows <- lapply(stats::setNames(nm = unique(name)),
-                 function(one) row[name == one][order(number[name == one])])
-  whole <- vapply(names(rows),
-                  function(one) identical(sort(number[name == one]),
-                                          as.numeric(seq_along(rows[[one]]))), NA)
-  lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
-}
-
-chosen_curves <- function(found, curves, file) {
-  if (is.null(curves)) return(found)
-  absent <- setdiff(curves, names(found))
-  if (length(absent)) {
-    remedy <- if (length(found)) near_names(absent[1], names(found)) else "The file has no curves."
-    refuse_landmark_file(file, sprintf("there is no curve %s", shorten(absent)), remedy)
+  of_set <- function(set) {
+    found <- attr(set, "curves")
+    if (is.null(found)) found <- {
+      part <- regmatches(rownames(set), regexec("^(.*\\S) ([1-9][0-9]*)$", rownames(set)))
+      row <- which(lengths(part) == 3)
+      name <- vapply(part[row], `[`, "", 2)
+      number <- as.numeric(vapply(part[row], `[`, "", 3))
+      rows <- lapply(stats::setNames(nm = unique(name)),
+                     function(one) row[name == one][order(number[name == one])])
+      whole <- vapply(names(rows),
+                      function(one) identical(sort(number[name == one]),
+                                              as.numeric(seq_along(rows[[one]]))), NA)
+      lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
+    }
+    if (is.null(curves)) return(found)
+    absent <- setdiff(curves, names(found))
+    if (length(absent)) {
+      remedy <- if (length(found)) near_names(absent[1], names(found)) else
+        "The file has no curves."
+      refuse_landmark_file(file, sprintf("there is no curve %s", shorten(absent)), remedy)
+    }
+    found[curves]
   }
-  found[curves]
-}
-
-#' The curves of a shape as [read_landmarks()] has them
-#' @noRd
-shape_curves <- function(x) {
-  points <- x$points[x$points$level == "curves", ]
-  lapply(stats::setNames(nm = unique(points$part)), function(name) {
-    landmark_curve(as.matrix(points[points$part == name, c("x", "y", "z")]))
-  })
+  if (is.list(sets)) lapply(sets, of_set) else of_set(sets)
 }

@@ -39,7 +39,16 @@ exchanged_landmarks <- function(at, front, pairs, midline, reference = NULL, lea
   crossed <- true[pairs$left] == pairs$right & true[pairs$right] == pairs$left
   mirrored <- nrow(pairs) > 0 && all(crossed)
   if (mirrored) true[c(pairs$left, pairs$right)] <- c(pairs$left, pairs$right)
-  list(mirrored = mirrored, groups = name_cycles(true), either = either)
+  # The groups of names that are exchanged among themselves
+  groups <- list()
+  open <- names(true)[true != names(true)]
+  while (length(open)) {
+    group <- open[1]
+    while (!true[[group[length(group)]]] %in% group) group <- c(group, true[[group[length(group)]]])
+    groups <- c(groups, list(sort(group)))
+    open <- setdiff(open, group)
+  }
+  list(mirrored = mirrored, groups = groups, either = either)
 }
 
 #' Names of two landmarks, or of several pairs of them, exchanged
@@ -59,20 +68,6 @@ renamed <- function(at, true) {
   at
 }
 
-#' The groups of names that are exchanged among themselves
-#' @noRd
-name_cycles <- function(true) {
-  groups <- list()
-  open <- names(true)[true != names(true)]
-  while (length(open)) {
-    group <- open[1]
-    while (!true[[group[length(group)]]] %in% group) group <- c(group, true[[group[length(group)]]])
-    groups <- c(groups, list(sort(group)))
-    open <- setdiff(open, group)
-  }
-  groups
-}
-
 #' Which pairs have left and right exchanged
 #'
 #' Left is up x front, where both are known and the pairs lie along it; else it is what most pairs
@@ -83,7 +78,19 @@ exchanged_sides <- function(at, front, pairs, midline, least) {
   across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
   across <- across / row_lengths(across)
   if (!nrow(across) || anyNA(across)) return(rep(FALSE, nrow(pairs)))
-  left <- left_of(way_up(at, midline), front, least)
+  # The way from the bottom to the top of the mid-line, which two exchanged landmarks of several do
+  # not turn round
+  at <- at[midline, , drop = FALSE]
+  up <- if (nrow(at) < 2) NULL else {
+    axis <- svd(sweep(at, 2, colMeans(at)), nu = 0)$v[, 1]
+    height <- drop(at %*% axis)
+    sense <- sum(sign(outer(height, height, `-`))[upper.tri(diag(nrow(at)))])
+    if (sense != 0) axis * sign(sense)
+  }
+  left <- if (is.null(up) || is.null(front)) NULL else {
+    left <- drop(cross_rows(t(up), t(front)))
+    if (sqrt(sum(left^2)) > least) unit_vector(left)
+  }
   along <- if (!is.null(left)) drop(across %*% left)
   if (is.null(left) || stats::median(abs(along)) < 0.5) {
     along <- drop(across %*% eigen(crossprod(across), symmetric = TRUE)$vectors[, 1])
@@ -92,25 +99,6 @@ exchanged_sides <- function(at, front, pairs, midline, least) {
     along <- along * most
   }
   along < -least
-}
-
-left_of <- function(up, front, least) {
-  if (is.null(up) || is.null(front)) return(NULL)
-  left <- drop(cross_rows(t(up), t(front)))
-  if (sqrt(sum(left^2)) > least) unit_vector(left)
-}
-
-#' The way from the bottom to the top of the mid-line, which two exchanged landmarks of several do
-#' not turn round
-#' @return Unit vector; NULL where it cannot be told.
-#' @noRd
-way_up <- function(at, midline) {
-  at <- at[midline, , drop = FALSE]
-  if (nrow(at) < 2) return(NULL)
-  axis <- svd(sweep(at, 2, colMeans(at)), nu = 0)$v[, 1]
-  height <- drop(at %*% axis)
-  sense <- sum(sign(outer(height, height, `-`))[upper.tri(diag(nrow(at)))])
-  if (sense != 0) axis * sign(sense)
 }
 
 #' Names along the mid-line exchanged such that it does not run to and fro
@@ -152,7 +140,22 @@ by_symmetry <- function(true, at, pairs, gain = 1, left = 0.5) {
   both <- both[, partner[both[1, ]] != both[2, ], drop = FALSE]
   for (round in seq_len(nrow(pairs))) {
     named <- renamed(at, true)[names, ]
-    off <- mirror_gains(named, partner, pairs, both)
+    # What exchanging two landmarks takes off the distances from the mirror images of partners
+    across <- named[pairs$left, , drop = FALSE] - named[pairs$right, , drop = FALSE]
+    normal <- main_direction(across / row_lengths(across))
+    offset <- stats::median((named + named[partner, ]) %*% normal / 2)
+    image <- named - 2 * outer(drop(named %*% normal) - offset, normal)
+    apart <- function(i, a, b) {
+      now <- function(i) ifelse(i == a, b, ifelse(i == b, a, i))
+      row_lengths(named[now(partner[i]), , drop = FALSE] - image[now(i), , drop = FALSE])
+    }
+    a <- both[1, ]
+    b <- both[2, ]
+    rows <- list(a, b, partner[a], partner[b])
+    before <- Reduce(`+`, lapply(rows, apart, 0, 0))
+    after <- Reduce(`+`, lapply(rows, apart, a, b))
+    distance <- row_lengths(named[a, , drop = FALSE] - named[b, , drop = FALSE])
+    off <- data.frame(gain = (before - after) / (2 * distance), left = after / (4 * distance))
     fine <- which(off$gain > gain & off$left < left)
     if (!length(fine)) break
     two <- both[, fine[which.max(off$gain[fine])]]
@@ -166,28 +169,6 @@ by_symmetry <- function(true, at, pairs, gain = 1, left = 0.5) {
     }
   }
   list(true = true, either = either)
-}
-
-#' What exchanging two landmarks takes off the distances from the mirror images of partners
-#' @return Data frame, a row a column of `both`: `gain`, `left` (what remains), in units of the
-#'   distance of the two.
-#' @noRd
-mirror_gains <- function(at, partner, pairs, both) {
-  across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
-  normal <- eigen(crossprod(across / row_lengths(across)), symmetric = TRUE)$vectors[, 1]
-  offset <- stats::median((at + at[partner, ]) %*% normal / 2)
-  image <- at - 2 * outer(drop(at %*% normal) - offset, normal)
-  apart <- function(i, a, b) {
-    now <- function(i) ifelse(i == a, b, ifelse(i == b, a, i))
-    row_lengths(at[now(partner[i]), , drop = FALSE] - image[now(i), , drop = FALSE])
-  }
-  a <- both[1, ]
-  b <- both[2, ]
-  rows <- list(a, b, partner[a], partner[b])
-  before <- Reduce(`+`, lapply(rows, apart, 0, 0))
-  after <- Reduce(`+`, lapply(rows, apart, a, b))
-  distance <- row_lengths(at[a, , drop = FALSE] - at[b, , drop = FALSE])
-  data.frame(gain = (before - after) / (2 * distance), left = after / (4 * distance))
 }
 
 #' Names exchanged such that the landmarks lie as those of the reference: sides first, where that
@@ -234,21 +215,6 @@ robustly_laid <- function(x, y, rounds = 10, least = 0.01) {
   laid
 }
 
-#' What is said of exchanged landmarks, by landmark; NA where there is nothing to say
-#' @param found As of [exchanged_landmarks()].
-#' @param sided Names of all paired landmarks.
-#' @noRd
-exchange_reasons <- function(found, names, sided) {
-  said <- stats::setNames(rep(NA_character_, length(names)), names)
-  if (found$mirrored) said[names %in% sided] <- "left and right look mirrored"
-  for (group in found$groups) said[group] <- paste(word_list(group), "look exchanged")
-  for (two in found$either) {
-    said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "),
-                               "look exchanged")
-  }
-  said[names]
-}
-
 word_list <- function(x) {
   if (length(x) < 2) return(x)
   paste(paste(x[-length(x)], collapse = ", "), "and", x[length(x)])
@@ -261,15 +227,6 @@ exchange_words <- function(found) {
   c(vapply(found$groups, word_list, ""), vapply(found$either, either, ""))
 }
 
-#' What print() says of exchanged landmarks
-#' @param found NULL where nothing was looked for.
-#' @noRd
-print_exchanged <- function(found) {
-  words <- exchange_words(found)
-  if (!length(words)) return(invisible())
-  cat(strwrap(paste("- landmarks look exchanged:", toString(words)), exdent = 2), sep = "\n")
-}
-
 #' @noRd
 warn_exchanged <- function(found, id) {
   if (found$mirrored) warn_mirrored(id)
@@ -277,8 +234,8 @@ warn_exchanged <- function(found, id) {
   if (!length(groups)) return(invisible())
   crestline_warn(
     sprintf("landmarks look exchanged: %s.", paste(groups, collapse = "; ")),
-    paste("Look at them (plot() with labels = TRUE) and exchange their names: what ends on them",
-          "is elsewhere."),
+    paste0("Look at them (plot() with labels = TRUE) and exchange their names: what ends on them ",
+           "is elsewhere."),
     stage = "landmarks", id = id, class = "crestline_exchanged"
   )
 }

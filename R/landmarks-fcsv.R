@@ -2,30 +2,42 @@
 # line. After the named columns Slicer writes the state of the point: 0 undefined, 1 preview, 2
 # defined, 3 missing.
 
-fcsv_columns <- function() {
-  c("id", "x", "y", "z", "ow", "ox", "oy", "oz", "vis", "sel", "lock", "label", "desc",
-    "associatednodeid")
-}
-
 read_landmarks_fcsv <- function(file, options) {
   line <- file_lines(file)
   comment <- grepl("^#", line)
   row <- which(!comment & grepl("\\S", line))
   column <- fcsv_header(line[comment], "columns")
-  column <- if (is.na(column)) fcsv_columns() else
-    tolower(trimws(strsplit(column, ",", fixed = TRUE)[[1]]))
+  if (is.na(column)) column <- "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatednodeid"
+  column <- tolower(trimws(strsplit(column, ",", fixed = TRUE)[[1]]))
   if (!all(c("x", "y", "z") %in% column)) {
     refuse_landmark_file(file, "no columns x, y, z",
                          "Give them in the line # columns = id,x,y,z,...")
   }
-  field <- fcsv_fields(line[row], row, column, file)
+  # The fields of each line.
+  field <- split_fields(line[row], ",")
+  few <- which(lengths(field) < max(match(c("x", "y", "z"), column)))
+  if (length(few)) {
+    refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.",
+                         row[few[1]])
+  }
   check_fcsv_fields(field, column, row, file)
-  field <- padded_rows(field, length(column))
+  # Matrix of strings, a row a line, as wide as the widest and no less than the columns.
+  width <- max(length(column), lengths(field))
+  full <- lapply(field, function(value) c(value, rep("", width - length(value))))
+  field <- matrix(as.character(unlist(full)), ncol = width, byrow = TRUE)
   xyz <- field[, match(c("x", "y", "z"), column)]
   x <- matrix(landmark_numbers(xyz, file, rep(row, 3)), ncol = 3)
-  x[fcsv_absent(field, column), ] <- NA
+  state <- length(column) + 1
+  absent <- if (ncol(field) < state || !"associatednodeid" %in% column) logical(nrow(field)) else
+    !trimws(field[, state]) %in% c("", "2")
+  x[absent, ] <- NA
   frame <- slicer_frame(fcsv_frame(line[comment]), file)
-  landmark_set(change_frame(x, frame, options$frame), fcsv_labels(field, column))
+  # Labels; where there is none the id, else the number of the point.
+  label <- if ("label" %in% column) field[, match("label", column)] else character(nrow(field))
+  id <- if ("id" %in% column) field[, match("id", column)] else character(nrow(field))
+  label <- ifelse(nzchar(label), label, id)
+  landmark_set(change_frame(x, frame, options$frame),
+               ifelse(nzchar(label), label, as.character(seq_along(label))))
 }
 
 # The value of a comment "# key = value", or NA.
@@ -42,17 +54,6 @@ fcsv_frame <- function(comment) {
   if (is.na(version) || numeric_version(sub("^[^0-9]*", "", version)) < "4.11") "RAS" else "LPS"
 }
 
-# The fields of each line.
-fcsv_fields <- function(text, line, column, file) {
-  field <- split_fields(text, ",")
-  few <- which(lengths(field) < max(match(c("x", "y", "z"), column)))
-  if (length(few)) {
-    refuse_landmark_file(file, "too few fields", "Put the whole file; quote labels with commas.",
-                         line[few[1]])
-  }
-  field
-}
-
 # As many fields as there are columns, or two more: the state of the point, and whether it was made
 # by itself.
 check_fcsv_fields <- function(field, column, line, file) {
@@ -64,27 +65,6 @@ check_fcsv_fields <- function(field, column, line, file) {
                                        lengths(field)[wrong[1]], length(column)),
                          "Quote labels and descriptions that hold commas.", line[wrong[1]])
   }
-}
-
-# Matrix of strings, a row a line, as wide as the widest and no less than `width`.
-padded_rows <- function(field, width) {
-  width <- max(width, lengths(field))
-  full <- lapply(field, function(value) c(value, rep("", width - length(value))))
-  matrix(as.character(unlist(full)), ncol = width, byrow = TRUE)
-}
-
-fcsv_absent <- function(field, column) {
-  state <- length(column) + 1
-  if (ncol(field) < state || !"associatednodeid" %in% column) return(logical(nrow(field)))
-  !trimws(field[, state]) %in% c("", "2")
-}
-
-# Labels; where there is none the id, else the number of the point.
-fcsv_labels <- function(field, column) {
-  label <- if ("label" %in% column) field[, match("label", column)] else character(nrow(field))
-  id <- if ("id" %in% column) field[, match("id", column)] else character(nrow(field))
-  label <- ifelse(nzchar(label), label, id)
-  ifelse(nzchar(label), label, as.character(seq_along(label)))
 }
 
 write_landmarks_fcsv <- function(sets, file, options) {

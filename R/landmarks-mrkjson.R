@@ -3,20 +3,6 @@
 # curves. The orientation of a point is not a change of frame.
 
 read_landmarks_mrkjson <- function(file, options) {
-  markup <- mrkjson_markups(file)
-  type <- vapply(markup, json_string, "", "type", "Fiducial")
-  check_mrkjson_types(type, file)
-  point <- Map(function(one, i) mrkjson_points(one, i, file, options), markup, seq_along(markup))
-  check_mrkjson_units(markup, file)
-  is_curve <- type %in% c("Curve", "ClosedCurve", "Line", "Angle")
-  curves <- Map(landmark_curve, point[is_curve], type[is_curve] == "ClosedCurve")
-  names(curves) <- mrkjson_names(markup, file)[is_curve]
-  single <- type == "Fiducial"
-  x <- do.call(rbind, c(list(matrix(0, 0, 3)), point[single]))
-  landmark_set(x, mrkjson_labels(markup[single], mrkjson_names(markup, file)[single]), curves)
-}
-
-mrkjson_markups <- function(file) {
   content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
                       error = function(e) {
     reason <- strsplit(conditionMessage(e), "\n")[[1]][1]
@@ -27,7 +13,30 @@ mrkjson_markups <- function(file) {
   if (!is.list(markup) || !length(markup) || !all(vapply(markup, is.list, TRUE))) {
     refuse_landmark_file(file, "no markups in it", "Save a markups node from Slicer, as .mrk.json.")
   }
-  markup
+  type <- vapply(markup, json_string, "", "type", "Fiducial")
+  other <- setdiff(type, c("Fiducial", "Curve", "ClosedCurve", "Line", "Angle"))
+  if (length(other)) {
+    crestline_warn(sprintf("%s: lists of type %s are left out.", basename(file), shorten(other)),
+                   "Landmarks and curves only are read.", stage = "landmarks",
+                   class = "crestline_format_warning")
+  }
+  point <- Map(function(one, i) mrkjson_points(one, i, file, options), markup, seq_along(markup))
+  # A unit is a word or DICOM's triple, whose first is the word.
+  unit <- vapply(markup, function(one) {
+    given <- one[["coordinateUnits"]]
+    json_string(list(unit = if (is.list(given) && length(given)) given[[1]] else given), "unit",
+                "mm")
+  }, "")
+  if (length(unique(unit)) > 1) {
+    refuse_landmark_file(file, sprintf("lists in different units: %s", shorten(unique(unit))),
+                         "Save them in one unit.")
+  }
+  is_curve <- type %in% c("Curve", "ClosedCurve", "Line", "Angle")
+  curves <- Map(landmark_curve, point[is_curve], type[is_curve] == "ClosedCurve")
+  names(curves) <- mrkjson_names(markup, file)[is_curve]
+  single <- type == "Fiducial"
+  x <- do.call(rbind, c(list(matrix(0, 0, 3)), point[single]))
+  landmark_set(x, mrkjson_labels(markup[single], mrkjson_names(markup, file)[single]), curves)
 }
 
 # A string of a JSON object, or the default where it is absent or something else.
@@ -44,50 +53,28 @@ json_word <- function(object, name) {
 
 mrkjson_points <- function(markup, i, file, options) {
   point <- markup$controlPoints
-  x <- lapply(seq_along(point),
-              function(j) mrkjson_point(point[[j]], sprintf("list %d, point %d", i, j), file))
+  one_number <- function(v) if (is.numeric(v) && length(v) == 1) as.numeric(v) else NA_real_
+  x <- lapply(seq_along(point), function(j) {
+    where <- sprintf("list %d, point %d", i, j)
+    if (!is.list(point[[j]])) {
+      refuse_landmark_file(file, paste0(where, ": not a control point"),
+                           "Save it anew from Slicer.")
+    }
+    # Any state but "defined" is a point without a position (Slicer writes "" there).
+    state <- json_string(point[[j]], "positionStatus", "defined")
+    if (state != "defined") return(rep(NA_real_, 3))
+    position <- point[[j]][["position"]]
+    number <- vapply(position, one_number, 0)
+    if (length(number) != 3 || !all(is.finite(number)) || !is.null(names(position))) {
+      refuse_landmark_file(file, paste0(where, ": the position is not three numbers"),
+                           'Give it, or "positionStatus": "undefined".')
+    }
+    number
+  })
   said <- markup[["coordinateSystem"]]
   said <- if (is.numeric(said)) format(said) else json_string(markup, "coordinateSystem", "LPS")
   frame <- slicer_frame(said, file)
   change_frame(matrix(as.numeric(unlist(x)), ncol = 3, byrow = TRUE), frame, options$frame)
-}
-
-# Any state but "defined" is a point without a position (Slicer writes "" there).
-mrkjson_point <- function(point, where, file) {
-  if (!is.list(point)) {
-    refuse_landmark_file(file, paste0(where, ": not a control point"), "Save it anew from Slicer.")
-  }
-  if (json_string(point, "positionStatus", "defined") != "defined") return(rep(NA_real_, 3))
-  position <- point[["position"]]
-  number <- vapply(position,
-                   function(v) if (is.numeric(v) && length(v) == 1) as.numeric(v) else NA_real_, 0)
-  if (length(number) != 3 || !all(is.finite(number)) || !is.null(names(position))) {
-    refuse_landmark_file(file, paste0(where, ": the position is not three numbers"),
-                         'Give it, or "positionStatus": "undefined".')
-  }
-  number
-}
-
-check_mrkjson_types <- function(type, file) {
-  other <- setdiff(type, c("Fiducial", "Curve", "ClosedCurve", "Line", "Angle"))
-  if (length(other)) {
-    crestline_warn(sprintf("%s: lists of type %s are left out.", basename(file), shorten(other)),
-                   "Landmarks and curves only are read.", stage = "landmarks",
-                   class = "crestline_format_warning")
-  }
-}
-
-# A unit is a word or DICOM's triple, whose first is the word.
-check_mrkjson_units <- function(markup, file) {
-  unit <- vapply(markup, function(one) {
-    given <- one[["coordinateUnits"]]
-    json_string(list(unit = if (is.list(given) && length(given)) given[[1]] else given), "unit",
-                "mm")
-  }, "")
-  if (length(unique(unit)) > 1) {
-    refuse_landmark_file(file, sprintf("lists in different units: %s", shorten(unique(unit))),
-                         "Save them in one unit.")
-  }
 }
 
 # The names of the lists; a list without one has the file's (as in Slicer), of several with its
@@ -124,8 +111,9 @@ write_landmarks_mrkjson <- function(sets, file, options) {
       mrkjson_list(curve, type, name, sprintf("%s-%d", name, seq_len(nrow(curve))), options)
     }, curves, type, names(curves)))
   )
-  schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/",
-                   "Markups/Resources/Schema/markups-schema-v1.0.3.json#")
+  schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/",
+                   "Modules/Loadable/Markups/",
+                   "Resources/Schema/markups-schema-v1.0.3.json#")
   comments <- attr(x, "comments")
   said <- if (length(comments)) sprintf('"provenance": [%s],\n',
                                         paste(json_text(comments), collapse = ", "))
@@ -138,8 +126,8 @@ mrkjson_list <- function(x, type, name, label, options) {
   orientation <- sprintf("[%d, 0, 0, 0, %d, 0, 0, 0, 1]", sign, sign)
   absent <- is.na(x[, 1])
   position <- ifelse(absent, '""', sprintf("[%s]", row_text(x, sep = ", ")))
-  point <- sprintf(paste('{"id": "%d", "label": %s, "position": %s, "orientation": %s,',
-                         '"positionStatus": "%s"}'),
+  point <- sprintf(paste0('{"id": "%d", "label": %s, "position": %s, "orientation": %s, ',
+                          '"positionStatus": "%s"}'),
                    seq_along(label), json_text(label), position, orientation,
                    ifelse(absent, "undefined", "defined"))
   sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", "controlPoints": [\n%s\n]}', type,

@@ -8,12 +8,29 @@
 #'   attribute `near` (character, the scheme's missing landmarks that may be meant, named by what is
 #'   not used) is empty where there are none.
 #' @noRd
-unused_names <- function(landmarks, scheme, most = 8) {
+unused_names <- function(landmarks, scheme, most = 8, letters = 1) {
   name <- if (is.character(landmarks)) landmarks else rownames(landmarks)
   known <- scheme$landmarks$landmark
   unused <- setdiff(name, known)
   if (!length(unused)) return(NULL)
-  near <- near_landmarks(unused, scheme$landmarks[!known %in% name, , drop = FALSE])
+  # For each name the missing landmark that it may stand for: the same but for case, blanks and
+  # signs, the landmark's long name, or a letter or two more or fewer; the two sides of a pair are
+  # never near
+  missing <- scheme$landmarks[!known %in% name, , drop = FALSE]
+  own <- plain_landmark(unused)
+  short <- plain_landmark(missing$landmark)
+  long <- plain_landmark(missing$name)
+  near <- lapply(own, function(name) {
+    same <- which(name == short | name == long)
+    if (length(same)) return(same)
+    distance <- as.vector(utils::adist(name, short))
+    added <- abs(nchar(name) - nchar(short)) == distance
+    mirrored <- grepl("l$", name) & grepl("r$", short) | grepl("r$", name) & grepl("l$", short)
+    long_enough <- pmin(nchar(name), nchar(short)) > 1
+    which(distance <= letters & (added | nchar(short) >= 5) & !mirrored & long_enough)
+  })
+  one <- lengths(near) == 1
+  near <- stats::setNames(missing$landmark[unlist(near[one])], unused[one])
   text <- paste("not used:", shorten(unused, most))
   if (length(near)) text <- paste0(text, "; near: ", shorten(near, most))
   structure(text, near = near)
@@ -34,32 +51,6 @@ warn_unused_names <- function(specimen, scheme, of) {
                  stage = "landmarks", id = specimen$id, class = "crestline_unused_landmarks")
 }
 
-#' For each name the missing landmark that it may stand for: the same but for case, blanks and
-#' signs, the landmark's long name, or a letter or two more or fewer; the two sides of a pair are
-#' never near
-#'
-#' @param missing Rows of the scheme's landmarks.
-#' @param letters Most letters added or left out, and most letters exchanged in names of 5 letters
-#'   and more.
-#' @return Character by unused name, without those that are near none or several.
-#' @noRd
-near_landmarks <- function(unused, missing, letters = 1) {
-  own <- plain_landmark(unused)
-  short <- plain_landmark(missing$landmark)
-  long <- plain_landmark(missing$name)
-  near <- lapply(own, function(name) {
-    same <- which(name == short | name == long)
-    if (length(same)) return(same)
-    distance <- as.vector(utils::adist(name, short))
-    added <- abs(nchar(name) - nchar(short)) == distance
-    mirrored <- grepl("l$", name) & grepl("r$", short) | grepl("r$", name) & grepl("l$", short)
-    long_enough <- pmin(nchar(name), nchar(short)) > 1
-    which(distance <= letters & (added | nchar(short) >= 5) & !mirrored & long_enough)
-  })
-  one <- lengths(near) == 1
-  stats::setNames(missing$landmark[unlist(near[one])], unused[one])
-}
-
 #' Names of landmarks as they are compared: small letters, no blanks nor signs, the side as a letter
 #' at the end
 #' @noRd
@@ -67,30 +58,4 @@ plain_landmark <- function(name) {
   name <- sub("^(left|right)[^[:alnum:]]+(.*)$", "\\2 \\1", tolower(name))
   name <- gsub("[^[:alnum:]]", "", name)
   sub("left$", "l", sub("right$", "r", name))
-}
-
-#' New names of landmarks, by the old ones
-#' @noRd
-check_new_names <- function(names, call = rlang::caller_env()) {
-  if (is.null(names)) return(invisible())
-  whole <- function(x) is.character(x) && !anyNA(x) && all(nzchar(x)) && !anyDuplicated(x)
-  if (!whole(names) || !whole(names(names)) || is.object(names)) {
-    refuse_argument("names", names, "Give new names by the old ones, each once: c(prn = \"pn\").",
-                    call)
-  }
-}
-
-#' Landmarks with some names changed; a new name must not be another landmark's
-#' @noRd
-renamed_landmarks <- function(landmarks, names, id) {
-  name <- rownames(landmarks)
-  changed <- name %in% names(names)
-  name[changed] <- names[name[changed]]
-  twice <- unique(name[duplicated(name)])
-  if (length(twice)) {
-    refuse_landmarks(sprintf("`names` gives two landmarks the name %s.", shorten(twice)),
-                     "Leave out the landmark that has the name already, or rename it too.", id)
-  }
-  rownames(landmarks) <- name
-  landmarks
 }

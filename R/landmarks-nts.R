@@ -8,31 +8,35 @@ read_landmarks_nts <- function(file, options) {
   comment <- sub("^\\s*['\"]+\\s*", "", line[is_comment])
   row <- which(!is_comment & grepl("\\S", line))
   if (!length(row)) refuse_landmark_file(file, "no line of parameters", nts_remedy())
-  head <- nts_header(line[row[1]], file, row[1])
-  body <- nts_body(line[row[-1]], row[-1], head, file)
-  nts_sets(body, head, comment, file)
-}
-
-nts_remedy <- function() {
-  paste("Write a line such as 1 23L 69 1 9999 DIM=3: matrix, rows (L: labelled), columns,",
-        "missing, code, dimension.")
-}
-
-nts_header <- function(text, file, line) {
-  refuse <- function(problem) refuse_landmark_file(file, problem, nts_remedy(), line)
-  pattern <- paste0("^\\s*([0-9]+)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([0-9]{1,7})([A-Za-z]?)\\s+",
-                    "([01])(\\s+\\S+)?\\s+DIM\\s*=\\s*([0-9])\\s*$")
-  part <- regmatches(text, regexec(pattern, text, ignore.case = TRUE))[[1]]
+  text <- line[row[1]]
+  refuse <- function(problem) refuse_landmark_file(file, problem, nts_remedy(), row[1])
+  part <- regmatches(text, regexec(
+    paste0("^\\s*([0-9]+)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([0-9]{1,7})([A-Za-z]?)\\s+([01])",
+           "(\\s+\\S+)?\\s+DIM\\s*=\\s*([0-9])\\s*$"),
+    text, ignore.case = TRUE))[[1]]
   if (!length(part)) refuse("the line of parameters cannot be read")
   label <- toupper(part[c(4, 6)])
   if (part[2] != "1") refuse("not a rectangular matrix (1)")
   if (!all(label %in% c("", "L"))) refuse("labels within the rows (B, E) are not read")
   head <- list(rows = as.integer(part[3]), columns = as.integer(part[5]), labels = label == "L",
-               flag = part[7] == "1", code = landmark_numbers(trimws(part[8]), file, line),
+               flag = part[7] == "1", code = landmark_numbers(trimws(part[8]), file, row[1]),
                dim = as.integer(part[9]))
   if (!head$dim %in% 2:3 || head$columns %%
       head$dim) refuse("columns that are not points of two or three dimensions")
-  head
+  body <- nts_body(line[row[-1]], row[-1], head, file)
+  swapped <- head$columns == head$dim && !any(grepl('^landmarks: "', comment))
+  if (swapped) return(landmark_set(nts_missing(body$x, head), body$label))
+  name <- commented_names(comment, "landmarks", head$columns / head$dim, file)
+  sets <- lapply(seq_len(head$rows), function(i) {
+    landmark_set(nts_missing(matrix(body$x[i, ], ncol = head$dim, byrow = TRUE), head), name)
+  })
+  structure(stats::setNames(sets, if (is.null(body$label)) seq_along(sets) else body$label),
+            numbered = is.null(body$label))
+}
+
+nts_remedy <- function() {
+  paste0("Write a line such as 1 23L 69 1 9999 DIM=3: matrix, rows (L: labelled), columns, ",
+         "missing, code, dimension.")
 }
 
 # Labels, one a line (with blanks in them) or, where that does not fit, one a word; then the
@@ -63,17 +67,6 @@ nts_body <- function(text, line, head, file) {
        x = matrix(as.numeric(number), head$rows, head$columns, byrow = TRUE))
 }
 
-nts_sets <- function(body, head, comment, file) {
-  swapped <- head$columns == head$dim && !any(grepl('^landmarks: "', comment))
-  if (swapped) return(landmark_set(nts_missing(body$x, head), body$label))
-  name <- commented_names(comment, "landmarks", head$columns / head$dim, file)
-  sets <- lapply(seq_len(head$rows), function(i) {
-    landmark_set(nts_missing(matrix(body$x[i, ], ncol = head$dim, byrow = TRUE), head), name)
-  })
-  structure(stats::setNames(sets, if (is.null(body$label)) seq_along(sets) else body$label),
-            numbered = is.null(body$label))
-}
-
 # The code, exactly: in one co-ordinate where the header declares it, else only in all of a point.
 nts_missing <- function(x, head) {
   coded <- rowSums(x == head$code, na.rm = TRUE)
@@ -84,7 +77,9 @@ nts_missing <- function(x, head) {
 write_landmarks_nts <- function(sets, file, options) {
   check_nts_sets(sets, file)
   x <- sets[[1]]
-  code <- unused_code(unlist(sets))
+  # The first of 9999, 99999 ... that no co-ordinate is.
+  code <- as.integer(10^(4:9) - 1)
+  code <- code[!code %in% unlist(sets)][1]
   comment <- name_comment(rownames(x), "landmarks")
   if (nrow(x) == 1) comment <- sprintf("landmarks: %s", quote_names(rownames(x)))
   write_file_lines(c(
@@ -113,10 +108,4 @@ check_nts_sets <- function(sets, file) {
     refuse_landmark_file(file, sprintf("%s cannot be a label", names(sets)[wrong][1]),
                          "Name specimens without a quote in front.")
   }
-}
-
-# The first of 9999, 99999 ... that no co-ordinate is.
-unused_code <- function(x) {
-  code <- as.integer(10^(4:9) - 1)
-  code[!code %in% x][1]
 }

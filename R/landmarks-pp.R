@@ -15,20 +15,19 @@ read_landmarks_pp <- function(file, options) {
     refuse_landmark_file(file, "a point cannot be read",
                          "Write <point x=\"1\" y=\"2\" z=\"3\" name=\"pn\"/>.")
   }
-  x <- vapply(c("x", "y", "z"), function(key) pp_numbers(xml_attribute(point, key), key, file),
+  x <- vapply(c("x", "y", "z"), function(key) {
+    word <- xml_attribute(point, key)
+    if (anyNA(word)) {
+      refuse_landmark_file(file, sprintf("point %d has no %s", which(is.na(word))[1], key),
+                           "Put the whole file.")
+    }
+    landmark_numbers(word, file, NULL)
+  },
               numeric(length(point)))
   x <- matrix(x, ncol = 3)
   x[tolower(xml_attribute(point, "active")) %in% c("0", "false"), ] <- NA
   name <- xml_attribute(point, "name")
   landmark_set(x, ifelse(is.na(name) | !nzchar(name), as.character(seq_along(point)), name))
-}
-
-pp_numbers <- function(word, key, file) {
-  if (anyNA(word)) {
-    refuse_landmark_file(file, sprintf("point %d has no %s", which(is.na(word))[1], key),
-                         "Put the whole file.")
-  }
-  landmark_numbers(word, file, NULL)
 }
 
 #' The values of an attribute of XML elements, NA where one has none

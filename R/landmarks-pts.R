@@ -17,7 +17,16 @@ read_landmarks_pts <- function(file, options) {
   part <- pts_parts(line[row], file, row)
   x <- matrix(landmark_numbers(part[, 2:4], file, rep(row, 3)), ncol = 3)
   x[which(rowSums(x == options$missing) == 3), ] <- NA
-  pts_set(x, part[, 1])
+  name <- part[, 1]
+  on_curve <- pts_curve_point(name)
+  curve <- sub("[._-][0-9]+$", "", name[on_curve])
+  number <- as.numeric(sub("^.*[._-]", "", name[on_curve]))
+  point <- x[on_curve, , drop = FALSE]
+  curves <- lapply(stats::setNames(nm = unique(curve)), function(one) {
+    row <- which(curve == one)
+    landmark_curve(point[row[order(number[row])], , drop = FALSE])
+  })
+  landmark_set(x[!on_curve, , drop = FALSE], name[!on_curve], curves)
 }
 
 # The last three words are the co-ordinates; all before them is the name, blanks and all.
@@ -40,23 +49,33 @@ pts_parts <- function(text, file, line) {
 
 pts_curve_point <- function(name) grepl("^C[._-]?[0-9]+[._-][0-9]+$", name)
 
-pts_set <- function(x, name) {
-  on_curve <- pts_curve_point(name)
-  curve <- sub("[._-][0-9]+$", "", name[on_curve])
-  number <- as.numeric(sub("^.*[._-]", "", name[on_curve]))
-  point <- x[on_curve, , drop = FALSE]
-  curves <- lapply(stats::setNames(nm = unique(curve)), function(one) {
-    row <- which(curve == one)
-    landmark_curve(point[row[order(number[row])], , drop = FALSE])
-  })
-  landmark_set(x[!on_curve, , drop = FALSE], name[!on_curve], curves)
-}
-
 write_landmarks_pts <- function(sets, file, options) {
   x <- sets[[1]]
   curves <- attr(x, "curves")
-  check_pts_names(rownames(x), file)
-  number <- pts_curve_names(curves, file)
+  name <- rownames(x)
+  wrong <- name[pts_curve_point(name) | grepl("^\\s|\\s$", name)]
+  if (length(wrong)) {
+    refuse_landmark_file(file,
+                         sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
+                         paste0("Name it otherwise: C, number, dash, number is a point of a ",
+                                "curve; no blanks at the ends."))
+  }
+  # Curves have numbers only: those called C000 ... keep them, others get them, with a warning.
+  number <- if (!length(curves)) character() else {
+    name <- names(curves)
+    closed <- vapply(curves, attr, TRUE, "closed")
+    number <- sprintf("C%03d", seq_along(curves) - 1L)
+    if (all(grepl("^C[._-]?[0-9]+$", name))) number <- name
+    if (!identical(number, name) || any(closed)) {
+      crestline_warn(
+        sprintf("%s: .pts has curves by number and open only: %s.", basename(file), paste(
+          number, "is", paste0(name, ifelse(closed, " (closed)", "")), collapse = ", ")),
+        "Keep a .mrk.json, .tps or .csv as well.", stage = "landmarks",
+        class = "crestline_format_warning"
+      )
+    }
+    number
+  }
   point <- unlist(lapply(seq_along(curves), function(i) {
     sprintf("%s-%03d %s", number[i], seq_len(nrow(curves[[i]])) - 1,
             pts_rows(curves[[i]], file, options))
@@ -73,32 +92,4 @@ pts_rows <- function(x, file, options) {
                          "Give another number as `missing`.")
   }
   row_text(x, missing = number_text(options$missing))
-}
-
-check_pts_names <- function(name, file) {
-  wrong <- name[pts_curve_point(name) | grepl("^\\s|\\s$", name)]
-  if (length(wrong)) {
-    refuse_landmark_file(file,
-                         sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
-                         paste("Name it otherwise: C, number, dash, number is a point of a",
-                               "curve; no blanks at the ends."))
-  }
-}
-
-# Curves have numbers only: those called C000 ... keep them, others get them, with a warning.
-pts_curve_names <- function(curves, file) {
-  if (!length(curves)) return(character())
-  name <- names(curves)
-  closed <- vapply(curves, attr, TRUE, "closed")
-  number <- sprintf("C%03d", seq_along(curves) - 1L)
-  if (all(grepl("^C[._-]?[0-9]+$", name))) number <- name
-  if (!identical(number, name) || any(closed)) {
-    crestline_warn(
-      sprintf("%s: .pts has curves by number and open only: %s.", basename(file), paste(
-        number, "is", paste0(name, ifelse(closed, " (closed)", "")), collapse = ", ")),
-      "Keep a .mrk.json, .tps or .csv as well.", stage = "landmarks",
-      class = "crestline_format_warning"
-    )
-  }
-  number
 }

@@ -9,7 +9,13 @@
 run_review <- function(ui, server,
                        launch.browser = getOption("shiny.launch.browser", interactive()), ...) {
   token <- random_token()
-  app <- shiny::shinyApp(guarded_page(ui, token), guarded_server(server, token))
+  # The server for who knows the token, from the page's own site; anybody else's session is closed
+  app <- shiny::shinyApp(guarded_page(ui, token), function(input, output, session) {
+    address <- shiny::isolate(session$clientData$url_search)
+    if (is_own_site(session$request) &&
+        has_token(address, token)) return(server(input, output, session))
+    session$close()
+  })
   shiny::runApp(app, launch.browser = function(url) open_page(paste0(sub("/$", "", url), "/?token=",
                                                                      token), launch.browser), ...)
 }
@@ -31,17 +37,6 @@ guarded_page <- function(ui, token) {
     if (has_token(request$QUERY_STRING, token)) return(ui)
     shiny::httpResponse(403L, "text/plain",
                         "Open the address that R printed or opened: it has a token.")
-  }
-}
-
-#' The server for who knows the token, from the page's own site; anybody else's session is closed
-#' @noRd
-guarded_server <- function(server, token) {
-  function(input, output, session) {
-    address <- shiny::isolate(session$clientData$url_search)
-    if (is_own_site(session$request) &&
-        has_token(address, token)) return(server(input, output, session))
-    session$close()
   }
 }
 

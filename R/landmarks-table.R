@@ -15,14 +15,40 @@ text_table <- function(line, refuse) {
   start <- table_start(line)
   at <- start$at
   if (!length(at)) refuse("there is no header line", NULL)
-  sep <- if (is.null(start$sep)) table_separator(line[at[1]]) else start$sep
+  sep <- if (is.null(start$sep)) {
+    # Spreadsheets write semicolons, and decimal commas, where the comma is the decimal mark; some
+    # write tabs.
+    bare <- strsplit(gsub("\"[^\"]*\"", "", line[at[1]]), "")[[1]]
+    marks <- c(",", ";", "\t")
+    marks[which.max(vapply(marks, function(mark) sum(bare == mark), 0))]
+  } else start$sep
   record <- table_records(line, at, sep, refuse)
   header <- trimws(record$field[[1]])
-  check_table_header(header, at[1], refuse)
+  if (sum(!is.na(suppressWarnings(as.numeric(header)))) > 1) {
+    refuse("there is no header line: the first line holds numbers", at[1])
+  }
+  name <- tolower(header[nzchar(header)])
+  again <- name[anyDuplicated(name)]
+  if (length(again)) refuse(sprintf("two columns are called \"%s\"", again), at[1])
   full <- vapply(record$field, function(field) any(nzchar(field)), NA)
   full[1] <- FALSE
+  field <- record$field[full]
   row <- record$line[full]
-  cells <- counted_cells(record$field[full], header, row, refuse)
+  # Rows of as many cells as the header has names; all rows may end in the same number of empty
+  # cells more
+  named <- max(which(nzchar(header)), 0)
+  width <- if (length(field)) length(field[[1]]) else length(header)
+  even <- all(lengths(field) == width) && width >= named
+  if (even && width != length(header)) {
+    even <- !any(nzchar(unlist(lapply(field, utils::tail, width - named))))
+  }
+  if (!even) {
+    wrong <- which(lengths(field) != length(header))[1]
+    refuse(sprintf("%s where the header has %d", amount(length(field[[wrong]]), "field"),
+                   length(header)), row[wrong])
+  }
+  cells <- matrix(as.character(unlist(field)), ncol = width, byrow = TRUE)
+  cells <- cells[, seq_len(min(width, length(header))), drop = FALSE]
   structure(named_columns(cells, header, row, refuse), line = row, sep = sep)
 }
 
@@ -35,14 +61,6 @@ table_start <- function(line) {
   if (length(said)) at <- at[-1]
   first <- which(!grepl("^\\s*\"?#", line[at], perl = TRUE))[1]
   list(at = if (!is.na(first)) at[first:length(at)], sep = if (length(said)) said[2])
-}
-
-# Spreadsheets write semicolons, and decimal commas, where the comma is the decimal mark; some write
-# tabs.
-table_separator <- function(header) {
-  bare <- strsplit(gsub("\"[^\"]*\"", "", header), "")[[1]]
-  marks <- c(",", ";", "\t")
-  marks[which.max(vapply(marks, function(mark) sum(bare == mark), 0))]
 }
 
 #' The fields of every record; a quoted field may run over several lines
@@ -83,52 +101,19 @@ split_fields <- function(text, sep) {
   cell[marked[whole]] <- inner[whole]
   field <- unname(split(cell, factor(line, seq_along(text))))
   again <- unique(line[marked[!whole]])
-  field[again] <- lapply(text[again], quoted_fields, sep)
-  field
-}
-
-#' Fields of one text by the rule: a field is quoted as a whole, with quotes in it doubled, or has
-#' none at its start
-#' @noRd
-quoted_fields <- function(text, sep) {
+  # A field is quoted as a whole, with quotes in it doubled, or has none at its start.
   pattern <- gsub("@", paste0("\\Q", sep, "\\E"),
                   "@(?: *\"[^\"]*(?:\"\"[^\"]*)*\" *| *[^\" @][^@]*| *)(?=@|\\z)", fixed = TRUE)
-  whole <- paste0(sep, text)
-  part <- regmatches(whole, gregexpr(pattern, whole, perl = TRUE))[[1]]
-  if (sum(nchar(part)) != nchar(whole)) return(character())
-  part <- trimws(substring(part, 2))
-  quoted <- startsWith(part, "\"")
-  part[quoted] <- gsub("\"\"", "\"", substr(part[quoted], 2, nchar(part[quoted]) - 1), fixed = TRUE)
-  part
-}
-
-check_table_header <- function(header, line, refuse) {
-  if (sum(!is.na(suppressWarnings(as.numeric(header)))) > 1) {
-    refuse("there is no header line: the first line holds numbers", line)
-  }
-  name <- tolower(header[nzchar(header)])
-  again <- name[anyDuplicated(name)]
-  if (length(again)) refuse(sprintf("two columns are called \"%s\"", again), line)
-}
-
-#' Rows of as many cells as the header has names; all rows may end in the same number of empty cells
-#' more
-#' @return Matrix of text.
-#' @noRd
-counted_cells <- function(field, header, line, refuse) {
-  named <- max(which(nzchar(header)), 0)
-  width <- if (length(field)) length(field[[1]]) else length(header)
-  even <- all(lengths(field) == width) && width >= named
-  if (even && width != length(header)) {
-    even <- !any(nzchar(unlist(lapply(field, utils::tail, width - named))))
-  }
-  if (!even) {
-    wrong <- which(lengths(field) != length(header))[1]
-    refuse(sprintf("%s where the header has %d", amount(length(field[[wrong]]), "field"),
-                   length(header)), line[wrong])
-  }
-  cells <- matrix(as.character(unlist(field)), ncol = width, byrow = TRUE)
-  cells[, seq_len(min(width, length(header))), drop = FALSE]
+  field[again] <- lapply(paste0(sep, text[again]), function(one) {
+    part <- regmatches(one, gregexpr(pattern, one, perl = TRUE))[[1]]
+    if (sum(nchar(part)) != nchar(one)) return(character())
+    part <- trimws(substring(part, 2))
+    quoted <- startsWith(part, "\"")
+    inside <- substr(part[quoted], 2, nchar(part[quoted]) - 1)
+    part[quoted] <- gsub("\"\"", "\"", inside, fixed = TRUE)
+    part
+  })
+  field
 }
 
 #' Columns under their names. Empty ones without a name are left out; the first may do without, as

@@ -95,11 +95,6 @@ check_separators <- function(text, file, line) {
 # Names between double quotes, a quote in a name doubled, commas between; and back.
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
-unquote_names <- function(text) {
-  suppressWarnings(scan(text = text, what = "", sep = ",", quote = '"', quiet = TRUE,
-                        strip.white = FALSE,
-                        na.strings = character(), encoding = "UTF-8"))
-}
 
 # The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number
 # is another.
@@ -107,7 +102,9 @@ commented_names <- function(comment, key, n, file) {
   start <- paste0("^", key, ': "')
   found <- comment[grepl(start, comment)]
   if (!length(found)) return(NULL)
-  name <- unquote_names(sub(paste0("^", key, ": "), "", found[1]))
+  name <- suppressWarnings(scan(text = sub(paste0("^", key, ": "), "", found[1]), what = "",
+                                sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE,
+                                na.strings = character(), encoding = "UTF-8"))
   if (length(name) != n) {
     refuse_landmark_file(file,
                          sprintf("the comment of %s has %d names for %d", key, length(name), n),
@@ -141,4 +138,21 @@ complete_rows <- function(x) {
 refuse_landmark_file <- function(file, problem, remedy, line = NULL) {
   where <- paste0(basename(file), if (!is.null(line)) sprintf(", line %d", as.integer(line)))
   refuse_landmarks(sprintf("%s: %s.", where, problem), remedy, id = NULL)
+}
+
+# The two co-ordinate frames of 3D Slicer: x to the left and y to the back (LPS), or to the right
+# and the front (RAS).
+
+# What a file says of its frame: the words, or the 0 and 1 of old files.
+slicer_frame <- function(said, file) {
+  frame <- c(LPS = "LPS", "1" = "LPS", RAS = "RAS", "0" = "RAS")[toupper(said)]
+  if (is.na(frame)) {
+    refuse_landmark_file(file, sprintf('the co-ordinate system is "%s"', said),
+                         "Save it as LPS or RAS.")
+  }
+  unname(frame)
+}
+
+change_frame <- function(x, from, to) {
+  if (to %in% c(from, "file")) x else x * rep(c(-1, -1, 1), each = nrow(x))
 }

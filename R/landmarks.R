@@ -118,20 +118,16 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
   format <- landmark_format(file)
   check_stored(file, "landmarks")
   found <- format$read(file, options)
-  check_set_names(found, file)
-  found
-}
-
-#' Refuses a file in which a specimen's name stands over different landmarks
-#' @noRd
-check_set_names <- function(found, file) {
-  if (is.matrix(found)) return(invisible())
-  for (name in unique(names(found)[duplicated(names(found))])) {
-    if (same_sets(found[names(found) == name])) next
-    refuse_landmark_file(file,
-                         sprintf("the specimen %s is there twice with different landmarks", name),
-                         "Give each specimen a name of its own, or leave one of them.")
+  # Refuses a file in which a specimen's name stands over different landmarks
+  if (!is.matrix(found)) {
+    for (name in unique(names(found)[duplicated(names(found))])) {
+      if (same_sets(found[names(found) == name])) next
+      refuse_landmark_file(file,
+                           sprintf("the specimen %s is there twice with different landmarks", name),
+                           "Give each specimen a name of its own, or leave one of them.")
+    }
   }
+  found
 }
 
 #' @rdname read_landmarks
@@ -149,8 +145,26 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   options <- list(frame = check_choice(frame, c("LPS", "RAS"), "frame"),
                   missing = check_number(missing, "missing"))
   sets <- written_sets(x, curves, file)
-  if (!format$curves && has_shape(x)) sets <- curves_as_points(sets, file)
-  check_written(sets, format, file)
+  has_shape <- inherits(x, "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
+  if (!format$curves && has_shape) sets <- curves_as_points(sets, file)
+  with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
+  if (length(sets) > 1 && !format$several) {
+    refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
+                         "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
+  }
+  if (any(with_curves) && !format$curves) {
+    refuse_landmark_file(file, "the format holds no curves",
+                         paste0("Write a .mrk.json, .tps, .pts or .csv file, or leave them out ",
+                                "with curves = list()."))
+  }
+  name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
+  wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
+  if (wrong || any(names(sets) != trimws(names(sets)))) {
+    refuse_landmark_file(file,
+                         "a name is empty or holds a line break, or two specimens have the same",
+                         paste0("Give every specimen, landmark and curve a name of its own, in ",
+                                "one line, no blanks at the ends."))
+  }
   format$write(sets, file, options)
   invisible(file)
 }
@@ -183,7 +197,17 @@ landmark_formats <- function() {
 
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
 written_sets <- function(x, curves, file) {
-  x <- sets_of_sample(x, file)
+  # The specimens of an array, a sample, a batch or an alignment, as a list; anything else as it is
+  if (inherits(x, "shape_sample")) x <- x$shapes
+  if (inherits(x, "shape_batch")) x <- as.list(x)
+  if (inherits(x, "aligned")) x <- x$coords
+  if (is.array(x) && length(dim(x)) == 3) x <- array_sets(x)
+  none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
+  if (length(none)) {
+    name <- if (is.null(names(x))) none else names(x)[none]
+    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)),
+                         "Leave out what failed.")
+  }
   if (is.null(x) || is.data.frame(x) || is.matrix(x) || inherits(x, c("specimen", "shape")) ||
       !is.list(x)) {
     id <- if (inherits(x, c("specimen", "shape"))) x$id else "1"
@@ -194,29 +218,11 @@ written_sets <- function(x, curves, file) {
                          "Give each matrix of the list its curves as attribute `curves`.")
   }
   sets <- lapply(x, written_set, curves = curves)
-  if (is.null(names(x))) names(sets) <- specimen_names(x)
-  sets
-}
-
-#' The specimens of an array, a sample, a batch or an alignment, as a list; anything else as it is
-#' @noRd
-sets_of_sample <- function(x, file) {
-  if (inherits(x, "shape_sample")) return(x$shapes)
-  if (inherits(x, "shape_batch")) x <- as.list(x)
-  if (inherits(x, "aligned")) x <- x$coords
-  if (is.array(x) && length(dim(x)) == 3) return(array_sets(x))
-  none <- if (is.list(x) && !is.object(x)) which(vapply(x, is.null, NA))
-  if (length(none)) {
-    name <- if (is.null(names(x))) none else names(x)[none]
-    refuse_landmark_file(file, sprintf("there is nothing of %s", shorten(name)),
-                         "Leave out what failed.")
+  if (is.null(names(x))) {
+    is_specimen <- vapply(x, inherits, TRUE, c("specimen", "shape"))
+    names(sets) <- if (all(is_specimen)) vapply(x, `[[`, "", "id") else as.character(seq_along(x))
   }
-  x
-}
-
-specimen_names <- function(x) {
-  is_specimen <- vapply(x, inherits, TRUE, c("specimen", "shape"))
-  if (all(is_specimen)) vapply(x, `[[`, "", "id") else as.character(seq_along(x))
+  sets
 }
 
 written_set <- function(x, curves) {
@@ -253,33 +259,12 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf(paste("`curves`: curve %s is %s, not an n x 3 numeric matrix with",
-                                   "a row at least."), name, describe_shape(x)),
+    refuse_landmarks(sprintf(paste0("`curves`: curve %s is %s, not an n x 3 numeric matrix with a ",
+                                    "row at least."), name, describe_shape(x)),
                      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
   }
   x[!is.finite(x)] <- NA
   landmark_curve(x, closed)
-}
-
-check_written <- function(sets, format, file) {
-  with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
-  if (length(sets) > 1 && !format$several) {
-    refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
-                         "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
-  }
-  if (any(with_curves) && !format$curves) {
-    refuse_landmark_file(file, "the format holds no curves",
-                         paste("Write a .mrk.json, .tps, .pts or .csv file, or leave them out",
-                               "with curves = list()."))
-  }
-  name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
-  wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
-  if (wrong || any(names(sets) != trimws(names(sets)))) {
-    refuse_landmark_file(file,
-                         "a name is empty or holds a line break, or two specimens have the same",
-                         paste("Give every specimen, landmark and curve a name of its own, in",
-                               "one line, no blanks at the ends."))
-  }
 }
 
 landmark_format <- function(file) {
@@ -299,18 +284,14 @@ landmark_format <- function(file) {
   formats[[format]]
 }
 
-has_shape <- function(x) inherits(x,
-                                  "shape") || is.list(x) && any(vapply(x, inherits, TRUE, "shape"))
-
 #' Sets whose curves are landmarks named "curve point", as in [coords()]
 #' @noRd
 curves_as_points <- function(sets, file) {
   curves <- lapply(sets, attr, "curves")
   if (!any(lengths(curves) > 0)) return(sets)
   crestline_warn(
-    sprintf(paste("%s: the format has no curves: their points are written as landmarks, \"%s",
-                  "1\" and so on."), basename(file),
-            unlist(lapply(curves, names))[1]),
+    sprintf("%s: the format has no curves: their points are written as landmarks, %s.",
+            basename(file), sprintf("\"%s 1\" and so on", unlist(lapply(curves, names))[1])),
     "read_curves() gives them back; curves = list() leaves them out.", stage = "landmarks",
     class = "crestline_format_warning"
   )
@@ -321,4 +302,90 @@ curves_as_points <- function(sets, file) {
     rownames(points) <- c(rownames(set), names)
     structure(as_landmarks(points), comments = attr(set, "comments"))
   }, sets, curves)
+}
+
+#' @param ... As of read_sets().
+#' @return Named list of matrices: by file, or by the names in a file of several specimens. Two of
+#'   one specimen must agree.
+#' @noRd
+read_landmark_folder <- function(dir, ...) {
+  file <- landmark_folder(dir)
+  sets <- do.call(c, unname(Map(function(path, name) {
+    found <- read_sets(path, ...)
+    if (is.matrix(found)) found <- list(found)
+    if (isTRUE(attr(found, "numbered"))) names(found) <- paste(name, seq_along(found))
+    if (length(found) == 1) names(found) <- name
+    found
+  }, file, names(file))))
+  name <- names(sets)
+  for (twice in unique(name[duplicated(name)])) {
+    if (!same_sets(sets[name == twice])) {
+      from <- basename(file[names(file) == twice])
+      from <- if (length(from) > 1) paste0(": ", shorten(from))
+      refuse_landmarks(paste0(dir, " has different landmarks of ", twice, from, "."),
+                       "Leave one of them.", id = NULL)
+    }
+  }
+  sets[!duplicated(name)]
+}
+
+#' The landmark files of a folder, named by specimen
+#' @noRd
+landmark_folder <- function(dir) {
+  file <- list.files(dir, full.names = TRUE)
+  known <- paste0("[.](", paste(c(names(landmark_formats()), "json"), collapse = "|"), ")$")
+  file <- file[grepl(known, file, ignore.case = TRUE)]
+  file <- file[vapply(file, is_landmark_file, NA)]
+  if (!length(file)) {
+    known <- paste0(".", names(landmark_formats()), collapse = ", ")
+    refuse_landmarks(sprintf("the folder %s has no landmark files.", dir),
+                     sprintf("Known: %s.", known), id = NULL)
+  }
+  name <- sub("_picked_points[.]pp$", "", basename(file), ignore.case = TRUE)
+  stats::setNames(file, sub(id_extension(), "", name, ignore.case = TRUE))
+}
+
+#' Whether a file of a format's extension holds landmarks, as far as other programs use the
+#' extension too
+#' @noRd
+is_landmark_file <- function(file) {
+  if (dir.exists(file)) return(FALSE)
+  other <- grepl("(?<![.]mrk)[.]json$", tolower(file), perl = TRUE)
+  if (!other || !isTRUE(file.size(file) > 0)) return(TRUE)
+  content <- tryCatch(jsonlite::parse_json(paste(file_lines(file), collapse = "\n")),
+                      error = function(e) NULL)
+  is.null(content) || !is.null(names(content)) && "markups" %in% names(content)
+}
+
+#' Whether sets, perhaps in files, are all the same
+#' @noRd
+same_sets <- function(sets) {
+  if (length(sets) < 2) return(TRUE)
+  sets <- lapply(sets, function(one) if (is.character(one)) read_landmarks(one) else one)
+  all(vapply(sets[-1], same_landmarks, NA, sets[[1]]))
+}
+
+#' Whether two sets have the same landmarks in the same places
+#'
+#' @param tolerance Greatest difference of a co-ordinate, as a share of the extent of the landmarks:
+#'   formats differ in their digits (Slicer's .fcsv has three behind the point, 5e-6 of a face).
+#' @noRd
+same_landmarks <- function(a, b, tolerance = 1e-4) {
+  if (is.list(a) || is.list(b)) return(identical(a, b))
+  if (!setequal(rownames(a), rownames(b))) return(FALSE)
+  b <- b[rownames(a), , drop = FALSE]
+  if (!identical(is.na(unname(a)), is.na(unname(b)))) return(FALSE)
+  extent <- max(abs(sweep(a, 2, colMeans(a, na.rm = TRUE))), 0, na.rm = TRUE)
+  max(abs(a - b), 0, na.rm = TRUE) <= tolerance * extent
+}
+
+#' The matrices of a k x 3 x n array, by its names of specimens; its points numbered where they have
+#' no names
+#' @noRd
+array_sets <- function(x) {
+  point <- if (is.null(dimnames(x)[[1]])) as.character(seq_len(dim(x)[1])) else dimnames(x)[[1]]
+  sets <- lapply(seq_len(dim(x)[3]), function(i) {
+    matrix(x[, , i], dim(x)[1], dim(x)[2], dimnames = list(point, NULL))
+  })
+  stats::setNames(sets, dimnames(x)[[3]])
 }

@@ -36,8 +36,13 @@ check_mesh <- function(mesh, id, outward = "detect", debris = 0.001) {
   area <- row_lengths(normal)
   if (!any(area > 0)) refuse_flat(id)
   mesh$normals <- vertex_normals(mesh)
+  # What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
+  # Of equilateral triangles of the median area; `area` is twice it.
+  edge <- sqrt(2 / sqrt(3) * stats::median(area))
+  loose <- warn_loose(topology, id)
   report <- c(report, describe_topology(mesh, topology, area),
-              tell_contacts(mesh, topology, area, id))
+              list(tell_seams(mesh, topology, edge, id, silent = loose),
+                   tell_second_skin(mesh, topology, edge, id)))
   list(mesh = mesh, topology = topology, report = do.call(rbind, report), vertices = vertices)
 }
 
@@ -166,7 +171,16 @@ merge_duplicate_vertices <- function(mesh, id) {
 triangulate_cloud <- function(mesh, id) {
   if (ncol(mesh$it) > 0) return(mended(mesh, "point cloud without triangles", 0))
   n <- ncol(mesh$vb)
-  if (n >= 4) mesh$it <- ball_pivoting(mesh)
+  if (n >= 4) {
+    # In a unit box about the origin, since Rvcg works in single precision.
+    xyz <- mesh$vb[1:3, , drop = FALSE]
+    middle <- rowMeans(xyz)
+    cloud <- list(vb = rbind((xyz - middle) / max(abs(xyz - middle)), 1))
+    pivoted <- tryCatch(Rvcg::vcgBallPivoting(structure(cloud, class = "mesh3d")),
+                        error = function(e) NULL)
+    mesh$it <- if (is.null(pivoted$it) || ncol(pivoted$vb) != ncol(xyz)) matrix(0L, 3, 0) else
+      matrix(as.integer(pivoted$it), 3)
+  }
   if (ncol(mesh$it) == 0) {
     refuse_mesh(sprintf("there are no triangles, and its %d points give none.", n),
                 "Export it with its triangles, or give more points of the surface.", id)
@@ -179,17 +193,6 @@ triangulate_cloud <- function(mesh, id) {
     class = "crestline_triangulated"
   )
   mended(mesh, "point cloud without triangles", n, "triangulated by ball pivoting (Rvcg)")
-}
-
-# In a unit box about the origin, since Rvcg works in single precision.
-ball_pivoting <- function(mesh) {
-  xyz <- mesh$vb[1:3, , drop = FALSE]
-  middle <- rowMeans(xyz)
-  cloud <- list(vb = rbind((xyz - middle) / max(abs(xyz - middle)), 1))
-  pivoted <- tryCatch(Rvcg::vcgBallPivoting(structure(cloud, class = "mesh3d")),
-                      error = function(e) NULL)
-  if (is.null(pivoted$it) || ncol(pivoted$vb) != ncol(xyz)) return(matrix(0L, 3, 0))
-  matrix(as.integer(pivoted$it), 3)
 }
 
 refuse_empty <- function(mesh, id) {
@@ -207,11 +210,11 @@ drop_debris <- function(mesh, id, debris) {
 }
 
 refuse_debris <- function(pieces, debris, id) {
-  refuse_mesh(sprintf(paste("it falls apart into %d pieces, each with less than %g (`debris`)",
-                            "of the triangles: %s."),
+  refuse_mesh(sprintf(paste0("it falls apart into %d pieces, each with less than %g (`debris`) of ",
+                             "the triangles: %s."),
                       pieces, debris, "their corners do not meet"),
-              paste("Join them: in MeshLab by Merge Close Vertices. Real pieces so small are",
-                    "kept with debris = 0."), id)
+              paste0("Join them: in MeshLab by Merge Close Vertices. Real pieces so small are ",
+                     "kept with debris = 0."), id)
 }
 
 drop_unreferenced <- function(mesh, id) {
@@ -221,22 +224,28 @@ drop_unreferenced <- function(mesh, id) {
 
 # What stays as it is and is only told.
 describe_topology <- function(mesh, topology, area) {
+  # Border loops beyond the one outer loop of each piece that has a border.
+  side <- border_sides(topology)
+  holes <- if (!length(side)) 0L else {
+    start <- mesh$it[side]
+    end <- mesh$it[next_side(side)]
+    # As many border sides start as end at every vertex, so sorting both pairs each with a next.
+    following <- integer(length(side))
+    following[order(end)] <- order(start)
+    # The smallest member of each cycle of a permutation, by doubling the stride.
+    loop <- seq_along(following)
+    for (i in seq_len(ceiling(log2(length(following) + 1)))) {
+      loop <- pmin(loop, loop[following])
+      following <- following[following]
+    }
+    length(unique(loop)) - length(unique(topology$piece[(side - 1) %/% 3 + 1]))
+  }
   list(
     report_row("faces without area", sum(area == 0), "kept, so that no slit opens"),
     report_row("non-manifold edges", topology$nonmanifold_edges, "kept; they act as borders"),
     report_row("isolated pieces", topology$pieces - 1, "kept; no curve leaves its piece"),
-    report_row("holes", count_holes(mesh, topology), "kept; no curve crosses them")
+    report_row("holes", holes, "kept; no curve crosses them")
   )
-}
-
-# What may cost curves and cannot be mended. Where triangles are loose all borders are seams.
-tell_contacts <- function(mesh, topology, area, id) {
-  edge <- sqrt(2 / sqrt(3) *
-               # of equilateral triangles of the median area; `area` is twice it
-               stats::median(area))
-  loose <- warn_loose(topology, id)
-  list(tell_seams(mesh, topology, edge, id, silent = loose),
-       tell_second_skin(mesh, topology, edge, id))
 }
 
 # Whether that `share` of the triangles, and so many at `least`, have no neighbour.
@@ -244,34 +253,11 @@ warn_loose <- function(topology, id, share = 0.1, least = 10) {
   loose <- sum(colSums(topology$twin > 0) == 0)
   if (loose < max(least, share * length(topology$piece))) return(FALSE)
   crestline_warn(
-    sprintf(paste("%.0f %% of the triangles touch no other: their corners do not meet, and no",
-                  "curve leaves its piece."),
+    sprintf(paste0("%.0f %% of the triangles touch no other: their corners do not meet, and no ",
+                   "curve leaves its piece."),
             100 * loose / length(topology$piece)),
     "Join them: in MeshLab by Merge Close Vertices.", stage = "mesh", id = id,
     class = "crestline_loose_triangles"
   )
   TRUE
-}
-
-# Border loops beyond the one outer loop of each piece that has a border.
-count_holes <- function(mesh, topology) {
-  side <- border_sides(topology)
-  if (!length(side)) return(0L)
-  start <- mesh$it[side]
-  end <- mesh$it[next_side(side)]
-  # As many border sides start as end at every vertex, so sorting both pairs each with a next.
-  following <- integer(length(side))
-  following[order(end)] <- order(start)
-  loop <- cycle_labels(following)
-  length(unique(loop)) - length(unique(topology$piece[(side - 1) %/% 3 + 1]))
-}
-
-# The smallest member of each cycle of a permutation, by doubling the stride.
-cycle_labels <- function(following) {
-  label <- seq_along(following)
-  for (i in seq_len(ceiling(log2(length(following) + 1)))) {
-    label <- pmin(label, label[following])
-    following <- following[following]
-  }
-  label
 }

@@ -68,8 +68,25 @@ read_image <- function(file, id) {
 #' @param palette,limits,missing Of numbers, see [write_mesh()].
 #' @noRd
 surface_colours <- function(mesh, colour, palette = grDevices::hcl.colors(11, "Viridis"),
-                            limits = NULL, missing = "#BEBEBE") {
-  if (identical(colour, "patch")) return(patch_colours(mesh))
+                            limits = NULL, missing = "#BEBEBE", apart = 0.618) {
+  if (identical(colour, "patch")) {
+    # A colour for each patch, grey where there are strips only. `apart`: hues of patches that
+    # follow one another are this share of the palette apart (the golden ratio, so that none of
+    # the next few is near).
+    group <- attr(mesh, "group")
+    if (is.null(group)) {
+      crestline_abort("the mesh has no patches.", "Give a shape, or what shape_mesh() returns.",
+                      stage = "colours",
+                      call = NULL)
+    }
+    patches <- unique(group[!startsWith(group, "strip ")])
+    n <- length(patches)
+    hues <- grDevices::hcl.colors(n, "Dark 3")[rank((seq_len(n) * apart) %% 1)]
+    colours <- rep("#BEBEBE", ncol(mesh$vb))
+    own <- group %in% patches
+    colours[mesh$it[, own]] <- rep(hues[match(group[own], patches)], each = 3)
+    return(colours)
+  }
   if (!is.numeric(colour)) return(check_colours(colour, ncol(mesh$vb), call = NULL))
   if (is.null(limits)) limits <- if (any(is.finite(colour))) range(colour[is.finite(colour)]) else
     0:1
@@ -78,21 +95,10 @@ surface_colours <- function(mesh, colour, palette = grDevices::hcl.colors(11, "V
   ramp_colours(share, palette, missing)
 }
 
-# A colour for each patch, grey where there are strips only. `apart`: hues of patches that follow
-# one another are this share of the palette apart (the golden ratio, so that none of the next few is
-# near).
-patch_colours <- function(mesh, palette = "Dark 3", between = "#BEBEBE", apart = 0.618) {
-  group <- attr(mesh, "group")
-  if (is.null(group)) {
-    crestline_abort("the mesh has no patches.", "Give a shape, or what shape_mesh() returns.",
-                    stage = "colours",
-                    call = NULL)
-  }
-  patches <- unique(group[!startsWith(group, "strip ")])
-  n <- length(patches)
-  hues <- grDevices::hcl.colors(n, palette)[rank((seq_len(n) * apart) %% 1)]
-  colour <- rep(between, ncol(mesh$vb))
-  own <- group %in% patches
-  colour[mesh$it[, own]] <- rep(hues[match(group[own], patches)], each = 3)
-  colour
+# Colours at shares x of the way through `anchors`.
+ramp_colours <- function(x, anchors, missing) {
+  out <- rep(missing, length(x))
+  known <- !is.na(x)
+  out[known] <- grDevices::rgb(grDevices::colorRamp(anchors)(x[known]), maxColorValue = 255)
+  out
 }

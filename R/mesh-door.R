@@ -23,7 +23,7 @@ as_mesh <- function(mesh) {
 #' @return Environment: `vb`, `it` (as kernels take them), `key`, `diagonal`; what was found right
 #'   with this mesh is kept in it.
 #' @noRd
-passed_mesh <- function(mesh, id) {
+passed_mesh <- function(mesh, id, most = 2) {
   if (!inherits(mesh, "mesh3d") || !is.list(mesh)) {
     refuse_mesh(sprintf("the mesh is %s, not a mesh3d.", describe_value(mesh)),
                 "Give a mesh3d, as of Rvcg::vcgImport(), or a file to read_specimen().", id)
@@ -32,31 +32,20 @@ passed_mesh <- function(mesh, id) {
     if (is_the_same(mesh$vb, known$given$vb) && is_the_same(mesh$it, known$given$it) &&
         length(mesh$ib) == 0) return(known)
   }
-  sound <- sound_mesh(mesh, id)
-  known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = sound$vb, it = sound$it,
-                      key = mesh_key(sound),
-                      diagonal = mesh_diagonal(sound))
-  remember_mesh(known)
-  known
-}
-
-passed_meshes <- new.env(parent = emptyenv())
-passed_meshes$last <- list()
-
-#' @param most Number of meshes that are remembered: a scan, and the same with its holes bridged.
-#' @noRd
-remember_mesh <- function(known, most = 2) {
-  passed_meshes$last <- utils::head(c(list(known), passed_meshes$last), most)
-}
-
-is_the_same <- function(a, b) rlang::is_reference(a, b)
-
-sound_mesh <- function(mesh, id) {
-  vb <- vertex_matrix(mesh$vb, id)
+  # Vertices as a matrix of four rows, the fourth 1
+  vb <- mesh$vb
+  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 ||
+      ncol(vb) < 3) refuse_no_vertices(id)
+  vb <- as_doubles(vb)
+  if (nrow(vb) == 3) vb <- rbind(vb, 1)
+  if (!identical(range(vb[4, ]), c(1, 1))) {
+    vb[1:3, ] <- vb[1:3, ] / rep(vb[4, ], each = 3)
+    vb[4, ] <- 1
+  }
   it <- face_matrix(mesh$it, 3, id)
   if (ncol(it) == 0 || length(mesh$ib)) {
-    refuse_mesh(if (ncol(it) == 0) "the mesh has no triangles." else paste("the mesh has quads",
-                                                                           "beside its triangles."),
+    refuse_mesh(if (ncol(it) == 0) "the mesh has no triangles." else
+                  "the mesh has quads beside its triangles.",
                 "Pass it through specimen(), which mends what it can.", id)
   }
   faults <- cpp_mesh_faults(vb, it)
@@ -66,21 +55,17 @@ sound_mesh <- function(mesh, id) {
                         faults$vertices, ncol(vb)),
                 "Pass it through specimen(), which leaves them out, or export it again.", id)
   }
-  list(vb = vb, it = it)
+  sound <- list(vb = vb, it = it)
+  known <- rlang::env(given = unclass(mesh)[c("vb", "it")], vb = vb, it = it,
+                      key = mesh_key(sound), diagonal = mesh_diagonal(sound))
+  passed_meshes$last <- utils::head(c(list(known), passed_meshes$last), most)
+  known
 }
 
-#' Vertices as a matrix of four rows, the fourth 1
-#' @noRd
-vertex_matrix <- function(vb, id) {
-  if (!is.numeric(vb) || !is.matrix(vb) || !nrow(vb) %in% 3:4 ||
-      ncol(vb) < 3) refuse_no_vertices(id)
-  vb <- as_doubles(vb)
-  if (nrow(vb) == 3) return(rbind(vb, 1))
-  if (identical(range(vb[4, ]), c(1, 1))) return(vb)
-  vb[1:3, ] <- vb[1:3, ] / rep(vb[4, ], each = 3)
-  vb[4, ] <- 1
-  vb
-}
+passed_meshes <- new.env(parent = emptyenv())
+passed_meshes$last <- list()
+
+is_the_same <- function(a, b) rlang::is_reference(a, b)
 
 refuse_no_vertices <- function(id) {
   refuse_mesh("the mesh has no vertices (`vb` must be 4 x n, n at least 3).",
@@ -97,9 +82,8 @@ face_matrix <- function(x, corners, id) {
     lying <- is.matrix(x) && ncol(x) == corners
     refuse_mesh(sprintf("the faces are not a numeric matrix of %d rows but %s.", corners,
                         describe_shape(x)),
-                if (lying) "Give them a column each: t(mesh$it)." else paste("Give `it` as 3 x",
-                                                                             "m vertex numbers."),
-                                                                             id)
+                if (lying) "Give them a column each: t(mesh$it)." else
+                  "Give `it` as 3 x m vertex numbers.", id)
   }
   if (is.double(x)) {
     part <- colSums(matrix(x != round(x), corners), na.rm = TRUE) > 0

@@ -20,7 +20,14 @@ join_near_vertices <- function(mesh, id, near = 1e-6) {
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   if (ncol(pair) && several) {
     both <- pair[1, ] %in% border & pair[2, ] %in% border
-    pair <- pair[, both | of_second_skin(mesh, pair), drop = FALSE]
+    # Pairs in triangles of which two or more become one.
+    twins <- cpp_pair_groups(pair, ncol(mesh$vb))
+    it <- matrix(twins[mesh$it], 3)
+    key <- paste(pmin(it[1, ], it[2, ], it[3, ]), pmax(it[1, ], it[2, ], it[3, ]), colSums(it))
+    twice <- duplicated(key) | duplicated(key, fromLast = TRUE)
+    double <- logical(ncol(mesh$vb))
+    double[mesh$it[, twice]] <- TRUE
+    pair <- pair[, both | (double[pair[1, ]] & double[pair[2, ]]), drop = FALSE]
   }
   if (!ncol(pair)) return(mended(mesh, check, 0))
   stands_for <- cpp_pair_groups(pair, ncol(mesh$vb))
@@ -44,17 +51,6 @@ joined_by_edge <- function(mesh, pair) {
                                    key(it[3, ], it[1, ]))
 }
 
-# Pairs in triangles of which two or more become one.
-of_second_skin <- function(mesh, pair) {
-  stands_for <- cpp_pair_groups(pair, ncol(mesh$vb))
-  it <- matrix(stands_for[mesh$it], 3)
-  key <- paste(pmin(it[1, ], it[2, ], it[3, ]), pmax(it[1, ], it[2, ], it[3, ]), colSums(it))
-  twice <- duplicated(key) | duplicated(key, fromLast = TRUE)
-  double <- logical(ncol(mesh$vb))
-  double[mesh$it[, twice]] <- TRUE
-  double[pair[1, ]] & double[pair[2, ]]
-}
-
 # Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which
 # moves nothing, if one of its parts is an edge of the other side. Each round divides one edge of a
 # triangle.
@@ -64,7 +60,13 @@ split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
   for (round in seq_len(rounds)) {
     mesh <- with_topology(mesh)
     found <- border_contacts(mesh, reach)
-    found <- found[found$side %in% meeting_sides(mesh, found), ]
+    # Sides of which a part between two of their vertices is a border side too.
+    part <- side_parts(mesh, found)
+    side <- border_sides(mesh$topology)
+    key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
+    found <- found[found$side %in%
+                   part$side[key(part$from, part$to) %in%
+                             key(mesh$it[side], mesh$it[next_side(side)])], ]
     if (!nrow(found)) break
     first <- found$side[!duplicated((found$side - 1) %/% 3)]
     found <- found[found$side %in% first, ]
@@ -82,14 +84,6 @@ border_contacts <- function(mesh, reach) {
                                                join_effort))
   found <- found[order(found$side, found$along), ]
   found[!duplicated(found[c("side", "along")]), ]
-}
-
-# Sides of which a part between two of their vertices is a border side too.
-meeting_sides <- function(mesh, found) {
-  part <- side_parts(mesh, found)
-  side <- border_sides(mesh$topology)
-  key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
-  part$side[key(part$from, part$to) %in% key(mesh$it[side], mesh$it[next_side(side)])]
 }
 
 # The parts of divided sides: data frame `side`, `from`, `to`.
@@ -126,8 +120,8 @@ tell_seams <- function(mesh, topology, edge, id, gap = 0.1, least = 10, silent =
   if (beside < least) beside <- 0
   if (beside > 0 && !silent) {
     crestline_warn(
-      sprintf(paste("%d vertices of the border lie beside another border, less than %.2g apart:",
-                    "no curve crosses such a seam."),
+      sprintf(paste0("%d vertices of the border lie beside another border, less than %.2g apart: ",
+                     "no curve crosses such a seam."),
               beside, gap * edge),
       "Join them: in MeshLab by Merge Close Vertices, with that distance.", stage = "mesh", id = id,
       class = "crestline_seam"
@@ -152,8 +146,8 @@ tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, sh
   double <- mean(is.finite(away))
   if (double >= share) {
     crestline_warn(
-      sprintf(paste("%.0f %% of the surface is there twice, two skins about %.2g apart:",
-                    "landmarks of one curve may lie on different skins."),
+      sprintf(paste0("%.0f %% of the surface is there twice, two skins about %.2g apart: ",
+                     "landmarks of one curve may lie on different skins."),
               100 * double, stats::median(away[is.finite(away)])),
       "Fuse the scans, or take one of the skins out, before you measure.", stage = "mesh", id = id,
       class = "crestline_double_skin"

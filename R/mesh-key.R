@@ -11,11 +11,14 @@
 #' @param mesh A `mesh3d` with `vb` and `it`, or a list of the two.
 #' @return One string of 32 characters.
 #' @noRd
-mesh_key <- function(mesh) cpp_mesh_key(as_doubles(mesh$vb), as_integers(mesh$it))
+mesh_key <- function(mesh) {
+  it <- mesh$it
+  if (!is.integer(it)) it <- structure(as.integer(it), dim = dim(it))
+  cpp_mesh_key(as_doubles(mesh$vb), it)
+}
 
 # Matrices in the type of the kernel, without names.
 as_doubles <- function(x) if (is.double(x)) x else structure(as.double(x), dim = dim(x))
-as_integers <- function(x) if (is.integer(x)) x else structure(as.integer(x), dim = dim(x))
 
 #' The mesh that something belongs to
 #'
@@ -37,22 +40,20 @@ mesh_of.default <- function(x) list(key = attr(x, "key"), id = attr(x, "id"))
 check_same_mesh <- function(x, mesh, name) {
   expected <- mesh_of(x)
   came <- mesh_of(mesh)
-  if (is.null(expected$key)) refuse_unknown_mesh(name, expected, came)
+  if (is.null(expected$key)) {
+    crestline_abort(
+      sprintf("%s does not know the mesh that it was made on%s.", name,
+              if (is.null(expected$id)) "" else paste(", of", expected$id)),
+      paste("It comes from an older version of the package, or from elsewhere:",
+            "make it anew on the mesh that you have."),
+      stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
+    )
+  }
   if (identical(expected$key, came$key)) return(invisible(x))
   crestline_abort(
     sprintf("%s belongs to %s; here is %s.", name, mesh_words(expected), mesh_words(came)),
     paste("Give its own mesh, with the same vertices and triangles in the same order,",
           "or make it anew on the mesh that you have."),
-    stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
-  )
-}
-
-refuse_unknown_mesh <- function(name, expected, came) {
-  crestline_abort(
-    sprintf("%s does not know the mesh that it was made on%s.", name,
-            if (is.null(expected$id)) "" else paste(", of", expected$id)),
-    paste("It comes from an older version of the package, or from elsewhere: make it anew on",
-          "the mesh that you have."),
     stage = "mesh", id = came$id, class = "crestline_wrong_mesh", call = NULL
   )
 }
@@ -82,8 +83,8 @@ check_places <- function(points, known, name, id = NULL, tolerance = 1e-6) {
   }
   if (is.null(problem)) return(invisible(points))
   crestline_abort(sprintf("points of %s %s.", name, problem),
-                  paste("They were made on another mesh, or changed since: make them anew, or",
-                        "give three co-ordinates."),
+                  paste0("They were made on another mesh, or changed since: make them anew, or ",
+                         "give three co-ordinates."),
                   stage = "mesh", id = id, class = "crestline_wrong_mesh", call = NULL)
 }
 
@@ -103,15 +104,12 @@ misplaced <- function(at, mesh, tolerance) {
   if (any(face != round(face) | face < 1 |
           face > ncol(mesh$it))) return("name faces that the mesh does not have")
   if (!all(is.finite(at))) return("lack co-ordinates or weights")
-  place <- place_on_faces_of(mesh, face, at[, c("w1", "w2", "w3"), drop = FALSE])
-  away <- row_lengths(place - at[, c("x", "y", "z"), drop = FALSE])
-  if (any(away > tolerance)) return(sprintf(paste("are up to %.3g away from where their faces",
-                                                  "are on this mesh"), max(away)))
-  if (any(at[, c("w1", "w2", "w3")] < -1e-6)) "have negative weights"
-}
-
-# As place_on_faces(), at the cost of the points alone.
-place_on_faces_of <- function(mesh, face, weight) {
+  # As place_on_faces(), at the cost of the points alone.
+  weight <- at[, c("w1", "w2", "w3"), drop = FALSE]
   corner <- function(i) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
-  weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
+  place <- weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
+  away <- row_lengths(place - at[, c("x", "y", "z"), drop = FALSE])
+  if (any(away > tolerance)) return(sprintf(paste0("are up to %.3g away from where their faces ",
+                                                   "are on this mesh"), max(away)))
+  if (any(at[, c("w1", "w2", "w3")] < -1e-6)) "have negative weights"
 }

@@ -36,17 +36,8 @@ frame_of <- function(columns, ..., class = NULL) {
 #' @export
 locate <- function(mesh, xyz) {
   mesh <- as_mesh(mesh)
-  xyz <- check_positions(xyz)
-  found <- located_points(mesh, xyz)
-  columns <- found$columns[c("face", "w1", "w2", "w3", "x", "y", "z")]
-  rows <- frame_of(c(columns, list(distance = found$distance)))
-  if (!is.null(rownames(xyz))) rownames(rows) <- make.unique(rownames(xyz))
-  rows
-}
-
-#' Positions as an n x 3 matrix of numbers, each finite or NA
-#' @noRd
-check_positions <- function(xyz, call = rlang::caller_env()) {
+  # Positions as an n x 3 matrix of numbers, each finite or NA
+  call <- rlang::current_env()
   remedy <- "Give an n x 3 matrix, three numbers, or a data frame with columns x, y, z."
   refuse <- function(problem, remedy) {
     crestline_abort(problem, remedy, stage = "arguments", call = call)
@@ -63,7 +54,11 @@ check_positions <- function(xyz, call = rlang::caller_env()) {
     refuse(sprintf("`xyz` is %s.", describe_shape(given)), remedy)
   }
   if (any(is.infinite(xyz))) refuse("`xyz` has infinite numbers.", "Mark what is missing as NA.")
-  xyz
+  found <- located_points(mesh, xyz)
+  columns <- found$columns[c("face", "w1", "w2", "w3", "x", "y", "z")]
+  rows <- frame_of(c(columns, list(distance = found$distance)))
+  if (!is.null(rownames(xyz))) rownames(rows) <- make.unique(rownames(xyz))
+  rows
 }
 
 #' The closest place of a mesh to each of some points, in the columns of a point on a mesh
@@ -124,4 +119,16 @@ foot_in_triangles <- function(p, a, b, c) {
   outside <- !is.finite(det) | det <= 0 | rowSums(!(weight >= 0)) > 0
   weight[outside, ] <- NA
   weight
+}
+
+#' Lengths of shortest paths over a mesh from places to all vertices
+#'
+#' Approximate geodesic distances of Novotni and Klein (2002); see src/mesh_geodesic.h.
+#'
+#' @param mesh A `mesh3d`.
+#' @param places Data frame with columns `face`, `w1`, `w2`, `w3`, a row a place.
+#' @return Matrix, vertices x places, unit of the mesh; `Inf` where there is no way over edges.
+#' @noRd
+geodesic_distances <- function(mesh, places) {
+  cpp_geodesic_distances(mesh$vb, mesh$it, columns_of(places, c("face", "w1", "w2", "w3")))
 }

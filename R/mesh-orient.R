@@ -5,23 +5,7 @@
 mend_winding <- function(mesh, id) {
   mesh <- with_topology(mesh)
   topology <- mesh$topology
-  link <- opposed_pieces(mesh, topology)
-  if (!nrow(link)) return(mended(mesh, "faces wound against their neighbours", 0))
-  turned <- turned_pieces(link, tabulate(topology$piece, topology$pieces))
-  face <- which(turned[topology$piece])
-  mended(turn_faces(mesh, face), "faces wound against their neighbours", length(face),
-         "turned round")
-}
-
-turn_faces <- function(mesh, face) {
-  if (!length(face)) return(mesh)
-  mesh$it[2:3, face] <- mesh$it[3:2, face]
-  mesh$topology <- NULL
-  mesh
-}
-
-# Pairs of pieces (two columns) that share an edge run through in the same direction by both.
-opposed_pieces <- function(mesh, topology) {
+  # Pairs of pieces (two columns) that share an edge run through in the same direction by both.
   side <- which(topology$twin == 0)
   a <- mesh$it[side]
   b <- mesh$it[next_side(side)]
@@ -29,12 +13,11 @@ opposed_pieces <- function(mesh, topology) {
   edge <- cumsum(c(TRUE, diff(pmin(a, b)[sorted]) != 0 | diff(pmax(a, b)[sorted]) != 0))
   pair <- tabulate(edge)[edge] == 2
   piece <- matrix(topology$piece[(side[sorted[pair]] - 1) %/% 3 + 1], ncol = 2, byrow = TRUE)
-  unique(piece[piece[, 1] != piece[, 2], , drop = FALSE])
-}
-
-# Walks the links breadth first: across a link the sense changes. What hangs together keeps the
-# sense of the greater part of its faces.
-turned_pieces <- function(link, size) {
+  link <- unique(piece[piece[, 1] != piece[, 2], , drop = FALSE])
+  if (!nrow(link)) return(mended(mesh, "faces wound against their neighbours", 0))
+  # Walks the links breadth first: across a link the sense changes. What hangs together keeps the
+  # sense of the greater part of its faces.
+  size <- tabulate(topology$piece, topology$pieces)
   link <- rbind(link, link[, 2:1])
   turned <- rep(NA, length(size))
   turned[!seq_along(size) %in% link] <- FALSE
@@ -52,7 +35,16 @@ turned_pieces <- function(link, size) {
     }
     if (sum(size[reached] * (2 * turned[reached] - 1)) > 0) turned[reached] <- !turned[reached]
   }
-  turned
+  face <- which(turned[topology$piece])
+  mended(turn_faces(mesh, face), "faces wound against their neighbours", length(face),
+         "turned round")
+}
+
+turn_faces <- function(mesh, face) {
+  if (!length(face)) return(mesh)
+  mesh$it[2:3, face] <- mesh$it[3:2, face]
+  mesh$topology <- NULL
+  mesh
 }
 
 # `certainty`: a piece is turned where its outwardness is below minus this. Whole face scans score
@@ -64,8 +56,11 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
   normal <- face_normals(mesh)
-  inward <- outward == "flip" | looks_inward(outwardness(mesh, piece, normal), tabulate(piece),
-                                             certainty)
+  out <- outwardness(mesh, piece, normal)
+  size <- tabulate(piece)
+  unclear <- abs(out) < certainty
+  out[unclear] <- if (unclear[which.max(size)]) 0 else out[which.max(size)]
+  inward <- outward == "flip" | out < -certainty
   face <- which(inward[piece])
   if (!length(face)) mesh$face_normals <- normal
   if (outward == "detect" && length(face)) {
@@ -76,12 +71,6 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
     )
   }
   mended(turn_faces(mesh, face), check, length(face), "turned round")
-}
-
-looks_inward <- function(outwardness, size, certainty) {
-  unclear <- abs(outwardness) < certainty
-  outwardness[unclear] <- if (unclear[which.max(size)]) 0 else outwardness[which.max(size)]
-  outwardness < -certainty
 }
 
 # For each piece the area-weighted mean of cos(normal, direction away from the mesh's centroid):

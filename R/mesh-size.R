@@ -35,16 +35,6 @@ mesh_size <- function(mesh, used = NULL, at = NULL, diagonal = 4, cap = 4, steps
   if (spread > 0) min(size, around * spread) else size
 }
 
-#' Size of the pieces of a mesh that carry its landmarks; of all where none does
-#'
-#' @param piece Number of the piece of every triangle.
-#' @param located Landmarks as of [surface_points()].
-#' @noRd
-carrying_size <- function(mesh, piece, located) {
-  on <- unique(piece[located$face[!is.na(located$face)]])
-  mesh_size(mesh, if (length(on)) piece %in% on, columns_of(located, c("x", "y", "z")))
-}
-
 #' The size of a specimen, as it was worked out at the door
 #' @noRd
 specimen_size <- function(specimen) {

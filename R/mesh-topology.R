@@ -1,3 +1,5 @@
+# Triangles across each edge, and borders.
+
 #' Which triangle lies across each edge
 #'
 #' @param mesh A `mesh3d` with triangles `it` (3 x m).

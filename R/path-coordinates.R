@@ -115,10 +115,7 @@ without_stubs <- function(path, stub = 1e-5) {
 #' @noRd
 path_normals <- function(mesh, path) {
   normals <- mesh$normals
-  if (is.null(normals)) normals <- {
-    bare <- structure(list(vb = mesh$vb, it = mesh$it), class = "mesh3d")
-    Rvcg::vcgUpdateNormals(bare, silent = TRUE)$normals
-  }
+  if (is.null(normals)) normals <- vertex_normals(mesh)
   corner <- function(i, w) normals[1:3, mesh$it[i, path$face], drop = FALSE] * rep(w, each = 3)
   corner(1, path$w1) + corner(2, path$w2) + corner(3, path$w3)
 }

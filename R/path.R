@@ -213,10 +213,10 @@ path_through <- function(points, mesh = NULL, ...) {
 new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL,
                           type = NULL, criterion = NULL,
                           optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
-  frame_of(columns, length = length, key = key, id = id, angle = angle, side = side, type = type,
-           criterion = criterion,
-           optima = optima, competing = competing, trusted = trusted, lifted = lifted,
-           class = "mesh_path")
+  structure(columns, row.names = .set_row_names(length(columns[[1]])), length = length, key = key,
+            id = id, angle = angle, side = side, type = type, criterion = criterion,
+            optima = optima, competing = competing, trusted = trusted, lifted = lifted,
+            class = c("mesh_path", "data.frame"))
 }
 
 #' Refuse a path without its columns, length or order

@@ -50,7 +50,18 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
   prepared <- prepared_template(template, settings, threads)
   fits <- lapply(specimens, calibration_fit, prepared, template, settings, threads)
   before <- template
-  template <- with_new_landmarks(template, prepared, fits)
+  # The template with landmarks that only the specimens have: begun at its point that is carried
+  # nearest to them
+  known <- c(rownames(template$landmarks), rownames(template$predicted))
+  for (fit in fits) {
+    new <- setdiff(rownames(fit$at), known)
+    for (name in new) {
+      nearest <- which.min(row_lengths(fit$moved - rep(fit$at[name, ], each = nrow(fit$moved))))
+      template$landmarks <- rbind(template$landmarks,
+                                  matrix(prepared$xyz[, nearest], 1, dimnames = list(name, NULL)))
+    }
+    known <- c(known, new)
+  }
   for (round in seq_len(rounds)) {
     off <- landmark_offsets(prepared, template, fits)
     template$landmarks <- moved_landmarks(template, off)
@@ -72,23 +83,6 @@ calibration_fit <- function(specimen, prepared, template, settings, threads) {
   bent <- fit_warp(prepared, local, prepared$settings, prepared$settings$weight)
   list(coefficients = bent$coefficients, moved = bent$moved[seq_len(ncol(prepared$xyz)), ],
        at = structure(into_frame(at, laid), dimnames = list(rownames(at), NULL)))
-}
-
-#' The template with landmarks that only the specimens have: begun at its point that is carried
-#' nearest to them
-#' @noRd
-with_new_landmarks <- function(template, prepared, fits) {
-  known <- c(rownames(template$landmarks), rownames(template$predicted))
-  for (fit in fits) {
-    new <- setdiff(rownames(fit$at), known)
-    for (name in new) {
-      nearest <- which.min(row_lengths(fit$moved - rep(fit$at[name, ], each = nrow(fit$moved))))
-      template$landmarks <- rbind(template$landmarks,
-                                  matrix(prepared$xyz[, nearest], 1, dimnames = list(name, NULL)))
-    }
-    known <- c(known, new)
-  }
-  template
 }
 
 #' What each carried landmark is off on each specimen, in the template's frame
@@ -122,7 +116,7 @@ mirrored_mean <- function(at) {
   pairs <- side_pairs(rownames(at))
   flipped <- at %*% diag(c(-1, 1, 1))
   dimnames(flipped) <- dimnames(at)
-  single <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
+  single <- is_sided(rownames(at))
   partner <- rownames(at)
   partner[match(c(pairs$left, pairs$right), partner)] <- c(pairs$right, pairs$left)
   mean <- (at + flipped[partner, , drop = FALSE]) / 2

@@ -38,26 +38,12 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
   problem <- if (any(found)) sprintf("%d of %d found landmarks are doubtful: %s.", sum(low),
                                      sum(found), shorten(named)) else
     "none of its landmarks was found."
-  remedy <- paste("Correct them (review_landmarks()), calibrate the template",
-                  "(calibrate_template()), or allow more (`doubtful`).")
+  remedy <- paste0("Correct them (review_landmarks()), calibrate the template ",
+                   "(calibrate_template()), or allow more (`doubtful`).")
   crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture), remedy),
                   stage = "landmarks",
                   id = specimen$id, class = c("crestline_placing_error",
                                               "crestline_landmark_error"), call = NULL)
-}
-
-#' @noRd
-warn_doubtful <- function(doubt, specimen) {
-  said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence",
-                                length(doubt$names), doubt$of) else
-    "no landmark was found"
-  crestline_warn(
-    sprintf("the template %s lies badly on it: %s.", specimen$match$template, said),
-    paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\"); place",
-          "the landmarks by hand (place_landmarks()), or calibrate the template",
-          "(calibrate_template())."),
-    stage = "landmarks", id = specimen$id, class = "crestline_doubtful_placing"
-  )
 }
 
 placing_of <- function(specimen, call = rlang::caller_env()) {

@@ -38,14 +38,33 @@ scan_cloud <- function(specimen, scale, settings, threads) {
   vertex <- cell_vertices(t(mesh$vb[1:3, ]), settings$cluster)
   fine <- curvature(mesh, settings$feature, "adaptive cubic", threads, vertex)
   broad <- curvature(mesh, settings$bend, "quadratic", threads, vertex)
-  anchors <- cloud_anchors(mesh$vb[1:3, vertex, drop = FALSE],
-                           lapply(unclass(broad), rows_at, vertex), settings)
+  # The strongest caps and cups of a cloud, apart from each other
+  xyz <- mesh$vb[1:3, vertex, drop = FALSE]
+  broad <- lapply(unclass(broad), rows_at, vertex)
+  found <- rbind(strongest_points(xyz, -broad$k1, "cap", settings),
+                 strongest_points(xyz, broad$k2, "cup", settings))
+  frames <- lapply(found$point, function(i) {
+    normal <- broad$normal[i, ]
+    first <- broad$direction1[i, ]
+    cbind(first, cross_product(normal, first), normal)
+  })
+  anchors <- structure(found, frames = frames, places = xyz[, found$point, drop = FALSE])
   points <- list(xyz = mesh$vb[1:3, ], normal = mesh$normals[1:3, ], k1 = fine$k1, k2 = fine$k2,
                  border = seq_len(ncol(mesh$vb)) %in%
                    border_vertices(mesh$it, specimen$geometry$twin))
   sparse <- sum(row_lengths(face_normals(mesh))) / 2 > ncol(mesh$vb) * settings$cluster^2
-  points <- if (sparse) with_centres(points, mesh$it, settings$cluster) else
-    at_points(points, vertex)
+  points <- if (sparse) {
+    of_centre <- function(x) {
+      corner <- function(i) if (is.matrix(x)) x[, mesh$it[i, ]] else x[mesh$it[i, ]]
+      (corner(1) + corner(2) + corner(3)) / 3
+    }
+    centre <- lapply(points, of_centre)
+    centre$normal <- centre$normal / rep(pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin),
+                                         each = 3)
+    centre$border <- centre$border >= 2 / 3
+    all <- Map(function(a, b) if (is.matrix(a)) cbind(a, b) else c(a, b), points, centre)
+    at_points(all, cell_vertices(t(all$xyz), settings$cluster))
+  } else at_points(points, vertex)
   points[c("k1", "k2")] <- lapply(points[c("k1", "k2")], function(k) ifelse(is.na(k), 0, k))
   coarse <- cell_vertices(t(points$xyz), settings$coarse)
   c(points, list(coarse = coarse, spacing = c(settings$cluster, settings$coarse),
@@ -56,39 +75,7 @@ at_points <- function(points, at) {
   lapply(points, function(x) if (is.matrix(x)) x[, at, drop = FALSE] else x[at])
 }
 
-with_centres <- function(points, it, cell) {
-  mean <- function(x) {
-    corner <- function(i) if (is.matrix(x)) x[, it[i, ]] else x[it[i, ]]
-    (corner(1) + corner(2) + corner(3)) / 3
-  }
-  centre <- lapply(points, mean)
-  centre$normal <- centre$normal / rep(pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin),
-                                       each = 3)
-  centre$border <- centre$border >= 2 / 3
-  all <- Map(function(a, b) if (is.matrix(a)) cbind(a, b) else c(a, b), points, centre)
-  at_points(all, cell_vertices(t(all$xyz), cell))
-}
-
 rows_at <- function(x, i) if (is.matrix(x)) x[i, , drop = FALSE] else x[i]
-
-#' The strongest caps and cups of a cloud, apart from each other
-#'
-#' @param xyz 3 x n, vertices.
-#' @param broad Curvature at them.
-#' @return Data frame: `point` (column of `xyz`), `kind` ("cap", "cup"), `size` (the smaller
-#'   curvature's); strongest first of each; with attributes `frames` (list of 3 x 3 matrices:
-#'   columns first direction, second, normal) and `places` (3 x anchors).
-#' @noRd
-cloud_anchors <- function(xyz, broad, settings) {
-  found <- rbind(strongest_points(xyz, -broad$k1, "cap", settings),
-                 strongest_points(xyz, broad$k2, "cup", settings))
-  frames <- lapply(found$point, function(i) {
-    normal <- broad$normal[i, ]
-    first <- broad$direction1[i, ]
-    cbind(first, cross_product(normal, first), normal)
-  })
-  structure(found, frames = frames, places = xyz[, found$point, drop = FALSE])
-}
 
 strongest_points <- function(xyz, size, kind, settings) {
   left <- which(!is.na(size) & size > settings$cap)

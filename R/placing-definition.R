@@ -1,27 +1,5 @@
 # The place that a landmark's definition says: one row of a scheme's table `definitions`.
 
-#' The place of a definition near a landmark
-#'
-#' @param specimen A specimen, its landmarks as refined so far.
-#' @param definition One row of a scheme's definitions.
-#' @param start Where the landmark was given.
-#' @param pairs Pairs of landmarks: data frame `left`, `right`.
-#' @param curvature Function of a radius that gives a [curvature_source()].
-#' @param settings List: `window`, `apart` (shares of the radius), `faint`, `share`, `ridge`.
-#' @return List `at` (not exactly on the mesh), `value` (what is greatest there, NA where nothing
-#'   is); or `reason`.
-#' @noRd
-defined_place <- function(specimen, definition, start, pairs, curvature, settings) {
-  find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile,
-                 turn = place_of_turn,
-                 end = place_of_end, crossing = place_of_crossing)
-  tryCatch(find(specimen, definition, start, pairs, curvature, settings),
-           crestline_error = function(e) {
-    if (inherits(e, "crestline_wrong_mesh")) rlang::cnd_signal(e)
-    list(reason = sub("\n.*", "", conditionMessage(e)))
-  })
-}
-
 #' Peak of a field as a place
 #' @noRd
 peak_near <- function(field, definition, start, settings) {
@@ -67,7 +45,23 @@ place_of_profile <- function(specimen, definition, start, pairs, curvature, sett
   plane <- definition_plane(specimen, definition, pairs)
   foot <- start - sum((start - plane$origin) * plane$normal) * plane$normal
   near <- near_vertices(mesh, start, definition$reach + definition$radius)
-  section <- plane_section(mesh, near, plane)
+  # Where a plane cuts the edges between some vertices
+  inside <- logical(ncol(mesh$vb))
+  inside[near] <- TRUE
+  faces <- which(colSums(matrix(inside[mesh$it], 3)) == 3)
+  it <- mesh$it[, faces, drop = FALSE]
+  edges <- rbind(t(it[1:2, , drop = FALSE]), t(it[2:3, , drop = FALSE]),
+                 t(it[c(3, 1), , drop = FALSE]))
+  edges <- unique(cbind(pmin(edges[, 1], edges[, 2]), pmax(edges[, 1], edges[, 2])))
+  height <- numeric(ncol(mesh$vb))
+  height[near] <- drop(crossprod(mesh$vb[1:3, near, drop = FALSE] - plane$origin,
+                                     plane$normal))
+  edges <- edges[(height[edges[, 1]] > 0) != (height[edges[, 2]] > 0), , drop = FALSE]
+  share <- height[edges[, 1]] / (height[edges[, 1]] - height[edges[, 2]])
+  from <- t(mesh$vb[1:3, edges[, 1], drop = FALSE])
+  at <- from + share * (t(mesh$vb[1:3, edges[, 2], drop = FALSE]) - from)
+  section <- data.frame(a = edges[, 1], b = edges[, 2], share = share, x = at[, 1], y = at[, 2],
+                        z = at[, 3])
   if (!nrow(section)) return(list(reason = "nothing near"))
   bent <- curvature(definition$radius)
   along <- function(vertex) {
@@ -88,41 +82,14 @@ definition_plane <- function(specimen, definition, pairs) {
   if (!is.na(definition$mirror)) {
     left <- mirror_names(definition$mirror)
     right <- pairs$right[match(left, pairs$left)]
-    return(landmark_mirror(specimen$landmarks[left, , drop = FALSE],
-                           specimen$landmarks[right, , drop = FALSE]))
+    # The mirror that takes points nearest to their partners
+    left <- specimen$landmarks[left, , drop = FALSE]
+    right <- specimen$landmarks[right, , drop = FALSE]
+    return(list(origin = colMeans((left + right) / 2), normal = main_direction(left - right)))
   }
   ends <- in_context(located_ends(specimen, walkable(specimen), definition$across_from,
                                   definition$across_to), specimen$id)
   list(origin = unname(ends$exact[1, 1:3]), normal = ends$across)
-}
-
-#' The mirror that takes points nearest to their partners
-#' @noRd
-landmark_mirror <- function(left, right) {
-  normal <- eigen(crossprod(left - right), symmetric = TRUE)$vectors[, 1]
-  list(origin = colMeans((left + right) / 2), normal = normal)
-}
-
-#' Where a plane cuts the edges between some vertices
-#' @return Data frame, a row an edge: `a`, `b` (vertices), `share` (of the way from a to b), `x`,
-#'   `y`, `z`.
-#' @noRd
-plane_section <- function(mesh, vertices, plane) {
-  inside <- logical(ncol(mesh$vb))
-  inside[vertices] <- TRUE
-  faces <- which(colSums(matrix(inside[mesh$it], 3)) == 3)
-  it <- mesh$it[, faces, drop = FALSE]
-  edges <- rbind(t(it[1:2, , drop = FALSE]), t(it[2:3, , drop = FALSE]),
-                 t(it[c(3, 1), , drop = FALSE]))
-  edges <- unique(cbind(pmin(edges[, 1], edges[, 2]), pmax(edges[, 1], edges[, 2])))
-  height <- numeric(ncol(mesh$vb))
-  height[vertices] <- drop(crossprod(mesh$vb[1:3, vertices, drop = FALSE] - plane$origin,
-                                     plane$normal))
-  edges <- edges[(height[edges[, 1]] > 0) != (height[edges[, 2]] > 0), , drop = FALSE]
-  share <- height[edges[, 1]] / (height[edges[, 1]] - height[edges[, 2]])
-  from <- t(mesh$vb[1:3, edges[, 1], drop = FALSE])
-  at <- from + share * (t(mesh$vb[1:3, edges[, 2], drop = FALSE]) - from)
-  data.frame(a = edges[, 1], b = edges[, 2], share = share, x = at[, 1], y = at[, 2], z = at[, 3])
 }
 
 #' The curve that a definition is taken on, as a path
@@ -204,11 +171,25 @@ path_turning <- function(mesh, path, radius, spacing = 0.1) {
 #' End of a ridge or valley that comes from another landmark: where its strength has fallen to a
 #' share of its greatest
 #' @noRd
-place_of_end <- function(specimen, definition, start, pairs, curvature, settings) {
-  beyond <- beyond_landmark(specimen, definition, start)
+place_of_end <- function(specimen, definition, start, pairs, curvature, settings, spacing = 0.1) {
+  # A place on the surface beyond a landmark, as far as the definition reaches, straight on from
+  # where its curve begins
+  from <- specimen$landmarks[definition$from, ]
+  onward <- unit_vector(start - from)
+  beyond <- surface_points(specimen$mesh, matrix(start + definition$reach * onward, 1))
   path <- definition_path(specimen, definition, definition$from, beyond, definition$type, curvature,
                           settings)
-  fading <- path_strength_along(specimen, path, definition, curvature, settings$window)
+  # Strength along a path, smoothed as local fits are
+  curved <- curvature(definition$radius)
+  corner <- specimen$mesh$it[, path$face]
+  strength <- matrix(strength_at(curved(as.vector(corner)), definition$type), 3)
+  raw <- colSums(rbind(path$w1, path$w2, path$w3) * strength)
+  s <- seq(0, attr(path, "length"), by = spacing * definition$radius)
+  value <- vapply(s, function(at) {
+    weight <- pmax(1 - ((path$s - at) / (settings$window * definition$radius))^2, 0)^2
+    if (sum(weight) > 0) sum(weight * raw) / sum(weight) else stats::approx(path$s, raw, at)$y
+  }, 0)
+  fading <- list(s = s, value = value)
   most <- which.max(fading$value)
   level <- settings$share * fading$value[most]
   fallen <- which(fading$value <= level & seq_along(fading$s) > most)
@@ -219,30 +200,4 @@ place_of_end <- function(specimen, definition, start, pairs, curvature, settings
   at <- drop(points_along(path, fading$s[i - 1] + share * (fading$s[i] - fading$s[i - 1])))
   if (sqrt(sum((at - start)^2)) > definition$reach) return(list(reason = "nothing near"))
   list(at = at, value = level)
-}
-
-#' A place on the surface beyond a landmark, as far as the definition reaches, straight on from
-#' where its curve begins
-#' @noRd
-beyond_landmark <- function(specimen, definition, start) {
-  from <- specimen$landmarks[definition$from, ]
-  onward <- (start - from) / sqrt(sum((start - from)^2))
-  surface_points(specimen$mesh, matrix(start + definition$reach * onward, 1))
-}
-
-#' Strength along a path, smoothed as local fits are
-#' @param spacing Distance of the places, as a share of the radius.
-#' @return List `s`, `value`.
-#' @noRd
-path_strength_along <- function(specimen, path, definition, curvature, window, spacing = 0.1) {
-  curved <- curvature(definition$radius)
-  corner <- specimen$mesh$it[, path$face]
-  strength <- matrix(strength_at(curved(as.vector(corner)), definition$type), 3)
-  raw <- colSums(rbind(path$w1, path$w2, path$w3) * strength)
-  s <- seq(0, attr(path, "length"), by = spacing * definition$radius)
-  value <- vapply(s, function(at) {
-    weight <- pmax(1 - ((path$s - at) / (window * definition$radius))^2, 0)^2
-    if (sum(weight) > 0) sum(weight * raw) / sum(weight) else stats::approx(path$s, raw, at)$y
-  }, 0)
-  list(s = s, value = value)
 }

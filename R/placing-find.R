@@ -76,7 +76,18 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
                         list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
                              rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
                              doubtful = doubt$share > settings$wrong, template = template$id))
-  if (found$match$doubtful) warn_doubtful(doubt, found)
+  if (found$match$doubtful) {
+    said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence",
+                                  length(doubt$names), doubt$of) else
+      "no landmark was found"
+    crestline_warn(
+      sprintf("the template %s lies badly on it: %s.", found$match$template, said),
+      paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\");",
+            "place the landmarks by hand (place_landmarks()),",
+            "or calibrate the template (calibrate_template())."),
+      stage = "landmarks", id = found$id, class = "crestline_doubtful_placing"
+    )
+  }
   found
 }
 
@@ -91,13 +102,26 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
   }
   cloud <- in_context(scan_cloud(scan, unit, prepared$settings, threads), scan$id,
                       "looking for landmarks")
-  laid <- settled_pose(prepared, cloud, prepared$settings)
+  # The pose: by the template's strongest anchor, else by all of them, inside out, with a freer
+  # scale, until it is good
+  all <- seq_len(nrow(prepared$anchors))
+  tries <- list(list(1, FALSE, prepared$settings$tight), list(all, FALSE, prepared$settings$tight),
+                list(1, TRUE, prepared$settings$tight),
+                list(all, FALSE, prepared$settings$loose), list(all, TRUE, prepared$settings$loose))
+  laid <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, inverted = FALSE,
+               cloud = cloud)
+  for (one in tries) {
+    seen <- if (one[[2]]) inverted_cloud(cloud) else cloud
+    found <- best_pose(prepared, seen, one[[1]], one[[3]], prepared$settings)
+    if (found$misfit < laid$misfit) laid <- c(found, list(inverted = one[[2]], cloud = seen))
+    if (laid$score <= prepared$settings$poor) break
+  }
   if (laid$score > settings$refuse) {
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
                       template$id, laid$score,
                       settings$refuse)
-    remedy <- sprintf(paste("Is it the object, and whole enough? Its lengths were multiplied by",
-                            "%g: else give `unit`, or place the landmarks by hand."),
+    remedy <- sprintf(paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
+                             "%g: else give `unit`, or place the landmarks by hand."),
                       unit)
     refuse_landmarks(unlike, remedy, scan$id)
   }

@@ -27,22 +27,13 @@ move_landmark <- function(specimen, name, point) {
 #' @noRd
 with_landmark_at <- function(specimen, name, point) {
   at <- unlist(point[c("x", "y", "z")])
-  specimen$landmarks <- with_named_row(specimen$landmarks, at, name)
+  specimen$landmarks <- with_row(specimen$landmarks,
+                                 match(name, rownames(specimen$landmarks),
+                                       nrow(specimen$landmarks) + 1), at, name)
   known <- specimen$geometry
   row <- match(name, rownames(known$landmarks), nrow(known$landmarks) + 1)
   known$landmarks <- with_row(known$landmarks, row, at, name)
   known$located[row, mesh_columns] <- point[mesh_columns]
   specimen$geometry <- known
   specimen
-}
-
-with_named_row <- function(x, values, name) with_row(x, match(name, rownames(x), nrow(x) + 1),
-                                                     values, name)
-
-#' The same table with the place of a landmark that a definition moved; its confidence stays
-#' @noRd
-placing_at <- function(placing, name, at) {
-  row <- match(name, placing$landmark)
-  if (!is.na(row)) placing[row, c("x", "y", "z")] <- at
-  placing
 }

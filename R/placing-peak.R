@@ -20,18 +20,17 @@
 strongest_peak <- function(field, start, reach, apart, width, least) {
   gap <- row_lengths(field$at - rep(start, each = nrow(field$at)))
   tried <- which(gap <= reach & field$value > least)
-  tried <- tried[vapply(tried, is_greatest, NA, field, apart)]
+  is_greatest <- function(row) {
+    near <- row_lengths(field$at - rep(field$at[row, ], each = nrow(field$at))) <= apart
+    all(field$value[near] <= field$value[row])
+  }
+  tried <- tried[vapply(tried, is_greatest, NA)]
   for (row in tried[order(-field$value[tried])]) {
     peak <- settled_peak(field, field$at[row, ], width)
     if (!is.null(peak) && peak$value > least &&
         sqrt(sum((peak$at - start)^2)) <= reach) return(peak)
   }
   NULL
-}
-
-is_greatest <- function(row, field, apart) {
-  near <- row_lengths(field$at - rep(field$at[row, ], each = nrow(field$at))) <= apart
-  all(field$value[near] <= field$value[row])
 }
 
 #' The place where the local fits about it have their peak
@@ -43,14 +42,22 @@ is_greatest <- function(row, field, apart) {
 #' @param steps Most steps.
 #' @return As [strongest_peak()]; NULL where the fits lead nowhere.
 #' @noRd
-settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200) {
-  width <- wide_enough(field, at, width)
+settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200,
+                         slack = 1.3) {
+  # Half width of the fits: the one asked for, or wider where the points are far apart
+  gap <- row_lengths(field$at - rep(at, each = nrow(field$at)))
+  width <- max(width, slack *
+               sort(gap)[min(c(curve = 5, surface = 13)[[field$dimensions]], length(gap))])
   longest <- longest * width
   before <- numeric(3)
   for (step in seq_len(steps)) {
     fit <- local_fit(field, at, width)
     if (is.null(fit)) return(NULL)
-    move <- peak_step(fit, longest)
+    # Newton's step to the peak, or a step uphill where the fit has none; at most `longest`
+    uphill <- fit$gradient / max(sqrt(sum(fit$gradient^2)), .Machine$double.xmin) * longest
+    move <- if (fit$peaked) -solve(fit$hessian, fit$gradient) else uphill
+    length <- sqrt(sum(move^2))
+    move <- if (length > longest) move * longest / length else move
     ahead <- drop(fit$frame %*% c(move, fit$offset(move)))
     if (sum(ahead * before) < 0) longest <- longest / 2
     at <- at + ahead
@@ -58,16 +65,6 @@ settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, step
     if (sqrt(sum(move^2)) < tolerance * width) return(list(at = at, value = fit$value))
   }
   NULL
-}
-
-#' Half width of the fits: the one asked for, or wider where the points are far apart
-#'
-#' @param count Number of points that lie within the width at least, for a surface and for a curve.
-#' @param slack Factor by which the last of them is inside.
-#' @noRd
-wide_enough <- function(field, at, width, count = c(curve = 5, surface = 13), slack = 1.3) {
-  gap <- row_lengths(field$at - rep(at, each = nrow(field$at)))
-  max(width, slack * sort(gap)[min(count[[field$dimensions]], length(gap))])
 }
 
 #' Quadratic fits of a field, and of the points' offsets from a plane (or line), about a place
@@ -109,13 +106,4 @@ local_fit <- function(field, at, width) {
 quadratic_terms <- function(x) {
   if (ncol(x) == 1) return(cbind(1, x, x^2))
   cbind(1, x, x[, 1]^2, x[, 1] * x[, 2], x[, 2]^2)
-}
-
-#' Newton's step to the peak, or a step uphill where the fit has none; at most `longest`
-#' @noRd
-peak_step <- function(fit, longest) {
-  uphill <- fit$gradient / max(sqrt(sum(fit$gradient^2)), .Machine$double.xmin) * longest
-  move <- if (fit$peaked) -solve(fit$hessian, fit$gradient) else uphill
-  length <- sqrt(sum(move^2))
-  if (length > longest) move * longest / length else move
 }

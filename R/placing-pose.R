@@ -41,7 +41,17 @@ best_pose <- function(template, cloud, own, scale, settings) {
   second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE],
                       c(middle, settings$reach[2]), scale, settings,
                       thin = TRUE)
-  chosen <- distinct_poses(second, template, settings)
+  # The best of the fitted poses that put the template's centre in different places or turns
+  left <- order(second$score)
+  probe <- template$xyz[, template$coarse, drop = FALSE]
+  placed <- function(pose) pose[13] * matrix(pose[1:9], 3) %*% probe + pose[10:12]
+  chosen <- integer()
+  while (length(left) && length(chosen) < settings$refined) {
+    chosen <- c(chosen, left[1])
+    mine <- placed(second$poses[, left[1]])
+    gap <- vapply(left, function(i) sqrt(mean(colSums((placed(second$poses[, i]) - mine)^2))), 0)
+    left <- left[gap > settings$saturation]
+  }
   last <- c(1, 0.5) * settings$reach[2]
   tight <- fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale,
                         settings)
@@ -92,43 +102,6 @@ fit_poses <- function(template, cloud, starts, reach, scale, settings, thin) {
   cpp_fit_poses(template$xyz[, own, drop = FALSE], template$normal[, own, drop = FALSE],
                 cloud$xyz[, at, drop = FALSE],
                 cloud$normal[, at, drop = FALSE], starts, rigid)
-}
-
-#' The best of the fitted poses that put the template's centre in different places or turns
-#' @noRd
-distinct_poses <- function(fits, template, settings) {
-  left <- order(fits$score)
-  probe <- template$xyz[, template$coarse, drop = FALSE]
-  placed <- function(pose) pose[13] * matrix(pose[1:9], 3) %*% probe + pose[10:12]
-  chosen <- integer()
-  while (length(left) && length(chosen) < settings$refined) {
-    chosen <- c(chosen, left[1])
-    mine <- placed(fits$poses[, left[1]])
-    gap <- vapply(left, function(i) sqrt(mean(colSums((placed(fits$poses[, i]) - mine)^2))), 0)
-    left <- left[gap > settings$saturation]
-  }
-  chosen
-}
-
-#' The pose: by the template's strongest anchor, else by all of them, inside out, with a freer
-#' scale, until it is good
-#' @return List: `pose`, `score`, `misfit`, `inverted`, `cloud` (perhaps inverted); of all that were
-#'   tried the one with the least misfit.
-#' @noRd
-settled_pose <- function(template, cloud, settings) {
-  all <- seq_len(nrow(template$anchors))
-  tries <- list(list(1, FALSE, settings$tight), list(all, FALSE, settings$tight),
-                list(1, TRUE, settings$tight),
-                list(all, FALSE, settings$loose), list(all, TRUE, settings$loose))
-  best <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, inverted = FALSE,
-               cloud = cloud)
-  for (one in tries) {
-    seen <- if (one[[2]]) inverted_cloud(cloud) else cloud
-    found <- best_pose(template, seen, one[[1]], one[[3]], settings)
-    if (found$misfit < best$misfit) best <- c(found, list(inverted = one[[2]], cloud = seen))
-    if (best$score <= settings$poor) break
-  }
-  best
 }
 
 #' A cloud in the frame of the template

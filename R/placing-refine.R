@@ -90,8 +90,11 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   for (i in which(refinement$moved)) {
     specimen <- with_landmark_at(specimen, refinement$landmark[i], refinement[i, mesh_columns])
     if (!is.null(specimen$placing)) {
-      specimen$placing <- placing_at(specimen$placing, refinement$landmark[i],
-                                     refinement[i, c("x", "y", "z")])
+      # The same table with the place of a landmark that a definition moved; its confidence stays
+      placing <- specimen$placing
+      row <- match(refinement$landmark[i], placing$landmark)
+      if (!is.na(row)) placing[row, c("x", "y", "z")] <- refinement[i, c("x", "y", "z")]
+      specimen$placing <- placing
     }
   }
   specimen$refinement <- refinement
@@ -149,8 +152,14 @@ curvature_by_radius <- function(specimen, given, order, threads) {
 refined_places <- function(specimen, definitions, pairs, curvature, settings, tolerance, rounds) {
   given <- specimen$landmarks
   current <- with_located(specimen)
-  inputs <- lapply(seq_len(nrow(definitions)),
-                   function(i) definition_inputs(definitions[i, ], pairs))
+  # The landmarks that each definition builds on
+  inputs <- lapply(seq_len(nrow(definitions)), function(i) {
+    definition <- definitions[i, ]
+    left <- if (!is.na(definition$mirror)) mirror_names(definition$mirror)
+    names <- c(left, pairs$right[match(left, pairs$left)],
+               unlist(definition[c("from", "to", "across_from", "across_to")]))
+    unname(names[!is.na(names)])
+  })
   places <- vector("list", nrow(definitions))
   seen <- vector("list", nrow(definitions))
   order <- order(lengths(inputs) > 0)
@@ -158,7 +167,10 @@ refined_places <- function(specimen, definitions, pairs, curvature, settings, to
     settled <- TRUE
     for (i in order) {
       at <- landmarks_at(current, inputs[[i]])
-      if (unmoved(at, seen[[i]], tolerance * definitions$radius[i])) next
+      unmoved <- !is.null(seen[[i]]) &&
+        (nrow(at) == 0 ||
+           isTRUE(max(row_lengths(at - seen[[i]])) <= tolerance * definitions$radius[i]))
+      if (unmoved) next
       settled <- FALSE
       seen[[i]] <- at
       places[[i]] <- located_place(current, definitions[i, ], given, at, pairs, curvature, settings)
@@ -170,22 +182,9 @@ refined_places <- function(specimen, definitions, pairs, curvature, settings, to
   places
 }
 
-#' The landmarks that a definition builds on
-#' @noRd
-definition_inputs <- function(definition, pairs) {
-  left <- if (!is.na(definition$mirror)) mirror_names(definition$mirror)
-  names <- c(left, pairs$right[match(left, pairs$left)],
-             unlist(definition[c("from", "to", "across_from", "across_to")]))
-  unname(names[!is.na(names)])
-}
-
 landmarks_at <- function(specimen, names) {
   specimen$landmarks[match(names, rownames(specimen$landmarks)), , drop = FALSE]
 }
-
-unmoved <- function(at, before,
-                    least) !is.null(before) && (nrow(at) == 0 ||
-                                                isTRUE(max(row_lengths(at - before)) <= least))
 
 #' The place of one definition with the point of the mesh, or why there is none
 #' @noRd
@@ -193,7 +192,16 @@ located_place <- function(specimen, definition, given, inputs, pairs, curvature,
   start <- landmarks_at(list(landmarks = given), definition$landmark)[1, ]
   if (anyNA(start) || anyNA(inputs)) return(list(state = "missing",
                                                  reason = "a landmark is missing"))
-  place <- defined_place(specimen, definition, start, pairs, curvature, settings)
+  # The place of a definition near a landmark
+  find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile,
+                 turn = place_of_turn, end = place_of_end, crossing = place_of_crossing)
+  place <- tryCatch(
+    find(specimen, definition, start, pairs, curvature, settings),
+    crestline_error = function(e) {
+      if (inherits(e, "crestline_wrong_mesh")) rlang::cnd_signal(e)
+      list(reason = sub("\n.*", "", conditionMessage(e)))
+    }
+  )
   if (!is.null(place$reason)) {
     return(list(state = "none", reason = place$reason,
                 point = surface_points(specimen$mesh, matrix(start, 1))))

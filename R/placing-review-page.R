@@ -2,6 +2,7 @@
 # them.
 
 review_page <- function(title) {
+  button <- function(id, label, title) shiny::actionButton(id, label, title = title)
   shiny::fillPage(
     title = title, shiny::tags$head(shiny::includeCSS(review_file("review.css"))),
     rgl::registerSceneChange(),
@@ -9,28 +10,24 @@ review_page <- function(title) {
       id = "review", shiny::tags$div(id = "view",
                                      rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
       shiny::tags$div(
-        id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"), review_buttons(),
+        id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"),
+        shiny::tags$div(
+          id = "buttons",
+          button("keep", "It is right",
+                 "The chosen landmark stays where it is and counts as placed"),
+          button("absent", "Not on this scan", "The chosen landmark is missing on this scan"),
+          button("undo", "Undo", "Take the last step back"),
+          button("cancel", "Cancel", "End without any change"),
+          button("done", "Done", "End with the landmarks as they are")
+        ),
         shiny::uiOutput("list"),
         shiny::tags$p(class = "help",
-                      paste("Click on the surface: the chosen landmark goes there. Click on",
-                            "another's ball: that"),
-                      paste("one is chosen. Drag: turn. Wheel: nearer or farther. Right button",
-                            "and drag: shift."))
+                      "Click on the surface: the chosen landmark goes there.",
+                      "Click on another's ball: that one is chosen.",
+                      "Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
       )
     ),
     shiny::includeScript(review_file("review.js"))
-  )
-}
-
-review_buttons <- function() {
-  button <- function(id, label, title) shiny::actionButton(id, label, title = title)
-  shiny::tags$div(
-    id = "buttons", button("keep", "It is right",
-                           "The chosen landmark stays where it is and counts as placed"),
-    button("absent", "Not on this scan", "The chosen landmark is missing on this scan"),
-    button("undo", "Undo", "Take the last step back"),
-    button("cancel", "Cancel", "End without any change"),
-    button("done", "Done", "End with the landmarks as they are")
   )
 }
 
@@ -81,7 +78,16 @@ answer_steps <- function(input, step, frame, progress) {
     now
   }))
   shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
-  shiny::observeEvent(input$ray, step(function(now) follow_ray(now, input$ray, frame, progress)))
+  shiny::observeEvent(input$ray, step(function(now) {
+    # What a click does: it chooses the landmark whose ball it meets, else places the chosen one
+    ends <- from_scene(rbind(as.numeric(unlist(input$ray$from)),
+                             as.numeric(unlist(input$ray$towards))), frame)
+    # Radius of the ball of a landmark, in the unit of the mesh
+    aim <- aimed_at(now, ends[1, ], ends[2, ], formals(landmark_items)$size *
+                    mesh_diagonal(now$specimen$mesh) / 400)
+    if (!is.null(aim$landmark)) return(select_landmark(now, aim$landmark))
+    if (is.null(aim$point)) now else place_selected(now, aim$point, progress)
+  }))
   shiny::observeEvent(input$keep, step(function(now) keep_selected(now, progress)))
   shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, progress)))
   shiny::observeEvent(input$undo, step(undo_review))
@@ -98,17 +104,6 @@ answer_end <- function(input, session, current, before, finish) {
   shiny::observeEvent(input$done, end(current()))
   shiny::observeEvent(input$cancel, end(before))
   session$onSessionEnded(function() end(current()))
-}
-
-#' What a click does: it chooses the landmark whose ball it meets, else places the chosen one
-#'
-#' @param ray List: `from`, `towards`, three co-ordinates each, in the frame of the scene.
-#' @noRd
-follow_ray <- function(review, ray, frame, progress) {
-  ends <- from_scene(rbind(as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards))), frame)
-  aim <- aimed_at(review, ends[1, ], ends[2, ], ball_radius(review$specimen$mesh))
-  if (!is.null(aim$landmark)) return(select_landmark(review, aim$landmark))
-  if (is.null(aim$point)) review else place_selected(review, aim$point, progress)
 }
 
 #' A bar that moves with every curve that is fitted
@@ -135,7 +130,7 @@ chosen_html <- function(review) {
   waiting <- sum(is_open(review))
   left <- if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else
     "No landmark is missing or doubtful"
-  mirrored <- if (looks_mirrored(review$specimen)) {
+  mirrored <- if (specimen_slips(review$specimen)$mirrored) {
     tags$p(class = "warning",
            "Left and right look mirrored: names that end in L belong to the subject's own left.")
   }
@@ -144,7 +139,16 @@ chosen_html <- function(review) {
                     tags$p(left), mirrored))
   }
   row <- match(name, review$about$landmark)
-  curves <- curves_at(review, name)
+  # The curves that a landmark is an end of: kind, length, what there is to say
+  curves <- review$fitting$scheme$curves
+  own <- which(curves$from == name | curves$to == name)
+  fits <- review$fitting$fits[own]
+  value <- function(field, none) {
+    vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
+  }
+  curves <- data.frame(curve = curves$curve[own], kind = curves$kind[own],
+                       length = value("length", NA_real_), reason = value("reason", NA_character_),
+                       row.names = NULL)
   said <- paste0(curves$curve, ": ", curves$kind,
                  ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
                  ifelse(is.na(curves$reason), "", paste0("; ", curves$reason)))
@@ -154,8 +158,6 @@ chosen_html <- function(review) {
            if (nrow(curves)) tags$details(tags$summary(amount(nrow(curves), "curve")),
                                           tags$ul(lapply(said, tags$li))))
 }
-
-looks_mirrored <- function(specimen) specimen_slips(specimen)$mirrored
 
 #' What looks exchanged among the landmarks of a specimen as they are now
 #' @noRd

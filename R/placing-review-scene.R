@@ -6,7 +6,7 @@
 review_colours <- function() {
   list(state = c(found = "#108040", doubtful = "#C02020", predicted = "#3060C0", placed = "#6A3D9A",
                  given = "#202020"),
-       selected = "#E08A00", curve = eval(formals(plot.shape)$colour))
+       selected = "#E08A00", curve = kind_colours)
 }
 
 #' The frame of the scene: the middle of the mesh's box, and a diagonal of 200
@@ -58,8 +58,18 @@ open_scene <- function(shown, view) {
 
 #' Everything that is drawn on the surface, by name
 #' @noRd
-review_items <- function(review) {
-  c(curve_items(review), landmark_items(review))
+review_items <- function(review, width = 3) {
+  fits <- Filter(function(fit) !is.null(fit$path), review$fitting$fits)
+  curves <- if (!length(fits)) list() else {
+    curves <- review$fitting$scheme$curves
+    colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
+    items <- Map(function(fit, colour) {
+      list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]),
+           colour = colour, width = width)
+    }, fits, unname(colour))
+    stats::setNames(items, paste("curve", names(fits)))
+  }
+  c(curves, landmark_items(review))
 }
 
 landmark_items <- function(review, size = 1.6, larger = 1.25) {
@@ -78,18 +88,6 @@ landmark_items <- function(review, size = 1.6, larger = 1.25) {
   stats::setNames(items, paste("landmark", names))
 }
 
-curve_items <- function(review, width = 3) {
-  fits <- Filter(function(fit) !is.null(fit$path), review$fitting$fits)
-  if (!length(fits)) return(list())
-  curves <- review$fitting$scheme$curves
-  colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
-  items <- Map(function(fit, colour) {
-    list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]),
-         colour = colour, width = width)
-  }, fits, unname(colour))
-  stats::setNames(items, paste("curve", names(fits)))
-}
-
 #' Draw what is new or has changed, take away what is gone
 #'
 #' @param scene As of [open_scene()].
@@ -104,22 +102,16 @@ redraw <- function(scene, drawn, items) {
   if (length(delete)) rgl::pop3d(id = delete)
   drawn <- drawn[same]
   new <- setdiff(names(items), names(drawn))
-  drawn[new] <- lapply(items[new], function(item) list(item = item, ids = draw_item(scene, item)))
+  drawn[new] <- lapply(items[new], function(item) {
+    before <- length(scene$scene$ids)
+    shown <- if (is.null(item$path)) {
+      at <- into_scene(matrix(item$at, 1), scene$frame)
+      draw_points(scene$scene, at, item$colour, item$size, labels = item$landmark)
+    } else {
+      draw_lines(scene$scene, into_scene(item$path, scene$frame), item$colour, item$width)
+    }
+    list(item = item, ids = shown$ids[-seq_len(before)])
+  })
   list(drawn = drawn, delete = delete,
        add = unlist(lapply(drawn[new], `[[`, "ids"), use.names = FALSE))
 }
-
-draw_item <- function(scene, item) {
-  before <- length(scene$scene$ids)
-  drawn <- if (is.null(item$path)) {
-    at <- into_scene(matrix(item$at, 1), scene$frame)
-    draw_points(scene$scene, at, item$colour, item$size, labels = item$landmark)
-  } else {
-    draw_lines(scene$scene, into_scene(item$path, scene$frame), item$colour, item$width)
-  }
-  drawn$ids[-seq_len(before)]
-}
-
-#' Radius of the ball of a landmark, in the unit of the mesh
-#' @noRd
-ball_radius <- function(mesh) formals(landmark_items)$size * mesh_diagonal(mesh) / 400

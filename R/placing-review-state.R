@@ -11,19 +11,8 @@
 #' @noRd
 begin_review <- function(specimen, scheme, least, settings, bridge, threads) {
   specimen <- with_located(specimen)
-  about <- described_landmarks(specimen, scheme)
-  fitting <- if (!is.null(scheme)) begin_fitting(specimen, scheme, settings, bridge, threads)
-  list(specimen = specimen, fitting = fitting, about = about,
-       state = landmark_states(specimen, about$landmark),
-       least = least, selected = character(), history = list())
-}
-
-#' The landmarks of a scheme, in its order, and those that only the specimen has, with words for the
-#' reader
-#'
-#' Where a table says "as enL" the words are those of enL.
-#' @noRd
-described_landmarks <- function(specimen, scheme) {
+  # The landmarks of a scheme, in its order, and those that only the specimen has, with words for
+  # the reader Where a table says "as enL" the words are those of enL.
   known <- scheme$landmarks
   names <- union(known$landmark, rownames(specimen$landmarks))
   words <- function(column) {
@@ -35,15 +24,15 @@ described_landmarks <- function(specimen, scheme) {
   same <- match(sub("^as ", "", where), names)
   alike <- startsWith(where, "as ") & !is.na(same)
   where[alike] <- where[same[alike]]
-  data.frame(landmark = names, name = words("name"), where = where)
-}
-
-landmark_states <- function(specimen, names) {
-  there <- names %in% rownames(specimen$landmarks)[!is.na(specimen$landmarks[, 1])]
-  said <- specimen$placing$state[match(names, specimen$placing$landmark)]
-  state <- if (is.null(said)) rep(NA_character_, length(names)) else said
+  about <- data.frame(landmark = names, name = words("name"), where = where)
+  fitting <- if (!is.null(scheme)) begin_fitting(specimen, scheme, settings, bridge, threads)
+  there <- about$landmark %in% rownames(specimen$landmarks)[!is.na(specimen$landmarks[, 1])]
+  said <- specimen$placing$state[match(about$landmark, specimen$placing$landmark)]
+  state <- if (is.null(said)) rep(NA_character_, length(about$landmark)) else said
   state[is.na(state)] <- ifelse(there, "given", "missing")[is.na(state)]
-  stats::setNames(state, names)
+  list(specimen = specimen, fitting = fitting, about = about,
+       state = stats::setNames(state, about$landmark),
+       least = least, selected = character(), history = list())
 }
 
 #' Which landmarks were found with too little confidence
@@ -73,21 +62,15 @@ is_open <- function(review) stats::setNames(review$state == "missing" | is_doubt
 place_selected <- function(review, point, progress = function(n) function() NULL) {
   name <- review$selected
   if (!length(name)) return(review)
-  after <- with_landmark(review, name, point)
-  if (!is.null(after$fitting)) after$fitting <- refit_curves(after$fitting, after$specimen, name,
-                                                             progress)
-  after
-}
-
-#' A review with one landmark settled, from which the way back leads to what it was; one that waited
-#' is followed by the next
-#' @noRd
-with_landmark <- function(review, name, point) {
+  # A review with one landmark settled, from which the way back leads to what it was; one that
+  # waited is followed by the next
   after <- review
   after$specimen <- move_landmark(review$specimen, name, point)
   after$state[[name]] <- if (is.null(point)) "absent" else "placed"
   if (is_open(review)[[name]]) after$selected <- next_open(after)
   after$history <- c(review$history, list(review[c("specimen", "fitting", "state", "selected")]))
+  if (!is.null(after$fitting)) after$fitting <- refit_curves(after$fitting, after$specimen, name,
+                                                             progress)
   after
 }
 
@@ -137,17 +120,4 @@ aimed_at <- function(review, from, towards, reach) {
   met <- which(beside <= reach & depth <= end + reach)
   if (length(met)) return(list(landmark = rownames(at)[met[which.min(beside[met])]]))
   if (is.null(point)) list() else list(point = point)
-}
-
-#' The curves that a landmark is an end of: kind, length, what there is to say
-#' @noRd
-curves_at <- function(review, name) {
-  curves <- review$fitting$scheme$curves
-  own <- which(curves$from == name | curves$to == name)
-  fits <- review$fitting$fits[own]
-  value <- function(field, none) {
-    vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
-  }
-  data.frame(curve = curves$curve[own], kind = curves$kind[own], length = value("length", NA_real_),
-             reason = value("reason", NA_character_), row.names = NULL)
 }

@@ -6,7 +6,7 @@
 #' package's own, for faces.
 #'
 #' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and
-#' `humface` (S. Schlager, GPL), made symmetric; the script `face-template.R` of the sources makes
+#' `humface` (S. Schlager, GPL), made symmetric. The script `face-template.R` of the sources makes
 #' it, and describes how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
@@ -82,22 +82,19 @@ print.landmark_template <- function(x, ...) {
 #' @noRd
 turned_specimen <- function(specimen, at, pairs) {
   across <- at[pairs$left, , drop = FALSE] - at[pairs$right, , drop = FALSE]
-  axis <- eigen(crossprod(across), symmetric = TRUE)$vectors[, 1]
+  axis <- main_direction(across)
   axis <- axis * sign(sum(across %*% axis))
-  sided <- endsWith(rownames(at), "L") | endsWith(rownames(at), "R")
+  sided <- is_sided(rownames(at))
   middle <- rbind((at[pairs$left, , drop = FALSE] + at[pairs$right, , drop = FALSE]) / 2,
                   at[!sided, , drop = FALSE])
   origin <- colMeans(middle)
-  moved_specimen(specimen, least_rotation(axis), origin)
-}
-
-#' The smallest rotation that takes a unit vector to x
-#' @noRd
-least_rotation <- function(axis) {
-  if (axis[1] < -1 + 1e-12) return(diag(c(-1, -1, 1)))
-  v <- cross_product(axis, c(1, 0, 0))
-  skew <- rbind(c(0, -v[3], v[2]), c(v[3], 0, -v[1]), c(-v[2], v[1], 0))
-  diag(3) + skew + skew %*% skew / (1 + axis[1])
+  # The smallest rotation that takes a unit vector to x
+  turn <- if (axis[1] < -1 + 1e-12) diag(c(-1, -1, 1)) else {
+    v <- cross_product(axis, c(1, 0, 0))
+    skew <- rbind(c(0, -v[3], v[2]), c(v[3], 0, -v[1]), c(-v[2], v[1], 0))
+    diag(3) + skew + skew %*% skew / (1 + axis[1])
+  }
+  moved_specimen(specimen, turn, origin)
 }
 
 #' A specimen after rotation about an origin, which goes to 0
@@ -126,26 +123,22 @@ moved_specimen <- function(specimen, rotation, origin) {
 prepared_template <- function(template, settings, threads) {
   asked <- list(template[c("specimen", "landmarks", "unit", "mirror")], settings)
   if (!identical(asked, last_template$asked)) {
-    last_template$prepared <- prepare_template(template, settings, threads)
+    scaled <- scaled_settings(settings, template$unit)
+    mesh <- template$specimen$mesh
+    thin <- scaled
+    thin$cluster <- sqrt(sum(row_lengths(face_normals(mesh))) / 2 / settings$points)
+    thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
+    thin$anchors <- settings$own
+    cloud <- scan_cloud(template$specimen, 1, thin, threads)
+    cloud$settings <- scaled
+    cloud$mirror <- template$mirror
+    last_template$prepared <- with_landmarks(cloud, template$landmarks)
     last_template$asked <- asked
   }
   last_template$prepared
 }
 
 last_template <- new.env(parent = emptyenv())
-
-prepare_template <- function(template, settings, threads) {
-  scaled <- scaled_settings(settings, template$unit)
-  mesh <- template$specimen$mesh
-  thin <- scaled
-  thin$cluster <- sqrt(sum(row_lengths(face_normals(mesh))) / 2 / settings$points)
-  thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
-  thin$anchors <- settings$own
-  cloud <- scan_cloud(template$specimen, 1, thin, threads)
-  cloud$settings <- scaled
-  cloud$mirror <- template$mirror
-  with_landmarks(cloud, template$landmarks)
-}
 
 #' A prepared template with other landmarks
 #' @noRd

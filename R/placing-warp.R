@@ -95,7 +95,22 @@ fit_warp <- function(template, cloud, settings, weight) {
                           settings$cosine)
     used <- which(!is.na(found$index) & !cloud$border[found$index])
     if (length(used) < settings$fewest) break
-    solved <- solve_warp(basis, xyz, moved, used, found$index[used], cloud, settings)
+    # Coefficients by penalised least squares: distances across the scan's surface count in full,
+    # along it by a share
+    normal <- t(cloud$normal[, found$index[used], drop = FALSE])
+    to <- t(cloud$xyz[, found$index[used], drop = FALSE])
+    across <- row_products(to - moved[used, , drop = FALSE], normal)
+    weights <- 1 / ((1 + (across / settings$robust_scale)^2) * settings$error^2)
+    gap <- to - xyz[used, , drop = FALSE]
+    pull <- weights *
+      ((1 - settings$along) * row_products(gap, normal) * normal + settings$along * gap)
+    right <- unlist(lapply(1:3, function(k) {
+      crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
+    }))
+    root <- warp_root(basis, used, cloud$normal[, found$index[used], drop = FALSE], weights,
+                      settings)
+    solved <- list(coefficients = drop(backsolve(root, backsolve(root, right, transpose = TRUE))),
+                   root = root)
     coefficients <- solved$coefficients
     moved <- xyz + displaced(basis, coefficients)
   }
@@ -117,25 +132,6 @@ displaced <- function(basis, coefficients) {
   end <- cumsum(sizes)
   vapply(1:3, function(k) drop(basis[[k]] %*% coefficients[(end[k] - sizes[k] + 1):end[k]]),
          numeric(nrow(basis[[1]])))
-}
-
-#' Coefficients by penalised least squares: distances across the scan's surface count in full, along
-#' it by a share
-#' @return List: `coefficients`, `root` (Cholesky factor of their precision).
-#' @noRd
-solve_warp <- function(basis, xyz, moved, used, at, cloud, settings) {
-  normal <- t(cloud$normal[, at, drop = FALSE])
-  to <- t(cloud$xyz[, at, drop = FALSE])
-  across <- row_products(to - moved[used, , drop = FALSE], normal)
-  weight <- 1 / ((1 + (across / settings$robust_scale)^2) * settings$error^2)
-  gap <- to - xyz[used, , drop = FALSE]
-  pull <- weight * ((1 - settings$along) * row_products(gap, normal) * normal + settings$along *
-                    gap)
-  right <- unlist(lapply(1:3, function(k) {
-    crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
-  }))
-  root <- warp_root(basis, used, cloud$normal[, at, drop = FALSE], weight, settings)
-  list(coefficients = drop(backsolve(root, backsolve(root, right, transpose = TRUE))), root = root)
 }
 
 #' Cholesky factor of the precision of the coefficients

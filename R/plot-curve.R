@@ -70,7 +70,12 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   surface <- check_choice(surface, surface_choices, "surface")
   curves <- check_curves(curves)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  for (i in seq_along(curves)) check_curve_on(curves[[i]], specimen, curve_label(curves, i))
+  for (i in seq_along(curves)) {
+    name <- c(names(curves)[i], "")[1]
+    label <- if (nzchar(name)) sprintf("curve \"%s\"", name) else
+      sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
+    check_curve_on(curves[[i]], specimen, label)
+  }
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
@@ -117,8 +122,11 @@ band_sides <- function(curve, mesh, multiple = 2) {
   xyz <- point_matrix(curve$path)
   se <- se_along_path(curve)
   keep <- is.finite(se)
-  across <- cross_rows(t(path_normals(mesh, curve$path)), path_tangents(xyz))
-  shift <- multiple * se * across / sqrt(rowSums(across^2))
+  # Tangents by central differences, zero where neighbours coincide.
+  n <- nrow(xyz)
+  tangent <- xyz[c(2:n, n), , drop = FALSE] - xyz[c(1, 1:(n - 1)), , drop = FALSE]
+  across <- cross_rows(t(path_normals(mesh, curve$path)), tangent)
+  shift <- multiple * se * across / row_lengths(across)
   keep <- keep & is.finite(rowSums(shift))
   list(left = (xyz + shift)[keep, , drop = FALSE], right = (xyz - shift)[keep, , drop = FALSE])
 }
@@ -128,18 +136,6 @@ se_along_path <- function(curve) {
   known <- is.finite(curve$points$se)
   if (sum(known) < 2) return(rep(NA_real_, nrow(curve$path)))
   stats::approx(curve$points$s[known], curve$points$se[known], curve$path$s, rule = 2)$y
-}
-
-# Tangents by central differences, zero where neighbours coincide.
-path_tangents <- function(xyz) {
-  n <- nrow(xyz)
-  xyz[c(2:n, n), , drop = FALSE] - xyz[c(1, 1:(n - 1)), , drop = FALSE]
-}
-
-curve_label <- function(curves, i) {
-  name <- c(names(curves)[i], "")[1]
-  if (nzchar(name)) sprintf("curve \"%s\"", name) else
-    sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
 }
 
 check_curves <- function(curves, call = rlang::caller_env()) {

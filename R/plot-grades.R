@@ -14,7 +14,7 @@
 #' @param colour Colour of the surface.
 #' @noRd
 draw_grades <- function(shape, graded, specimen, round = c(-0.9, 0, 0.9), width = 1.6,
-                        colour = "#DDD6CD") {
+                        colour = "#DDD6CD", size = 0.35) {
   view <- shape_view(shape)
   mesh <- if (is.null(specimen)) own_surface(shape) else specimen$mesh
   known <- shape$points[!is.na(shape$points$x), ]
@@ -23,7 +23,12 @@ draw_grades <- function(shape, graded, specimen, round = c(-0.9, 0, 0.9), width 
   for (turn in round) {
     scene <- draw_surface(mesh, colour, turned_view(view, turn), "picture", around = known,
                           gloss = 0, margin = 0.04)
-    draw_graded_points(scene, known[known$level == "surface", ], graded)
+    points <- known[known$level == "surface", ]
+    grade <- grade_of(graded, points$level, points$part)
+    for (name in names(grade_colours)) {
+      own <- points[grade == name, ]
+      if (nrow(own)) draw_points(scene, own, grade_colours[[name]], size)
+    }
     draw_graded_curves(scene, shape, graded, width)
   }
 }
@@ -36,20 +41,12 @@ grade_of <- function(graded, level, part) {
   as.character(graded$grade[match(paste(level, part), paste(graded$level, graded$part))])
 }
 
-draw_graded_points <- function(scene, points, graded, size = 0.35) {
-  grade <- grade_of(graded, points$level, points$part)
-  for (name in names(grade_colours)) {
-    own <- points[grade == name, ]
-    if (nrow(own)) draw_points(scene, own, grade_colours[[name]], size)
-  }
-}
-
 #' The worst curves on top, with their names below their middles
 #'
 #' @param most No names where more curves than this are not green: they would hide the picture.
 #' @param seen Share of a curve that is to be seen for its name to be there.
 #' @noRd
-draw_graded_curves <- function(scene, shape, graded, width, most = 12, seen = 0.6) {
+draw_graded_curves <- function(scene, shape, graded, width, most = 12, seen = 0.6, size = 0.8) {
   paths <- Filter(Negate(is.null), shape$paths)
   grade <- grade_of(graded, "curves", names(paths))
   for (name in names(grade_colours)) {
@@ -62,21 +59,19 @@ draw_graded_curves <- function(scene, shape, graded, width, most = 12, seen = 0.
   for (name in if (length(doubtful) <= most) doubtful) {
     if (mean(visible_points(scene, paths[[name]])) < seen) next
     middle <- matrix(points_along(paths[[name]], attr(paths[[name]], "length") / 2), 1)
-    draw_label(scene, middle, name, grade_colours[[grade_of(graded, "curves", name)]])
+    # Its name stands below the middle, within the picture.
+    at <- drop(view_points(scene, middle))
+    on_scene(scene, {
+      half <- c(1.05 * graphics::strwidth(name, cex = size, font = 2),
+                1.6 * graphics::strheight(name, cex = size)) / 2
+      at[2] <- at[2] - 2 * graphics::strheight(name, cex = size)
+      at[1:2] <- pmax(pmin(at[1:2], scene$usr[c(2, 4)] - half), scene$usr[c(1, 3)] + half)
+      graphics::rect(at[1] - half[1], at[2] - half[2], at[1] + half[1], at[2] + half[2],
+                     col = "#FFFFFFC8", border = NA)
+      graphics::text(at[1], at[2], name, cex = size,
+                     col = grade_colours[[grade_of(graded, "curves", name)]], font = 2)
+    })
   }
-}
-
-draw_label <- function(scene, at, text, colour, size = 0.8) {
-  at <- drop(view_points(scene, at))
-  on_scene(scene, {
-    half <- c(1.05 * graphics::strwidth(text, cex = size, font = 2),
-              1.6 * graphics::strheight(text, cex = size)) / 2
-    at[2] <- at[2] - 2 * graphics::strheight(text, cex = size)
-    at[1:2] <- pmax(pmin(at[1:2], scene$usr[c(2, 4)] - half), scene$usr[c(1, 3)] + half)
-    graphics::rect(at[1] - half[1], at[2] - half[2], at[1] + half[1], at[2] + half[2],
-                   col = "#FFFFFFC8", border = NA)
-    graphics::text(at[1], at[2], text, cex = size, col = colour, font = 2)
-  })
 }
 
 #' The rotation that shows a shape from its front: the mean of its surface's normals to the viewer
@@ -86,7 +81,14 @@ draw_label <- function(scene, at, text, colour, size = 0.8) {
 #' @noRd
 shape_view <- function(shape) {
   points <- as.matrix(shape$points[!is.na(shape$points$x), c("x", "y", "z")])
-  out <- shape_outward(shape, points)
+  # Mean normal of the shape's surface; without one, the normal of the plane through its points, to
+  # positive z
+  mesh <- own_surface(shape)
+  out <- if (!is.null(mesh)) colSums(face_normals(mesh)) else c(0, 0, 0)
+  out <- if (any(out != 0)) unit_vector(out) else {
+    out <- svd(sweep(points, 2, colMeans(points)), nu = 0, nv = 3)$v[, 3]
+    if (out[3] < 0) -out else out
+  }
   landmarks <- coords(shape, "landmarks")
   pairs <- shape$scheme$pairs[shape$scheme$pairs$level == "landmarks", ]
   across <- colMeans(landmarks[pairs$left, , drop = FALSE] - landmarks[pairs$right, , drop = FALSE],
@@ -100,17 +102,6 @@ shape_view <- function(shape) {
   up <- svd(sweep(flat, 2, colMeans(flat)), nu = 0, nv = 1)$v[, 1]
   if (up[2] < 0) up <- -up
   unname(rbind(cross_product(up, out), up, out))
-}
-
-#' Mean normal of the shape's surface; without one, the normal of the plane through its points, to
-#' positive z
-#' @noRd
-shape_outward <- function(shape, points) {
-  mesh <- own_surface(shape)
-  out <- if (!is.null(mesh)) colSums(face_normals(mesh)) else c(0, 0, 0)
-  if (any(out != 0)) return(unit_vector(out))
-  out <- svd(sweep(points, 2, colMeans(points)), nu = 0, nv = 3)$v[, 3]
-  if (out[3] < 0) -out else out
 }
 
 turned_view <- function(view, round) {

@@ -14,7 +14,7 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
   found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
   surface <- !is.null(aligned$triangles)
   measure <- c(fwe = "family-wise p", fdr = "false discovery rate", none = "p of each point")
-  words <- sprintf("%s; %s: %s < %g (%d of %d points)",
+  words <- sprintf("%s\n%s: %s < %g (%d of %d points)",
                    if (surface) sprintf("%s less %s along the normal", levels(x$group)[2],
                                         levels(x$group)[1]) else "distance between the means",
                    if (surface) "outlined" else "ringed", measure[[adjust]], significance, found,

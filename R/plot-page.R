@@ -93,31 +93,27 @@ save_page <- function(page, file, selfcontained) {
     html <- inline_files(html, made, '<link href="([^"]+)" rel="stylesheet" />', "style", "</style")
   } else {
     folder <- paste0(tools::file_path_sans_ext(basename(file)), "_files")
-    place_files(file.path(made, files), file.path(dirname(file), folder))
+    # Copy the files that a page needs into a folder, which may be there already; none of another
+    # content is written over
+    from <- file.path(made, files)
+    to <- file.path(dirname(file), folder)
+    found <- list.files(from, recursive = TRUE, all.files = TRUE)
+    target <- file.path(to, found)
+    there <- file.exists(target)
+    same <- unname(tools::md5sum(file.path(from, found))) == unname(tools::md5sum(target))
+    if (any(there & !same %in% TRUE)) {
+      crestline_abort(sprintf("`file` needs the folder %s, where %s is another file already.", to,
+                              shorten(found[there & !same %in% TRUE])),
+                      "Give another name to the page, or move that folder.", stage = "page",
+                      call = NULL)
+    }
+    new <- which(!there)
+    for (dir in unique(dirname(target[new]))) dir.create(dir, FALSE, recursive = TRUE)
+    if (!all(suppressWarnings(file.copy(file.path(from, found[new]), target[new])))) refuse_page(to)
     address <- utils::URLencode(folder, reserved = TRUE, repeated = TRUE)
     html <- gsub(paste0('"', files, "/"), paste0('"', address, "/"), html, fixed = TRUE)
   }
   write_html(html, file)
-}
-
-#' Copy the files that a page needs into a folder, which may be there already; none of another
-#' content is written over
-#' @noRd
-place_files <- function(from, to) {
-  files <- list.files(from, recursive = TRUE, all.files = TRUE)
-  target <- file.path(to, files)
-  there <- file.exists(target)
-  same <- unname(tools::md5sum(file.path(from, files))) == unname(tools::md5sum(target))
-  if (any(there & !same %in% TRUE)) {
-    crestline_abort(sprintf("`file` needs the folder %s, where %s is another file already.", to,
-                            shorten(files[there & !same %in% TRUE])),
-                    "Give another name to the page, or move that folder.", stage = "page",
-                    call = NULL)
-  }
-  new <- which(!there)
-  for (folder in unique(dirname(target[new]))) dir.create(folder, recursive = TRUE,
-                                                          showWarnings = FALSE)
-  if (!all(suppressWarnings(file.copy(file.path(from, files[new]), target[new])))) refuse_page(to)
 }
 
 write_html <- function(html, file) {

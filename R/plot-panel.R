@@ -16,8 +16,8 @@ draw_panel <- function(x, points = TRUE, grid = c(300, 200),
   grid <- check_size(check_numbers(grid, "grid", 2, lower = 2), "grid")
   main <- check_text(main, "main", null = TRUE)
   if (is.null(x$line)) {
-    crestline_abort(sprintf(paste("the curve from %s to %s was not found by curvature, so it",
-                                  "has no panel."), x$from, x$to),
+    crestline_abort(sprintf(paste0("the curve from %s to %s was not found by curvature, so it has ",
+                                   "no panel."), x$from, x$to),
                     "Plot a ridge or valley that was found.", stage = "picture", id = x$id)
   }
   x$coordinates <- x$coordinates[x$coordinates$inside, ]
@@ -25,18 +25,7 @@ draw_panel <- function(x, points = TRUE, grid = c(300, 200),
   if (is.null(main)) main <- paste0(x$type, ", ", x$from, " to ", x$to)
   graphics::image(panel$s, panel$d, panel$strength, col = palette, asp = 1, axes = FALSE,
                   main = main, xlab = "", ylab = "", ...)
-  panel_axes(panel)
-  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25,
-                               col = "#00000060")
-  graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE,
-                    drawlabels = FALSE, col = "#8B5A2B")
-  graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
-  draw_panel_ridge(x, colour)
-  invisible(panel)
-}
-
-# Axes that stand at the panel's edges, wherever equal scale leaves room in the plot.
-panel_axes <- function(panel) {
+  # Axes that stand at the panel's edges, wherever equal scale leaves room in the plot.
   line <- c(diff(graphics::grconvertX(0:1, "lines", "user")),
             diff(graphics::grconvertY(0:1, "lines", "user")))
   left <- min(panel$s)
@@ -47,31 +36,34 @@ panel_axes <- function(panel) {
                  xpd = NA)
   graphics::text(left - 3 * line[1], mean(range(panel$d)), "d, distance from it", srt = 90,
                  xpd = NA)
+  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25,
+                               col = "#00000060")
+  graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE,
+                    drawlabels = FALSE, col = "#8B5A2B")
+  graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")
+  draw_panel_ridge(x, colour)
+  invisible(panel)
 }
 
 # The smoothed strength on a grid, NA where the data do not reach: beyond their least and greatest d
 # near the same s.
-panel_grid <- function(x, grid) {
+panel_grid <- function(x, grid, each = 15, most = 30) {
   s <- seq(0, max(x$line$s), length.out = grid[1])
   d <- seq(min(x$coordinates$d), max(x$coordinates$d), length.out = grid[2])
   cells <- expand.grid(s = s, d = d)
   strength <- matrix(stats::predict(x$surface, cells$s, cells$d), length(s))
-  reach <- data_reach(x$coordinates, s)
-  strength[outer(reach$low, d, ">") | outer(reach$high, d, "<")] <- NA
-  list(s = s, d = d, strength = strength)
-}
-
-# Least and greatest d of the data about each s, from equal stretches of s that hold `each` vertices
-# in the mean, at most `most`.
-data_reach <- function(coordinates, s, each = 15, most = 30) {
-  stretches <- min(max(nrow(coordinates) %/% each, 2), most)
+  # Least and greatest d of the data about each s, from equal stretches of s that hold `each`
+  # vertices in the mean, at most `most`.
+  stretches <- min(max(nrow(x$coordinates) %/% each, 2), most)
   breaks <- seq(min(s), max(s), length.out = stretches + 1)
-  stretch <- findInterval(coordinates$s, breaks, all.inside = TRUE)
-  ends <- vapply(split(coordinates$d, factor(stretch, seq_len(stretches))),
+  stretch <- findInterval(x$coordinates$s, breaks, all.inside = TRUE)
+  ends <- vapply(split(x$coordinates$d, factor(stretch, seq_len(stretches))),
                  function(d) if (length(d)) range(d) else c(0, 0), numeric(2))
   middle <- (breaks[-1] + breaks[-length(breaks)]) / 2
-  list(low = stats::approx(middle, ends[1, ], s, rule = 2)$y,
-       high = stats::approx(middle, ends[2, ], s, rule = 2)$y)
+  reach <- list(low = stats::approx(middle, ends[1, ], s, rule = 2)$y,
+                high = stats::approx(middle, ends[2, ], s, rule = 2)$y)
+  strength[outer(reach$low, d, ">") | outer(reach$high, d, "<")] <- NA
+  list(s = s, d = d, strength = strength)
 }
 
 draw_panel_ridge <- function(x, colour, multiple = 2, opacity = 0.25) {

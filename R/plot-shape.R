@@ -8,7 +8,8 @@
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.
 #' @param parts Parts of the surface, as in [shape_mesh()].
-#' @param colour Colours of ridges, valleys and plane curves.
+#' @param colour Colours of curves, named "ridge", "valley" and "plane"; by default red, blue and
+#'   black.
 #' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the
 #'   shape's own surface: its colour, one for each vertex of [shape_mesh()], a number for each, or
 #'   "patch" for a colour a patch.
@@ -33,7 +34,7 @@
 #' }
 #' @export
 plot.shape <- function(x, specimen = NULL, parts = "model",
-                       colour = c(ridge = "#A0002A", valley = "#16218C", plane = "#202020"),
+                       colour = kind_colours,
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index",
                        edges = "#00000070", band = TRUE,
                        points = TRUE, patches = points, width = 2, legend = TRUE,
@@ -51,7 +52,17 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
       nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
   kind <- stats::setNames(x$scheme$curves$kind, x$scheme$curves$curve)
   for (name in names(Filter(Negate(is.null), x$paths))) {
-    scene <- draw_shape_curve(scene, x, name, specimen, colour[[kind[[name]]]], band, points, width)
+    paint <- colour[[kind[[name]]]]
+    path <- x$paths[[name]]
+    own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
+    if (band && !is.null(specimen)) {
+      s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
+                          1e-6 * mesh_diagonal(specimen$mesh))
+      on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
+      scene <- draw_curve_band(scene, on_curve, specimen$mesh, paint)
+    }
+    scene <- draw_lines(scene, path, paint, width, halo = "white")
+    if (points) scene <- draw_points(scene, own, paint, 0.28 * width, "white")
   }
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
@@ -60,20 +71,6 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
                                      bty = "n", cex = 0.8))
   }
   invisible(scene)
-}
-
-draw_shape_curve <- function(scene, x, name, specimen, colour, band, points, width) {
-  path <- x$paths[[name]]
-  own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
-  if (band && !is.null(specimen)) {
-    s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
-                        1e-6 * mesh_diagonal(specimen$mesh))
-    on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
-    scene <- draw_curve_band(scene, on_curve, specimen$mesh, colour)
-  }
-  scene <- draw_lines(scene, path, colour, width, halo = "white")
-  if (points) scene <- draw_points(scene, own, colour, 0.28 * width, "white")
-  scene
 }
 
 #' The surface of a shape with the edges of its triangles

@@ -1,16 +1,5 @@
 # The pieces of the quality report's page.
 
-#' One line that says it all
-#' @noRd
-report_sum <- function(table, counts) {
-  tags <- htmltools::tags
-  share <- function(name) sum(table$grade == name)
-  said <- sprintf("%s, %s: %d green, %d amber, %d red.", amount(nrow(counts), "specimen"),
-                  amount(nrow(table), "part"),
-                  share("green"), share("amber"), share("red"))
-  tags$div(class = "sum", report_bar(share("green"), share("amber"), share("red")), tags$p(said))
-}
-
 #' A bar of the three shares
 #' @noRd
 report_bar <- function(green, amber, red) {
@@ -53,8 +42,8 @@ report_matrix <- function(counts) {
   tags$section(
     tags$h2("Specimens by ", tags$select(id = "matrix-level", `aria-label` = "level", levels)),
     tags$p(class = "note",
-           paste("Rest the pointer on a cell for its reason; a click lists it below. A cross: not",
-                 "there.")),
+           "Rest the pointer on a cell for its reason; a click lists it below.",
+           "A cross: not there."),
     tags$div(class = "scroll", tags$table(id = "matrix"))
   )
 }
@@ -109,10 +98,9 @@ report_parts <- function(table) {
     ),
     tags$div(class = "scroll", tags$table(id = "table")), tags$button(id = "more", "show more"),
     tags$p(class = "note",
-           paste("Lengths and standard errors (se) in the unit of the mesh, strength in 1 /",
-                 "unit; z: robust"),
-           paste("z-score of the length against the other specimens; asymmetry: distance from",
-                 "the mirror image of the partner,"),
+           "Lengths and standard errors (se) in the unit of the mesh, strength in 1 / unit;",
+           "z: robust z-score of the length against the other specimens;",
+           "asymmetry: distance from the mirror image of the partner,",
            "as a share of the length; missing: share of its points. A click on a heading sorts.")
   )
 }
@@ -143,8 +131,8 @@ quality_meanings <- list(
   competing = "how good the best other path is, as a share of the one chosen",
   z = "size of the robust z-score of the length against other specimens",
   asymmetry = "distance from the mirror image of the partner, as a share of the length",
-  roughness = paste("mean angle between the normals of the triangles along the part and those",
-                    "at their corners, degrees"),
+  roughness = paste0("mean angle between the normals of the triangles along the part and those at ",
+                     "their corners, degrees"),
   coarse = "mean edge of the triangles along the curve, in radii of the curvature estimate",
   bridged = "share of the curve's length that lies over holes",
   faults = "flipped, doubled or crossing triangles of the patch",

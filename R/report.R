@@ -53,11 +53,14 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
                   length(drawn) == 1)
   })
   tags <- htmltools::tags
+  share <- function(name) sum(table$grade == name)
+  said <- sprintf("%s, %s: %d green, %d amber, %d red.", amount(nrow(counts), "specimen"),
+                  amount(nrow(table), "part"), share("green"), share("amber"), share("red"))
+  bar <- report_bar(share("green"), share("amber"), share("red"))
   page <- tags$body(
-    tags$header(tags$h1(title), report_sum(table, counts)), report_overview(counts),
-    report_matrix(counts),
-    report_figures(figures), report_parts(table), report_limits(limits),
-    provenance_block(shapes_provenance(shapes)), report_data(table),
+    tags$header(tags$h1(title), tags$div(class = "sum", bar, tags$p(said))),
+    report_overview(counts), report_matrix(counts), report_figures(figures), report_parts(table),
+    report_limits(limits), provenance_block(shapes_provenance(shapes)), report_data(table),
     tags$script(htmltools::HTML(report_text("quality.js")))
   )
   write_report(page, title, file)

@@ -138,6 +138,7 @@ trace_curve <- function(job) {
   if (failed(path)) return(path)
   fit <- fit_passes(job$ends$scan, path, job)
   if (failed(fit)) return(fit)
+  fit <- finished_fit(job$ends$scan, fit, job$radius, job$settings)
   assembled_curve(fit$path, fit$reference, job, fit)
 }
 

@@ -11,7 +11,8 @@
 #'   in which curvature counts.
 #' @return The last window as of [ridge_window()], with `line`, `path` (the curve), `reference` (the
 #'   path that the window is about), `share` (of the second pass that was taken) and `noise_factor`;
-#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure.
+#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure. [finished_fit()] has
+#'   yet to be called.
 #' @noRd
 fit_passes <- function(scan, path, job) {
   settings <- job$settings
@@ -54,7 +55,7 @@ fit_passes <- function(scan, path, job) {
   } else {
     for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- again(fit)
   }
-  finished_fit(scan, fit, job$radius, settings)
+  fit
 }
 
 #' A window with its line lifted onto the mesh

@@ -78,7 +78,9 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...) {
   if (preset != "crestline") settings[names(single)] <- single
   if (preset == "paper") settings[names(paper)] <- paper
   settings <- changed_settings(settings, list(...))
-  structure(check_settings(settings), preset = preset, class = "ridge_settings")
+  # The presets as they are need no checks.
+  structure(if (...length()) check_settings(settings) else settings, preset = preset,
+            class = "ridge_settings")
 }
 
 check_settings <- function(settings) {

@@ -208,12 +208,6 @@ faults_among <- function(triangles, at, mesh) {
   found
 }
 
-flipped_triangles <- function(xyz, it, normals) {
-  corner <- function(x, i) x[it[i, ], , drop = FALSE]
-  own <- cross_rows(corner(xyz, 2) - corner(xyz, 1), corner(xyz, 3) - corner(xyz, 1))
-  which(rowSums(own * (corner(normals, 1) + corner(normals, 2) + corner(normals, 3))) < 0)
-}
-
 #' Pairs of triangles of which an edge of one passes through the other; those that share an edge are
 #' not looked at
 #'

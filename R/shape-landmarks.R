@@ -27,10 +27,10 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
   size <- specimen_size(specimen)
   radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
   if (radius > size / 2) {
-    crestline_abort(sprintf(paste("the scheme's radius of %.4g is as large as the mesh, whose",
-                                  "size is %.4g."), radius, size),
-                    paste("Is the mesh in another unit? For a scan in metres and a scheme in mm",
-                          "give `unit = 1000`."),
+    crestline_abort(sprintf(paste0("the scheme's radius of %.4g is as large as the mesh, whose ",
+                                   "size is %.4g."), radius, size),
+                    paste0("Is the mesh in another unit? For a scan in metres and a scheme in mm ",
+                           "give `unit = 1000`."),
                     stage = "curvature", id = specimen$id, call = call)
   }
 }
@@ -95,7 +95,15 @@ scheme_slips <- function(specimen, scheme) {
                                mean_front(specimen$mesh, located),
                                pairs, midline, typical_landmarks(scheme))
   if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
-  slips$said <- exchange_reasons(slips, own, unlist(pairs))
+  # What is said of exchanged landmarks, by landmark; NA where there is nothing to say
+  said <- stats::setNames(rep(NA_character_, length(own)), own)
+  if (slips$mirrored) said[own %in% unlist(pairs)] <- "left and right look mirrored"
+  for (group in slips$groups) said[group] <- paste(word_list(group), "look exchanged")
+  for (two in slips$either) {
+    said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "),
+                               "look exchanged")
+  }
+  slips$said <- said[own]
   slips
 }
 

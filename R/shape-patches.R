@@ -211,4 +211,3 @@ check_column <- function(column_angle, column_angles, column_reach) {
        angles = check_count(column_angles, "column_angles", upper = 10000),
        reach = check_number(column_reach, "column_reach", 0, open = TRUE))
 }
-

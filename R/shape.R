@@ -48,8 +48,8 @@ validate_shape <- function(x) {
   own <- table(points) && !is.null(place_columns(points)) && is_error(points$se) &&
     all(vapply(named, function(name) identical(as.vector(points[[name]]),
                                                as.vector(x$scheme$points[[name]])), NA))
-  if (!own) refuse(paste("its `points` are not those of its scheme: a row was added or lost, or",
-                         "a column changed."))
+  if (!own) refuse(paste0("its `points` are not those of its scheme: a row was added or lost, or ",
+                          "a column changed."))
   if (!is.list(x$paths) ||
       !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
   kept <- function(name, is) is.null(x[[name]]) || is(x[[name]])
@@ -168,7 +168,12 @@ mesh_of.shape <- function(x) list(key = shape_key(x), id = x$id)
 #' @exportS3Method
 written_landmarks.shape <- function(x) {
   check_class(x, "shape", "x", "fit_shape()")
-  list(landmarks = coords(x, "landmarks"), curves = shape_curves(x))
+  # The curves of a shape as read_landmarks() has them
+  points <- x$points[x$points$level == "curves", ]
+  curves <- lapply(stats::setNames(nm = unique(points$part)), function(name) {
+    landmark_curve(as.matrix(points[points$part == name, c("x", "y", "z")]))
+  })
+  list(landmarks = coords(x, "landmarks"), curves = curves)
 }
 
 #' @param points As in the value of [fit_shape()].

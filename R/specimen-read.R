@@ -35,7 +35,14 @@
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) {
   check_given()
-  check_new_names(names)
+  # New names of landmarks, by the old ones
+  if (!is.null(names)) {
+    whole <- function(x) is.character(x) && !anyNA(x) && all(nzchar(x)) && !anyDuplicated(x)
+    if (!whole(names) || !whole(names(names)) || is.object(names)) {
+      refuse_argument("names", names, "Give new names by the old ones, each once: c(prn = \"pn\").",
+                      rlang::current_env())
+    }
+  }
   check_dots(..., known = names(formals(specimen))[-(1:3)])
   check_file(file, "reading")
   if (inherits(landmarks, "specimen")) {
@@ -45,6 +52,16 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   id <- check_id(id)
   beside <- if (is.character(landmarks) && length(landmarks) == 1 &&
                 is.null(dim(landmarks))) landmarks else NA_character_
-  own <- renamed_landmarks(as_landmarks(landmarks_of(landmarks, id), id), names, id)
+  # Landmarks with some names changed; a new name must not be another landmark's
+  own <- as_landmarks(landmarks_of(landmarks, id), id)
+  name <- rownames(own)
+  changed <- name %in% names(names)
+  name[changed] <- names[name[changed]]
+  twice <- unique(name[duplicated(name)])
+  if (length(twice)) {
+    refuse_landmarks(sprintf("`names` gives two landmarks the name %s.", shorten(twice)),
+                     "Leave out the landmark that has the name already, or rename it too.", id)
+  }
+  rownames(own) <- name
   from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
 }

@@ -138,7 +138,10 @@ print.specimen <- function(x, ...) {
                 exdent = 2), sep = "\n")
     if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
     print_placing(x$placing)
-    print_exchanged(x$geometry$slips)
+    # What print() says of exchanged landmarks
+    words <- exchange_words(x$geometry$slips)
+    if (length(words))
+      cat(strwrap(paste("- landmarks look exchanged:", toString(words)), exdent = 2), sep = "\n")
     found <- x$report[x$report$count > 0, ]
     for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ",
                                         found$action[i], "\n", sep = "")

@@ -29,42 +29,31 @@ ridge_crest <- function(a, b, end, reach = 0.5, step = 0.025, rows = 31, n = 401
 #' @param coarse Values of y, from 0, at which it is found; in between it is a spline.
 #' @param at As in [follow_crest()].
 #' @noRd
-crest_offset <- function(a, b, y, coarse, at) {
-  u <- follow_crest(a, b, coarse, at)
-  for (iteration in 1:4) u <- u - crest_step(a, b, u, coarse)
-  known <- !is.na(u)
-  if (sum(known) < 2) return(rep(NA_real_, length(y)))
-  ifelse(y <= max(coarse[known]), stats::spline(coarse[known], u[known], xout = y)$y, NA)
-}
-
-#' The same from 0 upwards where it is found
-#'
-#' @param at Places along x, as distances from the crest, where the slope of the curvature is looked
-#'   at.
-#' @noRd
-follow_crest <- function(a, b, y, at) {
-  slope <- matrix(crest_slope(a, b, rep(at, length(y)), rep(y, each = length(at))), length(at))
-  found <- rep(NA_real_, length(y))
+crest_offset <- function(a, b, y, coarse, at, h = 1e-3) {
+  # The locus from 0 upwards, as far as it is found
+  slope <- matrix(crest_slope(a, b, rep(at, length(coarse)), rep(coarse, each = length(at))),
+                  length(at))
+  u <- rep(NA_real_, length(coarse))
   last <- 0
-  for (i in seq_along(y)) {
+  for (i in seq_along(coarse)) {
     before <- slope[-length(at), i]
     after <- slope[-1, i]
     least <- which(before <= 0 & after > 0)
     zero <- at[least] + diff(at)[least] * before[least] / (before[least] - after[least])
     nearest <- zero[which.min(abs(zero - last))]
     if (!length(nearest) || abs(nearest - last) > max(0.1, 2 * abs(last))) break
-    found[i] <- last <- nearest
+    u[i] <- last <- nearest
   }
-  found
-}
-
-#' Newton's step towards the locus
-#' @noRd
-crest_step <- function(a, b, u, y, h = 1e-3) {
-  slope <- crest_slope(a, b, u, y)
-  bend <- (crest_slope(a, b, u + h, y) - crest_slope(a, b, u - h, y)) / (2 * h)
-  step <- slope / bend
-  pmin(pmax(step, -0.02), 0.02)
+  for (iteration in 1:4) {
+    # Newton's step towards the locus
+    grade <- crest_slope(a, b, u, coarse)
+    bend <- (crest_slope(a, b, u + h, coarse) - crest_slope(a, b, u - h, coarse)) / (2 * h)
+    step <- grade / bend
+    u <- u - pmin(pmax(step, -0.02), 0.02)
+  }
+  known <- !is.na(u)
+  if (sum(known) < 2) return(rep(NA_real_, length(y)))
+  ifelse(y <= max(coarse[known]), stats::spline(coarse[known], u[known], xout = y)$y, NA)
 }
 
 #' Derivative of k2 along its principal direction, towards positive x

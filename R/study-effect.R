@@ -34,8 +34,8 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
   counted <- !length(lacking) && all(vapply(places[wanted[-1]], is.numeric, NA))
   if (!counted || !all(is.finite(numbers)) || any(places$radius <= 0)) {
     crestline_abort("`places` does not say where, how wide and how strong.",
-                    paste("Give a data frame as face_effect() does: part, x, y, z, radius",
-                          "(above 0), share."),
+                    paste0("Give a data frame as face_effect() does: part, x, y, z, radius (above ",
+                           "0), share."),
                     stage = "arguments", call = call)
   }
   at <- surface_points(template$mesh, numbers[, c("x", "y", "z")])
@@ -58,8 +58,8 @@ effect_by_part <- function(effect, parts, call = rlang::caller_env()) {
   if (!ok || (length(parts) == 0 && any(effect != 0))) {
     there <- if (length(parts)) shorten(parts) else "no part"
     crestline_abort(sprintf("`effect` is %s, with %s in `places`.", describe_value(effect), there),
-                    paste("Give one number, or numbers with names of parts; and `places` where",
-                          "the template is your own."),
+                    paste0("Give one number, or numbers with names of parts; and `places` where ",
+                           "the template is your own."),
                     stage = "arguments", call = call)
   }
   if (!named) return(stats::setNames(rep(effect, length(parts)), parts))

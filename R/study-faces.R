@@ -101,8 +101,7 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
          covariates = data.frame(id = id, group = factor(groups[side + 3 / 2], groups),
                                  size = vapply(drawn, `[[`, 0, "size")),
          vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places,
-         effect = effect,
-         size_effect = size_effect, deformations = deformations, scan = scan),
+         effect = effect, size_effect = size_effect, deformations = deformations, scan = scan),
     class = "simulated_faces"
   )
 }
@@ -112,7 +111,18 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
 face_deformation <- function(mean, side, log_size, random, scan) {
   size <- exp(side * log_size + stats::rnorm(1, 0, random$size_sd))
   field <- random_fields(random$variation, random$waves)
-  pose <- if (is.null(scan)) identity else random_pose(scan, mean$centre)
+  pose <- identity
+  if (!is.null(scan)) {
+    # A rotation by a normal angle about a random axis through the centre, and a shift
+    axis <- unit_vector(stats::rnorm(3))
+    angle <- stats::rnorm(1, 0, scan$turn)
+    shift <- stats::rnorm(3, 0, scan$shift)
+    cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
+    turn <- diag(3) + sin(angle) * cross + (1 - cos(angle)) * cross %*% cross
+    pose <- function(xyz) {
+      sweep(sweep(xyz, 2, mean$centre) %*% t(turn), 2, mean$centre + shift, `+`)
+    }
+  }
   map <- function(xyz) {
     moved <- xyz + field(xyz) + side * mean$effect(xyz)
     pose(sweep(sweep(moved, 2, mean$centre) * size, 2, mean$centre, `+`))
@@ -138,14 +148,34 @@ scan_faces <- function(template, deformations, scan, seeds, progress) {
 scan_face <- function(template, map, scan, id) {
   own <- template$mesh[c("vb", "it")]
   class(own) <- "mesh3d"
-  if (scan$remesh) own <- remeshed(own, scan)
-  own <- mesh_of_faces(own, outside_holes(own, known_rows(template$landmarks), scan))$mesh
+  if (scan$remesh) {
+    # The same surface by other vertices, triangles and order
+    edge <- if (is.null(scan$edge)) {
+      corner <- face_corners(own)
+      mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
+    } else scan$edge
+    new <- Rvcg::vcgIsotropicRemeshing(own,
+                                       TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)),
+                                       FeatureAngleDeg = scan$crease, iterations = scan$rounds)
+    order <- sample(ncol(new$vb))
+    it <- matrix(match(new$it, order), 3)[, sample(ncol(new$it)), drop = FALSE]
+    own <- structure(list(vb = new$vb[, order, drop = FALSE], it = it), class = "mesh3d")
+  }
+  it <- own$it[, outside_holes(own, known_rows(template$landmarks), scan), drop = FALSE]
+  vertex <- sort(unique(as.vector(it)))
+  own <- structure(list(vb = own$vb[, vertex, drop = FALSE], it = matrix(match(it, vertex), 3)),
+                   class = "mesh3d")
   places <- t(own$vb[1:3, ])
   own$vb[1:3, ] <- t(map(places))
   mesh <- with_noise(own, places, scan)
   landmarks <- template$landmarks
   landmarks[] <- map(landmarks)
-  landmarks <- observed_landmarks(mesh, landmarks, scan$landmark_error)
+  # Landmarks as an observer places them: beside the true ones, on the mesh
+  beside <- landmarks + stats::rnorm(length(landmarks), 0, scan$landmark_error)
+  landmarks <- if (scan$landmark_error == 0) landmarks else {
+    structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]),
+              dimnames = dimnames(landmarks))
+  }
   made <- specimen(mesh, landmarks, id, outward = "keep", midline = character())
   key <- function(vb) paste(vb[1, ], vb[2, ], vb[3, ])
   list(specimen = made, vertices = places[match(key(made$mesh$vb), key(mesh$vb)), , drop = FALSE])

@@ -44,12 +44,12 @@ function_print <- function(x, seen) {
   text <- deparse(utils::removeSource(x), control = c("keepNA", "keepInteger", "niceNames",
                                                       "showAttributes", "hexNumeric"))
   if (is_package(home)) return(list(text, environmentName(home)))
-  c(list(text), used_print(home, words_of(x), seen))
-}
-
-#' What a function sees outside its own body
-#' @noRd
-used_print <- function(home, words, seen) {
+  # Names and texts in a function
+  code <- utils::removeSource(x)
+  names <- c(all.names(body(code)), all.names(as.call(c(quote(f), formals(code)))))
+  quoted <- unlist(regmatches(deparse(code), gregexpr('"[^"]*"', deparse(code))))
+  # What a function sees outside its own body
+  words <- setdiff(unique(c(names, gsub('"', "", quoted))), "")
   used <- list()
   while (!is_package(home) && !identical(home, globalenv())) {
     used <- c(used, list(environment_print(home, seen)))
@@ -61,7 +61,7 @@ used_print <- function(home, words, seen) {
     seen$workspace[fresh] <- TRUE
     used <- c(used, own, lapply(mget(fresh, globalenv()), value_print, seen))
   }
-  used
+  c(list(text), used)
 }
 
 environment_print <- function(x, seen) {
@@ -75,13 +75,4 @@ environment_print <- function(x, seen) {
 #' @noRd
 is_package <- function(x) {
   identical(x, emptyenv()) || identical(x, baseenv()) || isNamespace(x) || !is.null(attr(x, "name"))
-}
-
-#' Names and texts in a function
-#' @noRd
-words_of <- function(x) {
-  code <- utils::removeSource(x)
-  names <- c(all.names(body(code)), all.names(as.call(c(quote(f), formals(code)))))
-  quoted <- unlist(regmatches(deparse(code), gregexpr('"[^"]*"', deparse(code))))
-  setdiff(unique(c(names, gsub('"', "", quoted))), "")
 }

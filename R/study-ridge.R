@@ -82,7 +82,15 @@ simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, lan
   with_seed(seed, {
     mesh <- ridge_mesh(function(x, y) -b * (x - a * y^3)^2, spacing, jitter, noise, correlation)
     marks <- ridge(c(from = -end, to = end))
-    marks <- drop_on_mesh(mesh, marks + aside(landmark_error, nrow(marks)))
+    # Points of the mesh straight above or below places of the square
+    xyz <- marks + aside(landmark_error, nrow(marks))
+    flat <- mesh
+    flat$vb[3, ] <- 0
+    below <- pmin(pmax(xyz, -1), 1)
+    below[, 3] <- 0
+    located <- surface_points(flat, below)
+    at <- place_on_faces(mesh, located$face, as.matrix(located[c("w1", "w2", "w3")]))
+    marks <- matrix(at, nrow(xyz), dimnames = dimnames(xyz))
   })
   id <- sprintf("ridge a = %g, b = %g, noise = %g, seed = %s", a, b, noise,
                 if (is.null(seed)) "none" else seed)
@@ -97,7 +105,14 @@ ridge_mesh <- function(height, spacing, jitter, noise, correlation) {
   side <- seq(-1, 1, length.out = n)
   at <- as.matrix(expand.grid(x = side,
                               y = side)) + stats::runif(2 * n^2, -jitter, jitter) * spacing
-  z <- height(at[, 1], at[, 2]) + noise * grid_noise(n, correlation)
+  # Standard normal noise on an n x n grid; smoothed by a Gaussian kernel, its variance kept at 1
+  white <- matrix(stats::rnorm(n^2), n)
+  rough <- if (correlation == 0) as.vector(white) else {
+    kernel <- stats::dnorm(outer(seq_len(n), seq_len(n), `-`), sd = correlation)
+    kernel <- kernel / sqrt(rowSums(kernel^2))
+    as.vector(kernel %*% white %*% t(kernel))
+  }
+  z <- height(at[, 1], at[, 2]) + noise * rough
   structure(list(vb = rbind(t(unname(at)), z, 1), it = grid_triangles(n)), class = "mesh3d")
 }
 
@@ -112,33 +127,11 @@ grid_triangles <- function(n) {
         rbind(ifelse(other, corner + 1, corner), opposite, corner + n))
 }
 
-#' Standard normal noise on an n x n grid; smoothed by a Gaussian kernel, its variance kept at 1
-#' @noRd
-grid_noise <- function(n, correlation) {
-  white <- matrix(stats::rnorm(n^2), n)
-  if (correlation == 0) return(as.vector(white))
-  kernel <- stats::dnorm(outer(seq_len(n), seq_len(n), `-`), sd = correlation)
-  kernel <- kernel / sqrt(rowSums(kernel^2))
-  as.vector(kernel %*% white %*% t(kernel))
-}
-
 #' Steps of a given length in (x, y) and random direction: n x 3
 #' @noRd
 aside <- function(distance, n) {
   angle <- stats::runif(n, 0, 2 * pi)
   distance * cbind(cos(angle), sin(angle), 0)
-}
-
-#' Points of the mesh straight above or below places of the square
-#' @noRd
-drop_on_mesh <- function(mesh, xyz) {
-  flat <- mesh
-  flat$vb[3, ] <- 0
-  below <- pmin(pmax(xyz, -1), 1)
-  below[, 3] <- 0
-  located <- surface_points(flat, below)
-  at <- place_on_faces(mesh, located$face, as.matrix(located[c("w1", "w2", "w3")]))
-  matrix(at, nrow(xyz), dimnames = dimnames(xyz))
 }
 
 #' Signed distances in (x, y) from a known ridge, positive to the left of its direction

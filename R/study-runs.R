@@ -82,7 +82,12 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
                                 landmark_error = landmark_error, noise = noise, b = b, a = a),
                            largest)
   constant <- study_constant(width, points, list(...))
-  check_study_size(n * prod(lengths(grid)) * length(methods), largest)
+  curves <- n * prod(lengths(grid)) * length(methods)
+  if (curves > largest) {
+    crestline_abort(sprintf("the study would have %s curves.", format(curves, big.mark = ",")),
+                    "Give fewer values or a smaller `n`, or a greater `largest`.",
+                    stage = "arguments", call = rlang::current_env())
+  }
   cells <- do.call(expand.grid, grid)[8:1]
   tasks <- study_tasks(cells, n, block, methods, constant, dir)
   run <- function() apply_tasks(tasks, list(methods = methods, constant = constant))
@@ -93,7 +98,10 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
                                                                        block) else block,
                   blocks, tasks)
   warn_unkept(blocks, dir)
-  bind_blocks(blocks)
+  # All rows as one data frame
+  rows <- unlist(blocks, recursive = FALSE)
+  columns <- stats::setNames(nm = names(rows[[1]]))
+  frame_of(lapply(columns, function(name) unlist(lapply(rows, `[[`, name), use.names = FALSE)))
 }
 
 #' The factors of a study, each value in its range
@@ -140,14 +148,6 @@ study_constant <- function(width, points, more, call = rlang::caller_env()) {
   constant
 }
 
-check_study_size <- function(curves, largest, call = rlang::caller_env()) {
-  if (curves > largest) {
-    crestline_abort(sprintf("the study would have %s curves.", format(curves, big.mark = ",")),
-                    "Give fewer values or a smaller `n`, or a greater `largest`.",
-                    stage = "arguments", call = call)
-  }
-}
-
 #' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells
 #' whether it is kept already
 #' @noRd
@@ -189,8 +189,22 @@ study_block <- function(task, methods, constant) {
   if (identical(kept$state, "whole") &&
       identical(kept$about$key, task$key)) return(kept_value(kept))
   crest <- ridge_crest(task$cell$a, task$cell$b, constant$end)
-  rows <- lapply(task$seeds,
-                 function(seed) study_surface(task$cell, seed, crest, methods, constant))
+  cell <- task$cell
+  rows <- lapply(task$seeds, function(seed) {
+    # One surface's estimates by all methods
+    surface <- simulated_ridge(cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter,
+                               cell$correlation, cell$landmark_error, constant$end)
+    truths <- list(attr(surface, "truth"), if (!anyNA(crest)) crest)
+    lapply(names(methods), function(name) {
+      start <- proc.time()
+      found <- tryCatch(study_estimate(methods[[name]], surface, cell, constant),
+                        error = conditionMessage)
+      seconds <- sum((proc.time() - start)[1:2])
+      problem <- if (is.character(found)) found else NA_character_
+      c(cell, list(seed = seed, method = name), study_result(found, truths, cell$spacing),
+        list(seconds = seconds, error = problem))
+    })
+  })
   rows <- unlist(rows, recursive = FALSE)
   if (is.null(task$file)) return(rows)
   tryCatch({
@@ -218,23 +232,6 @@ warn_unkept <- function(blocks, dir) {
                    stage = "keeping",
                    class = "crestline_keeping_warning")
   }
-}
-
-#' One surface's estimates by all methods
-#' @noRd
-study_surface <- function(cell, seed, crest, methods, constant) {
-  surface <- simulated_ridge(cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter,
-                             cell$correlation,
-                             cell$landmark_error, constant$end)
-  truths <- list(attr(surface, "truth"), if (!anyNA(crest)) crest)
-  lapply(names(methods), function(name) {
-    start <- proc.time()
-    found <- tryCatch(study_estimate(methods[[name]], surface, cell, constant),
-                      error = conditionMessage)
-    seconds <- sum((proc.time() - start)[1:2])
-    c(cell, list(seed = seed, method = name), study_result(found, truths, cell$spacing),
-      list(seconds = seconds, error = if (is.character(found)) found else NA_character_))
-  })
 }
 
 #' An estimate by one method
@@ -270,21 +267,18 @@ study_estimate <- function(method, surface, cell, constant) {
 #' @noRd
 study_result <- function(found, truths = NULL, spacing = 1) {
   failed <- is.character(found)
-  distance <- function(truth) if (failed || is.null(truth)) NA_real_ else
-    line_distance(found, truth) / spacing
+  # Mean distance between the curve and a true line at points of both, seen along z
+  distance <- function(truth) {
+    if (failed || is.null(truth)) return(NA_real_)
+    there <- mean(abs(ridge_offset(found$at, truth)))
+    back <- mean(abs(ridge_offset(equally_along(truth, nrow(found$at)), found$line)))
+    (there + back) / 2 / spacing
+  }
   covered <- function(truth) if (failed || is.null(truth)) NA_real_ else share_covered(found, truth)
   list(distance = distance(truths[[1]]), distance_curvature = distance(truths[[2]]),
        se = if (failed) NA_real_ else found$se / spacing, covered = covered(truths[[1]]),
        covered_curvature = covered(truths[[2]]), determined = if (failed) NA else found$determined,
        converged = if (failed) NA else found$converged)
-}
-
-#' Mean distance between a curve and a true line at points of both, seen along z
-#' @noRd
-line_distance <- function(found, truth) {
-  there <- mean(abs(ridge_offset(found$at, truth)))
-  back <- mean(abs(ridge_offset(equally_along(truth, nrow(found$at)), found$line)))
-  (there + back) / 2
 }
 
 #' Share of the inner points within two standard errors of a true line
@@ -303,12 +297,4 @@ equally_along <- function(line, n) {
   out <- vapply(1:3, function(i) stats::approx(s[kept], line[kept, i], at)$y, numeric(n))
   colnames(out) <- c("x", "y", "z")
   out
-}
-
-#' All rows as one data frame
-#' @noRd
-bind_blocks <- function(blocks) {
-  rows <- unlist(blocks, recursive = FALSE)
-  columns <- stats::setNames(nm = names(rows[[1]]))
-  frame_of(lapply(columns, function(name) unlist(lapply(rows, `[[`, name), use.names = FALSE)))
 }

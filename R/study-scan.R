@@ -51,25 +51,6 @@ scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NU
   )
 }
 
-#' The same surface by other vertices, triangles and order
-#'
-#' @return `mesh3d`; its vertices lie on the given mesh but for single precision, its edges' chords
-#'   may lie beside it.
-#' @noRd
-remeshed <- function(mesh, scan) {
-  edge <- if (is.null(scan$edge)) mean_edge(mesh) else scan$edge
-  new <- Rvcg::vcgIsotropicRemeshing(mesh, TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)),
-                                     FeatureAngleDeg = scan$crease, iterations = scan$rounds)
-  order <- sample(ncol(new$vb))
-  it <- matrix(match(new$it, order), 3)[, sample(ncol(new$it)), drop = FALSE]
-  structure(list(vb = new$vb[, order, drop = FALSE], it = it), class = "mesh3d")
-}
-
-mean_edge <- function(mesh) {
-  corner <- face_corners(mesh)
-  mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
-}
-
 #' A mesh with its vertices moved along their normals
 #' @param places n x 3: where in the template the vertices are; correlated noise is a field there.
 #' @noRd
@@ -79,7 +60,7 @@ with_noise <- function(mesh, places, scan) {
   height <- if (smooth) random_field(scan$noise_range, scan$noise, 1)(places) else
     stats::rnorm(n, 0, scan$noise)
   if (scan$noise == 0) return(mesh)
-  normal <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals[1:3, ]
+  normal <- vertex_normals(mesh)[1:3, ]
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normal * rep(height, each = 3)
   mesh
 }
@@ -103,36 +84,4 @@ outside_holes <- function(mesh, landmarks, scan) {
     kept[within(xyz[centre, ], scan$hole_radius)] <- FALSE
   }
   colSums(matrix(kept[mesh$it], 3)) == 3
-}
-
-#' A mesh of some of its triangles
-#' @return List: `mesh`, and `vertex`, the numbers that its vertices had.
-#' @noRd
-mesh_of_faces <- function(mesh, face) {
-  it <- mesh$it[, face, drop = FALSE]
-  vertex <- sort(unique(as.vector(it)))
-  list(mesh = structure(list(vb = mesh$vb[, vertex, drop = FALSE],
-                             it = matrix(match(it, vertex), 3)), class = "mesh3d"),
-       vertex = vertex)
-}
-
-#' Landmarks as an observer places them: beside the true ones, on the mesh
-#' @noRd
-observed_landmarks <- function(mesh, landmarks, error) {
-  beside <- landmarks + stats::rnorm(length(landmarks), 0, error)
-  if (error == 0) return(landmarks)
-  structure(as.matrix(surface_points(mesh, beside)[c("x", "y", "z")]),
-            dimnames = dimnames(landmarks))
-}
-
-#' A random rotation by a normal angle about a random axis through the centre, and a shift
-#' @return Function of a k x 3 matrix.
-#' @noRd
-random_pose <- function(scan, centre) {
-  axis <- stats::rnorm(3)
-  axis <- axis / sqrt(sum(axis^2))
-  angle <- stats::rnorm(1, 0, scan$turn)
-  shift <- stats::rnorm(3, 0, scan$shift)
-  turn <- rotation_about(angle * axis)
-  function(xyz) sweep(sweep(xyz, 2, centre) %*% t(turn), 2, centre + shift, `+`)
 }

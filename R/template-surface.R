@@ -156,13 +156,6 @@ block_transects <- function(block, grid, set, store, cutting, settings) {
 #' @param track Matrix s, x, y, z, ...
 #' @noRd
 track_places <- function(track, xyz) {
-  a <- track[-nrow(track), 2:4, drop = FALSE]
-  step <- diff(track[, 2:4])
-  length2 <- pmax(rowSums(step^2), .Machine$double.xmin)
-  apply(xyz, 1, function(p) {
-    rel <- rep(p, each = nrow(a)) - a
-    share <- pmin(pmax(rowSums(rel * step) / length2, 0), 1)
-    nearest <- which.min(rowSums((rel - share * step)^2))
-    track[nearest, 1] + share[nearest] * (track[nearest + 1, 1] - track[nearest, 1])
-  })
+  at <- nearest_on_polyline(xyz, track[, 2:4, drop = FALSE])
+  track[at$segment, 1] + at$share * (track[at$segment + 1, 1] - track[at$segment, 1])
 }

@@ -35,8 +35,8 @@ per_cent <- function(share, least = 0.1) {
 }
 
 near_names <- function(name, known) {
-  if (!length(known)) return(paste("The specimen has no landmarks: give them to specimen() or",
-                                   "read_specimen()."))
+  if (!length(known)) return(paste0("The specimen has no landmarks: give them to specimen() or ",
+                                    "read_specimen()."))
   near <- if (is.character(name) && length(name) == 1 && !is.na(name)) {
     known[order(utils::adist(name, known, ignore.case = TRUE))]
   } else {

@@ -99,7 +99,7 @@ compare_humface <- function() {
   # Of the middle, how far the one is from the whole of the other, both ways.
   inner <- vapply(near$part, function(part) {
     paths <- lapply(shapes, function(shape) shape$paths[[part]])
-    off <- function(a, b) crestline:::polyline_distances(places_of(a, 0.2, 0.8, 100), as.matrix(b[xyz]))
+    off <- function(a, b) crestline:::nearest_on_polyline(places_of(a, 0.2, 0.8, 100), as.matrix(b[xyz]))$distance
     rms(c(off(paths$first, paths$second), off(paths$second, paths$first)))
   }, 0)
   table <- data.frame(curve = near$part, kind = kind_of(near$part), to_ear = near$part %in% to_ear,

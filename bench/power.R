@@ -26,7 +26,8 @@ rejections <- function(effect, seed) {
   places <- function(level) true_points(drawn, coords(shape, level))
   sample <- list(landmarks = align(places("landmarks"), "landmarks"), curves = align(places("curves"), "curves"),
                  surface = align(places("surface"), "surface", triangles = t(as.matrix(triangles))))
-  found <- compare_groups(sample, drawn$covariates$group, n_perm = 499, seed = seed, progress = FALSE)
+  found <- compare_groups(sample, drawn$covariates$group, n_perm = 499, seed = seed,
+                          equal_spread = TRUE, progress = FALSE)
   points <- tapply(found$points$p_adjusted, factor(found$points$level, names(sample)), min, na.rm = TRUE)
   tests <- as.data.frame(found)
   tests <- tests[tests$test %in% c("size t", "mean shape", "T2"), c("level", "test", "p_value")]

@@ -48,11 +48,11 @@ speed <- function() {
   aligned <- align(x)
   flat <- t(matrix(aligned$coords, 3 * 922))
   rows <- list(seconds("align()", align(x)), seconds("shape_pca()", shape_pca(aligned)),
-               seconds("compare_groups(), mean shape", compare_groups(aligned, group, tests = "shape", seed = 1)),
+               seconds("compare_groups(), mean shape", compare_groups(aligned, group, tests = "shape", seed = 1, equal_spread = TRUE)),
                seconds("compare_groups(), size, T2, ten components",
-                       compare_groups(aligned, group, tests = c("size", "T2", "components"), seed = 1)),
+                       compare_groups(aligned, group, tests = c("size", "T2", "components"), seed = 1, equal_spread = TRUE)),
                seconds("compare_groups(), 922 points, all co-ordinates",
-                       compare_groups(aligned, group, tests = "points", seed = 1), 3))
+                       compare_groups(aligned, group, tests = "points", seed = 1, equal_spread = TRUE), 3))
   if (have("Morpho")) {
     rows <- c(rows, list(seconds("Morpho::procSym()", Morpho::procSym(x), 3),
                          seconds("Morpho::ProcGPA()", Morpho::ProcGPA(x, CSinit = TRUE), 3),
@@ -106,7 +106,7 @@ agree_on_p <- function(name, x, group, iter = 999) {
   ours <- align(x)
   flat <- t(matrix(ours$coords, length(ours$mean)))
   compared <- compare_groups(ours, group, permutations = RRPP:::perm.index(length(group), iter, seed = 1),
-                             tests = c("size", "shape"))
+                             tests = c("size", "shape"), equal_spread = TRUE)
   frame <- list(y = flat, size = unname(ours$size), group = factor(group))
   shape <- anova(RRPP::lm.rrpp(y ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
   size <- anova(RRPP::lm.rrpp(size ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
@@ -146,8 +146,8 @@ null_p <- function(seed, sizes, ...) {
   group <- rep(c("a", "b", "c")[seq_along(sizes)], sizes)
   it <- rbind(1:18, 2:19, 3:20)
   surface <- align(x, triangles = it)
-  compared <- compare_groups(surface, group, components = 5, seed = seed, ...)
-  vectors <- compare_groups(x, group, tests = "points", seed = seed, ...)
+  compared <- compare_groups(surface, group, components = 5, seed = seed, equal_spread = TRUE, ...)
+  vectors <- compare_groups(x, group, tests = "points", seed = seed, equal_spread = TRUE, ...)
   tests <- compared$tests
   component <- grepl("^PC", tests$test)
   c(size = tests$p_value[1], "size, parametric" = tests$p_parametric[1], "mean shape" = tests$p_value[2],
@@ -203,7 +203,7 @@ simpop <- function() {
   own <- sapply(levels, distances)
   cat("correlation of Procrustes distances between 23 faces with the dense mesh's\n")
   print(round(cor(own)[, c("dense", "dense, by area")], 3))
-  compared <- compare_groups(levels, sex, n_perm = 1999, seed = 1)
+  compared <- compare_groups(levels, sex, n_perm = 1999, seed = 1, equal_spread = TRUE)
   cat("p-values, sex (", paste(table(sex), collapse = " v "), ")\n", sep = "")
   print(summary(compared), row.names = FALSE, digits = 2)
   print(compared, most = 0)

@@ -49,7 +49,8 @@ void times(double* x, std::size_t n, double factor) {
 void overlap(const double* x, const double* y, int k, int dim, double* h) {
   for (int b = 0; b < dim; ++b)
     for (int a = 0; a < dim; ++a) {
-      const double *p = x + static_cast<std::size_t>(k) * a, *q = y + static_cast<std::size_t>(k) * b;
+      const double *p = x + static_cast<std::size_t>(k) * a,
+                   *q = y + static_cast<std::size_t>(k) * b;
       double sum = 0;
       for (int i = 0; i < k; ++i) sum += p[i] * q[i];
       h[a + dim * b] = sum;
@@ -91,7 +92,8 @@ double furthest(const std::vector<double>& a, const std::vector<double>& b) {
   return most;
 }
 
-void turn_in_place(double* x, const double* r, double factor, int k, int dim, std::vector<double>& room) {
+void turn_in_place(double* x, const double* r, double factor, int k, int dim,
+                   std::vector<double>& room) {
   std::fill(room.begin(), room.end(), 0.0);
   add_turned(x, r, factor, k, dim, room.data());
   std::copy(room.begin(), room.end(), x);
@@ -107,8 +109,9 @@ void nearest_rotation(const double* h, int dim, double* r) {
   }
 }
 
-Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, const double* weight, const double* reference,
-                             const AlignSettings& settings, const std::function<void()>& between) {
+Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, const double* weight,
+                             const double* reference, const AlignSettings& settings,
+                             const std::function<void()>& between) {
   Patience patience(between);
   const std::size_t block = static_cast<std::size_t>(k) * dim;
   const bool unit = settings.scaling != Scaling::kNone;
@@ -122,7 +125,8 @@ Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, cons
   double start_size = centre(start.data(), k, dim, weight);
   if (unit) times(start.data(), block, 1 / start_size);
   out.mean = start;
-  std::vector<double> turns(static_cast<std::size_t>(n) * kMost * kMost), factor(n, 1.0), next(block);
+  std::vector<double> turns(static_cast<std::size_t>(n) * kMost * kMost), factor(n, 1.0),
+      next(block);
   double h[kMost * kMost];
   for (int round = 0; round < settings.rounds && !out.converged; ++round) {
     std::vector<double> aim = weighted(out.mean, weight, k);
@@ -147,7 +151,8 @@ Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, cons
   overlap(out.mean.data(), weighted(start, weight, k).data(), k, dim, h);
   nearest_rotation(h, dim, back);
   for (int i = 0; i < n; ++i) {
-    turn_in_place(&x[i * block], &turns[static_cast<std::size_t>(i) * kMost * kMost], factor[i], k, dim, room);
+    turn_in_place(&x[i * block], &turns[static_cast<std::size_t>(i) * kMost * kMost], factor[i], k,
+                  dim, room);
     turn_in_place(&x[i * block], back, 1, k, dim, room);
   }
   turn_in_place(out.mean.data(), back, 1, k, dim, room);

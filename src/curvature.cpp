@@ -85,8 +85,8 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
 #pragma omp for schedule(dynamic) nowait
     for (int cell = 0; cell < cells; ++cell) {
       if (patience.over(thread)) continue;
-      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread], patience, thread,
-               [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace&) {
+      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread],
+               patience, thread, [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace&) {
                  store(fit, t, out);
                });
     }
@@ -111,7 +111,8 @@ Responses responses(const MeshView& mesh, const std::vector<int>& targets, const
                     const double* design, int functions, const FitSettings& settings,
                     const std::function<void()>& between) {
   VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0), derivative, total;
+  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0), derivative,
+                      total;
   ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
   ConnectedBalls::Workspace space = balls.workspace();
   FitBuffer buffer;

@@ -38,8 +38,9 @@ struct Moments {
 };
 
 // Sums of x[j] * y0[j], ..., x[j] * y3[j]: four at once keep the adders busy.
-CRESTLINE_INLINE void add_four(const double* x, const double* y0, const double* y1, const double* y2,
-                     const double* y3, int n, double* s0, double* s1, double* s2, double* s3) {
+CRESTLINE_INLINE void add_four(const double* x, const double* y0, const double* y1,
+                               const double* y2, const double* y3, int n, double* s0, double* s1,
+                               double* s2, double* s3) {
   double a = 0, b = 0, c = 0, d = 0;
 #pragma omp simd reduction(+ : a, b, c, d)
   for (int j = 0; j < n; ++j) {

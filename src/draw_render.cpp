@@ -40,7 +40,8 @@ int clamp_to(double x, int last) {
 }
 
 // Corner co-ordinates times `scale` are in samples; sample (i, j) sits at (i + 0.5, j + 0.5).
-void draw_triangle(const double* xyz, const double* rgb, const int* corner, double scale, Samples& s) {
+void draw_triangle(const double* xyz, const double* rgb, const int* corner, double scale,
+                   Samples& s) {
   const double* p[3];
   double x[3], y[3];
   for (int c = 0; c < 3; ++c) {
@@ -52,7 +53,9 @@ void draw_triangle(const double* xyz, const double* rgb, const int* corner, doub
   if (!(area > 0)) return;
   auto range_x = std::minmax({x[0], x[1], x[2]});
   auto range_y = std::minmax({y[0], y[1], y[2]});
-  if (range_x.second < 0 || range_y.second < 0 || range_x.first > s.width || range_y.first > s.height) return;
+  if (range_x.second < 0 || range_y.second < 0 || range_x.first > s.width ||
+      range_y.first > s.height)
+    return;
   int first_i = clamp_to(std::ceil(range_x.first - 0.5), s.width - 1);
   int last_i = clamp_to(std::floor(range_x.second - 0.5), s.width - 1);
   int first_j = clamp_to(std::ceil(range_y.first - 0.5), s.height - 1);
@@ -69,13 +72,16 @@ void draw_triangle(const double* xyz, const double* rgb, const int* corner, doub
       if (depth <= s.depth[at]) continue;
       s.depth[at] = depth;
       for (int k = 0; k < 3; ++k)
-        s.rgb[3 * at + k] = static_cast<float>(w0 * rgb[3 * corner[0] + k] + w1 * rgb[3 * corner[1] + k] +
-                                               w2 * rgb[3 * corner[2] + k]);
+        s.rgb[3 * at + k] =
+            static_cast<float>(w0 * rgb[3 * corner[0] + k] + w1 * rgb[3 * corner[1] + k] +
+                               w2 * rgb[3 * corner[2] + k]);
     }
 }
 
-// Pixel (column i, row j): the mean colour of the samples that see something, and their share as alpha.
-void average_pixel(const Samples& s, int i, int j, int samples, int width, int height, Picture& out) {
+// Pixel (column i, row j): the mean colour of the samples that see something, and their share as
+// alpha.
+void average_pixel(const Samples& s, int i, int j, int samples, int width, int height,
+                   Picture& out) {
   double sum[3] = {0, 0, 0}, farthest = std::numeric_limits<double>::infinity();
   int seen = 0;
   for (int dj = 0; dj < samples; ++dj)

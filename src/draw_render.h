@@ -7,7 +7,8 @@ namespace crestline {
 
 struct Picture {
   std::vector<double> rgba;   // height x width x 4, column major, in [0, 1]; row 0 is the top
-  std::vector<double> depth;  // height x width: the farthest of what is seen in a pixel, -infinity where nothing is
+  // height x width: the farthest of what is seen in a pixel, -infinity where nothing is
+  std::vector<double> depth;
 };
 
 // xyz: 3 x n, x to the right and y down in pixels, z towards the viewer in any unit;

@@ -7,7 +7,8 @@ namespace crestline {
 
 namespace {
 
-// Rotates rows p and q of the symmetric 4 x 4 matrix a so that a[p][q] is 0; v gathers the rotations.
+// Rotates rows p and q of the symmetric 4 x 4 matrix a so that a[p][q] is 0; v gathers the
+// rotations.
 void jacobi_turn(double a[4][4], double v[4][4], int p, int q) {
   if (a[p][q] == 0) return;
   double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
@@ -50,18 +51,20 @@ void largest_eigenvector(double a[4][4], double* q) {
 
 void rotation_in_space(const double* h, double* r) {
   auto m = [h](int i, int j) { return h[i + 3 * j]; };
-  double a[4][4] = {{m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)},
-                    {0, m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2)},
-                    {0, 0, -m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1)},
-                    {0, 0, 0, -m(0, 0) - m(1, 1) + m(2, 2)}};
+  double a[4][4] = {
+      {m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)},
+      {0, m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2)},
+      {0, 0, -m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1)},
+      {0, 0, 0, -m(0, 0) - m(1, 1) + m(2, 2)}};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < i; ++j) a[i][j] = a[j][i];
   double q[4];
   largest_eigenvector(a, q);
   double w = q[0], x = q[1], y = q[2], z = q[3];
-  double turn[9] = {w * w + x * x - y * y - z * z, 2 * (x * y - w * z),           2 * (x * z + w * y),
-                    2 * (x * y + w * z),           w * w - x * x + y * y - z * z, 2 * (y * z - w * x),
-                    2 * (x * z - w * y),           2 * (y * z + w * x),           w * w - x * x - y * y + z * z};
+  double turn[9] = {
+      w * w + x * x - y * y - z * z, 2 * (x * y - w * z),           2 * (x * z + w * y),
+      2 * (x * y + w * z),           w * w - x * x + y * y - z * z, 2 * (y * z - w * x),
+      2 * (x * z - w * y),           2 * (y * z + w * x),           w * w - x * x - y * y + z * z};
   std::copy(turn, turn + 9, r);
 }
 

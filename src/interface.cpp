@@ -19,9 +19,9 @@
 #include "mesh_join.h"
 #include "mesh_key.h"
 #include "mesh_locate.h"
-#include "mesh_read_obj.h"
-#include "mesh_read_ply.h"
-#include "mesh_read_text.h"
+#include "mesh_obj.h"
+#include "mesh_ply.h"
+#include "mesh_read.h"
 #include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
@@ -80,6 +80,11 @@ crestline::MeshView view(const crestline::Crop& crop) {
 crestline::Triangulation triangulation(const NumericMatrix& vb, const IntegerMatrix& it,
                                        const IntegerMatrix& twin) {
   return {vb.begin(), vb.nrow(), it.begin(), twin.begin(), it.ncol()};
+}
+
+// For what does not walk over edges.
+crestline::Triangulation triangulation(const NumericMatrix& vb, const IntegerMatrix& it) {
+  return {vb.begin(), vb.nrow(), it.begin(), nullptr, it.ncol()};
 }
 
 // (face, w1, w2, w3), the face counted from 1.
@@ -428,7 +433,7 @@ List cpp_equal_chords(NumericMatrix xyz, NumericVector s, int n, List settings) 
 // [[Rcpp::export]]
 NumericMatrix cpp_place_along(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, NumericVector s,
                               IntegerVector face, NumericVector at) {
-  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::Triangulation mesh = triangulation(vb, it);
   crestline::Track path = track(xyz, s, face);
   NumericMatrix out(at.size(), 7);
   for (int i = 0; i < at.size(); ++i) {
@@ -583,7 +588,7 @@ List cpp_slide_jointly(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
 // xyz: n x 3. Rows with a co-ordinate that is not finite, or too far for a squared distance, give NA.
 // [[Rcpp::export]]
 List cpp_locate(NumericMatrix vb, IntegerMatrix it, NumericMatrix xyz, int leaf) {
-  crestline::Triangulation mesh = triangulation(vb, it, it);
+  crestline::Triangulation mesh = triangulation(vb, it);
   crestline::FaceTree tree(mesh, leaf);
   int n = xyz.nrow();
   IntegerVector face(n, NA_INTEGER);
@@ -611,7 +616,7 @@ NumericMatrix cpp_geodesic_distances(NumericMatrix vb, IntegerMatrix it, Numeric
   int n = vb.ncol();
   NumericMatrix out(n, places.nrow());
   for (int i = 0; i < places.nrow(); ++i) {
-    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it, it), n, surface_point(places, i),
+    std::vector<double> d = crestline::geodesic_distances(triangulation(vb, it), n, surface_point(places, i),
                                                              [] { checkUserInterrupt(); });
     std::copy(d.begin(), d.end(), out.begin() + static_cast<R_xlen_t>(n) * i);
     checkUserInterrupt();

@@ -8,8 +8,8 @@
 
 namespace crestline {
 
-// `ask` throws where the user wants an end. It is called at most ten times a second, and on thread 0 only, the one that R
-// runs on; no exception leaves a loop that several threads share.
+// `ask` throws where the user wants an end. It is called at most ten times a second, and on thread
+// 0 only, the one that R runs on; no exception leaves a loop that several threads share.
 class Patience {
  public:
   explicit Patience(const std::function<void()>& ask) : ask_(ask), last_(Clock::now()) {}
@@ -30,7 +30,8 @@ class Patience {
     return stopped_;
   }
 
-  // At the end of a thread's share of the work: thread 0 goes on asking until all of the team are done.
+  // At the end of a thread's share of the work: thread 0 goes on asking until all of the team are
+  // done.
   void wait_for_others(int thread, int team) {
     ++done_;
     if (thread != 0) return;

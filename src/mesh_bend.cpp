@@ -8,7 +8,8 @@
 
 namespace crestline {
 
-std::vector<double> face_bend(const double* vb, const double* normals, int rows, const int* it, int m) {
+std::vector<double> face_bend(const double* vb, const double* normals, int rows, const int* it,
+                              int m) {
   const double degrees = 180 / std::acos(-1.0);
   std::vector<double> bend(m, 0.0);
   for (int f = 0; f < m; ++f) {
@@ -17,7 +18,8 @@ std::vector<double> face_bend(const double* vb, const double* normals, int rows,
     for (int c = 0; c < 3; ++c) at[c] = rows * static_cast<std::size_t>(v[c] - 1);
     double own[3], mean[3];
     triangle_normal(vb + at[0], vb + at[1], vb + at[2], own);
-    for (int i = 0; i < 3; ++i) mean[i] = normals[at[0] + i] + normals[at[1] + i] + normals[at[2] + i];
+    for (int i = 0; i < 3; ++i)
+      mean[i] = normals[at[0] + i] + normals[at[1] + i] + normals[at[2] + i];
     double own2 = dot(own, own), mean2 = dot(mean, mean);
     if (!(own2 > 0) || !(mean2 > 0)) continue;
     double cosine = dot(own, mean) / std::sqrt(own2) / std::sqrt(mean2);

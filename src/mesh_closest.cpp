@@ -3,23 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry.h"
+
 namespace crestline {
 
 namespace {
-
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void measure(const Triangulation& mesh, ClosestPoint& p, const double* to) {
   position(mesh, p.at, p.xyz);
   double gap[3] = {to[0], to[1], to[2]};
   for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < 3; ++k) gap[k] -= p.at.w[c] * corner(mesh, vertex_at(mesh, 3 * p.at.face + c))[k];
+    for (int k = 0; k < 3; ++k)
+      gap[k] -= p.at.w[c] * corner(mesh, vertex_at(mesh, 3 * p.at.face + c))[k];
   p.distance = std::sqrt(dot(gap, gap));
 }
 
 // The closest point of the edge from corner c on.
 ClosestPoint on_edge(const Triangulation& mesh, int face, int c, const double* to) {
-  const double *a = corner(mesh, vertex_at(mesh, 3 * face + c)), *b = corner(mesh, vertex_at(mesh, 3 * face + (c + 1) % 3));
+  const double *a = corner(mesh, vertex_at(mesh, 3 * face + c)),
+               *b = corner(mesh, vertex_at(mesh, 3 * face + (c + 1) % 3));
   double edge[3], rel[3];
   for (int k = 0; k < 3; ++k) {
     edge[k] = b[k] - a[k];

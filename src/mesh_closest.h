@@ -20,8 +20,8 @@ class NearSearch {
  public:
   explicit NearSearch(const Triangulation& mesh) : mesh_(mesh), seen_(mesh.m, 0) {}
 
-  // The point closest to `to` on the faces that are joined over edges to that of `from` and meet the ball about `to` through `from`:
-  // never farther from it than `from`.
+  // The point closest to `to` on the faces that are joined over edges to that of `from` and meet
+  // the ball about `to` through `from`: never farther from it than `from`.
   ClosestPoint closest(const SurfacePoint& from, const double* to);
 
  private:

@@ -48,7 +48,8 @@ Crop crop_mesh(const double* vb, int rows, int n, const int* it, int m,
   }
   out.it.reserve(3 * faces.size());
   for (int f : faces)
-    for (int c = 0; c < 3; ++c) out.it.push_back(local[it[3 * static_cast<std::size_t>(f) + c] - 1]);
+    for (int c = 0; c < 3; ++c)
+      out.it.push_back(local[it[3 * static_cast<std::size_t>(f) + c] - 1]);
   out.local.reserve(wanted.size());
   for (int v : wanted) out.local.push_back(local[v]);
   return out;

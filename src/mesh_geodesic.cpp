@@ -25,7 +25,8 @@ double distance(const double* a, const double* b) {
 struct Corners {
   std::vector<int> start, half_edge;
 
-  Corners(const Triangulation& mesh, int n) : start(n + 1, 0), half_edge(3 * static_cast<std::size_t>(mesh.m)) {
+  Corners(const Triangulation& mesh, int n)
+      : start(n + 1, 0), half_edge(3 * static_cast<std::size_t>(mesh.m)) {
     int count = 3 * mesh.m;
     for (int h = 0; h < count; ++h) ++start[vertex_at(mesh, h) + 1];
     for (int v = 0; v < n; ++v) start[v + 1] += start[v];
@@ -34,8 +35,8 @@ struct Corners {
   }
 };
 
-// Distance of corner c in the plane, with the source beyond the side ab; given: the distances of a and b, and the sides.
-// Infinite where the straight line does not cross that side.
+// Distance of corner c in the plane, with the source beyond the side ab; given: the distances of a
+// and b, and the sides. Infinite where the straight line does not cross that side.
 double unfolded(double from_a, double from_b, double ab, double ac, double bc) {
   if (!(ab > 0)) return kInfinite;
   double x = (from_a * from_a - from_b * from_b + ab * ab) / (2 * ab);
@@ -55,7 +56,8 @@ std::vector<double> geodesic_distances(const Triangulation& mesh, int n, const S
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   std::vector<double> found(n, kInfinite);
-  std::vector<char> settled(n, 0);  // has been the nearest once: before, its distance is an edge's, too long to unfold
+  std::vector<char> settled(
+      n, 0);  // has been the nearest once: before, its distance is an edge's, too long to unfold
   auto offer = [&](int vertex, double d) {
     if (!(d < found[vertex] * (1 - kRounding))) return;
     found[vertex] = d;
@@ -78,7 +80,8 @@ std::vector<double> geodesic_distances(const Triangulation& mesh, int n, const S
     settled[a] = 1;
     for (int i = corners.start[a]; i < corners.start[a + 1]; ++i) {
       int h = corners.half_edge[i], face = h / 3;
-      int b = vertex_at(mesh, 3 * face + (h % 3 + 1) % 3), c = vertex_at(mesh, 3 * face + (h % 3 + 2) % 3);
+      int b = vertex_at(mesh, 3 * face + (h % 3 + 1) % 3),
+          c = vertex_at(mesh, 3 * face + (h % 3 + 2) % 3);
       const double *pa = corner(mesh, a), *pb = corner(mesh, b), *pc = corner(mesh, c);
       double ab = distance(pa, pb), ac = distance(pa, pc), bc = distance(pb, pc);
       offer(b, found[a] + ab);

@@ -83,7 +83,8 @@ void spans(const Triangulation& mesh, std::vector<float>& low, std::vector<float
   low.resize(mesh.m);
   high.resize(mesh.m);
   for (int g = 0; g < mesh.m; ++g) {
-    double a = place(corner(mesh, vertex_at(mesh, 3 * g))), b = place(corner(mesh, vertex_at(mesh, 3 * g + 1))),
+    double a = place(corner(mesh, vertex_at(mesh, 3 * g))),
+           b = place(corner(mesh, vertex_at(mesh, 3 * g + 1))),
            c = place(corner(mesh, vertex_at(mesh, 3 * g + 2)));
     low[g] = rounded(std::min(std::min(a, b), c), -1);
     high[g] = rounded(std::max(std::max(a, b), c), 1);
@@ -113,8 +114,8 @@ std::vector<Pair> near_pairs(const double* xyz, int rows, int n, double reach, i
     for (std::size_t j = i + 1; j < sorted.size() && sorted[j].at - sorted[i].at <= reach; ++j) {
       if (--left < 0) return {};
       int v = sorted[i].vertex, w = sorted[j].vertex;
-      if (distance2(xyz + static_cast<std::size_t>(rows) * v, xyz + static_cast<std::size_t>(rows) * w) <=
-          reach * reach)
+      if (distance2(xyz + static_cast<std::size_t>(rows) * v,
+                    xyz + static_cast<std::size_t>(rows) * w) <= reach * reach)
         out.push_back({std::min(v, w), std::max(v, w)});
     }
   return out;
@@ -131,8 +132,8 @@ std::vector<int> pair_groups(const std::vector<Pair>& pairs, int n) {
   return parent;
 }
 
-std::vector<VertexOnEdge> vertices_on_edges(const Triangulation& mesh, const std::vector<int>& sides,
-                                            double reach, int most) {
+std::vector<VertexOnEdge> vertices_on_edges(const Triangulation& mesh,
+                                            const std::vector<int>& sides, double reach, int most) {
   std::vector<int> ends;
   for (int h : sides) {
     ends.push_back(vertex_at(mesh, h));
@@ -144,7 +145,8 @@ std::vector<VertexOnEdge> vertices_on_edges(const Triangulation& mesh, const std
   std::vector<VertexOnEdge> out;
   double left = static_cast<double>(most) * sides.size();
   for (int h : sides) {
-    const double *a = corner(mesh, vertex_at(mesh, h)), *b = corner(mesh, vertex_at(mesh, next_half_edge(h)));
+    const double *a = corner(mesh, vertex_at(mesh, h)),
+                 *b = corner(mesh, vertex_at(mesh, next_half_edge(h)));
     int third = vertex_at(mesh, next_half_edge(next_half_edge(h)));
     double low = std::min(place(a), place(b)) - reach, high = std::max(place(a), place(b)) + reach;
     auto p = std::lower_bound(sorted.begin(), sorted.end(), low,
@@ -177,7 +179,8 @@ std::vector<double> other_sheets(const Triangulation& mesh, const int* piece,
     mark_reached(mesh, face, middle, reach, mark, seen, queue);
     float from = rounded(place(middle) - reach, -1), to = rounded(place(middle) + reach, 1);
     for (int g = 0; g < mesh.m; ++g) {
-      if (low[g] > to || high[g] < from || seen[g] == mark || beside_box(mesh, g, middle, reach)) continue;
+      if (low[g] > to || high[g] < from || seen[g] == mark || beside_box(mesh, g, middle, reach))
+        continue;
       ClosestPoint there = closest_on_face(mesh, g, middle);
       double away = there.distance, height = 0;
       if (away > reach || away >= nearest) continue;

@@ -8,13 +8,17 @@ namespace crestline {
 
 namespace {
 
-// The primes of xxHash (Collet), whose round and finish these are: four lanes keep the multiplier busy.
-const std::uint64_t p1 = 0x9E3779B185EBCA87ULL, p2 = 0xC2B2AE3D27D4EB4FULL, p3 = 0x165667B19E3779F9ULL,
-                    p4 = 0x85EBCA77C2B2AE63ULL, p5 = 0x27D4EB2F165667C5ULL;
+// The primes of xxHash (Collet), whose round and finish these are: four lanes keep the multiplier
+// busy.
+const std::uint64_t p1 = 0x9E3779B185EBCA87ULL, p2 = 0xC2B2AE3D27D4EB4FULL,
+                    p3 = 0x165667B19E3779F9ULL, p4 = 0x85EBCA77C2B2AE63ULL,
+                    p5 = 0x27D4EB2F165667C5ULL;
 
 std::uint64_t turned(std::uint64_t x, int by) { return (x << by) | (x >> (64 - by)); }
 
-std::uint64_t mixed(std::uint64_t lane, std::uint64_t word) { return turned(lane + word * p2, 31) * p1; }
+std::uint64_t mixed(std::uint64_t lane, std::uint64_t word) {
+  return turned(lane + word * p2, 31) * p1;
+}
 
 std::uint64_t spread(std::uint64_t x) {
   x = (x ^ (x >> 33)) * p2;

@@ -116,7 +116,8 @@ double ConnectedBalls::gather(int cell, Workspace& w) const {
   double centre[3], rho2 = 0;
   for (int a = 0; a < 3; ++a) centre[a] = (low[a] + high[a]) / 2;
   for (int i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i)
-    rho2 = std::max(rho2, squared(xyz_ + 3 * static_cast<std::size_t>(targets_[cell_target_[i]]), centre));
+    rho2 = std::max(
+        rho2, squared(xyz_ + 3 * static_cast<std::size_t>(targets_[cell_target_[i]]), centre));
   double rho = std::sqrt(rho2), reach = (radius_ + rho) * (radius_ + rho);
   w.candidate.clear();
   w.x.clear();
@@ -127,7 +128,8 @@ double ConnectedBalls::gather(int cell, Workspace& w) const {
   cell_of(xyz_ + 3 * static_cast<std::size_t>(targets_[cell_target_[cell_start_[cell]]]), c);
   for (int dz = -kReach; dz <= kReach; ++dz)
     for (int dy = -kReach; dy <= kReach; ++dy) {
-      auto from = std::lower_bound(key_.begin(), key_.end(), key(c[0] - kReach, c[1] + dy, c[2] + dz));
+      auto from =
+          std::lower_bound(key_.begin(), key_.end(), key(c[0] - kReach, c[1] + dy, c[2] + dz));
       std::uint64_t last = key(c[0] + kReach, c[1] + dy, c[2] + dz);
       for (std::size_t i = from - key_.begin(); i < key_.size() && key_[i] <= last; ++i) {
         const double* p = xyz_ + 3 * static_cast<std::size_t>(vertex_[i]);

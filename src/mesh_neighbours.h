@@ -8,17 +8,18 @@ namespace crestline {
 // Neighbours of each vertex over mesh edges, in one array.
 struct VertexGraph {
   std::vector<int> start;      // n + 1
-  std::vector<int> neighbour;  // neighbours of v: neighbour[start[v]] ... neighbour[start[v + 1] - 1]
+  // neighbours of v: neighbour[start[v]] ... neighbour[start[v + 1] - 1]
+  std::vector<int> neighbour;
 };
 
 // it: 3 x m, corners from 0.
 VertexGraph vertex_graph(const int* it, int m, int n);
 
-// Connected balls by a uniform grid. What holds for all targets of a grid cell is found once a cell:
-// with C the centre of its targets and rho their largest distance from it, every vertex within r - rho
-// of C is in all their balls, and a vertex j reached over an edge from a reached vertex k is in a ball
-// only together with k where |p_j - C|^2 - |p_k - C|^2 > 2 rho |p_j - p_k|. What is left is searched
-// for each target.
+// Connected balls by a uniform grid. What holds for all targets of a grid cell is found once a
+// cell: with C the centre of its targets and rho their largest distance from it, every vertex
+// within r - rho of C is in all their balls, and a vertex j reached over an edge from a reached
+// vertex k is in a ball only together with k where |p_j - C|^2 - |p_k - C|^2 > 2 rho |p_j - p_k|.
+// What is left is searched for each target.
 class ConnectedBalls {
  public:
   // xyz: 3 x n; targets: vertices whose balls are wanted.
@@ -37,8 +38,9 @@ class ConnectedBalls {
   };
   Workspace workspace() const;
 
-  // Calls visit(t, w) for each target of a cell: t is its place in `targets`; its neighbours, itself
-  // among them, are the places w.selected in w.candidate, w.x, w.y and w.z. It ends where visit() gives false.
+  // Calls visit(t, w) for each target of a cell: t is its place in `targets`; its neighbours,
+  // itself among them, are the places w.selected in w.candidate, w.x, w.y and w.z. It ends where
+  // visit() gives false.
   template <class Visit>
   void visit_cell(int cell, Workspace& w, Visit&& visit) const {
     double rho = gather(cell, w);

@@ -29,7 +29,8 @@ void face_normals(const double* xyz, int rows, const int* it, int m, int first, 
   }
 }
 
-std::vector<double> vertex_normals(const double* xyz, int rows, int n, const int* it, int m, int first) {
+std::vector<double> vertex_normals(const double* xyz, int rows, int n, const int* it, int m,
+                                   int first) {
   std::vector<double> normals(3 * static_cast<std::size_t>(n), 0);
   for (int f = 0; f < m; ++f) {
     const int* v = it + 3 * static_cast<std::size_t>(f);
@@ -37,7 +38,8 @@ std::vector<double> vertex_normals(const double* xyz, int rows, int n, const int
     double normal[3];
     triangle_normal(t.a, t.b, t.c, normal);
     for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) normals[3 * static_cast<std::size_t>(v[k] - first) + i] += normal[i];
+      for (int i = 0; i < 3; ++i)
+        normals[3 * static_cast<std::size_t>(v[k] - first) + i] += normal[i];
   }
   for (int v = 0; v < n; ++v) {
     double* p = &normals[3 * static_cast<std::size_t>(v)];

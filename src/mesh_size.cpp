@@ -16,14 +16,16 @@ struct Patch {
   double far2;
 };
 
-// The patches whose squared distance is least and that have half of the weight come first; how many they are.
+// The patches whose squared distance is least and that have half of the weight come first; how many
+// they are.
 std::size_t nearer_half(std::vector<Patch>& patches, double total) {
   auto low = patches.begin();
   auto high = patches.end();
   double below = 0;
   while (high - low > 1) {
     auto middle = low + (high - low) / 2;
-    std::nth_element(low, middle, high, [](const Patch& a, const Patch& b) { return a.far2 < b.far2; });
+    std::nth_element(low, middle, high,
+                     [](const Patch& a, const Patch& b) { return a.far2 < b.far2; });
     double here = 0;
     for (auto p = low; p != middle; ++p) here += p->weight;
     if (below + here >= total / 2) {
@@ -41,8 +43,8 @@ double distance2(const Patch& p, const double* middle) {
   return x * x + y * y + z * z;
 }
 
-// From the middle to the mean of the patches by weight over distance, a step of Weiszfeld; `near`: distances below it count
-// as that. Where it is infinite: to their mean by weight.
+// From the middle to the mean of the patches by weight over distance, a step of Weiszfeld; `near`:
+// distances below it count as that. Where it is infinite: to their mean by weight.
 void step_to_middle(const std::vector<Patch>& patches, double near, double* middle) {
   double total = 0, sum[3] = {0, 0, 0};
   bool plain = std::isinf(near);
@@ -60,7 +62,8 @@ std::vector<Patch> patches_of(const double* vb, int rows, const int* it, int m, 
   for (int f = 0; f < m; ++f) {
     if (!used[f]) continue;
     const double* corner[3];
-    for (int c = 0; c < 3; ++c) corner[c] = vb + rows * static_cast<std::size_t>(it[3 * static_cast<std::size_t>(f) + c] - 1);
+    for (int c = 0; c < 3; ++c)
+      corner[c] = vb + rows * static_cast<std::size_t>(it[3 * static_cast<std::size_t>(f) + c] - 1);
     double a[3], b[3];
     Patch p;
     for (int i = 0; i < 3; ++i) {
@@ -68,7 +71,8 @@ std::vector<Patch> patches_of(const double* vb, int rows, const int* it, int m, 
       b[i] = corner[2][i] - corner[0][i];
       p.at[i] = (corner[0][i] + corner[1][i] + corner[2][i]) / 3;
     }
-    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
+           z = a[0] * b[1] - a[1] * b[0];
     p.weight = std::sqrt(x * x + y * y + z * z) / 2;
     if (p.weight > 0) patches.push_back(p);
   }
@@ -77,11 +81,13 @@ std::vector<Patch> patches_of(const double* vb, int rows, const int* it, int m, 
 
 }  // namespace
 
-double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used, double cap, int steps) {
+double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used,
+                        double cap, int steps) {
   std::vector<Patch> patches = patches_of(vb, rows, it, m, used);
   if (patches.empty()) return 0;
   std::vector<double> area(patches.size());
-  std::transform(patches.begin(), patches.end(), area.begin(), [](const Patch& p) { return p.weight; });
+  std::transform(patches.begin(), patches.end(), area.begin(),
+                 [](const Patch& p) { return p.weight; });
   std::nth_element(area.begin(), area.begin() + area.size() / 2, area.end());
   double most = cap * area[area.size() / 2], total = 0, middle[3] = {0, 0, 0};
   for (Patch& p : patches) total += p.weight = std::min(p.weight, most);

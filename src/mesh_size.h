@@ -3,12 +3,14 @@
 
 namespace crestline {
 
-// Distance from the middle of the surface within which half of its area lies; 0 where there is no area.
-// The middle is the place with the least sum of distances from the area (Weiszfeld's algorithm, `steps` steps from the
-// centroid): less than half of it, wherever that lies, does not move it far.
-// A triangle counts with its area, but no more than `cap` times the median of them: a long needle that leads to a
-// stray vertex, or a platform of two triangles, then counts for little.
-// vb: rows x n, the first three of each column x, y, z; it: 3 x m, from 1; used: m, whether a triangle counts.
-double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used, double cap, int steps);
+// Distance from the middle of the surface within which half of its area lies; 0 where there is no
+// area. The middle is the place with the least sum of distances from the area (Weiszfeld's
+// algorithm, `steps` steps from the centroid): less than half of it, wherever that lies, does not
+// move it far. A triangle counts with its area, but no more than `cap` times the median of them: a
+// long needle that leads to a stray vertex, or a platform of two triangles, then counts for little.
+// vb: rows x n, the first three of each column x, y, z; it: 3 x m, from 1; used: m, whether a
+// triangle counts.
+double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used,
+                        double cap, int steps);
 
 }  // namespace crestline

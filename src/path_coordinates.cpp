@@ -15,7 +15,8 @@ Vec at(const double* p, int i) {
   const double* q = p + 3 * static_cast<std::size_t>(i);
   return {q[0], q[1], q[2]};
 }
-// Segments are held in runs with a ball about each, so that most of a long path is passed over at once.
+// Segments are held in runs with a ball about each, so that most of a long path is passed over at
+// once.
 constexpr int kRun = 16;
 
 struct Polyline {
@@ -95,7 +96,8 @@ Nearest nearest_place(const Polyline& line, Vec p, int guess) {
 }  // namespace
 
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k, const std::function<void()>& between) {
+                                 const double* normals, int k,
+                                 const std::function<void()>& between) {
   Patience patience(between);
   Polyline line = make_polyline(path, k);
   PathCoordinates out;
@@ -112,7 +114,8 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
     double length = line.start[segment + 1] - line.start[segment];
     Vec tangent = line.tangent[segment];
     if (best.along == 0 && segment > 0) tangent = unit(tangent + line.tangent[segment - 1]);
-    if (best.along == length && segment + 2 < k) tangent = unit(tangent + line.tangent[segment + 1]);
+    if (best.along == length && segment + 2 < k)
+      tangent = unit(tangent + line.tangent[segment + 1]);
     double share = std::min(std::max(best.along / length, 0.0), 1.0);
     Vec normal = (1 - share) * at(normals, segment) + share * at(normals, segment + 1);
     Vec foot = line.node[segment] + best.along * line.tangent[segment];

@@ -14,7 +14,8 @@ struct PathCoordinates {       // one entry (tangent: three) a point
 // along the path. d > 0 on the side of normal x tangent. Past the ends the path goes on straight.
 // `between`: as of curvature().
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k, const std::function<void()>& between);
+                                 const double* normals, int k,
+                                 const std::function<void()>& between);
 
 // Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
 // it: 3 x m, corners from 1; seeds from 0.

@@ -19,7 +19,8 @@ void make_unit(double* a) {
   for (int i = 0; i < 3; ++i) a[i] /= length;
 }
 
-// Of the two ways out of the first triangle, the one that leads along `axis` (side 0) or against it.
+// Of the two ways out of the first triangle, the one that leads along `axis` (side 0) or against
+// it.
 template <class Value>
 int way_out(const Triangulation& mesh, const int* half_edges, Value&& value, const double* axis,
             int side) {
@@ -68,8 +69,8 @@ void corner_normal(const Triangulation& mesh, int face, int vertex, double* norm
   make_unit(normal);
 }
 
-// Of the triangle's corners, weighted as the end is, so that an end at a corner or on an edge has one
-// normal, whichever of the triangles there it was put in.
+// Of the triangle's corners, weighted as the end is, so that an end at a corner or on an edge has
+// one normal, whichever of the triangles there it was put in.
 void end_normal(const Triangulation& mesh, const SurfacePoint& end, double* normal) {
   for (int i = 0; i < 3; ++i) normal[i] = 0;
   for (int c = 0; c < 3; ++c) {
@@ -117,7 +118,8 @@ CutAxis turned_out(const CutAxis& axis, const double* out) {
   CutAxis turned = axis;
   double across[3], along = dot(out, axis.axis);
   for (int i = 0; i < 3; ++i) across[i] = out[i] - along * axis.axis[i];
-  if (dot(across, across) < std::numeric_limits<double>::epsilon() * dot(out, out) || dot(out, out) == 0) {
+  if (dot(across, across) < std::numeric_limits<double>::epsilon() * dot(out, out) ||
+      dot(out, out) == 0) {
     int least = 0;
     for (int i = 1; i < 3; ++i)
       if (std::fabs(axis.axis[i]) < std::fabs(axis.axis[least])) least = i;
@@ -199,7 +201,8 @@ Track track_of(const Triangulation& mesh, const PlaneCut& cut, const SurfacePoin
   return track;
 }
 
-std::vector<WeightedVertex> mean_weights(const Triangulation& mesh, const Track& track, double step) {
+std::vector<WeightedVertex> mean_weights(const Triangulation& mesh, const Track& track,
+                                         double step) {
   std::vector<WeightedVertex> weights;
   int pieces = std::max(1, static_cast<int>(std::ceil(track.s.back() / step)));
   for (int p = 0; p <= pieces; ++p) {

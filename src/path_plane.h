@@ -35,10 +35,11 @@ Track track_of(const Triangulation& mesh, const PlaneCut& cut, const SurfacePoin
 
 // Weights for the mean along a path of a function given at the vertices: the trapezoidal rule over
 // equally spaced places no further apart than `step`.
-std::vector<WeightedVertex> mean_weights(const Triangulation& mesh, const Track& track, double step);
+std::vector<WeightedVertex> mean_weights(const Triangulation& mesh, const Track& track,
+                                         double step);
 
-// Axis between two ends, and the direction across it that lies in the surface: the plane at angle 0,
-// which holds the mean of the surface's normals at the ends, has it as its normal.
+// Axis between two ends, and the direction across it that lies in the surface: the plane at angle
+// 0, which holds the mean of the surface's normals at the ends, has it as its normal.
 struct CutAxis {
   double axis[3], across[3], span;  // unit vectors; span 0 where the ends are one place
 };
@@ -54,8 +55,8 @@ void face_normal(const Triangulation& mesh, int face, double* normal);
 // Normal of the plane turned by `angle` about the axis.
 void plane_normal(const CutAxis& axis, double angle, double* normal);
 
-// The zero line of a function given at the vertices, from one triangle to another, setting out along
-// the direction `towards`. NaN stands for "not here": the walk ends as at a border.
+// The zero line of a function given at the vertices, from one triangle to another, setting out
+// along the direction `towards`. NaN stands for "not here": the walk ends as at a border.
 struct LevelPath {
   WalkEnd end;
   std::vector<Crossing> crossings;

@@ -1,4 +1,5 @@
-// Points along a path of a mesh: at equal chords, and as places in the triangles that it runs through.
+// Points along a path of a mesh: at equal chords, and as places in the triangles that it runs
+// through.
 #pragma once
 #include <vector>
 

@@ -20,12 +20,13 @@ struct Crossing {
 
 enum class WalkEnd { arrived, border, round, too_far };
 
-// The arrays as R holds them, so that no walk waits for a copy: corners and half edges counted from 1.
+// The arrays as R holds them, so that no walk waits for a copy: corners and half edges counted
+// from 1.
 struct Triangulation {
   const double* vb;  // rows x n, the first three of each column are x, y, z
   int rows;
   const int* it;     // 3 x m
-  const int* twin;   // 3 x m, 0 at borders
+  const int* twin;   // 3 x m, 0 at borders; null where nobody walks over edges
   int m;
 };
 
@@ -48,8 +49,8 @@ int exits(const Triangulation& t, int face, Value&& value, int* half_edges) {
   return count;
 }
 
-// From the half edge `leave` on until `to_face`. keep(vertex a, vertex b, share) sees every crossing
-// and returns false to give up.
+// From the half edge `leave` on until `to_face`. keep(vertex a, vertex b, share) sees every
+// crossing and returns false to give up.
 template <class Value, class Keep>
 WalkEnd walk(const Triangulation& t, int leave, int to_face, Value&& value, Keep&& keep) {
   int from_face = face_of(leave), h = leave;

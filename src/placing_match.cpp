@@ -34,12 +34,14 @@ CloudGrid::CloudGrid(const Cloud& cloud, double cell) : cloud_(cloud), cell_(cel
     for (int k = 0; k < 3; ++k) total *= std::floor((high[k] - low_[k]) / cell_) + 1;
     if (total > most_cells) cell_ *= 1.5;
   } while (total > most_cells);
-  for (int k = 0; k < 3; ++k) cells_[k] = static_cast<int>(std::floor((high[k] - low_[k]) / cell_)) + 1;
+  for (int k = 0; k < 3; ++k)
+    cells_[k] = static_cast<int>(std::floor((high[k] - low_[k]) / cell_)) + 1;
   std::vector<int> cell_of_point(cloud.n);
   start_.assign(static_cast<std::size_t>(total) + 1, 0);
   for (int i = 0; i < cloud.n; ++i) {
     const double* p = cloud.xyz + 3 * i;
-    cell_of_point[i] = (cell_of(p[2], 2) * cells_[1] + cell_of(p[1], 1)) * cells_[0] + cell_of(p[0], 0);
+    cell_of_point[i] =
+        (cell_of(p[2], 2) * cells_[1] + cell_of(p[1], 1)) * cells_[0] + cell_of(p[0], 0);
     ++start_[cell_of_point[i] + 1];
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
@@ -53,8 +55,8 @@ int CloudGrid::cell_of(double x, int axis) const {
   return static_cast<int>(std::min(std::max(at, 0.0), cells_[axis] - 1.0));
 }
 
-int CloudGrid::nearest(const double* xyz, const double* normal, const double* feature, double reach, double cosine,
-                       double* distance2) const {
+int CloudGrid::nearest(const double* xyz, const double* normal, const double* feature, double reach,
+                       double cosine, double* distance2) const {
   // Nothing beyond a ball in space is nearer than what was found within it: small balls first.
   for (double within = std::min(cell_, reach); ; within = std::min(2 * within, reach)) {
     double least = within >= reach ? std::numeric_limits<double>::infinity() : within * within;
@@ -63,8 +65,8 @@ int CloudGrid::nearest(const double* xyz, const double* normal, const double* fe
   }
 }
 
-int CloudGrid::nearest_within(const double* xyz, const double* normal, const double* feature, double reach, double cosine,
-                              double least, double* distance2) const {
+int CloudGrid::nearest_within(const double* xyz, const double* normal, const double* feature,
+                              double reach, double cosine, double least, double* distance2) const {
   int from[3], to[3];
   for (int k = 0; k < 3; ++k) {
     if (xyz[k] + reach < low_[k] || xyz[k] - reach > low_[k] + cells_[k] * cell_) return -1;

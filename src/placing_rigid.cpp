@@ -24,7 +24,8 @@ struct Pair {
   double distance2;
 };
 
-std::vector<Pair> matches(const Cloud& moving, const CloudGrid& fixed, const Pose& pose, double reach, double cosine) {
+std::vector<Pair> matches(const Cloud& moving, const CloudGrid& fixed, const Pose& pose,
+                          double reach, double cosine) {
   std::vector<Pair> out;
   for (int i = 0; i < moving.n; ++i) {
     double at[3], normal[3], d2 = 0;
@@ -43,7 +44,8 @@ void rotation_of(const double s[3][3], double* r) {
   for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) r[3 * j + i] = rows[3 * i + j];
 }
 
-Pose pose_of(const Cloud& moving, const Cloud& fixed, const std::vector<Pair>& pairs, const double* bounds) {
+Pose pose_of(const Cloud& moving, const Cloud& fixed, const std::vector<Pair>& pairs,
+             const double* bounds) {
   double a[3] = {0, 0, 0}, b[3] = {0, 0, 0}, s[3][3] = {{0}}, spread = 0, along = 0;
   for (const Pair& p : pairs) {
     for (int k = 0; k < 3; ++k) {
@@ -60,7 +62,8 @@ Pose pose_of(const Cloud& moving, const Cloud& fixed, const std::vector<Pair>& p
   }
   Pose out;
   rotation_of(s, out.rotation);
-  for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) along += out.rotation[3 * j + i] * s[j][i];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) along += out.rotation[3 * j + i] * s[j][i];
   out.scale = std::min(std::max(along / spread, bounds[0]), bounds[1]);
   double turned[3];
   turn(out.rotation, a, turned);
@@ -70,7 +73,8 @@ Pose pose_of(const Cloud& moving, const Cloud& fixed, const std::vector<Pair>& p
 
 }  // namespace
 
-Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose, const RigidSettings& settings) {
+Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose,
+              const RigidSettings& settings) {
   for (int step = 0; step < settings.steps; ++step) {
     double share = settings.steps > 1 ? step / (settings.steps - 1.0) : 1;
     double reach = settings.reach[0] * std::pow(settings.reach[1] / settings.reach[0], share);
@@ -85,15 +89,19 @@ Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose, const Rigi
   return pose;
 }
 
-double pose_score(const Cloud& moving, const CloudGrid& fixed, const Pose& pose, const RigidSettings& settings) {
+double pose_score(const Cloud& moving, const CloudGrid& fixed, const Pose& pose,
+                  const RigidSettings& settings) {
   double sum = 0;
   const Cloud& to = fixed.cloud();
-  std::vector<Pair> pairs = matches(moving, fixed, pose, settings.saturation + settings.spacing, settings.cosine);
+  std::vector<Pair> pairs =
+      matches(moving, fixed, pose, settings.saturation + settings.spacing, settings.cosine);
   for (const Pair& p : pairs) {
     double at[3], across = 0;
     move_point(pose, moving.xyz + 3 * p.moving, at);
-    for (int k = 0; k < 3; ++k) across += (at[k] - to.xyz[3 * p.fixed + k]) * to.normal[3 * p.fixed + k];
-    double along = std::max(std::sqrt(std::max(p.distance2 - across * across, 0.0)) - settings.spacing, 0.0);
+    for (int k = 0; k < 3; ++k)
+      across += (at[k] - to.xyz[3 * p.fixed + k]) * to.normal[3 * p.fixed + k];
+    double along =
+        std::max(std::sqrt(std::max(p.distance2 - across * across, 0.0)) - settings.spacing, 0.0);
     sum += std::min(std::sqrt(across * across + along * along) / settings.saturation, 1.0);
   }
   return (sum + moving.n - static_cast<double>(pairs.size())) / moving.n;

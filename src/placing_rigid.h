@@ -19,15 +19,18 @@ struct RigidSettings {
   double cosine;         // least cosine between matched normals
   double kept;           // share of the matches, nearest first, that count
   double scale[2];       // bounds
-  double saturation;     // distance from which on a point counts as not matched at all, in the score
-  double spacing;        // of the fixed points: so far along the surface a match may be at no cost, in the score
+  double saturation;  // distance from which on a point counts as not matched at all, in the score
+  double spacing;     // of the fixed points: so far along the surface a match may be at no cost, in
+                      // the score
 };
 
 // Trimmed iterated closest points from one pose. moving: the points that are moved.
-Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose, const RigidSettings& settings);
+Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose,
+              const RigidSettings& settings);
 
-// Mean over the moved points of min(distance / saturation, 1), 1 where there is no match; the distance is that across the
-// fixed surface and, beyond the spacing of its points, along it.
-double pose_score(const Cloud& moving, const CloudGrid& fixed, const Pose& pose, const RigidSettings& settings);
+// Mean over the moved points of min(distance / saturation, 1), 1 where there is no match; the
+// distance is that across the fixed surface and, beyond the spacing of its points, along it.
+double pose_score(const Cloud& moving, const CloudGrid& fixed, const Pose& pose,
+                  const RigidSettings& settings);
 
 }  // namespace crestline

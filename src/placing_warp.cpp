@@ -7,11 +7,13 @@ namespace crestline {
 
 namespace {
 
-// Columns are taken four at a time, rows in blocks that stay in the first cache with two such panels.
+// Columns are taken four at a time, rows in blocks that stay in the first cache with two such
+// panels.
 constexpr int kPanel = 4;
 constexpr int kRows = 256;
 
-// A block of rows of a matrix, its columns in panels of four, row by row; the last panel is filled up with 0.
+// A block of rows of a matrix, its columns in panels of four, row by row; the last panel is filled
+// up with 0.
 class Panels {
  public:
   explicit Panels(int columns) : panels_((columns + kPanel - 1) / kPanel), columns_(columns) {
@@ -30,9 +32,10 @@ class Panels {
     }
   }
 
-  // Adds the inner products of its columns and another's over the first `rows` rows to the part of a matrix
-  // (stride x stride) that begins at `part`; of a symmetric part the upper triangle alone.
-  void add_products(const Panels& other, int rows, bool symmetric, std::size_t stride, double* part) const {
+  // Adds the inner products of its columns and another's over the first `rows` rows to the part of
+  // a matrix (stride x stride) that begins at `part`; of a symmetric part the upper triangle alone.
+  void add_products(const Panels& other, int rows, bool symmetric, std::size_t stride,
+                    double* part) const {
     for (int a = 0; a < panels_; ++a)
       for (int b = symmetric ? a : 0; b < other.panels_; ++b) {
         double sums[kPanel][kPanel];
@@ -48,7 +51,8 @@ class Panels {
   double* panel(int i) { return &values_[offset(i)]; }
   const double* panel(int i) const { return &values_[offset(i)]; }
 
-  // Written out, so that the sums stay in registers whatever the compiler unrolls: half the time of two loops at -O2.
+  // Written out, so that the sums stay in registers whatever the compiler unrolls: half the time of
+  // two loops at -O2.
   static void products(const double* a, const double* b, int rows, double sums[kPanel][kPanel]) {
     static_assert(kPanel == 4, "the sums are written out for panels of four");
     double s00 = 0, s01 = 0, s02 = 0, s03 = 0;
@@ -73,8 +77,9 @@ class Panels {
 
 }  // namespace
 
-std::vector<double> warp_gram(const Basis basis[3], const std::vector<int>& used, const double* normal,
-                              const double* weight, double along, double across, void (*between)()) {
+std::vector<double> warp_gram(const Basis basis[3], const std::vector<int>& used,
+                              const double* normal, const double* weight, double along,
+                              double across, void (*between)()) {
   int start[4] = {0, 0, 0, 0};
   for (int k = 0; k < 3; ++k) start[k + 1] = start[k] + basis[k].size;
   std::size_t p = start[3];

@@ -46,7 +46,9 @@ Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const Sur
     CutAxis outward = turned_out(axis, outside);
     if (dot(axis.across, outward.across) < std::cos(settings.rim)) axis = outward;
   }
-  auto side = [&](const double* plane) { return outside ? outer_side(mesh, a.face, axis.axis, plane) : 0; };
+  auto side = [&](const double* plane) {
+    return outside ? outer_side(mesh, a.face, axis.axis, plane) : 0;
+  };
   PlaneCut best{WalkEnd::border, INFINITY, {}}, middle = best;
   double normal[3], best_angle = 0;
   for (int i = 0; i < settings.angles; ++i) {

@@ -1,4 +1,5 @@
-// A column of a patch: the shortest of the plane cuts near the surface's normal, divided at equal chords.
+// A column of a patch: the shortest of the plane cuts near the surface's normal, divided at equal
+// chords.
 #pragma once
 #include <vector>
 
@@ -11,7 +12,7 @@ struct ColumnSettings {
   double limit;   // greatest angle from the plane of the normals at the ends
   int angles;     // planes that are tried
   double reach;   // distance from the straight line between the ends, as a share of its length
-  double rim;     // angle of the normals at the ends from a known outside above which they are dropped
+  double rim;  // angle of the normals at the ends from a known outside above which they are dropped
   double inside;  // weight by which the ends are kept off edges and corners for the walk
   ChordSettings chords;
 };
@@ -24,9 +25,9 @@ struct Column {
   Track track;                       // the cut that they lie on
 };
 
-// outside: direction out of the surface between the ends where it is known, else null. On a sharp rim the
-// normals at the ends are those of one wall or the other: where they are far from the outside they are
-// dropped for it, and each cut leaves by the side that keeps it on the outer wall.
+// outside: direction out of the surface between the ends where it is known, else null. On a sharp
+// rim the normals at the ends are those of one wall or the other: where they are far from the
+// outside they are dropped for it, and each cut leaves by the side that keeps it on the outer wall.
 Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const SurfacePoint& to,
                   const double* outside, int rows, const ColumnSettings& settings);
 

@@ -15,7 +15,7 @@ simpop_dense <- function() {
 
 test_that("sex differs in the faces of simpop as it was found before", {
   faces <- simpop_dense()
-  compared <- compare_groups(faces[c("landmarks", "dense")], faces$sex, n_perm = 1999, seed = 1,
+  compared <- compare_groups(faces[c("landmarks", "dense")], faces$sex, equal_spread = TRUE, n_perm = 1999, seed = 1,
                              tests = c("size", "shape", "T2", "components"), progress = FALSE)
   p <- summary(compared)
   before <- data.frame(test = c("size t", "mean shape", "T2", "PC2"), landmarks = c(0.001, 0.015, 0.001, 0.002),

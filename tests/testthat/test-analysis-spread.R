@@ -32,7 +32,7 @@ test_that("T2 has separate covariances, on as many components as the degrees of 
   flat <- t(matrix(aligned$coords, 24))
   # Satterthwaite's degrees of freedom of the summed variance.
   part <- c(sum(diag(cov(flat[first, ]))) / 14, sum(diag(cov(flat[!first, ]))) / 9)
-  count <- sum(part)^2 / sum(part^2 / c(13, 8)) / 2
+  count <- sum(part)^2 / sum(part^2 / c(13, 8)) / 3
   expect_equal(unname(compared$components), floor(count))
   x <- shape_pca(aligned)$x[, seq_len(count)]
   off <- colMeans(x[first, ]) - colMeans(x[!first, ])

@@ -55,7 +55,6 @@ test_that("numbers, colours, points and paths are checked as wholes", {
   expect_identical(check_colour(c("red", "#16218C"), "x"), c("red", "#16218C"))
   expect_identical(check_colour(NA, "x", none = TRUE), NA)
   for (wrong in list("zzz", NA, -1, TRUE, NULL, list("red"), 1e10)) expect_crestline_error(check_colour(wrong, "x"), "`x` is")
-  expect_crestline_error(check_matrix(matrix(1, 2, 2), "x"), c("`x` is a matrix of 2 x 2", "3 columns"))
   expect_crestline_error(check_function("mean", "x"), "Give a function")
   expect_crestline_error(check_seed(1e10), "`seed`")
   expect_identical(check_path_to_write(file.path(tempdir(), "a.HTML"), "x", "html"), file.path(tempdir(), "a.HTML"))

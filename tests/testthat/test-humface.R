@@ -96,5 +96,5 @@ test_that("the ridge of a lower lid is the same from either marking, off its end
   second <- ridge("humface_landmarks_2.csv")$path
   inner <- as.matrix(first[first$s > 0.2 * max(first$s) & first$s < 0.8 * max(first$s), c("x", "y", "z")])
   expect_gt(nrow(inner), 5)
-  expect_lt(max(polyline_distances(inner, as.matrix(second[c("x", "y", "z")]))), 0.25)
+  expect_lt(max(nearest_on_polyline(inner, as.matrix(second[c("x", "y", "z")]))$distance), 0.25)
 })

@@ -1,25 +1,18 @@
 # A file calls only floors above its own, and no files call each other round in a circle.
 
 # The floors, first to last. A file's floor is the first word of its name.
-floors <- c("conditions", "text", "files", "geometry", "checks", "random", "session", "colours", "settings", "provenance",
+floors <- c("conditions", "text", "files", "geometry", "checks", "session", "settings",
             "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme", "shape", "placing",
             "template", "sample", "analysis", "study", "plot", "report", "crestline")
 
 # Circles of files that stay, each with its reason.
 circles <- list(
   # A part of an alignment is an alignment anew; what is missing is estimated by aligning.
-  c("analysis-align.R", "analysis-aligned.R", "analysis-arrays.R", "analysis-missing.R"),
-  # read_landmarks() of a folder reads its files by read_landmarks().
-  c("landmarks-beside.R", "landmarks.R"),
-  # A denser surface is straightened where its triangles are flipped, which is looked for on the surface.
-  c("shape-checks.R", "shape-dense.R", "shape-mesh.R")
+  c("analysis-align.R", "analysis-aligned.R", "analysis-arrays.R", "analysis-missing.R")
 )
 
 # Calls to a later floor that stay, each with its reason.
-exceptions <- c(
-  # The review shows curves in the colours that plot() documents.
-  "placing-review-scene.R:review_colours -> plot-shape.R:plot.shape"
-)
+exceptions <- character()
 
 graph <- function() {
   dir <- testthat::test_path("..", "..", "R")

@@ -1,4 +1,4 @@
-#include "mesh_read_ply.h"
+#include "mesh_ply.h"
 
 #include <cstdint>
 #include <cstring>
@@ -26,13 +26,14 @@ double number(std::uint64_t bits, Kind kind, int size) {
 
 }  // namespace
 
-std::vector<double> numbers_at(const unsigned char* raw, const double* places, std::size_t n, Kind kind,
-                               int size, bool big) {
+std::vector<double> numbers_at(const unsigned char* raw, const double* places, std::size_t n,
+                               Kind kind, int size, bool big) {
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) {
     const unsigned char* at = raw + static_cast<std::size_t>(places[i]);
     std::uint64_t bits = 0;
-    for (int b = 0; b < size; ++b) bits |= static_cast<std::uint64_t>(at[big ? size - 1 - b : b]) << (8 * b);
+    for (int b = 0; b < size; ++b)
+      bits |= static_cast<std::uint64_t>(at[big ? size - 1 - b : b]) << (8 * b);
     out[i] = number(bits, kind, size);
   }
   return out;

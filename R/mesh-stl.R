@@ -2,27 +2,20 @@
 
 # Binary unless the length says otherwise and the text is one: a binary header may start with
 # "solid", as the ascii format does.
-read_stl <- function(file, id) {
+read_stl <- function(file, id, bytes = 1000) {
   raw <- file_bytes(file, id)
-  faces <- stl_faces(raw)
-  vertex <- if (length(raw) >= 84 + 50 * faces && faces > 0 || stl_is_binary(raw)) {
+  # The number that a binary file has behind its 80 bytes of header; infinite in a shorter one.
+  faces <- if (length(raw) < 84) Inf else sum(as.numeric(raw[81:84]) * 256^(0:3))
+  # Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.
+  first <- utils::head(text_bytes(utils::head(raw, bytes)), -1)
+  binary <- any(first < 9 | first > 13 &
+                first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
+  vertex <- if (length(raw) >= 84 + 50 * faces && faces > 0 || binary) {
     stl_binary(raw, faces, file, id)
   } else {
     stl_ascii(raw, file, id)
   }
   mesh_of_polygons(vertex, seq_len(nrow(vertex)), rep(3L, nrow(vertex) / 3))
-}
-
-# The number that a binary file has behind its 80 bytes of header; infinite in a shorter one.
-stl_faces <- function(raw) {
-  if (length(raw) < 84) Inf else sum(as.numeric(raw[81:84]) * 256^(0:3))
-}
-
-# Bytes that no text has, among the first `bytes`, and no text of two bytes a sign.
-stl_is_binary <- function(raw, bytes = 1000) {
-  first <- utils::head(text_bytes(utils::head(raw, bytes)), -1)
-  any(first < 9 | first > 13 &
-      first < 32) || !any(grepRaw("vertex|facet|solid", first, ignore.case = TRUE))
 }
 
 # Each face: 12 floats (normal, three corners) and two bytes. The number of faces is the content's
@@ -59,4 +52,22 @@ stl_ascii <- function(raw, file, id) {
               "Look whether the surface is whole, or export or copy it again.", id)
   }
   matrix(text$vertex, ncol = 3, byrow = TRUE)
+}
+
+write_stl <- function(mesh, file, ascii) {
+  corner <- lapply(1:3, function(i) mesh$xyz[mesh$it[, i], , drop = FALSE])
+  normal <- cross_rows(corner[[2]] - corner[[1]], corner[[3]] - corner[[1]])
+  normal <- normal / pmax(row_lengths(normal), .Machine$double.xmin)
+  if (ascii) {
+    vertex <- lapply(corner, function(xyz) paste("vertex", row_text(xyz, missing = "nan")))
+    lines <- rbind(paste("facet normal", row_text(normal, missing = "nan")), "outer loop",
+                   do.call(rbind, vertex), "endloop",
+                   "endfacet")
+    return(write_content(c("solid crestline", as.vector(lines), "endsolid crestline"), file))
+  }
+  # A binary header must not begin with "solid".
+  head <- c(charToRaw(formatC("written by crestline", width = -80)),
+            writeBin(nrow(mesh$it), raw(), endian = "little"))
+  facet <- rbind(bytes_of(cbind(normal, do.call(cbind, corner)), 4L), as.raw(0), as.raw(0))
+  write_content(c(head, as.vector(facet)), file)
 }

@@ -1,4 +1,26 @@
-# Meshes to files: the format by the file's extension, one file of code a format.
+# Meshes from and to files: the format by the file's extension, one file of code a format.
+
+# A mesh3d as the file has it, unchecked.
+read_mesh <- function(file, id) {
+  reader <- mesh_readers()[[file_extension(unpacked_name(file))]]
+  if (is.null(reader)) {
+    refuse_file(file, "the format is not known by its extension",
+                id, paste0("Known: ", paste0(".", names(mesh_readers()), collapse = ", "), "."))
+  }
+  check_stored(file, "reading", id, unpacks = "gzip")
+  mesh <- tryCatch(reader(file, id), error = function(e) {
+    if (inherits(e, "crestline_error")) stop(e)
+    refuse_file(file, iconv(conditionMessage(e), "", "UTF-8", sub = "byte"), id)
+  })
+  if (!is.null(mesh$short)) {
+    warn_file(file, sprintf("has %d polygons with fewer than three corners", mesh$short),
+              paste0("Look whether the surface is whole: the header's numbers may be wrong, or ",
+                     "export it again."), id)
+  }
+  mesh
+}
+
+mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)
 
 #' Write a mesh, or the surface of a shape
 #'
@@ -60,7 +82,12 @@ write_mesh <- function(x, file, colour = NULL, parts = "model",
   missing <- check_colour(missing, "missing")
   parts <- check_names(parts, "parts")
   if (!is.null(limits)) limits <- check_numbers(limits, "limits", 2)
-  write <- mesh_writer(file)
+  if (!is_path(file)) refuse_no_path(file, "writing")
+  write <- mesh_writers()[[file_extension(file)]]
+  if (is.null(write)) {
+    refuse_writing(file, "the format is not known by its extension",
+                   paste0("Known: ", paste0(".", names(mesh_writers()), collapse = ", "), "."))
+  }
   shape <- if (inherits(x, "shape")) x
   mesh <- written_mesh(x, parts)
   painted <- painted_mesh(mesh, colour, shape, palette, limits, missing)
@@ -75,16 +102,6 @@ write_mesh <- function(x, file, colour = NULL, parts = "model",
 }
 
 mesh_writers <- function() list(ply = write_ply, obj = write_obj, stl = write_stl)
-
-mesh_writer <- function(file) {
-  if (!is_path(file)) refuse_no_path(file, "writing")
-  writer <- mesh_writers()[[file_extension(file)]]
-  if (is.null(writer)) {
-    refuse_writing(file, "the format is not known by its extension",
-                   paste0("Known: ", paste0(".", names(mesh_writers()), collapse = ", "), "."))
-  }
-  writer
-}
 
 #' A mesh of triangles, each corner a vertex that is there, with the attributes of [shape_mesh()]
 #' @noRd
@@ -109,32 +126,28 @@ written_mesh.default <- function(x, parts) {
 painted_mesh <- function(mesh, colour, shape, palette, limits, missing) {
   n <- ncol(mesh$vb)
   row <- attr(mesh, "row")
-  if (identical(colour, "se")) colour <- shape_errors(shape)
+  if (identical(colour, "se")) {
+    if (is.null(shape)) {
+      crestline_abort("`colour` is \"se\", but `x` is no shape.",
+                      "Give a shape, or numbers of your own.", stage = "writing",
+                      call = NULL)
+    }
+    colour <- as.numeric(shape$points$se[shape$points$level == "surface"])
+  }
   by_row <- is.numeric(colour) && !is.null(shape) &&
     length(colour) == sum(shape$points$level == "surface")
   if (by_row) colour <- colour[row]
-  value <- if (is.numeric(colour)) check_values(colour, n)
+  value <- if (is.numeric(colour)) {
+    if (length(colour) != n) {
+      crestline_abort(sprintf("`colour` has %d numbers for %d vertices.", length(colour), n),
+                      "Give one for each vertex.",
+                      stage = "writing", call = NULL)
+    }
+    colour
+  }
   hex <- if (is.null(colour)) vertex_colours(mesh) else
     surface_colours(mesh, colour, palette, limits, missing)
   list(xyz = t(mesh$vb[1:3, , drop = FALSE]), it = matrix(as.integer(t(mesh$it)), ncol = 3),
        value = value, row = row,
        rgb = if (!is.null(hex)) t(grDevices::col2rgb(hex)))
-}
-
-check_values <- function(x, n) {
-  if (length(x) != n) {
-    crestline_abort(sprintf("`colour` has %d numbers for %d vertices.", length(x), n),
-                    "Give one for each vertex.",
-                    stage = "writing", call = NULL)
-  }
-  x
-}
-
-shape_errors <- function(shape) {
-  if (is.null(shape)) {
-    crestline_abort("`colour` is \"se\", but `x` is no shape.",
-                    "Give a shape, or numbers of your own.", stage = "writing",
-                    call = NULL)
-  }
-  as.numeric(shape$points$se[shape$points$level == "surface"])
 }

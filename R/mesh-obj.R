@@ -10,13 +10,14 @@ read_obj <- function(file, id) {
   if (!length(text$vertex)) refuse_file(file, "it has no vertices", id)
   vertex <- matrix(text$vertex, ncol = 3, byrow = TRUE)
   colour <- if (text$coloured) colour_hex(matrix(text$colour, ncol = 3, byrow = TRUE))
-  if (is.null(colour)) colour <- obj_texture(file, text, nrow(vertex), id)
+  if (is.null(colour) && length(text$libraries) && !all(is.na(text$texture))) {
+    colour <- obj_texture(file, text, nrow(vertex), id)
+  }
   mesh_of_polygons(vertex, text$corner, text$sides, colour)
 }
 
 # Colour of each vertex from the images of the materials (its first corner that has one), or NULL.
 obj_texture <- function(file, text, n, id) {
-  if (!length(text$libraries) || all(is.na(text$texture))) return(NULL)
   uv <- matrix(text$uv, ncol = 2, byrow = TRUE)
   placed <- which(is.finite(rowSums(uv)))
   material <- rep(c("", valid_names(text$materials))[text$material + 1], text$sides)
@@ -51,15 +52,20 @@ obj_images <- function(files) {
     for (text in line) {
       if (grepl("^newmtl[ \t]", text, useBytes = TRUE)) material <- obj_argument(text)
       if (grepl("^map_Kd[ \t]", text,
-                useBytes = TRUE)) images[material] <- mtl_image(text, dirname(file))
+                useBytes = TRUE)) {
+        # The rest of the line where that is a file, else its last word (options may stand before).
+        folder <- dirname(file)
+        whole <- file.path(folder, gsub("\\\\", "/", obj_argument(text)))
+        images[material] <- if (file.exists(whole)) whole else
+          file.path(folder, basename(sub(".*[ \t]", "", gsub("\\\\", "/", text))))
+      }
     }
   }
   images
 }
 
-# The rest of the line where that is a file, else its last word (options may stand before).
-mtl_image <- function(text, folder) {
-  whole <- file.path(folder, gsub("\\\\", "/", obj_argument(text)))
-  if (file.exists(whole)) whole else
-    file.path(folder, basename(sub(".*[ \t]", "", gsub("\\\\", "/", text))))
+write_obj <- function(mesh, file, ascii) {
+  vertex <- paste("v", row_text(mesh$xyz, missing = "nan"))
+  if (!is.null(mesh$rgb)) vertex <- paste(vertex, row_text(mesh$rgb / 255))
+  write_content(c(paste("#", mesh$comments), vertex, paste("f", row_text(mesh$it))), file)
 }

@@ -1,4 +1,4 @@
-#include "mesh_read_text.h"
+#include "mesh_read.h"
 
 #include <R_ext/Utils.h>
 
@@ -21,7 +21,8 @@ bool goes_on(const char* at, const char* end) {
   return at >= end || is_end(*at);
 }
 
-// "1.#QNAN", "-1.#IND00", "nan(ind)", "inf", "NA" and their like: not finite, which is all that matters.
+// "1.#QNAN", "-1.#IND00", "nan(ind)", "inf", "NA" and their like: not finite, which is all that
+// matters.
 bool special_number(const char* begin, const char* stop, double& number) {
   if (*begin == '-' || *begin == '+') ++begin;
   const char* digits = begin;
@@ -75,7 +76,8 @@ std::string TextWalk::rest() {
 }
 
 bool number_of(const char* begin, const char* stop, double& number) {
-  if (std::isdigit(static_cast<unsigned char>(*begin)) || *begin == '-' || *begin == '+' || *begin == '.') {
+  if (std::isdigit(static_cast<unsigned char>(*begin)) || *begin == '-' || *begin == '+' ||
+      *begin == '.') {
     // A copy, since R_strtod() measures the whole text at every call.
     char copy[64];
     std::size_t size = std::min<std::size_t>(stop - begin, sizeof copy - 1);
@@ -120,7 +122,8 @@ NumberText read_numbers(const char* begin, const char* end) {
 
 namespace {
 
-// One word of an STL text and what belongs to it. `corners`: of the facet begun last. False where it has not three.
+// One word of an STL text and what belongs to it. `corners`: of the facet begun last. False where
+// it has not three.
 bool read_stl_word(TextWalk& text, const char* from, const char* stop, int& corners, StlText& out) {
   if (same_word(from, stop, "solid") || same_word(from, stop, "endsolid")) {
     out.ended = same_word(from, stop, "endsolid");

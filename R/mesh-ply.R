@@ -11,18 +11,12 @@ read_ply <- function(file, id) {
   numbers <- names(vertex)[vapply(vertex, is.numeric, NA)]
   if (!all(c("x", "y", "z") %in% numbers)) refuse_file(file, "its vertices have no x, y, z", id)
   if (!length(vertex$x)) refuse_file(file, "it has no vertices", id)
-  polygon <- ply_polygons(read$table, header, file, id)
-  mesh_of_polygons(cbind(vertex$x, vertex$y, vertex$z), polygon$value + 1, polygon$sides,
-                   ply_colours(vertex[numbers], header))
-}
-
-ply_index_names <- c("vertex_indices", "vertex_index")
-
-# The polygons of `face` and the triangles of `tristrips`, 0-based. A surface in any other element
-# is refused, since the vertices alone would be taken for a cloud.
-ply_polygons <- function(table, header, file, id) {
-  index <- function(element) table[[element]][[intersect(ply_index_names,
-                                                         names(table[[element]]))[1]]]
+  # The polygons of `face` and the triangles of `tristrips`, 0-based. A surface in any other element
+  # is refused, since the vertices alone would be taken for a cloud.
+  index <- function(element) {
+    columns <- read$table[[element]]
+    columns[[intersect(ply_index_names, names(columns))[1]]]
+  }
   listed <- vapply(header$elements, function(x) {
     x$count > 0 && any(nzchar(x$properties$count_type) & x$properties$name %in% ply_index_names)
   }, NA)
@@ -39,8 +33,11 @@ ply_polygons <- function(table, header, file, id) {
   }
   face <- if (isTRUE(listed["face"])) index("face")
   strip <- if (isTRUE(listed["tristrips"])) strip_triangles(index("tristrips"))
-  list(value = c(face$value, strip$value), sides = c(face$sides, strip$sides))
+  mesh_of_polygons(cbind(vertex$x, vertex$y, vertex$z), c(face$value, strip$value) + 1,
+                   c(face$sides, strip$sides), ply_colours(vertex[numbers], header))
 }
+
+ply_index_names <- c("vertex_indices", "vertex_index")
 
 # Triangles of strips: every vertex with the two before it, every other one turned. A negative
 # number ends a strip, as the end of a row does.
@@ -80,8 +77,26 @@ ply_header <- function(raw, file, id) {
   if (!isTRUE(format %in% c("ascii", "binary_little_endian", "binary_big_endian"))) {
     refuse_file(file, sprintf("the format %s is not known", format), id)
   }
-  list(format = format, raw = raw, body = body, lines = length(token),
-       elements = ply_elements(token[key %in% c("element", "property")], length(raw), file, id))
+  # An element cannot have more rows than the file has bytes.
+  lines <- length(token)
+  token <- token[key %in% c("element", "property")]
+  is_element <- vapply(token, function(x) x[1] == "element", NA)
+  group <- cumsum(is_element)
+  if (!length(token) || !is_element[1] ||
+      any(lengths(token) < 3)) refuse_file(file, "its header is damaged", id)
+  count <- suppressWarnings(vapply(token[is_element], function(x) as.numeric(x[3]), 0))
+  if (anyNA(count) || any(count < 0 | count > length(raw) | count != round(count))) {
+    refuse_file(file, "it promises more than it holds", id)
+  }
+  properties <- lapply(seq_along(count),
+                       function(g) ply_properties(token[group == g & !is_element], file, id))
+  names(properties) <- vapply(token[is_element], `[`, "", 2)
+  twice <- names(properties)[duplicated(names(properties))]
+  if (length(twice)) refuse_file(file, sprintf("its header has the element %s twice", twice[1]), id)
+  elements <- Map(function(count, properties) list(count = count, properties = properties), count,
+                  properties)
+  list(format = format, raw = raw, body = body, lines = lines,
+       elements = stats::setNames(elements, names(properties)))
 }
 
 # Bytes up to the end of the line end_header, NA where there is none. Where lines end in CR alone,
@@ -100,26 +115,6 @@ ply_header_end <- function(raw, usual = 2^16) {
 ply_types <- function() {
   c(char = 1, int8 = 1, uchar = 1, uint8 = 1, short = 2, int16 = 2, ushort = 2, uint16 = 2,
     int = 4, int32 = 4, uint = 4, uint32 = 4, float = 4, float32 = 4, double = 8, float64 = 8)
-}
-
-# `most`: an element cannot have more rows than the file has bytes.
-ply_elements <- function(token, most, file, id) {
-  is_element <- vapply(token, function(x) x[1] == "element", NA)
-  group <- cumsum(is_element)
-  if (!length(token) || !is_element[1] ||
-      any(lengths(token) < 3)) refuse_file(file, "its header is damaged", id)
-  count <- suppressWarnings(vapply(token[is_element], function(x) as.numeric(x[3]), 0))
-  if (anyNA(count) || any(count < 0 | count > most | count != round(count))) {
-    refuse_file(file, "it promises more than it holds", id)
-  }
-  properties <- lapply(seq_along(count),
-                       function(g) ply_properties(token[group == g & !is_element], file, id))
-  names(properties) <- vapply(token[is_element], `[`, "", 2)
-  twice <- names(properties)[duplicated(names(properties))]
-  if (length(twice)) refuse_file(file, sprintf("its header has the element %s twice", twice[1]), id)
-  elements <- Map(function(count, properties) list(count = count, properties = properties), count,
-                  properties)
-  stats::setNames(elements, names(properties))
 }
 
 ply_properties <- function(token, file, id) {
@@ -142,28 +137,29 @@ ply_properties <- function(token, file, id) {
 # last; `short()` refuses a file that ends too early, `check(start, end)` warns of what is behind
 # the places that were used and refuses rows that are no lines.
 ply_stream <- function(header, file, id) {
-  if (header$format == "ascii") return(ply_text_stream(header, file, id))
+  if (header$format == "ascii") {
+    text <- cpp_read_numbers(c(header$raw, as.raw(10)), header$body)
+    short <- function() {
+      if (nzchar(text$bad)) refuse_word(file, text$bad, text$bad_line + header$lines, id)
+      refuse_file(file, "it ends too early", id)
+    }
+    return(list(get = function(at, type) text$number[at + 1], size = 0 * ply_types() + 1, start = 0,
+                end = length(text$number), short = short,
+                check = function(start, end) ply_check_lines(text, start, end, header$lines, file,
+                                                             id)))
+  }
   raw <- header$raw
   endian <- if (header$format == "binary_big_endian") "big" else "little"
   check <- function(start, end) {
     rest <- length(raw) - end
     if (rest > 0 && !all(raw[end + seq_len(rest)] %in% blank_bytes)) warn_extra(file, rest, id)
   }
-  list(get = function(at, type) ply_numbers(raw, at, type, endian), size = ply_types(),
-       start = header$body,
-       end = length(raw), short = function() refuse_file(file, "it ends too early", id),
-       check = check)
-}
-
-ply_text_stream <- function(header, file, id) {
-  text <- cpp_read_numbers(c(header$raw, as.raw(10)), header$body)
-  short <- function() {
-    if (nzchar(text$bad)) refuse_word(file, text$bad, text$bad_line + header$lines, id)
-    refuse_file(file, "it ends too early", id)
+  get <- function(at, type) {
+    cpp_numbers_at(raw, at, grepl("float|double", type), !startsWith(type, "u"),
+                   ply_types()[[type]], endian == "big")
   }
-  list(get = function(at, type) text$number[at + 1], size = 0 * ply_types() + 1, start = 0,
-       end = length(text$number), short = short,
-       check = function(start, end) ply_check_lines(text, start, end, header$lines, file, id))
+  list(get = get, size = ply_types(), start = header$body, end = length(raw),
+       short = function() refuse_file(file, "it ends too early", id), check = check)
 }
 
 # Rows stand on lines of their own. Only where exactly as many numbers are there as the header
@@ -179,16 +175,11 @@ ply_check_lines <- function(text, start, end, lines, file, id) {
                 "The header's numbers of vertices, faces or properties are wrong: export it again.")
   }
   if (rest > 0 || nzchar(text$bad)) {
-    warn_file(file, sprintf(paste("goes on behind what its header promises, at line %d: that",
-                                  "was passed over"),
+    warn_file(file, sprintf(paste0("goes on behind what its header promises, at line %d: that was ",
+                                   "passed over"),
                             lines + c(text$line, text$bad_line)[length(start) + 1]),
               "See whether the surface is whole, or export it again.", id)
   }
-}
-
-ply_numbers <- function(raw, at, type, endian) {
-  cpp_numbers_at(raw, at, grepl("float|double", type), !startsWith(type, "u"), ply_types()[[type]],
-                 endian == "big")
 }
 
 # `table`: every element as a named list, a vector for each property, list(value, sides) for a list;
@@ -197,8 +188,22 @@ ply_elements_read <- function(stream, elements) {
   at <- stream$start
   starts <- list()
   for (name in names(elements)) {
-    start <- ply_row_starts(stream, elements[[name]], at)
-    row <- ply_rows(stream, elements[[name]]$properties, start)
+    # Where the rows start: at equal steps if every list is as long as the first row's, else one
+    # by one.
+    element <- elements[[name]]
+    start <- if (element$count == 0 || nrow(element$properties) == 0) numeric() else {
+      is_list <- nzchar(element$properties$count_type)
+      first <- ply_rows(stream, element$properties, at)
+      equal <- at + (seq_len(element$count) - 1) * (first$end - at)
+      if (!any(is_list)) equal else {
+        rows <- tryCatch(ply_rows(stream, element$properties, equal), error = function(e) NULL)
+        alike <- !is.null(rows) && all(vapply(which(is_list), function(i) {
+          all(rows$column[[i]]$sides == first$column[[i]]$sides)
+        }, NA))
+        if (alike) equal else ply_walk_rows(stream, element, at)
+      }
+    }
+    row <- ply_rows(stream, element$properties, start)
     at <- if (length(start)) row$end[length(start)] else at
     elements[[name]] <- row$column
     starts <- c(starts, list(start))
@@ -234,20 +239,6 @@ ply_get <- function(stream, at, type) {
   stream$get(at, type)
 }
 
-# Where the rows start: at equal steps if every list is as long as the first row's, else one by one.
-ply_row_starts <- function(stream, element, at) {
-  if (element$count == 0 || nrow(element$properties) == 0) return(numeric())
-  is_list <- nzchar(element$properties$count_type)
-  first <- ply_rows(stream, element$properties, at)
-  equal <- at + (seq_len(element$count) - 1) * (first$end - at)
-  if (!any(is_list)) return(equal)
-  rows <- tryCatch(ply_rows(stream, element$properties, equal), error = function(e) NULL)
-  alike <- !is.null(rows) && all(vapply(which(is_list), function(i) {
-    all(rows$column[[i]]$sides == first$column[[i]]$sides)
-  }, NA))
-  if (alike) equal else ply_walk_rows(stream, element, at)
-}
-
 ply_walk_rows <- function(stream, element, at) {
   start <- numeric(element$count)
   type <- element$properties$type
@@ -265,4 +256,33 @@ ply_walk_rows <- function(stream, element, at) {
     }
   }
   start
+}
+
+write_ply <- function(mesh, file, ascii) {
+  if (ascii) {
+    fields <- list(row_text(mesh$xyz, missing = "nan"), if (!is.null(mesh$rgb)) row_text(mesh$rgb),
+                   if (!is.null(mesh$value)) number_text(mesh$value, missing = "nan"),
+                   if (!is.null(mesh$row)) ply_rows_of(mesh))
+    vertex <- do.call(paste, Filter(Negate(is.null), fields))
+    return(write_content(c(ply_head(mesh, "ascii"), vertex, paste("3", row_text(mesh$it - 1))),
+                         file))
+  }
+  head <- charToRaw(paste0(ply_head(mesh, "binary_little_endian"), "\n", collapse = ""))
+  vertex <- rbind(bytes_of(mesh$xyz, 8L), if (!is.null(mesh$rgb)) bytes_of(mesh$rgb, 1L),
+                  if (!is.null(mesh$value)) bytes_of(as.double(mesh$value), 8L),
+                  if (!is.null(mesh$row)) bytes_of(ply_rows_of(mesh), 4L))
+  face <- rbind(as.raw(3), bytes_of(mesh$it - 1L, 4L))
+  write_content(c(head, as.vector(vertex), as.vector(face)), file)
+}
+
+# 0 for the points between those of a shape.
+ply_rows_of <- function(mesh) as.integer(ifelse(is.na(mesh$row), 0, mesh$row))
+
+ply_head <- function(mesh, format) {
+  c("ply", paste("format", format, "1.0"), paste("comment", mesh$comments),
+    paste("element vertex", nrow(mesh$xyz)),
+    "property double x", "property double y", "property double z",
+    if (!is.null(mesh$rgb)) c("property uchar red", "property uchar green", "property uchar blue"),
+    if (!is.null(mesh$value)) "property double quality", if (!is.null(mesh$row)) "property int row",
+    paste("element face", nrow(mesh$it)), "property list uchar int vertex_indices", "end_header")
 }

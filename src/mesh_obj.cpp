@@ -1,10 +1,10 @@
-#include "mesh_read_obj.h"
+#include "mesh_obj.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "mesh_read_text.h"
+#include "mesh_read.h"
 
 namespace crestline {
 
@@ -21,7 +21,8 @@ int index_of(const char* begin, const char* stop, std::size_t before) {
   return static_cast<int>(number);
 }
 
-// x, y, z, and three colours where there are six numbers or more. False where one of the first three is none.
+// x, y, z, and three colours where there are six numbers or more. False where one of the first
+// three is none.
 bool read_vertex(TextWalk& text, ObjText& out) {
   double number[6];
   int found = 0;

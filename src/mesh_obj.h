@@ -16,7 +16,7 @@ struct ObjText {
   std::vector<int> corner;       // vertex of every corner of the polygons in turn, from 1
   std::vector<int> corner_uv;    // its texture place, from 1, no_index where none
   std::vector<int> sides;        // corners of each polygon
-  std::vector<int> material;     // of each polygon: number of `materials` from 1, 0 before the first
+  std::vector<int> material;  // of each polygon: number of `materials` from 1, 0 before the first
   std::vector<std::string> materials, libraries;
   std::string bad;               // the first word that should be a co-ordinate and is not
   int bad_line = 0;

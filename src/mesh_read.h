@@ -16,8 +16,8 @@ class TextWalk {
   // Steps over the end of this line: LF, CR or both.
   void next_line();
 
-  // The next word of this line, false where there is none. A '#' begins a comment and a backslash at the end of a
-  // line goes on with the next, where `comments` asks for it.
+  // The next word of this line, false where there is none. A '#' begins a comment and a backslash
+  // at the end of a line goes on with the next, where `comments` asks for it.
   bool word(const char*& begin, const char*& stop, bool comments = false);
 
   // What is left of this line, without blanks about it.
@@ -29,7 +29,8 @@ class TextWalk {
   int line_ = 1;
 };
 
-// The number that a word is: decimal point, `nan` and `inf` of all systems, `NA`. False where it is none, or longer than 63 signs.
+// The number that a word is: decimal point, `nan` and `inf` of all systems, `NA`. False where it is
+// none, or longer than 63 signs.
 bool number_of(const char* begin, const char* stop, double& number);
 
 // The word in small letters equals `key`.
