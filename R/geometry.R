@@ -29,6 +29,16 @@ nearest_rotation <- function(x, y) {
   list(rotation = parts$u %*% (sense * t(parts$v)), d = sense * parts$d)
 }
 
+#' The rotation by the length of a vector about it (Rodrigues)
+#' @noRd
+rotation_about <- function(turn) {
+  angle <- sqrt(sum(turn^2))
+  if (angle == 0) return(diag(3))
+  axis <- turn / angle
+  cross <- matrix(c(0, axis[3], -axis[2], -axis[3], 0, axis[1], axis[2], -axis[1], 0), 3)
+  diag(3) + sin(angle) * cross + (1 - cos(angle)) * cross %*% cross
+}
+
 # Main direction of rows of vectors, up to sign: of the differences between points and their mirror
 # partners the normal of the mirror.
 main_direction <- function(x) eigen(crossprod(x), symmetric = TRUE)$vectors[, 1]

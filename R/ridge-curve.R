@@ -15,8 +15,8 @@
 #'   of the mesh; the window is no wider than `settings$window` radii. Not needed for `"plane"`.
 #' @param n Number of points, both ends counted, at equal chords.
 #' @param settings [ridge_settings()].
-#' @param passes With 2, the curve serves as reference path of a second fit. That is better on clean
-#'   data, and no better on noisy data.
+#' @param passes Number of passes, each about the curve of the one before and counted whole. `NULL`:
+#'   one pass and a share of a second, as `settings$second` says.
 #' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), if you
 #'   have it. `NULL`: curvature is estimated where the curve may lie.
 #' @param trust Two shares of the path's length, between which the reference path and curvature are
@@ -29,8 +29,13 @@
 #'     the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`;
 #'     lengths in the unit of the mesh; `as.data.frame()` gives it;
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
-#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages (`NULL` for a plane
-#'     curve but the first);
+#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages of the last pass
+#'     (`NULL` for a plane curve but the first); the reference of a second pass is the first pass's
+#'     curve. `line$kernel` is the half width of the kernel;
+#'   * `share`: share of the second pass that was taken, 0 with one pass;
+#'   * `noise_factor`: how many times as much the strengths scatter about their smooth surface as
+#'     under independent noise, at least 1: the noise is correlated along the mesh, or fine relief
+#'     counts as noise. 1 where the noise is known;
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the
 #'     reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
@@ -42,14 +47,18 @@
 #'     errors;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: of the mesh, so that what draws it refuses another.
-#' @section Standard error: the standard deviation of the curve's position across
-#'   itself if the mesh had been scanned again with independent noise at each
-#'   vertex. The figures are of simulated ridges with such noise. With a radius of five spacings, at
-#'   most the feature's own radius of curvature, the crest lies within two standard errors at 94 %
-#'   of the places (91 to 98 % by noise and sharpness). A wider radius leaves a bias that the
-#'   standard error does not include (radius of seven and ten spacings: 75 to 94 %). Noise that is
-#'   smooth along the mesh makes the standard error far too small (over one to three spacings: 50 to
-#'   63 %). Neither can be seen from one mesh. `vignette("how-good", "crestline")` has the tables.
+#' @section Standard error: the standard deviation of the curve's position across itself if the mesh
+#'   had been scanned again. Without a repeat scan, noise is taken to be independent at each vertex,
+#'   and its variance is multiplied by `noise_factor`: smooth noise, which every scanner has, leaves
+#'   small residuals in each local fit, but the strengths scatter. On simulated ridges of noise 0.01
+#'   (b = 1 and 2; 15 curves each) the crest lies within two standard errors at 98 and 99 % of the
+#'   places with independent noise. With noise correlated over one, two and three spacings it does
+#'   at 79, 59 and 57 % (b = 1) and 96, 92 and 92 % (b = 2): on blunt ridges such noise is seen in
+#'   part only. On a clean real scan the factor is about 10, since fine relief counts as noise, and
+#'   the band is too wide. Two scans of one subject tell noise from relief: with
+#'   [ridge_settings()]`(noise = )` of [scan_noise()] the error follows the noise that was measured.
+#'   A wider radius leaves a bias that the standard error does not include.
+#'   `vignette("how-good", "crestline")` has the tables.
 #' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
 #' @section Warnings: of class `crestline_undetermined`, when the curve is not
 #'   determined by curvature; and that of [reference_path()].

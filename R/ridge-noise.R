@@ -1,5 +1,241 @@
 # The noise of a scanner, known from two scans of one subject.
 
+#' Noise of a scanner, from two scans of one subject
+#'
+#' One scan cannot tell noise from fine relief; two scans of the same subject can. The second is
+#' registered on the first by iterated closest points (point to plane), and the distances between
+#' the two surfaces along the normals give the noise's standard deviation and how far it is
+#' correlated along the mesh. With [ridge_settings()]`(noise = )` standard errors follow that noise
+#' through the local fits.
+#'
+#' The noise is taken to have two parts: an independent error of each vertex, and an error that is
+#' smooth in space, with correlation \eqn{\exp(-d^2 / (2 range^2))}{exp(-d^2 / (2 range^2))} at
+#' distance d. Both scans are taken to have the same noise, and expression and posture to be the
+#' same: a change of the face counts as noise.
+#'
+#' @param first,second [specimen()]s or `mesh3d`s of one subject in one unit. If both are specimens
+#'   with three landmarks in common or more, registration begins with these, otherwise with the
+#'   scans as they stand.
+#' @param near Places of `first` (k x 3 matrix or data frame `x, y, z`) by which the scans are
+#'   compared, such as `coords(fit_shape(first, scheme), "curves")`; `NULL`: its landmarks, or all
+#'   of a mesh without.
+#' @param reach Vertices within this distance of `near` are compared, as a share of the largest
+#'   extent of `near`.
+#' @param points At most so many vertices are compared, those nearest to `near`.
+#' @param trim Distances beyond this many median absolute deviations are left out, as of holes and
+#'   hair.
+#' @param lags Largest distance at which correlation is looked at, in mean edges.
+#' @param rounds,tolerance Most rounds of the registration; it has converged when no point moves by
+#'   more than `tolerance` of the extent.
+#' @return Object of class `scan_noise`, a list: `independent` and `smooth`, standard deviations in
+#'   the unit of the mesh; `range`, of the correlation, in the same unit (0: no smooth part);
+#'   `sd`, of both parts; `covariance`, data frame by `lag` (unit of the mesh) of the covariance of
+#'   the distances between the scans, and of what is `fitted`; `points`, the number compared;
+#'   `converged` and `rounds` of the registration.
+#'   Of simulated scans, 40 spacings wide, `sd` comes out at 0.8 to 1 times the truth, and `range`
+#'   at 0.8 to 1.2 times; on slopes less, since the distance is along the normal.
+#' @section Errors: of class `crestline_error`, when fewer than 100 vertices can be compared, and
+#'   when the scans lie more than a mean edge apart.
+#' @seealso [ridge_settings()], [ridge_curve()]
+#' @examples
+#' scans <- lapply(1:2, function(seed) {
+#'   simulate_ridge(a = 0.25, b = 1, noise = 0.01, correlation = 2, seed = seed)
+#' })
+#' noise <- scan_noise(scans[[1]], scans[[2]])
+#' noise
+#' curve <- ridge_curve(scans[[1]], "from", "to", "ridge", radius = 0.25, width = 0.4, n = 21,
+#'                      settings = ridge_settings(noise = noise))
+#' curve$se
+#' @export
+scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, trim = 5, lags = 12,
+                       rounds = 50, tolerance = 1e-6) {
+  check_given()
+  check_surface(first, "first")
+  check_surface(second, "second")
+  check_number(reach, "reach", lower = 0, open = TRUE)
+  points <- check_count(points, "points", lower = 100)
+  check_number(trim, "trim", lower = 0, open = TRUE)
+  check_number(lags, "lags", lower = 3)
+  rounds <- check_count(rounds, "rounds")
+  check_number(tolerance, "tolerance", lower = 0, open = TRUE)
+  marks <- list(first$landmarks, second$landmarks)
+  near <- if (!is.null(near)) point_matrix(near, rlang::current_env(), "near") else marks[[1]]
+  scans <- list(walkable(first), walkable(second))
+  compared <- compared_vertices(scans[[1]], near, reach, points)
+  if (nrow(compared$xyz) < 100) abort_few_compared(nrow(compared$xyz), scans[[1]]$id)
+  shared <- intersect(rownames(marks[[1]]), rownames(marks[[2]]))
+  both <- if (length(shared) >= 3) lapply(marks, function(x) x[shared, , drop = FALSE])
+  laid <- laid_on(scans[[2]], compared, both, trim, rounds, tolerance)
+  if (sum(laid$kept) < 100) abort_few_compared(sum(laid$kept), scans[[1]]$id)
+  lagged <- lagged_covariance(compared$xyz[laid$kept, ], laid$distance[laid$kept], compared$edge,
+                              lags)
+  fitted <- fitted_noise(lagged, laid$weight, compared$edge)
+  if (sqrt(lagged$covariance[1]) > compared$edge) {
+    crestline_abort(sprintf("the scans lie %.3g apart, more than an edge: they are not registered.",
+                            sqrt(lagged$covariance[1])),
+                    "Give specimens with three landmarks in common, or lay one scan on the other.",
+                    stage = "scan noise", id = scans[[1]]$id)
+  }
+  structure(c(fitted$noise, list(sd = sqrt(fitted$noise$independent^2 + fitted$noise$smooth^2),
+                                 covariance = cbind(lagged, fitted = fitted$values),
+                                 points = sum(laid$kept), converged = laid$converged,
+                                 rounds = laid$rounds)), class = "scan_noise")
+}
+
+abort_few_compared <- function(count, id) {
+  crestline_abort(sprintf("only %s of the first scan can be compared with the second.",
+                          amount(count, "vertex", "vertices")),
+                  "Give a larger `reach`, places `near` that both scans hold, or landmarks on both.",
+                  stage = "scan noise", id = id, call = NULL)
+}
+
+#' The vertices of a scan near some places: `xyz` and `normal` (n x 3), `edge` (their mean spacing),
+#' `extent`
+#' @noRd
+compared_vertices <- function(scan, near, reach, points) {
+  xyz <- t(scan$vb[1:3, , drop = FALSE])
+  bare <- structure(list(vb = scan$vb, it = scan$it), class = "mesh3d")
+  normal <- t(Rvcg::vcgUpdateNormals(bare, silent = TRUE)$normals[1:3, ])
+  span <- function(x) max(apply(x, 2, function(column) diff(range(column, na.rm = TRUE))))
+  extent <- span(if (is.null(near)) xyz else near)
+  off <- if (is.null(near)) rep(0, nrow(xyz)) else
+    sqrt(do.call(pmin, lapply(which(stats::complete.cases(near)), function(i) {
+      rowSums(sweep(xyz, 2, near[i, ])^2)
+    })))
+  kept <- which(off <= reach * extent & rowSums(normal^2) > 0)
+  if (length(kept) > points) kept <- kept[order(off[kept])[seq_len(points)]]
+  own <- matrix(scan$it %in% kept, 3)
+  inside <- scan$it[, colSums(own) == 3, drop = FALSE]
+  edge <- mean(row_lengths(xyz[inside[1, ], , drop = FALSE] - xyz[inside[2, ], , drop = FALSE]))
+  list(xyz = xyz[kept, , drop = FALSE], normal = normal[kept, , drop = FALSE], edge = edge,
+       extent = extent)
+}
+
+#' The vertices of one scan laid on another by iterated closest points, point to plane
+#'
+#' @param both Landmarks of both, or NULL.
+#' @return List: `distance` along the normals; `weight`, mean sum of squares of the closest places'
+#'   weights in their triangles; `kept`, `converged`, `rounds`.
+#' @noRd
+laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
+  xyz <- compared$xyz
+  normal <- compared$normal
+  move <- function(rotation, shift) {
+    xyz <<- sweep(xyz %*% t(rotation), 2, shift, `+`)
+    normal <<- normal %*% t(rotation)
+  }
+  if (!is.null(both)) {
+    centre <- lapply(both, colMeans)
+    rotation <- nearest_rotation(sweep(both[[1]], 2, centre[[1]]),
+                                 sweep(both[[2]], 2, centre[[2]]))$rotation
+    move(t(rotation), centre[[2]] - as.vector(t(rotation) %*% centre[[1]]))
+  }
+  converged <- FALSE
+  round <- 0
+  repeat {
+    at <- surface_points(scan, xyz)
+    distance <- rowSums((as.matrix(at[c("x", "y", "z")]) - xyz) * normal)
+    centred <- abs(distance - stats::median(distance))
+    kept <- centred <= trim * stats::mad(distance) + 1e-12 * compared$extent
+    if (converged || round == rounds) break
+    round <- round + 1
+    middle <- colMeans(xyz)
+    about <- sweep(xyz, 2, middle)
+    design <- cbind(cross_rows(about, normal), normal)[kept, , drop = FALSE] /
+      rep(c(rep(compared$extent, 3), rep(1, 3)), each = sum(kept))
+    step <- MASS::ginv(crossprod(design)) %*% crossprod(design, distance[kept])
+    turn <- step[1:3] / compared$extent
+    rotation <- rotation_about(turn)
+    before <- xyz
+    move(rotation, middle + step[4:6] - as.vector(rotation %*% middle))
+    converged <- max(abs(xyz - before)) <= tolerance * compared$extent
+  }
+  list(distance = distance, weight = mean(at$w1^2 + at$w2^2 + at$w3^2), kept = kept,
+       converged = converged, rounds = round)
+}
+
+#' Mean product of the distances of two vertices, by the vertices' lag
+#'
+#' @return Data frame: `lag` (mean within each bin of half an edge; 0: of one vertex), `covariance`,
+#'   `pairs`.
+#' @noRd
+lagged_covariance <- function(xyz, distance, edge, lags, block = 500) {
+  width <- edge / 2
+  most <- ceiling(lags * edge / width)
+  sums <- matrix(0, most, 3)
+  for (rows in split(seq_along(distance), ceiling(seq_along(distance) / block))) {
+    apart <- sqrt(pmax(outer(rowSums(xyz[rows, , drop = FALSE]^2), rowSums(xyz^2), `+`) -
+                         2 * tcrossprod(xyz[rows, , drop = FALSE], xyz), 0))
+    bin <- floor(apart / width) + 1
+    bin[cbind(seq_along(rows), rows)] <- NA
+    used <- which(bin <= most)
+    product <- outer(distance[rows], distance)[used]
+    found <- rowsum(cbind(1, product, apart[used]), bin[used])
+    at <- as.integer(rownames(found))
+    sums[at, ] <- sums[at, ] + found
+  }
+  sums <- sums[sums[, 1] > 0, , drop = FALSE]
+  data.frame(lag = c(0, sums[, 3] / sums[, 1]),
+             covariance = c(mean(distance^2), sums[, 2] / sums[, 1]),
+             pairs = c(length(distance), sums[, 1]))
+}
+
+#' Independent and smooth part of the noise of each scan
+#'
+#' The covariance of the differences of two scans is 2 smooth^2 exp(-lag^2 / (2 range^2)) less a
+#' constant that registration takes away, and at lag 0 (1 + weight) independent^2 besides: a closest
+#' place is a mean of three vertices. Lags below
+#' `shortest` edges are left out, since closest places that near share vertices; a range below one
+#' edge cannot be told from independent noise.
+#' @return List: `noise` (`independent`, `smooth`, `range`), `values` (fitted by lag).
+#' @noRd
+fitted_noise <- function(lagged, weight, edge, shortest = 2) {
+  zero <- lagged$lag == 0
+  far <- lagged$lag >= shortest * edge
+  total <- lagged$covariance[zero]
+  fit_at <- function(log_range) {
+    shape <- exp(-lagged$lag^2 / (2 * exp(2 * log_range)))
+    # Registration takes the mean difference away, and so a constant from all covariances.
+    lost <- 0
+    level <- function(used) {
+      value <- lagged$covariance[used]
+      slope <- stats::cov(shape[used], value) / stats::var(shape[used])
+      lost <<- max(0, slope * mean(shape[used]) - mean(value))
+      max(0, sum(shape[used] * (value + lost)) / sum(shape[used]^2)) / 2
+    }
+    smooth <- level(far)
+    alone <- 2 * smooth > total + lost
+    if (alone) smooth <- level(far | zero)
+    independent <- if (alone) 0 else (total + lost - 2 * smooth) / (1 + weight)
+    values <- 2 * smooth * shape - lost + zero * independent * (1 + weight)
+    list(independent = sqrt(independent), smooth = sqrt(smooth), values = values,
+         off = sum((lagged$covariance - values)[far | zero]^2))
+  }
+  span <- log(c(edge, max(lagged$lag)))
+  grid <- seq(span[1], span[2], length.out = 40)
+  off <- vapply(grid, function(x) fit_at(x)$off, 0)
+  about <- grid[pmin(pmax(which.min(off) + c(-1, 1), 1), length(grid))]
+  best <- stats::optimize(function(x) fit_at(x)$off, about)$minimum
+  fit <- fit_at(best)
+  range <- if (fit$smooth > 0) exp(best) else 0
+  list(noise = list(independent = fit$independent, smooth = fit$smooth, range = range),
+       values = fit$values)
+}
+
+#' @export
+print.scan_noise <- function(x, ...) {
+  check_method_dots(...)
+  printed(x, {
+    cat(sprintf("Noise of a scanner, from %d vertices of two scans: standard deviation %.3g\n",
+                x$points, x$sd))
+    cat(sprintf("  independent %.3g; smooth %.3g, correlated over %.3g\n", x$independent, x$smooth,
+                x$range))
+    cat(sprintf("  registration %s after %s\n", if (x$converged) "converged" else "NOT converged",
+                amount(x$rounds, "round")))
+    invisible(x)
+  })
+}
+
 #' The setting `noise`: NA, or standard deviations and correlation length
 #' @noRd
 noise_setting <- function(noise, call = rlang::caller_env()) {

@@ -2,7 +2,8 @@
 # Sourced by tools/studies.R.
 
 alternatives <- function() {
-  ways <- list(crestline = crestline::ridge_settings(error = FALSE), "two passes" = twice, "paper's settings" = crestline::ridge_settings("paper", error = FALSE),
+  ways <- list(crestline = crestline::ridge_settings(error = FALSE),
+               "one pass" = crestline::ridge_settings("one pass", error = FALSE), "two passes" = twice, "paper's settings" = crestline::ridge_settings("paper", error = FALSE),
                "forced quadratic" = crestline::ridge_settings(order = "forced", error = FALSE), "reference path" = by_reference,
                "shortest plane cut" = by_plane, geodesic = by_geodesic, "crest points joined" = by_crest_points)
   if (requireNamespace("princurve", quietly = TRUE)) ways$"principal curve" <- by_principal_curve
@@ -11,9 +12,9 @@ alternatives <- function() {
 
 positions <- function(x) as.matrix(as.data.frame(x)[c("x", "y", "z")])
 
-# Our own ridge with a second pass, as clean data deserve.
+# Our own ridge with a whole second pass and no kernel.
 twice <- function(specimen, radius, width, n) {
-  settings <- crestline::ridge_settings(error = FALSE)
+  settings <- crestline::ridge_settings("one pass", error = FALSE)
   positions(crestline::ridge_curve(specimen, "from", "to", "ridge", radius, width, n, settings = settings, passes = 2)$path)
 }
 

@@ -38,17 +38,18 @@ ridge_factors <- function() {
     "landmarks, much noise" = about(noise = 0.05, landmark_error = 0.1),
     mesh = about(spacing = c(0.1, 0.025)),
     radius = about(radius = c(0.15, 0.35, 0.5)),
-    correlation = about(correlation = c(1, 3)),
+    correlation = about(correlation = c(1, 2, 3)),
     passes = about(noise = c(0, 0.05), passes = 2)
   )
 }
 
 run_ridges <- function(n) {
-  methods <- list(crestline = ridge_settings(), paper = ridge_settings("paper", error = FALSE))
+  methods <- list(crestline = ridge_settings(), "one pass" = ridge_settings("one pass"),
+                  paper = ridge_settings("paper", error = FALSE))
   run_factors(ridge_factors(), methods, n, output("ridges"))
 }
 
-# Fewer simulations: eight methods take eight times as long.
+# Fewer simulations: ten methods take eight times as long.
 run_alternatives <- function(n, most = 200L) {
   base <- list(a = 0.25, b = c(1, 2), noise = 0.01)
   about <- function(...) utils::modifyList(base, list(...))
@@ -73,7 +74,8 @@ run_factors <- function(factors, methods, n, dir) {
 summarise <- function(study) {
   setting <- c("a", "b", "noise", "landmark_error", "spacing", "radius", "correlation", "passes",
                "method")
-  cell <- interaction(study[setting], drop = TRUE, lex.order = TRUE)
+  # As text, since the passes are NA where the settings say them.
+  cell <- do.call(paste, c(lapply(study[setting], format_key), sep = " | "))
   rows <- lapply(split(study, cell), function(one) {
     average <- function(x) if (all(is.na(x))) NA else mean(x, na.rm = TRUE)
     cbind(one[1, setting], n = nrow(one), failed = sum(!is.na(one$error)),

@@ -1,0 +1,92 @@
+moved_scan <- function(scan, turn, shift) {
+  mesh <- scan$mesh
+  mesh$vb[1:3, ] <- turn %*% mesh$vb[1:3, ] + shift
+  specimen(mesh, t(turn %*% t(scan$landmarks) + shift), "moved", outward = "keep")
+}
+
+repeated <- function(noise, correlation, seed, spacing = 0.05, b = 1) {
+  lapply(seed + c(0, 1000), function(s) simulate_ridge(0.25, b, spacing, noise, s, jitter = 0.3, correlation = correlation))
+}
+
+test_that("the noise of two simulated scans comes back: its size, and how far it is correlated", {
+  measured <- function(correlation, spacing = 0.05, seeds = 1:4) {
+    found <- vapply(seeds, function(seed) {
+      scans <- repeated(0.01, correlation, seed, spacing, b = 0.05) # nearly level: the noise is along z
+      unlist(scan_noise(scans[[1]], scans[[2]])[c("independent", "smooth", "range", "sd")])
+    }, numeric(4))
+    rowMeans(found)
+  }
+  alone <- measured(0)
+  expect_equal(alone[["independent"]], 0.01, tolerance = 0.2)
+  expect_lt(alone[["smooth"]], 0.003)
+  for (steps in 1:3) {
+    spacing <- if (steps == 3) 0.025 else 0.05 # a square of enough ranges
+    found <- measured(steps, spacing)
+    expect_equal(found[["sd"]], 0.01, tolerance = 0.2)
+    # White noise under a Gaussian kernel of so many steps has correlation exp(-d^2 / (4 steps^2)).
+    expect_equal(found[["range"]], sqrt(2) * steps * spacing, tolerance = 0.2)
+  }
+})
+
+test_that("registration finds the second scan where it was moved to", {
+  scans <- repeated(0.01, 2, 7)
+  there <- scan_noise(scans[[1]], scans[[2]])
+  expect_true(there$converged)
+  turn <- rotation_about(c(0.02, -0.03, 0.05))
+  moved <- scans[[2]]$mesh
+  moved$vb[1:3, ] <- turn %*% moved$vb[1:3, ] + c(0.03, -0.02, 0.04)
+  found <- scan_noise(scans[[1]], moved)
+  expect_true(found$converged)
+  expect_equal(found$sd, there$sd, tolerance = 0.02)
+  expect_equal(found$range, there$range, tolerance = 0.05)
+  marked <- lapply(scans, function(scan) {
+    corner <- matrix(scan$mesh$vb[1:3, 1], 1, dimnames = list("corner", NULL))
+    specimen(scan$mesh, rbind(scan$landmarks, corner), "marked", outward = "keep")
+  })
+  far <- moved_scan(marked[[2]], rotation_about(c(1, 2, 0.5)), c(10, 5, 3))
+  expect_equal(scan_noise(marked[[1]], far, near = marked[[1]]$landmarks[1:2, ])$sd, there$sd, tolerance = 0.01)
+  expect_crestline_error(scan_noise(scans[[1]], moved_scan(scans[[2]], rotation_about(c(1, 2, 0.5)), c(10, 5, 3))), "not registered")
+})
+
+test_that("the unit and the numbering do not matter", {
+  scans <- repeated(0.01, 2, 3)
+  own <- scan_noise(scans[[1]]$mesh, scans[[2]]$mesh)
+  larger <- lapply(scans, function(scan) {
+    scan$mesh$vb[1:3, ] <- 1000 * scan$mesh$vb[1:3, ]
+    scan$mesh
+  })
+  times <- scan_noise(larger[[1]], larger[[2]])
+  expect_equal(times$sd / 1000, own$sd, tolerance = 1e-4)
+  expect_equal(times$range / 1000, own$range, tolerance = 1e-3)
+  order <- with_seed(1, sample(ncol(scans[[1]]$mesh$vb)))
+  mesh <- scans[[1]]$mesh
+  mixed <- structure(list(vb = mesh$vb[, order], it = matrix(match(mesh$it, order), 3)), class = "mesh3d")
+  expect_equal(scan_noise(mixed, scans[[2]]$mesh)$sd, own$sd, tolerance = 1e-4)
+})
+
+test_that("known noise takes the place of the noise factor, and widens the kernel where noise is smooth", {
+  scans <- repeated(0.01, 2, 5)
+  noise <- scan_noise(scans[[1]], scans[[2]])
+  fit <- function(settings) {
+    suppressWarnings(ridge_curve(scans[[1]], "from", "to", "ridge", 0.25, 0.4, 21, settings = settings))
+  }
+  known <- fit(ridge_settings(noise = noise))
+  blind <- fit(ridge_settings())
+  expect_identical(known$noise_factor, 1)
+  expect_gt(blind$noise_factor, 10)
+  expect_gt(known$line$kernel, blind$line$kernel)
+  expect_identical(known$settings$noise, c(independent = noise$independent, smooth = noise$smooth, range = noise$range))
+})
+
+test_that("scans that cannot be compared are refused", {
+  scans <- repeated(0.01, 0, 1, spacing = 0.1)
+  expect_crestline_error(scan_noise(scans[[1]], scans[[2]], near = rbind(c(0, 0, 0)), reach = 0.1), "can be compared")
+  expect_crestline_error(scan_noise(scans[[1]], 3), "`second`")
+  expect_crestline_error(ridge_settings(noise = c(1, 2)), "`noise`")
+  expect_crestline_error(ridge_settings(noise = c(1, -2, 0)), "scan_noise()")
+})
+
+test_that("noise prints its parts", {
+  scans <- repeated(0.01, 2, 5)
+  expect_output(print(scan_noise(scans[[1]], scans[[2]])), "standard deviation .*independent .*correlated over .*converged")
+})
