@@ -105,10 +105,10 @@ align_configurations <- function(given, settings, call = rlang::caller_env()) {
   if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
   projected <- settings$tangent && scaling > 0
   coords <- if (projected) tangent_projection(fit$coords, fit$mean, weight) else fit$coords
-  validate_aligned(new_aligned(coords, fit$mean, fit$size, weight, whole$places, settings$scale,
-                               projected, given$level,
-                               whole$missing, fit$moved, whole$triangles, settings,
-                               whole$reference))
+  validate_aligned(new_aligned(
+    coords, fit$mean, fit$size, weight, whole$places, settings$scale, projected, given$level,
+    whole$missing, fit$moved, whole$triangles, settings, whole$reference
+  ))
 }
 
 check_scaling <- function(scale, call = rlang::caller_env()) {

@@ -359,8 +359,9 @@ check_alike_aligned <- function(a, b, call = rlang::caller_env()) {
 #' @noRd
 before_projection <- function(aligned) {
   if (!aligned$tangent) return(aligned$coords)
-  off <- sqrt(colSums(matrix(sweep(aligned$coords, 1:2, aligned$mean)^2 * aligned$weights,
-                             length(aligned$mean))))
+  off <- sqrt(colSums(matrix(
+    sweep(aligned$coords, 1:2, aligned$mean)^2 * aligned$weights, length(aligned$mean)
+  )))
   full <- identical(aligned$scale, "full")
   along <- if (full) (1 + sqrt(pmax(1 - 4 * off^2, 0))) / 2 else sqrt(pmax(1 - off^2, 0))
   aligned$coords + array(outer(as.vector(aligned$mean), along - 1), dim(aligned$coords))

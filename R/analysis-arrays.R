@@ -32,8 +32,8 @@ named_array <- function(x) {
 
 check_triangles <- function(triangles, k, call) {
   if (is.null(triangles)) return(NULL)
-  ok <- is.matrix(triangles) && nrow(triangles) == 3 && is.numeric(triangles) && all(triangles %in%
-                                                                                     seq_len(k))
+  ok <- is.matrix(triangles) && nrow(triangles) == 3 && is.numeric(triangles) &&
+    all(triangles %in% seq_len(k))
   if (!ok) {
     crestline_abort("`triangles` is no matrix of three rows with numbers of points.",
                     "Give the `it` of a mesh whose vertices are the points.", stage = "align",
@@ -63,8 +63,9 @@ point_weights <- function(weights, whole, call = rlang::caller_env()) {
   if (identical(weights, "places")) {
     weights <- 1 / as.vector(table(whole$places)[whole$places])
   } else if (identical(weights, "area")) {
-    if (is.null(whole$triangles)) fail("there are no triangles to take areas of.",
-                                       "Give `triangles`, or another `weights`.")
+    if (is.null(whole$triangles)) {
+      fail("there are no triangles to take areas of.", "Give `triangles`, or another `weights`.")
+    }
     weights <- point_areas(mean_of_sizes(whole), whole$triangles)
   } else if (!is.numeric(weights) || length(weights) != whole$given || any(!is.finite(weights)) ||
              any(weights < 0)) {

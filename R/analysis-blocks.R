@@ -24,22 +24,28 @@ comparison_design <- function(group, block, call = rlang::caller_env()) {
 }
 
 check_block <- function(block, ids, call) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison",
-                                                    call = call)
-  if (!is.atomic(block)) fail(sprintf("`block` is %s.", describe_value(block)),
-                              "Give a factor, one value a specimen.")
+  fail <- function(problem, remedy) crestline_abort(
+    problem, remedy, stage = "comparison", call = call
+  )
+  if (!is.atomic(block)) {
+    fail(sprintf("`block` is %s.", describe_value(block)), "Give a factor, one value a specimen.")
+  }
   if (!is.null(names(block))) {
     absent <- setdiff(ids, names(block))
-    if (length(absent)) fail(sprintf("`block` has no value for %s.", shorten(absent)),
-                             "Name its values by specimens, or not at all.")
+    if (length(absent)) {
+      fail(sprintf("`block` has no value for %s.", shorten(absent)),
+           "Name its values by specimens, or not at all.")
+    }
     block <- block[ids]
   }
   if (length(block) != length(ids)) {
     fail(sprintf("`block` has %d values for %d specimens.", length(block), length(ids)),
          "Give one for each.")
   }
-  if (anyNA(block)) fail(sprintf("`block` is missing for %s.", shorten(ids[is.na(block)])),
-                         "Leave these specimens out.")
+  if (anyNA(block)) {
+    fail(sprintf("`block` is missing for %s.", shorten(ids[is.na(block)])),
+         "Leave these specimens out.")
+  }
   droplevels(as.factor(unname(block)))
 }
 
@@ -82,8 +88,9 @@ in_design <- function(aligned, design) {
 #' @noRd
 design_regroupings <- function(design, n_perm, exact, permutations, seed,
                                call = rlang::caller_env()) {
-  if (design$kind != "within") return(regroupings(design$group, n_perm, exact, permutations, seed,
-                                                  call))
+  if (design$kind != "within") {
+    return(regroupings(design$group, n_perm, exact, permutations, seed, call))
+  }
   if (!is.null(permutations)) {
     crestline_abort("`permutations` and `block` are both given.",
                     "Give one of them: orders within blocks are drawn here.",

@@ -176,18 +176,18 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   })
   each <- signs_of_first(each, nlevels(group) == 2)
   count <- vapply(each, function(one) as.integer(one$components), 0L)
-  compared <- structure(list(tests = with_level(each, "tests"), points = with_level(each, "points"),
-                             aligned = aligned,
-                 pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L,
-                             exact = dealt$exact,
-                 components = count, seed = seed, design = design, equal_spread = equal_spread,
-                 provenance = with_settings(aligned[[1]]$provenance, "compare",
-                                            list(n_perm = n_perm, components = components,
-                                                 tests = tests,
-                                                 exchange = design$kind,
-                                                 equal_spread = equal_spread,
-                                                 n_boot = n_boot))),
-                        class = "group_comparison")
+  compared <- structure(
+    list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
+         pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L,
+         exact = dealt$exact, components = count, seed = seed, design = design,
+         equal_spread = equal_spread,
+         provenance = with_settings(
+           aligned[[1]]$provenance, "compare",
+           list(n_perm = n_perm, components = components, tests = tests, exchange = design$kind,
+                equal_spread = equal_spread, n_boot = n_boot)
+         )),
+    class = "group_comparison"
+  )
   warn_unequal_spread(compared)
   compared
 }
@@ -195,23 +195,21 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
 #' @exportS3Method
 validate.group_comparison <- function(x) {
   table <- function(value, columns) {
-    is.null(value) || is.data.frame(value) && all(columns %in%
-                                                  names(value)) && is.numeric(value$p_value) &&
-      all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
+    is.null(value) ||
+      is.data.frame(value) && all(columns %in% names(value)) && is.numeric(value$p_value) &&
+        all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
   }
   pca <- Filter(Negate(is.null), if (is.list(x$pca)) x$pca)
   design <- is.null(x$design) || is.list(x$design) && is.factor(x$design$group) &&
     is.character(x$design$kind) && isTRUE(x$design$kind %in% c("free", "whole", "within")) &&
     (x$design$kind == "whole" || length(x$design$group) == length(x$group))
   own <- function(one) inherits(one, "aligned") && length(one) == length(x$group)
-  right <- table(x$tests,
-                 c("level", "test", "statistic", "p_value", "p_parametric",
-                   "p_adjusted")) && design &&
-    table(x$points, c("level", "point", "p_value",
-                      "p_adjusted")) && is.factor(x$group) && is.list(x$aligned) &&
-    length(x$aligned) > 0 && all(vapply(x$aligned, own,
-                                        NA)) && all(vapply(pca, inherits, NA, "shape_pca")) &&
-    is.numeric(x$n_perm) && length(x$n_perm) == 1
+  right <- table(x$tests, c(
+      "level", "test", "statistic", "p_value", "p_parametric", "p_adjusted"
+    )) &&
+    design && table(x$points, c("level", "point", "p_value", "p_adjusted")) && is.factor(x$group) &&
+    is.list(x$aligned) && length(x$aligned) > 0 && all(vapply(x$aligned, own, NA)) &&
+    all(vapply(pca, inherits, NA, "shape_pca")) && is.numeric(x$n_perm) && length(x$n_perm) == 1
   if (!right) {
     crestline_abort("the comparison is damaged: its parts do not fit together.",
                     "Compare anew: compare_groups().",
@@ -284,9 +282,8 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     return(stats::setNames(list(sample), sample$level))
   }
   as_aligned <- function(one, level) {
-    areas <- identical(weights, "area") && inherits(one,
-                                                    "shape_sample") && !level %in% c("surface",
-                                                                                     "model")
+    areas <- identical(weights, "area") && inherits(one, "shape_sample") &&
+      !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (inherits(sample, "shape_sample")) {
@@ -324,8 +321,9 @@ check_tests <- function(tests, call = rlang::caller_env()) {
 #' A factor with the levels that occur, in the order of the specimens
 #' @noRd
 check_group <- function(group, ids, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "comparison",
-                                                    call = call)
+  fail <- function(problem, remedy) crestline_abort(
+    problem, remedy, stage = "comparison", call = call
+  )
   group <- by_specimen(group, ids, "group", fail)
   if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)
   absent <- is.na(group) | !nzchar(trimws(as.character(group)))
@@ -390,8 +388,9 @@ print.group_comparison <- function(x, most = 5, ...) {
       amount(x$n_perm, "random permutation")
     cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
         drawn, "\n", sep = "")
-    if (!is.null(x$tests)) cat("p-values by permutation:\n",
-                               paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+    if (!is.null(x$tests)) {
+      cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+    }
     line <- design_line(x$design)
     if (!is.null(line)) cat("  ", line, "\n", sep = "")
     said <- spread_line(x)
@@ -419,8 +418,9 @@ comparison_lines <- function(x, most) {
   table <- summary(x)
   component <- grepl("^PC[0-9]+$", table$test)
   table <- table[!component | cumsum(component) <= most, ]
-  digits <- function(p) ifelse(is.na(p), "",
-                               ifelse(p < 5e-5, "<0.0001", formatC(p, format = "f", digits = 4)))
+  digits <- function(p) ifelse(is.na(p), "", ifelse(
+    p < 5e-5, "<0.0001", formatC(p, format = "f", digits = 4)
+  ))
   shown <- vapply(table[-1], digits, character(nrow(table)))
   all <- rbind(names(table)[-1], matrix(shown, nrow(table)))
   width <- apply(nchar(all), 2, max) + 2

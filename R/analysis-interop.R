@@ -58,8 +58,9 @@ as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model")
   frame <- as_geomorph(sample, level, data, ...)
   coords <- frame$coords
   flat <- matrix(aperm(coords, c(3, 2, 1)), dim(coords)[3])
-  dimnames(flat) <- list(dimnames(coords)[[3]],
-                         as.vector(t(outer(dimnames(coords)[[1]], dimnames(coords)[[2]], paste))))
+  dimnames(flat) <- list(dimnames(coords)[[3]], as.vector(t(outer(
+    dimnames(coords)[[1]], dimnames(coords)[[2]], paste
+  ))))
   frame$coords <- flat
   structure(frame, class = "rrpp.data.frame")
 }
@@ -114,12 +115,12 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   if (!is.null(names(size)) && has_ids(ids)) size <- sizes_by_specimen(size, ids)
   spread <- function(s) diff(range(log(s)))
   scaled <- spread(own) < spread(size) / 2
-  validate_aligned(new_aligned(provenance = made_with(), coords, apply(coords, 1:2, mean),
-                               stats::setNames(as.vector(size), dimnames(coords)[[3]]),
-                               rep(1, dim(coords)[1]), dimnames(coords)[[1]], scale = scaled,
-                               tangent = FALSE, level = level,
-                               triangles = check_triangles(triangles, dim(coords)[1],
-                                                           rlang::current_env())))
+  validate_aligned(new_aligned(
+    provenance = made_with(), coords, apply(coords, 1:2, mean),
+    stats::setNames(as.vector(size), dimnames(coords)[[3]]), rep(1, dim(coords)[1]),
+    dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
+    triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())
+  ))
 }
 
 sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
@@ -131,13 +132,17 @@ sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
 #' @noRd
 covariates <- function(data, ids, call = rlang::caller_env()) {
   if (is.null(data)) return(list())
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments",
-                                                    call = call)
-  if (!is.data.frame(data)) fail(sprintf("`data` is %s.", describe_value(data)),
-                                 "Give a data frame.")
+  fail <- function(problem, remedy) crestline_abort(
+    problem, remedy, stage = "arguments", call = call
+  )
+  if (!is.data.frame(data)) {
+    fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")
+  }
   clash <- intersect(names(data), c("coords", "size"))
-  if (length(clash)) fail(sprintf("`data` has a column `%s`.", clash[1]),
-                          "Rename it: the sample's own has that name.")
+  if (length(clash)) {
+    fail(sprintf("`data` has a column `%s`.", clash[1]),
+         "Rename it: the sample's own has that name.")
+  }
   data <- data[rows_of_specimens(data, ids, "data", fail), , drop = FALSE]
   for (name in names(data)) warn_alike_levels(data[[name]], name)
   as.list(data)

@@ -76,25 +76,30 @@ shape_lda <- function(sample, group, components = 1:10, level = "landmarks", pri
   dimnames(posterior) <- list(names(group), levels(group))
   predicted <- factor(vapply(each, `[[`, "", "class"), levels(group))
   whole <- fit_lda(aligned, group, components, prior)
-  structure(c(
-    list(specimens = data.frame(id = names(group), group = unname(group), predicted = predicted,
-                                correct = predicted == group,
-                                components = vapply(each, `[[`, 0, "components")),
-         posterior = posterior, confusion = table(group = unname(group), predicted = predicted),
-         error = mean(predicted != group), chance = 1 - max(table(group)) / length(group)),
-    whole, list(group = group, prior = prior, candidates = components, level = aligned$level,
-                provenance = with_settings(aligned$provenance, "lda",
-                                           list(components = components)))
-  ), class = "shape_lda")
+  structure(c(list(specimens = data.frame(
+                     id = names(group), group = unname(group), predicted = predicted,
+                     correct = predicted == group, components = vapply(each, `[[`, 0, "components")
+                   ),
+                   posterior = posterior,
+                   confusion = table(group = unname(group), predicted = predicted),
+                   error = mean(predicted != group),
+                   chance = 1 - max(table(group)) / length(group)),
+              whole,
+              list(group = group, prior = prior, candidates = components, level = aligned$level,
+                   provenance = with_settings(
+                     aligned$provenance, "lda", list(components = components)
+                   ))),
+            class = "shape_lda")
 }
 
 check_prior <- function(prior, group, call = rlang::caller_env()) {
-  if (is.null(prior)) return(stats::setNames(as.vector(table(group)) / length(group),
-                                             levels(group)))
+  if (is.null(prior)) {
+    return(stats::setNames(as.vector(table(group)) / length(group), levels(group)))
+  }
   if (!is.numeric(prior) || length(prior) != nlevels(group) || !all(is.finite(prior) & prior > 0) ||
       (!is.null(names(prior)) && !setequal(names(prior), levels(group)))) {
-    refuse_argument("prior", prior, sprintf("Give a number above 0 for each of %s.",
-                                            shorten(levels(group))), call)
+    refuse_argument("prior", prior,
+                    sprintf("Give a number above 0 for each of %s.", shorten(levels(group))), call)
   }
   if (!is.null(names(prior))) prior <- prior[levels(group)]
   stats::setNames(prior / sum(prior), levels(group))
@@ -178,9 +183,10 @@ print.shape_lda <- function(x, ...) {
     chosen <- range(x$specimens$components)
     cat("<shape_lda> ", amount(n, "specimen"), ", ", x$level, "; ",
         amount(x$components, "component"),
-        if (length(x$candidates) > 1) sprintf(" (chosen; without one specimen %s)",
-                                              paste(unique(chosen), collapse = " to ")), "\n",
-        sep = "")
+        if (length(x$candidates) > 1) {
+          sprintf(" (chosen; without one specimen %s)", paste(unique(chosen), collapse = " to "))
+        },
+        "\n", sep = "")
     cat(sprintf("  left out and assigned: %d of %d right (%.0f %%; most frequent group: %.0f %%)\n",
                 sum(x$specimens$correct), n, 100 * (1 - x$error), 100 * (1 - x$chance)))
     cat(paste0("  ", utils::capture.output(print(x$confusion))), sep = "\n")

@@ -42,8 +42,9 @@ predict.shape_lm <- function(object, newdata = NULL, level = NULL, as = c("array
     shapes <- shapes * rep(size_at(size, x, newdata, model, aligned), each = length(aligned$mean))
   }
   if (as == "array") return(shapes)
-  each <- lapply(seq_len(nrow(x)), function(i) points_mesh(unnamed_slice(shapes, i),
-                                                           aligned$triangles))
+  each <- lapply(seq_len(nrow(x)), function(i) points_mesh(
+    unnamed_slice(shapes, i), aligned$triangles
+  ))
   stats::setNames(each, rownames(x))
 }
 

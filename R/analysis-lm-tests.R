@@ -44,13 +44,13 @@ lm_level <- function(aligned, spans, orders, tests, components, part, tick) {
     }
     trace <- if ("manova" %in% tests) pillai_scores(scores, span, orders)
     at <- if ("points" %in% tests) lm_points(aligned, term, span, orders, part)
-    rows <- list(
-      if ("shape" %in% tests) row("shape", scores = whole[[term]], total = sum(y^2)),
-      if ("size" %in% tests) by_column("size", cbind(aligned$size - mean(aligned$size))),
-      if ("manova" %in% tests) row("manova", scores = list(f = trace$trace), total = 1,
-                                   parametric = trace$parametric),
-      if ("components" %in% tests) by_column(colnames(scores), scores)
-    )
+    rows <- list(if ("shape" %in% tests) row("shape", scores = whole[[term]], total = sum(y^2)),
+                 if ("size" %in% tests) by_column("size", cbind(aligned$size - mean(aligned$size))),
+                 if ("manova" %in% tests) {
+                   row("manova", scores = list(f = trace$trace), total = 1,
+                       parametric = trace$parametric)
+                 },
+                 if ("components" %in% tests) by_column(colnames(scores), scores))
     list(tests = do.call(rbind, rows), points = at$points, parts = at$parts)
   })
   bound <- function(what) do.call(rbind, lapply(each, `[[`, what))

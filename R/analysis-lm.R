@@ -137,9 +137,10 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
          parts = with_level(each, "parts"), aligned = units, pca = lapply(each, `[[`, "pca"),
          models = models, left = spans[[1]][[1]]$left, formula = formula, ss = ss,
          n_perm = ncol(orders) - 1L, block = design$block, exchange = design$kind, seed = seed,
-         provenance = with_settings(aligned[[1]]$provenance, "model",
-                                    list(formula = deparse1(formula), ss = ss, n_perm = n_perm,
-                                         exchange = design$kind))),
+         provenance = with_settings(
+           aligned[[1]]$provenance, "model",
+           list(formula = deparse1(formula), ss = ss, n_perm = n_perm, exchange = design$kind)
+         )),
     class = "shape_lm"
   )
   without_constant_terms(found, spans, design)
@@ -183,8 +184,10 @@ model_orders <- function(n, design, n_perm, permutations, seed, call = rlang::ca
 warn_contrasts <- function(model, ss) {
   if (ss != "III" || !any(attr(model$terms, "order") > 1)) return(invisible())
   summed <- vapply(names(model$contrasts), function(name) {
-    coding <- stats::model.matrix(~ x, list(x = factor(levels(factor(model$frame[[name]])))),
-                                  stats::setNames(model$contrasts[name], "x"))
+    coding <- stats::model.matrix(
+      ~ x, list(x = factor(levels(factor(model$frame[[name]])))),
+      stats::setNames(model$contrasts[name], "x")
+    )
     all(abs(colSums(coding[, -1, drop = FALSE])) < 1e-8)
   }, NA)
   if (all(summed)) return(invisible())

@@ -11,8 +11,9 @@ complete_configurations <- function(given, missing, call = rlang::caller_env()) 
   gap <- gaps(coords)
   at <- which(gap, arr.ind = TRUE)
   action <- c(estimate = "estimated", drop = "dropped", stop = "")[[missing]]
-  given$missing <- data.frame(id = colnames(gap)[at[, 2]], point = rownames(gap)[at[, 1]],
-                              action = rep(action, nrow(at)))
+  given$missing <- data.frame(
+    id = colnames(gap)[at[, 2]], point = rownames(gap)[at[, 1]], action = rep(action, nrow(at))
+  )
   given$given <- dim(coords)[1]
   given$kept <- seq_len(given$given)
   if (any(gap)) {
@@ -42,9 +43,9 @@ abort_missing <- function(missing, call) {
 }
 
 check_enough <- function(gap, dim, missing, call) {
-  fail <- function(problem, remedy,
-                   id = NULL) crestline_abort(problem, remedy, stage = "align", id = id,
-                                              call = call)
+  fail <- function(problem, remedy, id = NULL) crestline_abort(
+    problem, remedy, stage = "align", id = id, call = call
+  )
   if (missing == "drop") {
     if (sum(rowSums(gap) == 0) <= dim) {
       fail("no more than three points are there in every specimen.",
@@ -149,8 +150,9 @@ spline_places <- function(template, own, gap, id, call, rank = 1e-6) {
   known <- known[!duplicated(template[known, , drop = FALSE])]
   from <- template[known, , drop = FALSE]
   at <- template[gap, , drop = FALSE]
-  distance <- function(a) sqrt(pmax(outer(rowSums(a^2), rowSums(from^2), `+`) - 2 *
-                                    tcrossprod(a, from), 0))
+  distance <- function(a) sqrt(pmax(
+    outer(rowSums(a^2), rowSums(from^2), `+`) - 2 * tcrossprod(a, from), 0
+  ))
   kernel <- if (ncol(template) == 3) function(r) -r else function(r) ifelse(r > 0, r^2 * log(r), 0)
   affine <- cbind(1, from)
   system <- rbind(cbind(kernel(distance(from)), affine),

@@ -61,8 +61,9 @@ level_model <- function(terms, columns, size, contrasts = NULL, call = rlang::ca
   frame_data <- list2DF(used, length(ids))
   say_missing(frame_data, ids, call)
   frame <- tryCatch(
-    suppressWarnings(stats::model.frame(terms, frame_data, na.action = stats::na.pass,
-                                        drop.unused.levels = TRUE)),
+    suppressWarnings(stats::model.frame(
+      terms, frame_data, na.action = stats::na.pass, drop.unused.levels = TRUE
+    )),
     error = function(e) refuse_formula(e, call)
   )
   say_missing(frame, ids, call)
@@ -172,9 +173,10 @@ model_at <- function(model, newdata, call = rlang::caller_env()) {
                     paste("The model's variables are", shorten(model$variables)), stage = "model",
                     call = call)
   }
-  frame <- tryCatch(stats::model.frame(terms, newdata, na.action = stats::na.pass,
-                                       xlev = model$xlev),
-                    error = function(e) refuse_formula(e, call))
+  frame <- tryCatch(
+    stats::model.frame(terms, newdata, na.action = stats::na.pass, xlev = model$xlev),
+    error = function(e) refuse_formula(e, call)
+  )
   say_missing(frame, if (is.null(rownames(newdata))) seq_len(nrow(newdata)) else
     rownames(newdata), call)
   x <- stats::model.matrix(terms, frame, model$contrasts)

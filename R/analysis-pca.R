@@ -70,15 +70,14 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
   dimnames(direction) <- dimnames(rotation)
   rownames(scores) <- names(aligned)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows),
-                 scale = FALSE,
-                 x = scores,
-                 share = variance / total, direction = direction,
+                 scale = FALSE, x = scores, share = variance / total, direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)),
-                 size = mean(aligned$size),
-                 weights = weights, level = aligned$level, triangles = aligned$triangles,
+                 size = mean(aligned$size), weights = weights, level = aligned$level,
+                 triangles = aligned$triangles,
                  laid = fields_of(aligned, c("mean", "weights", "scale", "tangent")),
-                 provenance = with_settings(aligned$provenance, "pca",
-                                            list(tolerance = tolerance))),
+                 provenance = with_settings(
+                   aligned$provenance, "pca", list(tolerance = tolerance)
+                 )),
             class = c("shape_pca", "prcomp"))
 }
 
@@ -87,10 +86,9 @@ validate.shape_pca <- function(x) {
   numbers <- function(value, n) is.numeric(value) && length(value) == n
   n <- length(x$sdev)
   columns <- function(value) is.numeric(value) && is.matrix(value) && ncol(value) == n
-  right <- n > 0 && is.numeric(x$sdev) && numbers(x$share,
-                                                  n) && columns(x$x) && columns(x$direction) &&
-                                                    columns(x$rotation) &&
-    is.matrix(x$mean) && numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
+  right <- n > 0 && is.numeric(x$sdev) && numbers(x$share, n) && columns(x$x) &&
+    columns(x$direction) && columns(x$rotation) && is.matrix(x$mean) &&
+    numbers(x$mean, nrow(x$direction)) && numbers(x$weights, nrow(x$mean))
   if (right) return(invisible(x))
   crestline_abort("the components are damaged: their parts do not fit together.",
                   "Work them out anew: shape_pca(aligned).", stage = "components", call = NULL)

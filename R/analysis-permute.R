@@ -30,7 +30,8 @@ check_permutations <- function(x, n, call) {
   if (!ok) {
     crestline_abort("`permutations` are not orders of all specimens.",
                     sprintf(paste("Give a matrix of %d rows, every column an order of 1, ...,",
-                                  "%d; their number is `n_perm`."), n, n),
+                                  "%d; their number is `n_perm`."),
+                            n, n),
                     stage = "arguments", call = call)
   }
   # The first of RRPP's permutations is the observed order.
@@ -39,8 +40,9 @@ check_permutations <- function(x, n, call) {
 
 #' How many ways there are to deal the specimens to groups of these sizes
 #' @noRd
-count_regroupings <- function(code) round(exp(lfactorial(length(code)) -
-                                              sum(lfactorial(table(code)))))
+count_regroupings <- function(code) round(exp(
+  lfactorial(length(code)) - sum(lfactorial(table(code)))
+))
 
 #' All of them, n x count, the observed first
 #' @noRd

@@ -31,8 +31,9 @@ point_tests <- function(aligned, labels, spread, blocks, tick) {
   f <- observed_f(squared_sums(y), squares, labels[, 1], spread)$f
   described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
   described$p_value <- as_great / ncol(labels)
-  described$p_adjusted <- vapply(observed[1, ], function(value) mean(family >= value * (1 - 1e-10)),
-                                 0)
+  described$p_adjusted <- vapply(
+    observed[1, ], function(value) mean(family >= value * (1 - 1e-10)), 0
+  )
   described
 }
 
@@ -92,8 +93,10 @@ point_normals <- function(xyz, triangles) {
   cross <- cbind(u[, 2] * v[, 3] - u[, 3] * v[, 2], u[, 3] * v[, 1] - u[, 1] * v[, 3],
                  u[, 1] * v[, 2] - u[, 2] * v[, 1])
   corner <- factor(triangles, seq_len(nrow(xyz)))
-  sums <- vapply(1:3, function(d) as.vector(tapply(rep(cross[, d], each = 3), corner, sum,
-                                                   default = NA)),
+  sums <- vapply(1:3,
+                 function(d) as.vector(tapply(
+                   rep(cross[, d], each = 3), corner, sum, default = NA
+                 )),
                  numeric(nrow(xyz)))
   sums / sqrt(rowSums(sums^2))
 }

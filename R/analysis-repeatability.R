@@ -70,14 +70,16 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
   n <- dim(coords)[3]
   ids <- measurement_names(shapes, n)
   specimen <- check_factor(without_failed(specimen, failed), ids, "specimen")
-  if (!is.null(observer)) observer <- check_factor(without_failed(observer, failed), ids,
-                                                   "observer")
+  if (!is.null(observer)) {
+    observer <- check_factor(without_failed(observer, failed), ids, "observer")
+  }
   gap <- rowSums(is.na(matrix(coords, dim(coords)[1]))) > 0
   missing <- rownames(coords)[gap]
   coords <- coords[!gap, , , drop = FALSE]
   check_repeats(coords, specimen, observer)
-  framed <- in_one_frame(coords, if (match == "each") factor(seq_len(n)) else specimen,
-                         match != "none")
+  framed <- in_one_frame(
+    coords, if (match == "each") factor(seq_len(n)) else specimen, match != "none"
+  )
   components <- variance_components(t(matrix(framed, ncol = n)), specimen, observer)
   each <- component_sums(components, nrow(coords))
   part <- sub(" [^ ]*$", "", rownames(coords))
@@ -91,8 +93,7 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
                       component_table(by_part))
   structure(list(parts = parts, points = points, missing = missing, failed = names(failed)[failed],
                  counts = c(specimens = nlevels(specimen), observers = nlevels(observer),
-                            measurements = n,
-                            failed = sum(failed)),
+                            measurements = n, failed = sum(failed)),
                  provenance = repeats_provenance(shapes)),
             class = "repeatability")
 }
@@ -127,8 +128,11 @@ failed_measurements <- function(shapes) {
 
 #' Values by measurement of those that are there, where those that failed are counted too
 #' @noRd
-without_failed <- function(x, failed) if (is.null(names(x)) &&
-                                          length(x) == length(failed)) x[!failed] else x
+without_failed <- function(x, failed) if (is.null(names(x)) && length(x) == length(failed)) {
+  x[!failed]
+} else {
+  x
+}
 
 #' Names of the measurements: of the list or array, else the shapes' ids where each has its own;
 #' else numbers
@@ -160,8 +164,9 @@ measurements <- function(shapes, level, call = rlang::caller_env()) {
 }
 
 check_factor <- function(x, ids, name, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "arguments",
-                                                    call = call)
+  fail <- function(problem, remedy) crestline_abort(
+    problem, remedy, stage = "arguments", call = call
+  )
   bad <- !is.atomic(x) || is.null(names(x)) && length(x) != length(ids) || anyNA(x)
   if (bad && !is.data.frame(x)) {
     fail(sprintf("`%s` is %s, for %s.", name, describe_value(x),
@@ -180,12 +185,15 @@ check_factor <- function(x, ids, name, call = rlang::caller_env()) {
 }
 
 check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "repeatability",
-                                                    call = call)
-  if (!nrow(coords)) fail("no point is in all measurements.",
-                          "Leave out the measurements that lack most.")
-  if (nlevels(specimen) == length(specimen)) fail("no specimen was measured twice.",
-                                                  "Give repeated measurements.")
+  fail <- function(problem, remedy) crestline_abort(
+    problem, remedy, stage = "repeatability", call = call
+  )
+  if (!nrow(coords)) {
+    fail("no point is in all measurements.", "Leave out the measurements that lack most.")
+  }
+  if (nlevels(specimen) == length(specimen)) {
+    fail("no specimen was measured twice.", "Give repeated measurements.")
+  }
   if (!is.null(observer) && nlevels(observer) < 2) {
     fail("there is one observer only.", "Leave `observer` out, or give two or more.")
   }
@@ -313,8 +321,10 @@ print.repeatability <- function(x, most = 10, digits = 3, ...) {
     cat("standard deviations by part, those of the greatest error first\n")
     print.data.frame(shown, row.names = FALSE)
     if (nrow(own) > most) cat("and", nrow(own) - most, "parts with less error in as.data.frame()\n")
-    if (length(x$failed)) cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80,
-                                      exdent = 2), sep = "\n")
+    if (length(x$failed)) {
+      cat(strwrap(paste0("not measured, left out: ", shorten(x$failed, 6)), 80, exdent = 2),
+          sep = "\n")
+    }
     if (length(x$missing)) {
       cat(strwrap(paste0("left out, missing somewhere: ", shorten(x$missing, 6)), 80, exdent = 2),
           sep = "\n")

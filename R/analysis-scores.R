@@ -82,9 +82,11 @@ new_configurations <- function(newdata, pca, call = rlang::caller_env()) {
     validate(newdata)
     coords <- raw_configurations(newdata)
   } else {
-    if (is.matrix(newdata)) newdata <- array(newdata, c(dim(newdata), 1),
-                                             c(if (is.null(dimnames(newdata))) list(NULL, NULL) else
-                                               dimnames(newdata), list("1")))
+    if (is.matrix(newdata)) {
+      newdata <- array(newdata, c(dim(newdata), 1), c(
+        if (is.null(dimnames(newdata))) list(NULL, NULL) else dimnames(newdata), list("1")
+      ))
+    }
     coords <- named_array(check_array(newdata, call, "newdata"))
   }
   points <- rownames(pca$mean)
@@ -96,9 +98,10 @@ new_configurations <- function(newdata, pca, call = rlang::caller_env()) {
   coords <- coords[points, , , drop = FALSE]
   gap <- gaps(coords)
   if (any(gap)) {
-    crestline_inform(sprintf("points are missing, and estimated from the mean: %s.",
-                             shorten(sprintf("%d of %s", colSums(gap),
-                                             colnames(gap))[colSums(gap) > 0])))
+    crestline_inform(sprintf(
+      "points are missing, and estimated from the mean: %s.",
+      shorten(sprintf("%d of %s", colSums(gap), colnames(gap))[colSums(gap) > 0])
+    ))
     few <- which(colSums(!gap) <= dim(coords)[2] + 1)[1]
     if (!is.na(few)) fail(sprintf("%s only.", amount(sum(!gap[, few]), "point")),
                           "Leave this one out: too few to place the others by.",

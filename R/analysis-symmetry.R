@@ -60,8 +60,11 @@ symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), 
   n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
   aligned <- aligned_levels(sample, level, scale, weights, missing)
   ids <- names(aligned[[1]])
-  individual <- if (is.null(individual)) factor(ids, ids) else check_block(individual, ids,
-                                                                           rlang::current_env())
+  individual <- if (is.null(individual)) {
+    factor(ids, ids)
+  } else {
+    check_block(individual, ids, rlang::current_env())
+  }
   if (nlevels(individual) < 2) {
     crestline_abort("`individual` names one individual.", "Give two or more.", stage = "symmetry")
   }
@@ -114,8 +117,9 @@ partners <- function(aligned, level, template, pairs, call = rlang::caller_env()
     fail(sprintf("%s: the partner of %s was dropped.", level, shorten(points[is.na(partner)])),
          "Use missing = \"estimate\".")
   }
-  if (all(partner == seq_along(points))) fail(sprintf("%s: nothing is paired.", level),
-                                              "Give the scheme pairs, see `?curve_scheme`.")
+  if (all(partner == seq_along(points))) {
+    fail(sprintf("%s: nothing is paired.", level), "Give the scheme pairs, see `?curve_scheme`.")
+  }
   partner
 }
 
@@ -194,15 +198,16 @@ symmetry_tests <- function(parts, individual, n_perm, seed) {
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
   points <- nrow(aligned$mean)
   rms <- function(x) size * sqrt(rowSums(x^2) / points)
-  list(tests = data.frame(source = names(squares), df = df, squares = unname(squares),
-                          mean_squares = unname(mean_squares),
-                          share = unname(squares / sum(squares)), statistic = unname(f),
-                          p_value = p, row.names = NULL),
-       specimens = data.frame(id = names(aligned), asymmetry = rms(off),
-                              fluctuating = rms(off - rep(colMeans(off), each = n)),
-                              row.names = NULL),
-       directional = size * matrix(colMeans(parts$off), points,
-                                   dimnames = dimnames(aligned$mean)))
+  list(tests = data.frame(
+         source = names(squares), df = df, squares = unname(squares),
+         mean_squares = unname(mean_squares), share = unname(squares / sum(squares)),
+         statistic = unname(f), p_value = p, row.names = NULL
+       ),
+       specimens = data.frame(
+         id = names(aligned), asymmetry = rms(off),
+         fluctuating = rms(off - rep(colMeans(off), each = n)), row.names = NULL
+       ),
+       directional = size * matrix(colMeans(parts$off), points, dimnames = dimnames(aligned$mean)))
 }
 
 #' @exportS3Method

@@ -324,8 +324,9 @@ mean_shape_test <- function(total, labels, spread, counts) {
   code <- labels[, 1]
   sizes <- tabulate(code)
   share <- total$between[1] / sum(total$squares)
-  tested <- function(...) test_row(..., p_value = permutation_p(total$score), share = share,
-                                   z = score_z(total$score, spread$equal))
+  tested <- function(...) test_row(
+    ..., p_value = permutation_p(total$score), share = share, z = score_z(total$score, spread$equal)
+  )
   if (length(sizes) > 2) {
     return(tested("mean shape F", observed_f(total$about, total$squares, code, spread)$f))
   }

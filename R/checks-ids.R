@@ -80,8 +80,9 @@ places_of_specimens <- function(names, n, ids, what, value, same, fail) {
       fail(sprintf("%s has %d %ss for %d specimens.", what, n, value, length(ids)),
            "Give one for each.")
     }
-    crestline_inform(paste0(what, " has no names of specimens: its ", value,
-                            "s are taken in the order of the specimens."))
+    crestline_inform(paste0(
+      what, " has no names of specimens: its ", value, "s are taken in the order of the specimens."
+    ))
     return(seq_len(n))
   }
   place <- id_places(ids, names)

@@ -19,9 +19,10 @@ check_number <- function(x, name, lower = -Inf, upper = Inf, open = FALSE,
                          call = rlang::caller_env()) {
   ok <- is.numeric(x) && length(x) == 1 && is.finite(x) &&
     (if (open) x > lower && x < upper else x >= lower && x <= upper)
-  if (!ok) refuse_argument(name, x,
-                           sprintf("Give one finite number %s.",
-                                   describe_range(lower, upper, open)), call)
+  if (!ok) {
+    refuse_argument(name, x,
+                    sprintf("Give one finite number %s.", describe_range(lower, upper, open)), call)
+  }
   as.numeric(x)
 }
 
@@ -53,8 +54,9 @@ check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing 
     all((missing & is.na(x) & !is.nan(x)) | (is.finite(x) & x >= lower & x <= upper))
   if (!ok) {
     many <- if (is.null(n)) "" else paste0(paste(n, collapse = " or "), " ")
-    remedy <- paste0(trimws(paste0("Give ", many, "finite numbers ",
-                                   describe_range(lower, upper, FALSE))), ".")
+    remedy <- paste0(
+      trimws(paste0("Give ", many, "finite numbers ", describe_range(lower, upper, FALSE))), "."
+    )
     refuse_argument(name, x, if (missing) paste(remedy, "NA: missing.") else remedy, call)
   }
   as.numeric(x)
@@ -109,8 +111,9 @@ check_text <- function(x, name, null = FALSE, call = rlang::caller_env()) {
 
 check_names <- function(x, name, null = FALSE, call = rlang::caller_env()) {
   if (is.null(x) && null) return(NULL)
-  if (!is.character(x) || anyNA(x)) refuse_argument(name, x,
-                                                    "Give names: strings, none of them NA.", call)
+  if (!is.character(x) || anyNA(x)) {
+    refuse_argument(name, x, "Give names: strings, none of them NA.", call)
+  }
   as.character(x)
 }
 
@@ -125,7 +128,8 @@ check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
   if (!kind || !length(x) || (none && length(x) > 1) || anyNA(x) || !known(unique(x))) {
     refuse_argument(name, x,
                     sprintf("Give colours, such as \"black\" or \"#16218C\"%s.",
-                            if (none) ", or NA" else ""), call)
+                            if (none) ", or NA" else ""),
+                    call)
   }
   x
 }
@@ -144,9 +148,11 @@ check_colours <- function(colour, n, call = rlang::caller_env()) {
 #' @noRd
 check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   make <- sprintf("Make one with %s.", maker)
-  if (!inherits(x, class)) refuse_argument(name, x, make, call,
-                                           sprintf("%s, not of class \"%s\"", describe_value(x),
-                                                   class))
+  if (!inherits(x, class)) {
+    refuse_argument(name, x, make, call, sprintf(
+      "%s, not of class \"%s\"", describe_value(x), class
+    ))
+  }
   parts <- class_parts[[class]]
   is_there <- vapply(names(parts), function(part) {
     value <- x[[part]]
@@ -156,9 +162,9 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   }, NA)
   lacks <- names(parts)[!is_there]
   if (length(lacks)) {
-    refuse_argument(name, x, make, call,
-                    sprintf("a damaged \"%s\": it has no proper %s", class,
-                            paste0("`", lacks, "`", collapse = ", ")))
+    refuse_argument(name, x, make, call, sprintf(
+      "a damaged \"%s\": it has no proper %s", class, paste0("`", lacks, "`", collapse = ", ")
+    ))
   }
   validate(x)
   invisible(x)
@@ -193,8 +199,9 @@ validate.default <- function(x) invisible(x)
 #' A specimen or a mesh
 #' @noRd
 check_surface <- function(x, name, call = rlang::caller_env()) {
-  if (inherits(x, "specimen")) return(check_class(x, "specimen", name,
-                                                  "specimen() or read_specimen()", call))
+  if (inherits(x, "specimen")) {
+    return(check_class(x, "specimen", name, "specimen() or read_specimen()", call))
+  }
   check_class(x, "mesh3d", name, "specimen(), read_specimen() or `Rvcg::vcgImport()`", call)
 }
 
@@ -205,13 +212,15 @@ check_ends <- function(..., call = rlang::caller_env()) {
   for (name in names(ends)) {
     x <- ends[[name]]
     has <- function(...) all(c(...) %in% names(x))
-    placed <- is.data.frame(x) && nrow(x) == 1 && (has("x", "y", "z") ||
-                                                   has("face", "w1", "w2", "w3"))
+    placed <- is.data.frame(x) && nrow(x) == 1 &&
+      (has("x", "y", "z") || has("face", "w1", "w2", "w3"))
     located <- is.numeric(x) && identical(names(x), mesh_columns)
     position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
-    if (!position && !is_path(x)) refuse_argument(name, x,
-                                                  paste0("Give the name of a landmark, or three ",
-                                                         "finite co-ordinates."), call)
+    if (!position && !is_path(x)) {
+      refuse_argument(name, x,
+                      paste0("Give the name of a landmark, or three ", "finite co-ordinates."),
+                      call)
+    }
   }
 }
 
@@ -288,7 +297,8 @@ check_memory <- function(numbers, x, name, call = rlang::caller_env()) {
   if (gigabytes <= most) return(invisible(x))
   refuse_argument(name, x,
                   sprintf("Give less: the result would take %.3g GB, the limit is %g.", gigabytes,
-                          most), call)
+                          most),
+                  call)
 }
 
 #' The path of a file to be written, in a folder that exists
@@ -296,16 +306,18 @@ check_memory <- function(numbers, x, name, call = rlang::caller_env()) {
 #' @noRd
 check_path_to_write <- function(x, name, endings = NULL, stage = "arguments",
                                 call = rlang::caller_env()) {
-  fail <- function(said, remedy) crestline_abort(sprintf("`%s` is %s.", name, said), remedy,
-                                                 stage = stage, call = call)
+  fail <- function(said, remedy) crestline_abort(
+    sprintf("`%s` is %s.", name, said), remedy, stage = stage, call = call
+  )
   if (!is_path(x)) fail(describe_value(x), "Give the path of one file.")
   if (!is.null(endings) && !file_extension(x) %in% endings) {
     fail(describe_value(x),
          sprintf("Give a path that ends in %s.", paste0(".", endings, collapse = ", ")))
   }
   if (dir.exists(x)) fail(sprintf("%s, a folder", x), "Give the path of a file.")
-  if (!dir.exists(dirname(x))) fail(sprintf("%s, in a folder that does not exist", x),
-                                    "Create the folder first.")
+  if (!dir.exists(dirname(x))) {
+    fail(sprintf("%s, in a folder that does not exist", x), "Create the folder first.")
+  }
   x
 }
 
@@ -357,8 +369,11 @@ check_method_dots <- function(..., known = character(), call = rlang::caller_env
   strange <- setdiff(...names(), c("", own, known))
   if (length(strange)) {
     crestline_abort(sprintf("there is no argument `%s`.", strange[1]),
-                    if (length(known)) sprintf("There is: %s.",
-                                               shorten(known)) else "Leave it out.",
+                    if (length(known)) {
+                      sprintf("There is: %s.", shorten(known))
+                    } else {
+                      "Leave it out."
+                    },
                     stage = "arguments", call = call)
   }
 }

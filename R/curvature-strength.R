@@ -119,10 +119,11 @@ located_regions <- function(regions, locate, id, flat = 1e-6) {
     axis <- at$to - at$from
     up <- height_above(at)
     if (sum(up^2) <= flat^2 * sum(axis^2)) {
-      return(no_result(sprintf("%s lies on the line from %s to %s.", end_name(region$towards),
-                                 end_name(region$from), end_name(region$to)),
-                         "Give keep_side() a landmark well beside that line.", "regions",
-                         id))
+      return(no_result(
+        sprintf("%s lies on the line from %s to %s.", end_name(region$towards),
+                end_name(region$from), end_name(region$to)),
+        "Give keep_side() a landmark well beside that line.", "regions", id
+      ))
     }
   }
   regions

@@ -133,9 +133,10 @@ curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
     todo <- todo[!fitted]
     settings$radius <- settings$radius * 1.5
   }
-  out$reason[todo] <- ifelse(out$neighbours[todo] < settings$points_per_term * 6,
-                             "too few connected points within the radius",
-                             "points nearly in a line, or no normal")
+  out$reason[todo] <- ifelse(
+    out$neighbours[todo] < settings$points_per_term * 6,
+    "too few connected points within the radius", "points nearly in a line, or no normal"
+  )
   out
 }
 
@@ -193,9 +194,9 @@ fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic
                    cubic = c(3L, 3L),
                    quartic = c(4L, 4L), forced = c(2L, 2L))
 
-check_order <- function(order,
-                        call = rlang::caller_env()) check_choice(order, names(fit_orders), "order",
-                                                                 call)
+check_order <- function(order, call = rlang::caller_env()) check_choice(
+  order, names(fit_orders), "order", call
+)
 
 #' Settings of the local fit, checked
 #' @noRd

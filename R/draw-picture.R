@@ -64,8 +64,9 @@ picture_surface <- function(mesh, colour, rotation, settings) {
                (frame$usr[4] - turned[2, ]) / frame$pixel, turned[3, ])
   normals <- rotation %*% mesh$normals[1:3, , drop = FALSE]
   tolerance <- settings$tolerance * mesh_diagonal(mesh)
-  render <- function(xyz, rgb, it) cpp_render_mesh(xyz, rgb, it, frame$width, frame$height,
-                                                   settings$samples)
+  render <- function(xyz, rgb, it) cpp_render_mesh(
+    xyz, rgb, it, frame$width, frame$height, settings$samples
+  )
   seen <- render(xyz, shade_vertices(colour, normals, settings), mesh$it)
   if (!is.na(settings$inside)) {
     # Fronts and backs; where a back is seen, what lies on its front side is not, so that its
@@ -172,8 +173,9 @@ draw_points.picture_scene <- function(scene, x, colour = "black", size = 1, halo
     at <- view[seen, 1:2, drop = FALSE]
     if (is.na(halo)) graphics::points(at, pch = 16, col = colour, cex = size)
     else graphics::points(at, pch = 21, bg = colour, col = halo, cex = size)
-    if (!is.null(labels) && any(seen)) graphics::text(at, labels[seen], pos = 4, offset = 0.3,
-                                                      cex = 0.7 * size, col = colour)
+    if (!is.null(labels) && any(seen)) {
+      graphics::text(at, labels[seen], pos = 4, offset = 0.3, cex = 0.7 * size, col = colour)
+    }
   })
 }
 

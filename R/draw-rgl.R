@@ -24,12 +24,14 @@ draw_lines.rgl_scene <- function(scene, x, colour = "black", width = 2, halo = N
 #' @export
 draw_points.rgl_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
   x <- point_matrix(x)
-  scene <- add_ids(scene,
-                   rgl::spheres3d(x, radius = size * scene$diagonal / 400, color = colour,
-                                  specular = "black"))
+  scene <- add_ids(scene, rgl::spheres3d(
+    x, radius = size * scene$diagonal / 400, color = colour, specular = "black"
+  ))
   if (is.null(labels)) return(invisible(scene))
-  add_ids(scene, rgl::text3d(x, texts = labels, color = colour, cex = 0.7 * size,
-                             adj = c(-0.5, 0.5), lit = FALSE, depth_test = "always"))
+  add_ids(scene, rgl::text3d(
+    x, texts = labels, color = colour, cex = 0.7 * size, adj = c(-0.5, 0.5), lit = FALSE,
+    depth_test = "always"
+  ))
 }
 
 #' @export

@@ -100,8 +100,8 @@ draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) {
   sides <- list(point_matrix(left, name = "left"), point_matrix(right, name = "right"))
   if (nrow(sides[[1]]) != nrow(sides[[2]])) {
     crestline_abort(sprintf("`left` has %d points, `right` %d.", nrow(sides[[1]]),
-                            nrow(sides[[2]])), "Give as many on either side.",
-                    stage = "picture")
+                            nrow(sides[[2]])),
+                    "Give as many on either side.", stage = "picture")
   }
   check_drawn(colour)
   check_number(opacity, "opacity", 0, 1)

@@ -2,11 +2,13 @@
 
 specimen_scale <- function(x, colour, curvature) {
   natural <- x$mesh$material$color
-  switch(colour,
-         "shape index" = shape_legend(shape_index(curvature)),
+  switch(colour, "shape index" = shape_legend(shape_index(curvature)),
          "curvature" = curvature_legend(curvature),
-         list(colours = if (colour == "natural" &&
-                            length(natural) == ncol(x$mesh$vb)) natural else "#E3CDB8"))
+         list(colours = if (colour == "natural" && length(natural) == ncol(x$mesh$vb)) {
+           natural
+         } else {
+           "#E3CDB8"
+         }))
 }
 
 shape_legend <- function(index) {
@@ -23,9 +25,8 @@ curvature_legend <- function(curvature, quantile = 0.95,
   share <- (pmin(pmax(greater / limit, -1), 1) + 1) / 2
   at <- seq(-1, 1, by = 0.5)
   list(colours = ramp_colours(share, palette, missing),
-       ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing),
-       at = (at + 1) / 2, labels = paste(signif(abs(at) * limit, 2),
-                                         c("valley", "", "", "", "ridge")),
+       ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing), at = (at + 1) / 2,
+       labels = paste(signif(abs(at) * limit, 2), c("valley", "", "", "", "ridge")),
        title = "1 / unit of the mesh")
 }
 

@@ -157,8 +157,10 @@ paths_by_name <- function(landmarks, ids) {
       "Put them in the order of the specimens, or give them the specimens' names.", id = NULL
     )
   }
-  crestline_inform(paste0("`landmarks` are taken in the order of the specimens, ",
-                          basename(landmarks[1]), " for ", ids[1], " and so on."))
+  crestline_inform(paste0(
+    "`landmarks` are taken in the order of the specimens, ", basename(landmarks[1]), " for ",
+    ids[1], " and so on."
+  ))
   stats::setNames(as.list(landmarks), ids)
 }
 

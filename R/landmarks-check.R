@@ -84,8 +84,9 @@ slips_by_name <- function(landmarks, located, mesh, midline) {
 refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
   off <- which(away > tolerance * size)
   off <- off[order(-away[off])]
-  fit <- if (2 * length(off) > sum(!is.na(away))) fitting_change(landmarks, mesh,
-                                                                 tolerance * mesh_size(mesh))
+  fit <- if (2 * length(off) > sum(!is.na(away))) {
+    fitting_change(landmarks, mesh, tolerance * mesh_size(mesh))
+  }
   named <- paste0(rownames(landmarks)[off], " (by ", signif(away[off], 3), ")")
   if (!is.null(fit)) {
     refuse_landmarks(
@@ -120,9 +121,9 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
   # The 47 ways to exchange axes and turn their signs, as matrices for points in rows
   orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
   signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
-  all <- unlist(lapply(orders,
-                       function(order) lapply(seq_len(8),
-                                              function(i) diag(3)[, order] %*% diag(signs[i, ]))),
+  all <- unlist(lapply(orders, function(order) lapply(
+                  seq_len(8), function(i) diag(3)[, order] %*% diag(signs[i, ])
+                )),
                 recursive = FALSE)
   turns <- all[-1]
   turned <- vapply(turns, function(turn) det(turn) > 0, NA)

@@ -84,8 +84,9 @@ csv_set <- function(x, table, label, line, refuse) {
     if (any(!nzchar(name))) refuse("a point has no name", line[single][!nzchar(name)][1])
     again <- if (anyDuplicated(name))
       which(duplicated(name) & !duplicated(data.frame(name, x[single, , drop = FALSE])))
-    if (length(again)) refuse(sprintf("the landmark %s is there twice", name[again[1]]),
-                              line[single][again[1]])
+    if (length(again)) {
+      refuse(sprintf("the landmark %s is there twice", name[again[1]]), line[single][again[1]])
+    }
   }
   # The points of a curve by their numbers in a column `point` where there are such, else in the
   # order of the rows.

@@ -37,8 +37,10 @@ read_curves <- function(file, curves = NULL, ...) {
       rows <- lapply(stats::setNames(nm = unique(name)),
                      function(one) row[name == one][order(number[name == one])])
       whole <- vapply(names(rows),
-                      function(one) identical(sort(number[name == one]),
-                                              as.numeric(seq_along(rows[[one]]))), NA)
+                      function(one) identical(
+                        sort(number[name == one]), as.numeric(seq_along(rows[[one]]))
+                      ),
+                      NA)
       lapply(rows[whole & lengths(rows) > 1], function(at) landmark_curve(set[at, , drop = FALSE]))
     }
     if (is.null(curves)) return(found)

@@ -61,9 +61,11 @@ check_fcsv_fields <- function(field, column, line, file) {
   more <- lengths(field) - length(column)
   wrong <- which(!(more == 0 | more == 2 & trimws(state) %in% c("", 0:3)))
   if (length(wrong)) {
-    refuse_landmark_file(file, sprintf("%d fields where there are %d columns",
-                                       lengths(field)[wrong[1]], length(column)),
-                         "Quote labels and descriptions that hold commas.", line[wrong[1]])
+    refuse_landmark_file(
+      file,
+      sprintf("%d fields where there are %d columns", lengths(field)[wrong[1]], length(column)),
+      "Quote labels and descriptions that hold commas.", line[wrong[1]]
+    )
   }
 }
 

@@ -115,8 +115,9 @@ write_landmarks_mrkjson <- function(sets, file, options) {
                    "Modules/Loadable/Markups/",
                    "Resources/Schema/markups-schema-v1.0.3.json#")
   comments <- attr(x, "comments")
-  said <- if (length(comments)) sprintf('"provenance": [%s],\n',
-                                        paste(json_text(comments), collapse = ", "))
+  said <- if (length(comments)) {
+    sprintf('"provenance": [%s],\n', paste(json_text(comments), collapse = ", "))
+  }
   head <- paste0(sprintf('{"@schema": "%s",\n', schema), said)
   write_file_lines(paste0(head, '"markups": [\n', paste(list, collapse = ",\n"), "\n]}"), file)
 }
@@ -126,10 +127,12 @@ mrkjson_list <- function(x, type, name, label, options) {
   orientation <- sprintf("[%d, 0, 0, 0, %d, 0, 0, 0, 1]", sign, sign)
   absent <- is.na(x[, 1])
   position <- ifelse(absent, '""', sprintf("[%s]", row_text(x, sep = ", ")))
-  point <- sprintf(paste0('{"id": "%d", "label": %s, "position": %s, "orientation": %s, ',
-                          '"positionStatus": "%s"}'),
-                   seq_along(label), json_text(label), position, orientation,
-                   ifelse(absent, "undefined", "defined"))
+  point <- sprintf(
+    paste0('{"id": "%d", "label": %s, "position": %s, "orientation": %s, ',
+           '"positionStatus": "%s"}'),
+    seq_along(label), json_text(label), position, orientation,
+    ifelse(absent, "undefined", "defined")
+  )
   sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", "controlPoints": [\n%s\n]}', type,
           json_text(name), options$frame, paste(if (nrow(x)) point, collapse = ",\n"))
 }

@@ -98,10 +98,11 @@ nts_comment <- function(x, id, alone) {
 check_nts_sets <- function(sets, file) {
   differs <- which(!vapply(sets, function(x) identical(rownames(x), rownames(sets[[1]])), TRUE))
   if (length(differs)) {
-    refuse_landmark_file(file,
-                         sprintf("specimen %s has other landmarks than %s", names(sets)[differs[1]],
-                                 names(sets)[1]),
-                         "Give all the same landmarks in the same order, missing ones as NA.")
+    refuse_landmark_file(
+      file,
+      sprintf("specimen %s has other landmarks than %s", names(sets)[differs[1]], names(sets)[1]),
+      "Give all the same landmarks in the same order, missing ones as NA."
+    )
   }
   wrong <- grepl("^['\"]", names(sets))
   if (any(wrong)) {

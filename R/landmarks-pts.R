@@ -39,10 +39,10 @@ pts_parts <- function(text, file, line) {
   part <- matrix(as.character(unlist(part)), ncol = 5, byrow = TRUE)[, -1, drop = FALSE]
   fourth <- grep("\\s[-+]?[0-9]*[.][0-9]+([eE][-+]?[0-9]+)?$", part[, 1])
   if (length(fourth)) {
-    refuse_landmark_file(file,
-                         sprintf("more than three numbers: \"%s\" would be a name",
-                                 part[fourth[1], 1]),
-                         "Write: name x y z, no more.", line[fourth[1]])
+    refuse_landmark_file(
+      file, sprintf("more than three numbers: \"%s\" would be a name", part[fourth[1], 1]),
+      "Write: name x y z, no more.", line[fourth[1]]
+    )
   }
   part
 }
@@ -55,10 +55,11 @@ write_landmarks_pts <- function(sets, file, options) {
   name <- rownames(x)
   wrong <- name[pts_curve_point(name) | grepl("^\\s|\\s$", name)]
   if (length(wrong)) {
-    refuse_landmark_file(file,
-                         sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
-                         paste0("Name it otherwise: C, number, dash, number is a point of a ",
-                                "curve; no blanks at the ends."))
+    refuse_landmark_file(
+      file, sprintf('"%s" would not be read as the name of a landmark', wrong[1]),
+      paste0("Name it otherwise: C, number, dash, number is a point of a ",
+             "curve; no blanks at the ends.")
+    )
   }
   # Curves have numbers only: those called C000 ... keep them, others get them, with a warning.
   number <- if (!length(curves)) character() else {
@@ -86,10 +87,10 @@ write_landmarks_pts <- function(sets, file, options) {
 
 pts_rows <- function(x, file, options) {
   if (any(rowSums(x == options$missing) == 3, na.rm = TRUE)) {
-    refuse_landmark_file(file,
-                         sprintf("a point at %s three times would be read as missing",
-                                 options$missing),
-                         "Give another number as `missing`.")
+    refuse_landmark_file(
+      file, sprintf("a point at %s three times would be read as missing", options$missing),
+      "Give another number as `missing`."
+    )
   }
   row_text(x, missing = number_text(options$missing))
 }

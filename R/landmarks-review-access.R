@@ -16,8 +16,11 @@ run_review <- function(ui, server,
         has_token(address, token)) return(server(input, output, session))
     session$close()
   })
-  shiny::runApp(app, launch.browser = function(url) open_page(paste0(sub("/$", "", url), "/?token=",
-                                                                     token), launch.browser), ...)
+  shiny::runApp(app,
+                launch.browser = function(url) open_page(
+                  paste0(sub("/$", "", url), "/?token=", token), launch.browser
+                ),
+                ...)
 }
 
 open_page <- function(address, launch.browser) {

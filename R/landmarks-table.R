@@ -131,8 +131,9 @@ named_columns <- function(cells, header, line, refuse) {
   kept <- setdiff(seq_along(header), setdiff(nameless, filled))
   header[filled] <- "row names"
   table <- lapply(kept, function(i) cells[, i])
-  attributes(table) <- list(names = header[kept], row.names = seq_len(nrow(cells)),
-                            class = "data.frame")
+  attributes(table) <- list(
+    names = header[kept], row.names = seq_len(nrow(cells)), class = "data.frame"
+  )
   table
 }
 

@@ -70,11 +70,10 @@ landmark_rows <- function(text, width, file, line) {
   word <- strsplit(trimws(text), "[[:space:],]+")
   wrong <- which(lengths(word) != width)
   if (length(wrong)) {
-    refuse_landmark_file(file,
-                         sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]],
-                                 width),
-                         "Give every point its own line, blanks between the numbers.",
-                         line[wrong[1]])
+    refuse_landmark_file(
+      file, sprintf("%d words where %d numbers should be", lengths(word)[wrong[1]], width),
+      "Give every point its own line, blanks between the numbers.", line[wrong[1]]
+    )
   }
   check_separators(text, file, line)
   matrix(landmark_numbers(unlist(word), file, rep(line, each = width)), ncol = width, byrow = TRUE)
@@ -86,9 +85,10 @@ check_separators <- function(text, file, line) {
   mixed <- grepl("[^[:space:]],[^[:space:]]",
                  text) & grepl("[^[:space:],][[:space:]]+[^[:space:],]", trimws(text))
   if (any(mixed)) {
-    refuse_landmark_file(file, sprintf("\"%s\" has both commas and blanks between numbers",
-                                       trimws(text[mixed][1])),
-                         "Write decimal points, and blanks between the numbers.", line[mixed][1])
+    refuse_landmark_file(
+      file, sprintf("\"%s\" has both commas and blanks between numbers", trimws(text[mixed][1])),
+      "Write decimal points, and blanks between the numbers.", line[mixed][1]
+    )
   }
 }
 
@@ -102,9 +102,10 @@ commented_names <- function(comment, key, n, file) {
   start <- paste0("^", key, ': "')
   found <- comment[grepl(start, comment)]
   if (!length(found)) return(NULL)
-  name <- suppressWarnings(scan(text = sub(paste0("^", key, ": "), "", found[1]), what = "",
-                                sep = ",", quote = '"', quiet = TRUE, strip.white = FALSE,
-                                na.strings = character(), encoding = "UTF-8"))
+  name <- suppressWarnings(scan(
+    text = sub(paste0("^", key, ": "), "", found[1]), what = "", sep = ",", quote = '"',
+    quiet = TRUE, strip.white = FALSE, na.strings = character(), encoding = "UTF-8"
+  ))
   if (length(name) != n) {
     refuse_landmark_file(file,
                          sprintf("the comment of %s has %d names for %d", key, length(name), n),

@@ -42,17 +42,18 @@ tps_record <- function(text, line, file) {
   first <- c(Filter(nrow, row), row)[[1]]
   width <- if (key$key[1] == "LM3") 3 else if (!nrow(first)) 2 else
     length(strsplit(trimws(first$text[1]), "[[:space:],]+")[[1]])
-  if (!width %in% 2:3) refuse_landmark_file(file, "not two or three numbers",
-                                            "Write one point a line.", first$line[1])
+  if (!width %in% 2:3) {
+    refuse_landmark_file(file, "not two or three numbers", "Write one point a line.", first$line[1])
+  }
   key$rows <- lapply(seq_len(nrow(key)), function(i) {
     # The rows of numbers that a key announces.
     keys <- key[i, ]
     said <- if (keys$key %in% c("LM", "LM3", "POINTS")) tps_count(keys, file) else 0
     if (nrow(row[[i]]) != said) {
-      refuse_landmark_file(file,
-                           sprintf("%s= announces %d points, %d follow", keys$key, said,
-                                   nrow(row[[i]])),
-                           "Put the right number, or the whole file.", keys$line)
+      refuse_landmark_file(
+        file, sprintf("%s= announces %d points, %d follow", keys$key, said, nrow(row[[i]])),
+        "Put the right number, or the whole file.", keys$line
+      )
     }
     landmark_rows(row[[i]]$text, width, file, row[[i]]$line)
   })
@@ -78,10 +79,10 @@ tps_set <- function(record, scale, file) {
   for (i in seq_along(head)) {
     said <- tps_count(record[head[i], ], file)
     if (sum(group == i) != said) {
-      refuse_landmark_file(file,
-                           sprintf("%s= announces %d, %d follow", record$key[head[i]], said,
-                                   sum(group == i)),
-                           "Put the right number, or the whole file.", record$line[head[i]])
+      refuse_landmark_file(
+        file, sprintf("%s= announces %d, %d follow", record$key[head[i]], said, sum(group == i)),
+        "Put the right number, or the whole file.", record$line[head[i]]
+      )
     }
   }
   closed <- c(FALSE, record$key[head] == "OUTLINES")[group + 1]
@@ -115,12 +116,13 @@ tps_scales <- function(record, file, options) {
   if (all(is.na(scale))) return(rep(1, length(record)))
   if (anyNA(scale)) {
     bare <- record[[which(is.na(scale))[1]]]
-    refuse_landmark_file(file,
-                         sprintf(paste0("specimens without SCALE= among others that have one (%d ",
-                                        "of %d): units would mix"),
-                                       sum(is.na(scale)), length(scale)),
-                         "Give each its SCALE=, or read with scale = FALSE: all as they stand.",
-                         bare$line[1])
+    refuse_landmark_file(
+      file,
+      sprintf(paste0("specimens without SCALE= among others that have one (%d ",
+                     "of %d): units would mix"),
+              sum(is.na(scale)), length(scale)),
+      "Give each its SCALE=, or read with scale = FALSE: all as they stand.", bare$line[1]
+    )
   }
   scale
 }
@@ -136,8 +138,9 @@ tps_lines <- function(x, id) {
   run <- rle(as.vector(closed))
   first <- cumsum(c(1, run$lengths))
   head <- character(length(curves))
-  head[first[seq_along(run$lengths)]] <- sprintf("%s%d", ifelse(run$values, "OUTLINES=", "CURVES="),
-                                                 run$lengths)
+  head[first[seq_along(run$lengths)]] <- sprintf(
+    "%s%d", ifelse(run$values, "OUTLINES=", "CURVES="), run$lengths
+  )
   c(sprintf("LM3=%d", nrow(x)), if (nrow(x)) row_text(x),
     unlist(lapply(seq_along(curves), function(i) {
     c(head[i][nzchar(head[i])], sprintf("POINTS=%d", nrow(curves[[i]])), row_text(curves[[i]]))

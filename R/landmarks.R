@@ -134,9 +134,9 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
 #' @export
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   check_given()
-  if (is.null(x) && is.null(curves)) refuse_argument("x", x,
-                                                     "Give landmarks, a specimen or a shape.",
-                                                     rlang::current_env())
+  if (is.null(x) && is.null(curves)) {
+    refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
+  }
   format <- landmark_format(file)
   if (is.null(format$write)) {
     refuse_landmark_file(file, "this format is read, not written",
@@ -153,17 +153,20 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
                          "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
   }
   if (any(with_curves) && !format$curves) {
-    refuse_landmark_file(file, "the format holds no curves",
-                         paste0("Write a .mrk.json, .tps, .pts or .csv file, or leave them out ",
-                                "with curves = list()."))
+    refuse_landmark_file(
+      file, "the format holds no curves",
+      paste0("Write a .mrk.json, .tps, .pts or .csv file, or leave them out ",
+             "with curves = list().")
+    )
   }
   name <- c(names(sets), unlist(lapply(sets, function(x) c(rownames(x), names(attr(x, "curves"))))))
   wrong <- anyDuplicated(names(sets)) > 0 || any(grepl("[\r\n]", name) | !nzchar(name))
   if (wrong || any(names(sets) != trimws(names(sets)))) {
-    refuse_landmark_file(file,
-                         "a name is empty or holds a line break, or two specimens have the same",
-                         paste0("Give every specimen, landmark and curve a name of its own, in ",
-                                "one line, no blanks at the ends."))
+    refuse_landmark_file(
+      file, "a name is empty or holds a line break, or two specimens have the same",
+      paste0("Give every specimen, landmark and curve a name of its own, in ",
+             "one line, no blanks at the ends.")
+    )
   }
   format$write(sets, file, options)
   invisible(file)
@@ -174,25 +177,23 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
 landmark_formats <- function() {
   nts <- list(read = read_landmarks_nts, write = write_landmarks_nts, several = TRUE,
               curves = FALSE)
-  list(
-    csv = list(read = read_landmarks_csv, write = write_landmarks_csv, several = FALSE,
-               curves = TRUE),
-    pts = list(read = read_landmarks_pts, write = write_landmarks_pts, several = FALSE,
-               curves = TRUE),
-    tps = list(read = read_landmarks_tps, write = write_landmarks_tps, several = TRUE,
-               curves = TRUE),
-    nts = nts,
-    dta = nts,
-    landmarkAscii = list(read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE,
-                         curves = FALSE),
-    fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE,
-                curves = FALSE),
-    mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson, several = FALSE,
-                    curves = TRUE),
-    pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE,
-              curves = FALSE),
-    ckpt = list(read = read_landmarks_ckpt, write = NULL, several = FALSE, curves = FALSE)
-  )
+  list(csv = list(read = read_landmarks_csv, write = write_landmarks_csv, several = FALSE,
+                  curves = TRUE),
+       pts = list(read = read_landmarks_pts, write = write_landmarks_pts, several = FALSE,
+                  curves = TRUE),
+       tps = list(read = read_landmarks_tps, write = write_landmarks_tps, several = TRUE,
+                  curves = TRUE),
+       nts = nts, dta = nts,
+       landmarkAscii = list(
+         read = read_landmarks_amira, write = write_landmarks_amira, several = TRUE, curves = FALSE
+       ),
+       fcsv = list(read = read_landmarks_fcsv, write = write_landmarks_fcsv, several = FALSE,
+                   curves = FALSE),
+       mrk.json = list(read = read_landmarks_mrkjson, write = write_landmarks_mrkjson,
+                       several = FALSE, curves = TRUE),
+       pp = list(read = read_landmarks_pp, write = write_landmarks_pp, several = FALSE,
+                 curves = FALSE),
+       ckpt = list(read = read_landmarks_ckpt, write = NULL, several = FALSE, curves = FALSE))
 }
 
 # The specimens to be written: a named list of matrices, each with its list of checked curves.
@@ -259,9 +260,12 @@ as_curve <- function(x, name) {
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {
-    refuse_landmarks(sprintf(paste0("`curves`: curve %s is %s, not an n x 3 numeric matrix with a ",
-                                    "row at least."), name, describe_shape(x)),
-                     "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL)
+    refuse_landmarks(
+      sprintf(paste0("`curves`: curve %s is %s, not an n x 3 numeric matrix with a ",
+                     "row at least."),
+              name, describe_shape(x)),
+      "Give a matrix with one row a point, or a data frame with x, y, z.", id = NULL
+    )
   }
   x[!is.finite(x)] <- NA
   landmark_curve(x, closed)

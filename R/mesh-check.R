@@ -214,7 +214,8 @@ refuse_debris <- function(pieces, debris, id) {
                              "the triangles: %s."),
                       pieces, debris, "their corners do not meet"),
               paste0("Join them: in MeshLab by Merge Close Vertices. Real pieces so small are ",
-                     "kept with debris = 0."), id)
+                     "kept with debris = 0."),
+              id)
 }
 
 drop_unreferenced <- function(mesh, id) {

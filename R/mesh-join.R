@@ -15,8 +15,10 @@ join_near_vertices <- function(mesh, id, near = 1e-6) {
   border <- sort(border_vertices(mesh$it, mesh$topology$twin))
   several <- mesh$topology$pieces > 1
   at <- if (several) seq_len(ncol(mesh$vb)) else border
-  pair <- matrix(at[cpp_near_pairs(mesh$vb[, at, drop = FALSE], near * surface_diagonal(mesh),
-                                   join_effort)], 2)
+  pair <- matrix(at[cpp_near_pairs(
+                   mesh$vb[, at, drop = FALSE], near * surface_diagonal(mesh), join_effort
+                 )],
+                 2)
   if (ncol(pair)) pair <- pair[, !joined_by_edge(mesh, pair), drop = FALSE]
   if (ncol(pair) && several) {
     both <- pair[1, ] %in% border & pair[2, ] %in% border
@@ -47,8 +49,9 @@ surface_diagonal <- function(mesh) {
 joined_by_edge <- function(mesh, pair) {
   key <- function(a, b) pmin(a, b) * (ncol(mesh$vb) + 1) + pmax(a, b)
   it <- mesh$it[, colSums(matrix(mesh$it %in% pair, 3)) > 1, drop = FALSE]
-  key(pair[1, ], pair[2, ]) %in% c(key(it[1, ], it[2, ]), key(it[2, ], it[3, ]),
-                                   key(it[3, ], it[1, ]))
+  key(pair[1, ], pair[2, ]) %in% c(
+    key(it[1, ], it[2, ]), key(it[2, ], it[3, ]), key(it[3, ], it[1, ])
+  )
 }
 
 # Vertices in the middle of another triangle's edge (T-junctions): the edge is divided there, which
@@ -80,8 +83,9 @@ split_edges_at_vertices <- function(mesh, id, near = 1e-6, rounds = 3) {
 # the order along sides.
 border_contacts <- function(mesh, reach) {
   side <- border_sides(mesh$topology)
-  found <- as.data.frame(cpp_vertices_on_edges(mesh$vb, mesh$it, mesh$topology$twin, side, reach,
-                                               join_effort))
+  found <- as.data.frame(cpp_vertices_on_edges(
+    mesh$vb, mesh$it, mesh$topology$twin, side, reach, join_effort
+  ))
   found <- found[order(found$side, found$along), ]
   found[!duplicated(found[c("side", "along")]), ]
 }
@@ -140,9 +144,9 @@ tell_second_skin <- function(mesh, topology, edge, id, gap = 1, sample = 100, sh
                              hollow = 0.25) {
   m <- ncol(mesh$it)
   face <- unique(round(seq(1, m, length.out = min(sample, m))))
-  away <- cpp_other_sheets(mesh$vb, mesh$it, topology$twin, topology$piece, face, gap * edge,
-                           parallel,
-                           hollow)
+  away <- cpp_other_sheets(
+    mesh$vb, mesh$it, topology$twin, topology$piece, face, gap * edge, parallel, hollow
+  )
   double <- mean(is.finite(away))
   if (double >= share) {
     crestline_warn(

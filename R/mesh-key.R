@@ -91,8 +91,9 @@ check_places <- function(points, known, name, id = NULL, tolerance = 1e-6) {
 #' The seven columns of points as a numeric matrix, NULL where they have them not
 #' @noRd
 place_columns <- function(points) {
-  if (is.matrix(points)) points <- if (all(mesh_columns %in%
-                                           colnames(points))) as.data.frame(points)
+  if (is.matrix(points)) {
+    points <- if (all(mesh_columns %in% colnames(points))) as.data.frame(points)
+  }
   columns <- if (is.list(points)) unclass(points)[mesh_columns]
   if (length(columns) && all(vapply(columns, is.numeric, NA))) do.call(cbind, columns)
 }
@@ -109,7 +110,9 @@ misplaced <- function(at, mesh, tolerance) {
   corner <- function(i) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
   place <- weight[, 1] * corner(1) + weight[, 2] * corner(2) + weight[, 3] * corner(3)
   away <- row_lengths(place - at[, c("x", "y", "z"), drop = FALSE])
-  if (any(away > tolerance)) return(sprintf(paste0("are up to %.3g away from where their faces ",
-                                                   "are on this mesh"), max(away)))
+  if (any(away > tolerance)) {
+    return(sprintf(paste0("are up to %.3g away from where their faces ", "are on this mesh"),
+                   max(away)))
+  }
   if (any(at[, c("w1", "w2", "w3")] < -1e-6)) "have negative weights"
 }

@@ -81,8 +81,9 @@ surface_points <- function(mesh, xyz, ...) {
 located_points <- function(mesh, xyz, few = 24L, leaf = 8L) {
   xyz <- matrix(as.numeric(xyz), ncol = 3)
   found <- cpp_locate(mesh$vb, mesh$it, xyz, if (nrow(xyz) <= few) ncol(mesh$it) else leaf)
-  columns <- stats::setNames(lapply(1:6, function(i) found$at[, i]),
-                             c("x", "y", "z", "w1", "w2", "w3"))
+  columns <- stats::setNames(
+    lapply(1:6, function(i) found$at[, i]), c("x", "y", "z", "w1", "w2", "w3")
+  )
   list(columns = c(columns, list(face = found$face)), distance = found$distance)
 }
 

@@ -127,8 +127,9 @@ ply_properties <- function(token, file, id) {
   }
   name <- as.character(pick(3, 5))
   again <- intersect(c("x", "y", "z", ply_index_names), name[duplicated(name)])
-  if (length(again)) refuse_file(file, sprintf("its header has the property %s twice", again[1]),
-                                 id)
+  if (length(again)) {
+    refuse_file(file, sprintf("its header has the property %s twice", again[1]), id)
+  }
   data.frame(name = name, type = type, count_type = count_type)
 }
 
@@ -145,8 +146,9 @@ ply_stream <- function(header, file, id) {
     }
     return(list(get = function(at, type) text$number[at + 1], size = 0 * ply_types() + 1, start = 0,
                 end = length(text$number), short = short,
-                check = function(start, end) ply_check_lines(text, start, end, header$lines, file,
-                                                             id)))
+                check = function(start, end) ply_check_lines(
+                  text, start, end, header$lines, file, id
+                )))
   }
   raw <- header$raw
   endian <- if (header$format == "binary_big_endian") "big" else "little"
@@ -170,14 +172,17 @@ ply_check_lines <- function(text, start, end, lines, file, id) {
   rest <- length(text$number) - end
   if (!aligned && (rest > 0 || nzchar(text$bad) || length(text$start) == length(start))) {
     wrong <- which(text$start[rows] != start | is.na(text$start[rows]))[1]
-    refuse_file(file, sprintf("line %d has not as many numbers as the header promises",
-                              lines + text$line[max(wrong - 1, 1)]), id,
+    refuse_file(file,
+                sprintf("line %d has not as many numbers as the header promises",
+                        lines + text$line[max(wrong - 1, 1)]),
+                id,
                 "The header's numbers of vertices, faces or properties are wrong: export it again.")
   }
   if (rest > 0 || nzchar(text$bad)) {
-    warn_file(file, sprintf(paste0("goes on behind what its header promises, at line %d: that was ",
-                                   "passed over"),
-                            lines + c(text$line, text$bad_line)[length(start) + 1]),
+    warn_file(file,
+              sprintf(paste0("goes on behind what its header promises, at line %d: that was ",
+                             "passed over"),
+                      lines + c(text$line, text$bad_line)[length(start) + 1]),
               "See whether the surface is whole, or export it again.", id)
   }
 }
@@ -224,8 +229,9 @@ ply_rows <- function(stream, properties, at) {
         stop("a list has an impossible length")
       }
       place <- rep(at, sides) + (sequence(sides) - 1) * size
-      column[[properties$name[i]]] <- list(value = ply_get(stream, place, properties$type[i]),
-                                           sides = sides)
+      column[[properties$name[i]]] <- list(
+        value = ply_get(stream, place, properties$type[i]), sides = sides
+      )
     } else {
       column[[properties$name[i]]] <- ply_get(stream, at, properties$type[i])
     }

@@ -23,8 +23,9 @@ unpacked_bytes <- function(file, raw, id, chunk = 2^24) {
   on.exit(close(connection))
   parts <- list()
   repeat {
-    part <- withCallingHandlers(readBin(connection, "raw", chunk),
-                                warning = function(w) stop(conditionMessage(w)))
+    part <- withCallingHandlers(
+      readBin(connection, "raw", chunk), warning = function(w) stop(conditionMessage(w))
+    )
     if (!length(part)) break
     parts <- c(parts, list(part))
   }
@@ -90,8 +91,8 @@ warn_file <- function(file, problem, remedy, id) {
 blank_bytes <- as.raw(c(0, 9, 10, 13, 26, 32))
 
 warn_extra <- function(file, bytes, id) {
-  warn_file(file, sprintf("holds %.0f bytes more than its header promises: they were passed over",
-                          bytes),
+  warn_file(file,
+            sprintf("holds %.0f bytes more than its header promises: they were passed over", bytes),
             "See whether the surface is whole, or export it again.", id)
 }
 

@@ -1,8 +1,9 @@
 # What the steps at the door share: rows of the report, refusals, faces and vertices taken out.
 
 # What a step hands on: the mesh and its row of the report ("none" where nothing was found).
-mended <- function(mesh, check, count, action) list(mesh = mesh,
-                                                    row = report_row(check, count, action))
+mended <- function(mesh, check, count, action) list(
+  mesh = mesh, row = report_row(check, count, action)
+)
 
 report_row <- function(check, count, action) {
   data.frame(check = check, count = as.integer(count), action = if (count > 0) action else "none")

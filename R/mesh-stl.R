@@ -27,8 +27,8 @@ stl_binary <- function(raw, faces, file, id) {
     refuse_file(file, sprintf("it promises %.0f triangles and holds %.0f", faces, floor(there)), id)
   }
   if (there > faces && (faces == 0 || there == floor(there))) {
-    warn_file(file, sprintf("promises %.0f triangles and holds %.0f: all were read", faces,
-                            floor(there)),
+    warn_file(file,
+              sprintf("promises %.0f triangles and holds %.0f: all were read", faces, floor(there)),
               "See that nothing is on the surface that does not belong there, or export it again.",
               id)
     faces <- floor(there)
@@ -43,9 +43,9 @@ stl_binary <- function(raw, faces, file, id) {
 stl_ascii <- function(raw, file, id) {
   text <- cpp_read_stl(text_bytes(raw))
   if (nzchar(text$bad)) refuse_word(file, text$bad, text$bad_line, id)
-  if (text$bad_line > 0) refuse_file(file,
-                                     sprintf("its vertices are not in threes at line %d",
-                                             text$bad_line), id)
+  if (text$bad_line > 0) {
+    refuse_file(file, sprintf("its vertices are not in threes at line %d", text$bad_line), id)
+  }
   if (!length(text$vertex)) refuse_file(file, "it has no triangles", id)
   if (!text$ended) {
     warn_file(file, 'ends without "endsolid", as a file that was cut short does',

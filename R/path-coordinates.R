@@ -46,8 +46,8 @@ near_path <- function(scan, path, width, margin) {
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   near <- cpp_vertices_in_box(scan$vb, box[1, ], box[2, ])
   found <- cpp_path_coordinates(scan$vb[1:3, near, drop = FALSE], track, path_normals(scan, clear))
-  kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path,
-                                                                                "length") + margin
+  kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") +
+    margin
   member <- logical(ncol(scan$vb))
   member[near[kept]] <- TRUE
   joined <- cpp_joined_to(scan$it, member, as.vector(scan$it[, path$face]))[near]

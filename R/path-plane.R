@@ -49,8 +49,10 @@ plane_path <- function(mesh, from, to, angle = 0, side = 0, reach = Inf) {
 cut_path <- function(ends, angle, side, reach, ...) {
   if (failed(ends)) return(ends)
   scan <- ends$scan
-  found <- cpp_plane_path(scan$vb, scan$it, scan$twin, ends$from, ends$to,
-                          plane_normal(ends, angle), side, reach * ends$span)
+  found <- cpp_plane_path(
+    scan$vb, scan$it, scan$twin, ends$from, ends$to, plane_normal(ends, angle), side,
+    reach * ends$span
+  )
   if (found$end != "arrived") return(failed_cut(found$end, ends))
   path_through(rbind(ends$exact[1, ], found$points, ends$exact[2, ]), scan, angle = angle,
                side = side, ...)
@@ -159,8 +161,9 @@ bridge_holes <- function(specimen, largest) {
   holes <- corners[lengths(corners) >= 3 & size > 0 & size <= largest * specimen_size(specimen)]
   if (!length(holes)) return(specimen)
   centre <- ncol(mesh$vb) + seq_along(holes)
-  middle <- function(x) vapply(holes, function(loop) rowMeans(x[, loop, drop = FALSE]),
-                               numeric(nrow(x)))
+  middle <- function(x) vapply(
+    holes, function(loop) rowMeans(x[, loop, drop = FALSE]), numeric(nrow(x))
+  )
   mesh$vb <- cbind(mesh$vb, middle(mesh$vb))
   mesh$normals <- cbind(mesh$normals, middle(mesh$normals))
   fans <- Map(function(loop, centre) rbind(c(loop[-1], loop[1]), loop, centre), holes, centre)

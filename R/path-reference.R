@@ -122,12 +122,12 @@ find_reference <- function(ends, type, strength, radius, search) {
       "reference path", ends$scan$id, "crestline_path_error"
     ))
   }
-  cut <- function(i) cut_path(ends, optima$angle[i], optima$side[i], search$reach,
-                              type = type)
+  cut <- function(i) cut_path(ends, optima$angle[i], optima$side[i], search$reach, type = type)
   path <- cut(1)
-  elsewhere <- Find(function(i) path_distance(cut(i), path) > search$distinct * attr(path,
-                                                                                     "length"),
-                    seq_len(nrow(optima))[-1])
+  elsewhere <- Find(
+    function(i) path_distance(cut(i), path) > search$distinct * attr(path, "length"),
+    seq_len(nrow(optima))[-1]
+  )
   other <- if (is.null(elsewhere)) NA_integer_ else elsewhere
   if (type == "plane") optima$criterion <- optima$length
   structure(path, criterion = optima$criterion[1], optima = optima,
@@ -165,8 +165,10 @@ limited_cut <- function(ends, limit, angles, reach, rate = function(found) -foun
 #' @noRd
 measure_cuts <- function(ends, angle, side, reach) {
   scan <- ends$scan
-  found <- cpp_plane_cuts(scan$vb, scan$it, scan$twin, ends$from, ends$to,
-                          plane_normal(ends, angle), side, reach * ends$span)
+  found <- cpp_plane_cuts(
+    scan$vb, scan$it, scan$twin, ends$from, ends$to, plane_normal(ends, angle), side,
+    reach * ends$span
+  )
   frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
 }
 
@@ -282,9 +284,9 @@ known_curvature <- function(curvature, specimen, radius, threads, order = "adapt
   # A source of curvature, as of curvature_source(), not any function.
   if (is.function(curvature) && identical(names(formals(curvature)), "vertices")) return(curvature)
   if (is.null(curvature)) {
-    settings <- fit_settings(radius, order)
+    mesh <- as_mesh(specimen)
     check_radius(radius, specimen)
-    return(curvature_source(as_mesh(specimen), settings, threads))
+    return(curvature_source(mesh, fit_settings(radius, order), threads))
   }
   check_curvature_on(curvature, specimen)
   function(vertices) curvature_rows(curvature, vertices)

@@ -138,8 +138,9 @@ common_attribute <- function(x, name) {
 #'   neighbours are equal. The points lie on the path, so on the mesh. Attribute `converged`.
 #' @noRd
 resample_path <- function(mesh, path, n, tolerance = 1e-10, iterations = 200, slowest = 0.2) {
-  spaced <- cpp_equal_chords(columns_of(path, c("x", "y", "z")), path$s, n,
-                             chord_settings(tolerance, iterations, slowest))
+  spaced <- cpp_equal_chords(
+    columns_of(path, c("x", "y", "z")), path$s, n, chord_settings(tolerance, iterations, slowest)
+  )
   structure(place_along(mesh, path, spaced$s), converged = spaced$converged)
 }
 
@@ -156,8 +157,9 @@ points_along <- function(path, s) {
 #' Points of a path at given arc lengths, each in the triangle of its segment
 #' @noRd
 place_along <- function(mesh, path, s) {
-  placed <- cpp_place_along(mesh$vb, mesh$it, columns_of(path, c("x", "y", "z")), path$s, path$face,
-                            s)
+  placed <- cpp_place_along(
+    mesh$vb, mesh$it, columns_of(path, c("x", "y", "z")), path$s, path$face, s
+  )
   ends <- which(s %in% range(path$s))
   if (length(ends)) placed[ends, ] <- columns_of(path)[ifelse(s[ends] == 0, 1, nrow(path)), ]
   columns <- stats::setNames(c(list(s), lapply(1:7, function(i) placed[, i])), c("s", mesh_columns))
@@ -190,8 +192,9 @@ weights_in_faces <- function(mesh, face, xyz) {
 #' @param ... Attributes of the path.
 #' @noRd
 path_through <- function(points, mesh = NULL, ...) {
-  step <- unname(row_lengths(points[-1, 1:3, drop = FALSE] -
-                             points[-nrow(points), 1:3, drop = FALSE]))
+  step <- unname(row_lengths(
+    points[-1, 1:3, drop = FALSE] - points[-nrow(points), 1:3, drop = FALSE]
+  ))
   kept <- c(TRUE, step[-length(step)] > 0, TRUE)[seq_len(nrow(points))]
   columns <- lapply(1:7, function(i) as.vector(points[kept, i]))
   columns[[4]] <- as.integer(columns[[4]])
@@ -251,8 +254,9 @@ print.mesh_path <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     cat(sprintf("<mesh_path> %d points, length %.4g", nrow(x), attr(x, "length")))
-    if (!is.null(attr(x, "angle"))) cat(sprintf(", angle %.1f degrees",
-                                                attr(x, "angle") * 180 / pi))
+    if (!is.null(attr(x, "angle"))) {
+      cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
+    }
     cat("\n")
     optima <- attr(x, "optima")
     if (!is.null(optima)) {

@@ -57,8 +57,9 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
     new <- setdiff(rownames(fit$at), known)
     for (name in new) {
       nearest <- which.min(row_lengths(fit$moved - rep(fit$at[name, ], each = nrow(fit$moved))))
-      template$landmarks <- rbind(template$landmarks,
-                                  matrix(prepared$xyz[, nearest], 1, dimnames = list(name, NULL)))
+      template$landmarks <- rbind(template$landmarks, matrix(
+        prepared$xyz[, nearest], 1, dimnames = list(name, NULL)
+      ))
     }
     known <- c(known, new)
   }
@@ -67,8 +68,9 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
     template$landmarks <- moved_landmarks(template, off)
   }
   template$predicted <- calibrated_prediction(template, fits)
-  template$calibration <- calibration_table(before, template,
-                                            landmark_offsets(prepared, template, fits))
+  template$calibration <- calibration_table(
+    before, template, landmark_offsets(prepared, template, fits)
+  )
   template
 }
 
@@ -76,8 +78,11 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
 #' @noRd
 calibration_fit <- function(specimen, prepared, template, settings, threads) {
   at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
-  if (!nrow(at)) refuse_landmarks("it has no landmarks.",
-                                  "Give specimens whose landmarks you have placed.", specimen$id)
+  if (!nrow(at)) {
+    refuse_landmarks(
+      "it has no landmarks.", "Give specimens whose landmarks you have placed.", specimen$id
+    )
+  }
   laid <- laid_template(prepared, template, specimen, settings, threads)
   local <- cloud_in_frame(laid$cloud, laid$pose)
   bent <- fit_warp(prepared, local, prepared$settings, prepared$settings$weight)

@@ -35,15 +35,16 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
   if (any(found) && sum(low) <= doubtful * sum(found)) return(specimen)
   if (!is.null(picture)) write_placing(specimen, picture, least)
   named <- paste0(placing$landmark[low], " (", round(placing$confidence[low], 2), ")")
-  problem <- if (any(found)) sprintf("%d of %d found landmarks are doubtful: %s.", sum(low),
-                                     sum(found), shorten(named)) else
+  problem <- if (any(found)) {
+    sprintf("%d of %d found landmarks are doubtful: %s.", sum(low), sum(found), shorten(named))
+  } else {
     "none of its landmarks was found."
+  }
   remedy <- paste0("Correct them (review_landmarks()), calibrate the template ",
                    "(calibrate_template()), or allow more (`doubtful`).")
   crestline_abort(problem, paste0(if (!is.null(picture)) sprintf("Look at %s. ", picture), remedy),
-                  stage = "landmarks",
-                  id = specimen$id, class = c("crestline_placing_error",
-                                              "crestline_landmark_error"), call = NULL)
+                  stage = "landmarks", id = specimen$id,
+                  class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
 }
 
 placing_of <- function(specimen, call = rlang::caller_env()) {
@@ -79,8 +80,9 @@ draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
       draw_points(scene, at[colour == one, , drop = FALSE], one, halo = "white",
                   labels = placing$landmark[colour == one])
     }
-    if (round == views[1]) graphics::title(sprintf("%s: score %.2f", specimen$id,
-                                                   specimen$match$score), adj = 0)
+    if (round == views[1]) {
+      graphics::title(sprintf("%s: score %.2f", specimen$id, specimen$match$score), adj = 0)
+    }
   }
   invisible(specimen)
 }

@@ -59,8 +59,9 @@ scan_cloud <- function(specimen, scale, settings, threads) {
       (corner(1) + corner(2) + corner(3)) / 3
     }
     centre <- lapply(points, of_centre)
-    centre$normal <- centre$normal / rep(pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin),
-                                         each = 3)
+    centre$normal <- centre$normal / rep(
+      pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin), each = 3
+    )
     centre$border <- centre$border >= 2 / 3
     all <- Map(function(a, b) if (is.matrix(a)) cbind(a, b) else c(a, b), points, centre)
     at_points(all, cell_vertices(t(all$xyz), settings$cluster))
@@ -97,7 +98,8 @@ inverted_cloud <- function(cloud) {
   cloud$k1 <- -cloud$k2
   cloud$k2 <- -k1
   cloud$anchors$kind <- ifelse(cloud$anchors$kind == "cap", "cup", "cap")
-  attr(cloud$anchors, "frames") <- lapply(attr(cloud$anchors, "frames"),
-                                          function(f) cbind(f[, 2], f[, 1], -f[, 3]))
+  attr(cloud$anchors, "frames") <- lapply(
+    attr(cloud$anchors, "frames"), function(f) cbind(f[, 2], f[, 1], -f[, 3])
+  )
   cloud
 }

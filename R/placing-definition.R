@@ -54,8 +54,7 @@ place_of_profile <- function(specimen, definition, start, pairs, curvature, sett
                  t(it[c(3, 1), , drop = FALSE]))
   edges <- unique(cbind(pmin(edges[, 1], edges[, 2]), pmax(edges[, 1], edges[, 2])))
   height <- numeric(ncol(mesh$vb))
-  height[near] <- drop(crossprod(mesh$vb[1:3, near, drop = FALSE] - plane$origin,
-                                     plane$normal))
+  height[near] <- drop(crossprod(mesh$vb[1:3, near, drop = FALSE] - plane$origin, plane$normal))
   edges <- edges[(height[edges[, 1]] > 0) != (height[edges[, 2]] > 0), , drop = FALSE]
   share <- height[edges[, 1]] / (height[edges[, 1]] - height[edges[, 2]])
   from <- t(mesh$vb[1:3, edges[, 1], drop = FALSE])
@@ -87,8 +86,10 @@ definition_plane <- function(specimen, definition, pairs) {
     right <- specimen$landmarks[right, , drop = FALSE]
     return(list(origin = colMeans((left + right) / 2), normal = main_direction(left - right)))
   }
-  ends <- in_context(located_ends(specimen, walkable(specimen), definition$across_from,
-                                  definition$across_to), specimen$id)
+  ends <- in_context(
+    located_ends(specimen, walkable(specimen), definition$across_from, definition$across_to),
+    specimen$id
+  )
   list(origin = unname(ends$exact[1, 1:3]), normal = ends$across)
 }
 
@@ -105,16 +106,18 @@ definition_path <- function(specimen, definition, from, to, type, curvature, set
 #' Crossing of a curve with a mirror plane or another curve: that nearest to the landmark
 #' @noRd
 place_of_crossing <- function(specimen, definition, start, pairs, curvature, settings) {
-  path <- definition_path(specimen, definition, definition$from, definition$to, definition$type,
-                          curvature, settings)
+  path <- definition_path(
+    specimen, definition, definition$from, definition$to, definition$type, curvature, settings
+  )
   at <- columns_of(path, c("x", "y", "z"))
   side <- if (!is.na(definition$mirror)) {
     plane <- definition_plane(specimen, definition, pairs)
     drop((at - rep(plane$origin, each = nrow(at))) %*% plane$normal)
   } else {
-    other <- without_stubs(definition_path(specimen, definition, definition$across_from,
-                                           definition$across_to,
-                                           definition$across_type, curvature, settings))
+    other <- without_stubs(definition_path(
+      specimen, definition, definition$across_from, definition$across_to, definition$across_type,
+      curvature, settings
+    ))
     cpp_path_coordinates(t(at), t(columns_of(other, c("x", "y", "z"))),
                          path_normals(specimen$mesh, other))$d
   }
@@ -177,8 +180,9 @@ place_of_end <- function(specimen, definition, start, pairs, curvature, settings
   from <- specimen$landmarks[definition$from, ]
   onward <- unit_vector(start - from)
   beyond <- surface_points(specimen$mesh, matrix(start + definition$reach * onward, 1))
-  path <- definition_path(specimen, definition, definition$from, beyond, definition$type, curvature,
-                          settings)
+  path <- definition_path(
+    specimen, definition, definition$from, beyond, definition$type, curvature, settings
+  )
   # Strength along a path, smoothed as local fits are
   curved <- curvature(definition$radius)
   corner <- specimen$mesh$it[, path$face]

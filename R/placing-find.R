@@ -61,8 +61,9 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   check_class(settings, "find_settings", "settings", "find_settings()")
   template <- check_template(template)
   scan <- validate(mesh)
-  if (!inherits(mesh, "specimen")) scan <- suppressWarnings(specimen(mesh, id = id),
-                                                            classes = "crestline_warning")
+  if (!inherits(mesh, "specimen")) {
+    scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
+  }
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads, unit)
   placed <- carried_landmarks(prepared, template, scan, laid)
@@ -72,14 +73,17 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
     scan <- with_fields(turned, file = scan$file)
   }
   doubt <- placing_doubt(placed, settings$low)
-  found <- with_placing(scan, placed,
-                        list(score = laid$score, unit = laid$unit, scale = laid$pose[13],
-                             rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
-                             doubtful = doubt$share > settings$wrong, template = template$id))
+  found <- with_placing(scan, placed, list(
+    score = laid$score, unit = laid$unit, scale = laid$pose[13],
+    rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
+    doubtful = doubt$share > settings$wrong, template = template$id
+  ))
   if (found$match$doubtful) {
-    said <- if (doubt$of) sprintf("%d of %d found landmarks have little confidence",
-                                  length(doubt$names), doubt$of) else
+    said <- if (doubt$of) {
+      sprintf("%d of %d found landmarks have little confidence", length(doubt$names), doubt$of)
+    } else {
       "no landmark was found"
+    }
     crestline_warn(
       sprintf("the template %s lies badly on it: %s.", found$match$template, said),
       paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\");",
@@ -120,9 +124,11 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
     unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
                       template$id, laid$score,
                       settings$refuse)
-    remedy <- sprintf(paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
-                             "%g: else give `unit`, or place the landmarks by hand."),
-                      unit)
+    remedy <- sprintf(
+      paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
+             "%g: else give `unit`, or place the landmarks by hand."),
+      unit
+    )
     refuse_landmarks(unlike, remedy, scan$id)
   }
   c(laid, list(unit = unit))

@@ -12,11 +12,12 @@
 move_landmark <- function(specimen, name, point) {
   if (is.null(point)) point <- surface_points(specimen$mesh, rep(NA_real_, 3))
   there <- isTRUE(!is.na(specimen$landmarks[match(name, rownames(specimen$landmarks)), 1]))
-  same <- there && identical(unname(specimen$landmarks[name, ]),
-                             unname(unlist(point[c("x", "y", "z")])))
+  same <- there &&
+    identical(unname(specimen$landmarks[name, ]), unname(unlist(point[c("x", "y", "z")])))
   specimen <- with_landmark_at(specimen, name, point)
-  specimen <- with_origin(specimen, name, if (there && !same) "moved" else "placed",
-                          time = time_stamp())
+  specimen <- with_origin(
+    specimen, name, if (there && !same) "moved" else "placed", time = time_stamp()
+  )
   if (!is.null(specimen$placing)) {
     specimen$placing <- moved_placing(specimen$placing, name, unlist(point[c("x", "y", "z")]))
   }
@@ -27,9 +28,10 @@ move_landmark <- function(specimen, name, point) {
 #' @noRd
 with_landmark_at <- function(specimen, name, point) {
   at <- unlist(point[c("x", "y", "z")])
-  specimen$landmarks <- with_row(specimen$landmarks,
-                                 match(name, rownames(specimen$landmarks),
-                                       nrow(specimen$landmarks) + 1), at, name)
+  specimen$landmarks <- with_row(
+    specimen$landmarks, match(name, rownames(specimen$landmarks), nrow(specimen$landmarks) + 1), at,
+    name
+  )
   known <- specimen$geometry
   row <- match(name, rownames(known$landmarks), nrow(known$landmarks) + 1)
   known$landmarks <- with_row(known$landmarks, row, at, name)

@@ -82,9 +82,10 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   specimen$refinement <- NULL
   curvature <- curvature_by_radius(specimen, curvature, order, threads)
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
-  places <- refined_places(specimen, definitions, pairs, curvature, settings,
-                           check_number(tolerance, "tolerance", 0),
-                           check_count(rounds, "rounds"))
+  places <- refined_places(
+    specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
+    check_count(rounds, "rounds")
+  )
   refinement <- refinement_table(specimen, definitions, places)
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
   for (i in which(refinement$moved)) {
@@ -138,8 +139,9 @@ curvature_by_radius <- function(specimen, given, order, threads) {
   function(radius) {
     key <- format(radius, digits = 15)
     if (is.null(known[[key]])) {
-      known[[key]] <<- known_curvature(if (!is.null(given)) given(radius), specimen, radius,
-                                       threads, order)
+      known[[key]] <<- known_curvature(
+        if (!is.null(given)) given(radius), specimen, radius, threads, order
+      )
     }
     known[[key]]
   }
@@ -190,8 +192,9 @@ landmarks_at <- function(specimen, names) {
 #' @noRd
 located_place <- function(specimen, definition, given, inputs, pairs, curvature, settings) {
   start <- landmarks_at(list(landmarks = given), definition$landmark)[1, ]
-  if (anyNA(start) || anyNA(inputs)) return(list(state = "missing",
-                                                 reason = "a landmark is missing"))
+  if (anyNA(start) || anyNA(inputs)) {
+    return(list(state = "missing", reason = "a landmark is missing"))
+  }
   # The place of a definition near a landmark
   find <- switch(definition$kind, cap = , cup = place_of_summit, profile = place_of_profile,
                  turn = place_of_turn, end = place_of_end, crossing = place_of_crossing)

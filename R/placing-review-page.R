@@ -50,8 +50,9 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
       review(change(review()))
       change <- redraw(scene, drawn, review_items(review()))
       drawn <<- change$drawn
-      session$sendCustomMessage("sceneChange",
-                                rgl::sceneChange("face", delete = change$delete, add = change$add))
+      session$sendCustomMessage("sceneChange", rgl::sceneChange(
+        "face", delete = change$delete, add = change$add
+      ))
     }
     output$face <- rgl::renderRglwidget({
       rgl::set3d(scene$device)
@@ -73,15 +74,17 @@ review_server <- function(begin, shown, view, finish = shiny::stopApp) {
 answer_steps <- function(input, step, frame, progress) {
   # The scene is in the browser: now landmarks and curves can be sent to it.
   shiny::observeEvent(input$ready, step(function(now) {
-    if (!is.null(now$fitting)) now$fitting <- refit_curves(now$fitting, now$specimen,
-                                                           progress = progress)
+    if (!is.null(now$fitting)) {
+      now$fitting <- refit_curves(now$fitting, now$specimen, progress = progress)
+    }
     now
   }))
   shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
   shiny::observeEvent(input$ray, step(function(now) {
     # What a click does: it chooses the landmark whose ball it meets, else places the chosen one
-    ends <- from_scene(rbind(as.numeric(unlist(input$ray$from)),
-                             as.numeric(unlist(input$ray$towards))), frame)
+    ends <- from_scene(
+      rbind(as.numeric(unlist(input$ray$from)), as.numeric(unlist(input$ray$towards))), frame
+    )
     # Radius of the ball of a landmark, in the unit of the mesh
     aim <- aimed_at(now, ends[1, ], ends[2, ], formals(landmark_items)$size *
                     mesh_diagonal(now$specimen$mesh) / 400)
@@ -153,10 +156,11 @@ chosen_html <- function(review) {
                  ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
                  ifelse(is.na(curves$reason), "", paste0("; ", curves$reason)))
   tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]),
-           tags$p(class = "where", review$about$where[row]),
-           tags$p(left), mirrored,
-           if (nrow(curves)) tags$details(tags$summary(amount(nrow(curves), "curve")),
-                                          tags$ul(lapply(said, tags$li))))
+           tags$p(class = "where", review$about$where[row]), tags$p(left), mirrored,
+           if (nrow(curves)) {
+             tags$details(tags$summary(amount(nrow(curves), "curve")),
+                          tags$ul(lapply(said, tags$li)))
+           })
 }
 
 #' What looks exchanged among the landmarks of a specimen as they are now
@@ -172,8 +176,9 @@ specimen_slips <- function(specimen) {
 list_html <- function(review) {
   tags <- shiny::tags
   colours <- review_colours()$state
-  confidence <- review$specimen$placing$confidence[match(review$about$landmark,
-                                                         review$specimen$placing$landmark)]
+  confidence <- review$specimen$placing$confidence[match(
+    review$about$landmark, review$specimen$placing$landmark
+  )]
   state <- ifelse(is_doubtful(review), "doubtful", review$state)
   told <- if (is.null(confidence)) state else
     ifelse(is.na(confidence), state, sprintf("%s %.2f", state, confidence))

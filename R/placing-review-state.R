@@ -51,8 +51,9 @@ select_landmark <- function(review, name) {
 
 #' Which landmarks wait for the person: missing or doubtful
 #' @noRd
-is_open <- function(review) stats::setNames(review$state == "missing" | is_doubtful(review),
-                                            review$about$landmark)
+is_open <- function(review) stats::setNames(
+  review$state == "missing" | is_doubtful(review), review$about$landmark
+)
 
 #' Put the selected landmark on a place of the mesh, and fit its curves anew
 #'
@@ -69,8 +70,9 @@ place_selected <- function(review, point, progress = function(n) function() NULL
   after$state[[name]] <- if (is.null(point)) "absent" else "placed"
   if (is_open(review)[[name]]) after$selected <- next_open(after)
   after$history <- c(review$history, list(review[c("specimen", "fitting", "state", "selected")]))
-  if (!is.null(after$fitting)) after$fitting <- refit_curves(after$fitting, after$specimen, name,
-                                                             progress)
+  if (!is.null(after$fitting)) {
+    after$fitting <- refit_curves(after$fitting, after$specimen, name, progress)
+  }
   after
 }
 

@@ -77,8 +77,9 @@ review_landmarks <- function(specimen, scheme = face_scheme(),
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
   shown <- shown_surface(specimen, surface, radius, faces)
-  reviewed <- run_review(review_page(paste("Landmarks of", specimen$id)),
-                         review_server(review, shown, view), ...)
+  reviewed <- run_review(
+    review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view), ...
+  )
   warn_exchanged(specimen_slips(reviewed), reviewed$id)
   reviewed
 }

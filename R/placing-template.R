@@ -103,8 +103,9 @@ moved_specimen <- function(specimen, rotation, origin) {
   mesh <- specimen$mesh
   mesh$vb[1:3, ] <- rotation %*% (mesh$vb[1:3, ] - origin)
   mesh$normals[1:3, ] <- rotation %*% mesh$normals[1:3, ]
-  landmarks <- structure(t(rotation %*% (t(specimen$landmarks) - origin)),
-                         dimnames = dimnames(specimen$landmarks))
+  landmarks <- structure(
+    t(rotation %*% (t(specimen$landmarks) - origin)), dimnames = dimnames(specimen$landmarks)
+  )
   geometry <- specimen$geometry
   geometry[c("landmarks", "located")] <- list(landmarks[0, , drop = FALSE], geometry$located[0, ])
   with_fields(specimen, mesh = mesh, key = passed_mesh(mesh, specimen$id)$key,
@@ -145,8 +146,9 @@ last_template <- new.env(parent = emptyenv())
 with_landmarks <- function(prepared, landmarks) {
   prepared$landmarks <- landmarks
   n <- ncol(prepared$xyz)
-  prepared$basis <- warp_basis(rbind(t(prepared$xyz), landmarks), n, prepared$mirror,
-                               prepared$settings)
+  prepared$basis <- warp_basis(
+    rbind(t(prepared$xyz), landmarks), n, prepared$mirror, prepared$settings
+  )
   weight <- rep(1 / prepared$settings$error^2, n)
   root <- warp_root(prepared$basis, seq_len(n), prepared$normal, weight, prepared$settings)
   prepared$sd <- warp_sd(lapply(prepared$basis, function(b) b[-seq_len(n), , drop = FALSE]), root)

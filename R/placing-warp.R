@@ -14,9 +14,8 @@
 #' @return List by component of n x k matrices whose coefficients are independent standard normal.
 #' @noRd
 warp_basis <- function(xyz, m, symmetric, settings) {
-  affine <- settings$affine * cbind(1,
-                                    sweep(xyz, 2, colMeans(xyz[seq_len(m), ])) /
-                                    settings$length_scale[1])
+  affine <- settings$affine *
+    cbind(1, sweep(xyz, 2, colMeans(xyz[seq_len(m), ])) / settings$length_scale[1])
   if (!symmetric) {
     own <- process_basis(xyz, m, function(a, b) gauss_kernel(a, b, settings), settings$rank / 3)
     each <- cbind(own$functions, affine)
@@ -58,9 +57,8 @@ process_basis <- function(xyz, m, kernel, rank, least = 1e-12) {
     pivot <- which.max(left[seq_len(m)])
     if (left[pivot] <= least) break
     used <- seq_len(j - 1)
-    column <- drop(kernel(xyz,
-                          xyz[pivot, , drop = FALSE])) - drop(root[, used, drop = FALSE] %*%
-                                                              root[pivot, used])
+    column <- drop(kernel(xyz, xyz[pivot, , drop = FALSE])) -
+      drop(root[, used, drop = FALSE] %*% root[pivot, used])
     root[, j] <- column / sqrt(left[pivot])
     left <- pmax(left - root[, j]^2, 0)
   }

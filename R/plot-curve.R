@@ -79,15 +79,17 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
-  if (band) for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh,
-                                                     key$colours[i])
+  if (band) {
+    for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+  }
   if (engine == "picture") for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
   for (i in each) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
   if (points) for (i in each) scene <- draw_points(scene, curves[[i]]$points, key$colours[i],
                                                    0.28 * width, "white")
   if (legend && engine == "picture" && length(key$names)) {
-    on_scene(scene, graphics::legend("bottomleft", names(key$names), col = key$names, lwd = width,
-                                     bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend(
+      "bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8
+    ))
   }
   invisible(scene)
 }

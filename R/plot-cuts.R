@@ -28,8 +28,9 @@ draw_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surfac
     key <- vapply(paths, function(path) {
       sprintf("%.0f degrees, length %.3g", attr(path, "angle") * 180 / pi, attr(path, "length"))
     }, "")
-    on_scene(scene, graphics::legend("bottomleft", key, col = colours, lwd = width, bty = "n",
-                                     cex = 0.8))
+    on_scene(scene, graphics::legend(
+      "bottomleft", key, col = colours, lwd = width, bty = "n", cex = 0.8
+    ))
   }
   invisible(paths)
 }

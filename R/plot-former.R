@@ -49,7 +49,7 @@ plot_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surfac
   former <- list(...)
   names(former)[names(former) == "colour"] <- "colours"
   do.call(plot, c(list(specimen, surface, what = "cuts", from = from, to = to, angles = angles),
-                  former))
+                  former), quote = TRUE)
 }
 
 #' @rdname crestline-deprecated

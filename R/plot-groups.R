@@ -67,8 +67,7 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
   groups <- nlevels(x$group)
   colour <- if (length(colour) >= groups) colour[seq_len(groups)] else
     grDevices::hcl.colors(groups, "Dark 3")
-  drawn <- switch(what,
-                  boxes = plot_boxes(x, level, colour, components, main, ...),
+  drawn <- switch(what, boxes = plot_boxes(x, level, colour, components, main, ...),
                   means = plot_means(x, level, colour, opacity, engine, view, legend, main, ...),
                   map = plot_map(x, level, significance, limits, palette, engine, view, legend,
                                  main, adjust, length_unit, ...))
@@ -91,9 +90,10 @@ plot_boxes <- function(x, level, colour, components, main, ...) {
   pca <- x$pca[[level]]
   if (is.null(pca)) pca <- shape_pca(compared)
   components <- intersect(components, seq_along(pca$sdev))
-  panels <- c(list("centroid size" = compared$size),
-              stats::setNames(lapply(components, function(j) pca$x[, j]),
-                              sprintf("PC%d (%.0f %%)", components, 100 * pca$share[components])))
+  panels <- c(list("centroid size" = compared$size), stats::setNames(
+    lapply(components, function(j) pca$x[, j]),
+    sprintf("PC%d (%.0f %%)", components, 100 * pca$share[components])
+  ))
   tests <- c(intersect(c("size t", "size F"), x$tests$test)[1], paste0("PC", components))
   old <- graphics::par(mfrow = grDevices::n2mfrow(length(panels))[2:1], mar = c(2.5, 3, 2.8, 0.6),
                        mgp = c(2, 0.6, 0))
@@ -108,10 +108,10 @@ plot_boxes <- function(x, level, colour, components, main, ...) {
 
 # One boxplot: points beside each other where they would hide each other, the means as diamonds.
 box_panel <- function(y, group, title, colour, ...) {
-  drawn <- graphics::boxplot(y ~ group, outline = FALSE, ylim = range(y),
-                             col = grDevices::adjustcolor(colour, 0.25),
-                             border = colour,
-                             xlab = "", ylab = "", las = 1, boxwex = 0.55, ...)
+  drawn <- graphics::boxplot(
+    y ~ group, outline = FALSE, ylim = range(y), col = grDevices::adjustcolor(colour, 0.25),
+    border = colour, xlab = "", ylab = "", las = 1, boxwex = 0.55, ...
+  )
   graphics::title(title, font.main = 1, cex.main = 1)
   shift <- stats::ave(rank(y, ties.method = "first"), group,
                       FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)

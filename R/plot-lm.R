@@ -70,8 +70,7 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
                    nrow(points))
   title <- if (is.null(main)) words else main
   if (is.null(triangles) && engine == "picture") {
-    return(invisible(points_map(points, value, limits, palette, significance, view, legend,
-                                title)))
+    return(invisible(points_map(points, value, limits, palette, significance, view, legend, title)))
   }
   if (is.null(triangles)) triangles <- matrix(integer(), 3, 0)
   mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), triangles)
@@ -107,11 +106,14 @@ plot_lm_scores <- function(x, term, level, main, ...) {
   variable <- if (term %in% names(frame) && is.null(dim(frame[[term]]))) frame[[term]] else
     drop(model$matrix[, at, drop = FALSE] %*% rep(1, sum(at)))
   test <- x$tests[x$tests$level == level & x$tests$term == term & x$tests$test == "shape", ]
-  title <- if (!is.null(main)) main else
-    paste(c(paste0(term, " (", level, ")"),
-            if (NROW(test)) sprintf("R2 %.3f, p %s", test$share,
-                                    format.pval(test$p_value, digits = 2, eps = 1e-4))),
+  title <- if (!is.null(main)) {
+    main
+  } else {
+    paste(c(paste0(term, " (", level, ")"), if (NROW(test)) {
+            sprintf("R2 %.3f, p %s", test$share, format.pval(test$p_value, digits = 2, eps = 1e-4))
+          }),
           collapse = ", ")
+  }
   old <- graphics::par(mar = c(4, 5, 2.5, 0.6), mgp = c(2.3, 0.6, 0))
   on.exit(graphics::par(old))
   group <- if (!is.numeric(variable)) factor(variable)

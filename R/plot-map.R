@@ -14,17 +14,22 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
   found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
   surface <- !is.null(aligned$triangles)
   measure <- c(fwe = "family-wise p", fdr = "false discovery rate", none = "p of each point")
-  words <- sprintf("%s\n%s: %s < %g (%d of %d points)",
-                   if (surface) sprintf("%s less %s along the normal", levels(x$group)[2],
-                                        levels(x$group)[1]) else "distance between the means",
-                   if (surface) "outlined" else "ringed", measure[[adjust]], significance, found,
-                   nrow(points))
+  words <- sprintf(
+    "%s\n%s: %s < %g (%d of %d points)",
+    if (surface) {
+      sprintf("%s less %s along the normal", levels(x$group)[2], levels(x$group)[1])
+    } else {
+      "distance between the means"
+    },
+    if (surface) "outlined" else "ringed", measure[[adjust]], significance, found, nrow(points)
+  )
   title <- if (is.null(main)) words else main
   if (!surface) {
     if (is.null(limits)) limits <- c(0, max(points$displacement, na.rm = TRUE))
     palette <- utils::tail(palette, ceiling(length(palette) / 2))
-    return(invisible(points_map(points, points$displacement, limits, palette, significance, view,
-                                legend, title, length_unit)))
+    return(invisible(points_map(
+      points, points$displacement, limits, palette, significance, view, legend, title, length_unit
+    )))
   }
   mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), aligned$triangles)
   row <- attr(mesh, "row")
@@ -35,9 +40,11 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
     old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
     on.exit(graphics::par(old))
   }
-  scene <- if (engine == "picture") draw_surface(mesh, colours, view, engine, ambient = ambient,
-                                                 gloss = gloss, ...) else
+  scene <- if (engine == "picture") {
+    draw_surface(mesh, colours, view, engine, ambient = ambient, gloss = gloss, ...)
+  } else {
     draw_surface(mesh, colours, view, engine, ...)
+  }
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
@@ -118,8 +125,8 @@ level_lines <- function(mesh, value, at) {
     i <- cbind(alone, seq_along(alone))
     j <- cbind(other, seq_along(alone))
     share <- corner[i] / (corner[i] - corner[j])
-    t(mesh$vb[1:3, it[i], drop = FALSE]) * (1 -
-                                            share) + t(mesh$vb[1:3, it[j], drop = FALSE]) * share
+    t(mesh$vb[1:3, it[i], drop = FALSE]) * (1 - share) +
+      t(mesh$vb[1:3, it[j], drop = FALSE]) * share
   }
   a <- cut(1)
   segments <- array(NA_real_, c(3, nrow(a), 3))

@@ -19,8 +19,9 @@ plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ..
   graphics::title(title, font.main = 1, cex.main = 1)
   if (legend) {
     words <- paste(names(meshes), "in front")
-    on_scene(scene, graphics::legend("bottomleft", words, fill = front_colours(colour, opacity),
-                                     bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend(
+      "bottomleft", words, fill = front_colours(colour, opacity), bty = "n", cex = 0.8
+    ))
   }
   invisible(scene)
 }
@@ -34,8 +35,9 @@ front_colours <- function(colour, opacity) {
 #' Both surfaces in one picture: of every pixel the nearer one has the greater share
 #' @noRd
 picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
-  frame <- picture_frame(rotation %*% do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])),
-                         settings)
+  frame <- picture_frame(
+    rotation %*% do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])), settings
+  )
   seen <- Map(function(mesh, colour) {
     turned <- rotation %*% mesh$vb[1:3, ]
     xyz <- rbind((turned[1, ] - frame$usr[1]) / frame$pixel,
@@ -68,9 +70,10 @@ blend_by_depth <- function(a, b, opacity) {
 rgl_overlay <- function(meshes, colour, opacity, view, ...) {
   scene <- draw_surface(meshes[[1]], colour[1], view, "rgl", alpha = opacity, ...)
   second <- meshes[[2]]
-  ids <- rgl::triangles3d(t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]),
-                          indices = second$it, color = colour[2],
-                          alpha = opacity, specular = "#202020")
+  ids <- rgl::triangles3d(
+    t(second$vb[1:3, ]), normals = t(second$normals[1:3, ]), indices = second$it, color = colour[2],
+    alpha = opacity, specular = "#202020"
+  )
   add_ids(scene, ids)
 }
 

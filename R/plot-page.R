@@ -48,8 +48,11 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   width <- check_number(width, "width", lower = 0)
   check_flags(selfcontained)
   size <- check_size(size)
-  curves <- if (inherits(curves, "shape")) check_class(curves, "shape", "curves",
-                                                       "fit_shape()") else check_curves(curves)
+  curves <- if (inherits(curves, "shape")) {
+    check_class(curves, "shape", "curves", "fit_shape()")
+  } else {
+    check_curves(curves)
+  }
   table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(turned$file)
@@ -231,8 +234,9 @@ curve_table <- function(curves) {
                          c("part", "kind", "length", "strength", "se", "competing", "reason")])
   }
   curves <- check_curves(curves)
-  pick <- function(name, type) vapply(curves, function(curve) type(curve[[name]]), type(NA),
-                                      USE.NAMES = FALSE)
+  pick <- function(name, type) vapply(
+    curves, function(curve) type(curve[[name]]), type(NA), USE.NAMES = FALSE
+  )
   name <- if (is.null(names(curves))) character(length(curves)) else names(curves)
   table <- data.frame(curve = name, kind = pick("type", as.character),
                       from = pick("from", as.character),

@@ -17,7 +17,8 @@ draw_panel <- function(x, points = TRUE, grid = c(300, 200),
   main <- check_text(main, "main", null = TRUE)
   if (is.null(x$line)) {
     crestline_abort(sprintf(paste0("the curve from %s to %s was not found by curvature, so it has ",
-                                   "no panel."), x$from, x$to),
+                                   "no panel."),
+                            x$from, x$to),
                     "Plot a ridge or valley that was found.", stage = "picture", id = x$id)
   }
   x$coordinates <- x$coordinates[x$coordinates$inside, ]
@@ -36,8 +37,9 @@ draw_panel <- function(x, points = TRUE, grid = c(300, 200),
                  xpd = NA)
   graphics::text(left - 3 * line[1], mean(range(panel$d)), "d, distance from it", srt = 90,
                  xpd = NA)
-  if (points) graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25,
-                               col = "#00000060")
+  if (points) {
+    graphics::points(x$coordinates$s, x$coordinates$d, pch = 16, cex = 0.25, col = "#00000060")
+  }
   graphics::contour(panel$s, panel$d, panel$strength, nlevels = contours, add = TRUE,
                     drawlabels = FALSE, col = "#8B5A2B")
   graphics::segments(0, 0, max(panel$s), 0, lty = 2, lwd = 1.5, col = "grey20")

@@ -51,16 +51,19 @@ plot_scores <- function(pca, component, group, colour, labels, ellipse, ...) {
   }
   reach <- rbind(at, do.call(rbind, rings))
   given <- list(...)
-  given <- utils::modifyList(list(xlim = range(reach[, 1]), ylim = range(reach[, 2]), asp = 1,
-                                  pch = 16, las = 1, xlab = names[1], ylab = names[length(names)],
-                                  col = grDevices::adjustcolor(colour[as.integer(group)], 0.8)),
-                             given)
+  given <- utils::modifyList(
+    list(xlim = range(reach[, 1]), ylim = range(reach[, 2]), asp = 1, pch = 16, las = 1,
+         xlab = names[1], ylab = names[length(names)],
+         col = grDevices::adjustcolor(colour[as.integer(group)], 0.8)),
+    given
+  )
   do.call(graphics::plot, c(list(at), given))
   for (g in seq_along(rings)) graphics::lines(rings[[g]], col = colour[g])
   if (labels) graphics::text(at, rownames(pca$x), pos = 3, offset = 0.35, cex = 0.6, xpd = NA)
   graphics::abline(h = 0, v = 0, col = "grey80", lwd = 0.6)
-  if (nlevels(group) > 1) graphics::legend("topright", levels(group), pch = 16, col = colour,
-                                           bty = "n")
+  if (nlevels(group) > 1) {
+    graphics::legend("topright", levels(group), pch = 16, col = colour, bty = "n")
+  }
   at
 }
 
@@ -79,8 +82,9 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
     shapes <- lapply(c(0, -sd, sd), function(at) shape_at(pca, component, at))
     names(shapes) <- c("mean", sprintf("%+g sd", c(-sd, sd)))
     title <- sprintf("PC%d (%.0f %%)", component, 100 * pca$share[component])
-    return(plot_configurations(shapes, pca$level, c("grey70", rep_len(colour, 2)), view, TRUE,
-                               title))
+    return(plot_configurations(
+      shapes, pca$level, c("grey70", rep_len(colour, 2)), view, TRUE, title
+    ))
   }
   meshes <- lapply(c(-sd, sd), function(at) shape_at(pca, component, at, "mesh"))
   around <- t(do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])))
@@ -143,14 +147,12 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
   sd <- check_number(sd, "sd", lower = 0, open = TRUE)
   blocks <- lapply(component, component_block, x, sd, colour, size, view)
   tags <- htmltools::tags
-  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
-                   tags$h2(title),
-                   tags$p(sprintf("%d specimens, %d points (%s). ", nrow(x$x), nrow(x$mean),
-                                  x$level),
-                          sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd,
-                                  sd)),
-                   tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks),
-                   provenance_block(x$provenance))
+  page <- tags$div(
+    style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
+    tags$p(sprintf("%d specimens, %d points (%s). ", nrow(x$x), nrow(x$mean), x$level),
+           sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd, sd)),
+    tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks), provenance_block(x$provenance)
+  )
   save_page(page, file, selfcontained)
   invisible(file)
 }
@@ -170,14 +172,15 @@ component_block <- function(component, pca, sd, colour, size, view) {
   vertices <- rep(seq_len(ncol(values) / 6), 6)
   attributes <- rep(c("x", "y", "z", "nx", "ny", "nz"), each = ncol(values) / 6)
   id <- paste0("crestline-pc", component)
-  control <- rgl::vertexControl(value = 0, values = values, vertices = vertices,
-                                attributes = attributes,
-                                objid = scene$ids[1],
-                                param = stops)
+  control <- rgl::vertexControl(
+    value = 0, values = values, vertices = vertices, attributes = attributes, objid = scene$ids[1],
+    param = stops
+  )
   steps <- seq(-sd, sd, length.out = 61)
-  player <- rgl::playwidget(id, control, start = -sd, stop = sd, step = sd / 30,
-                            components = c("Slider", "Label"),
-                            labels = sprintf("%+.1f", steps))
+  player <- rgl::playwidget(
+    id, control, start = -sd, stop = sd, step = sd / 30, components = c("Slider", "Label"),
+    labels = sprintf("%+.1f", steps)
+  )
   # It begins at the mean.
   player$x$value <- 0
   tags <- htmltools::tags

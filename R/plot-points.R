@@ -44,8 +44,9 @@ plot_configurations <- function(shapes, level, colour, view, legend, title) {
   size <- if (length(rows)) 0.5 else 0.9
   Map(function(xy, colour) draw_configuration(xy, rows, colour, size), seen,
       rep_len(colour, length(seen)))
-  if (legend) graphics::legend("bottomleft", names(shapes), pch = 16, col = colour, bty = "n",
-                               cex = 0.8)
+  if (legend) {
+    graphics::legend("bottomleft", names(shapes), pch = 16, col = colour, bty = "n", cex = 0.8)
+  }
   graphics::title(title, font.main = 1, cex.main = 0.9)
   invisible(seen)
 }

@@ -67,8 +67,9 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
   if (legend && engine == "picture" && !is.null(specimen)) {
-    on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = width,
-                                     bty = "n", cex = 0.8))
+    on_scene(scene, graphics::legend(
+      "bottomleft", names(colour), col = colour, lwd = width, bty = "n", cex = 0.8
+    ))
   }
   invisible(scene)
 }

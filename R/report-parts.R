@@ -5,8 +5,11 @@
 report_bar <- function(green, amber, red) {
   total <- max(green + amber + red, 1)
   piece <- function(class, n) {
-    if (n > 0) htmltools::tags$span(class = class, style = sprintf("width:%.3f%%", 100 * n / total),
-                                    title = paste(n, class))
+    if (n > 0) {
+      htmltools::tags$span(
+        class = class, style = sprintf("width:%.3f%%", 100 * n / total), title = paste(n, class)
+      )
+    }
   }
   htmltools::tags$div(class = "bar", piece("red", red), piece("amber", amber),
                       piece("green", green))

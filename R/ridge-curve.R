@@ -307,8 +307,9 @@ print.curve <- function(x, ...) {
     cat(sprintf("<curve> %s from %s to %s%s\n", x$type, x$from, x$to,
                 if (is.null(x$id)) "" else paste0(" on ", x$id)))
     cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
-    if (!is.na(x$strength)) cat(sprintf(", mean strength %.3g, median standard error %.3g",
-                                        x$strength, x$se))
+    if (!is.na(x$strength)) {
+      cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
+    }
     cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
                 if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
     invisible(x)

@@ -109,8 +109,8 @@ ridge_criterion <- function(problem, alpha) {
 }
 
 ridge_gradient <- function(problem, alpha) {
-  problem$weight * profile_at(problem, alpha,
-                              1) - 2 * problem$lambda * as.vector(problem$roughness %*% alpha)
+  problem$weight * profile_at(problem, alpha, 1) -
+    2 * problem$lambda * as.vector(problem$roughness %*% alpha)
 }
 
 #' Hessian, or with `convex` its negative-definite stand-in

@@ -37,6 +37,7 @@
 #' @section Errors: of class `crestline_error`, when fewer than 100 vertices can be compared, and
 #'   when the scans lie more than a mean edge apart.
 #' @seealso [ridge_settings()], [ridge_curve()]
+#' @template glossary
 #' @examples
 #' scans <- lapply(1:2, function(seed) {
 #'   simulate_ridge(a = 0.25, b = 1, noise = 0.01, correlation = 2, seed = seed)
@@ -67,8 +68,9 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
   both <- if (length(shared) >= 3) lapply(marks, function(x) x[shared, , drop = FALSE])
   laid <- laid_on(scans[[2]], compared, both, trim, rounds, tolerance)
   if (sum(laid$kept) < 100) abort_few_compared(sum(laid$kept), scans[[1]]$id)
-  lagged <- lagged_covariance(compared$xyz[laid$kept, ], laid$distance[laid$kept], compared$edge,
-                              lags)
+  lagged <- lagged_covariance(
+    compared$xyz[laid$kept, ], laid$distance[laid$kept], compared$edge, lags
+  )
   fitted <- fitted_noise(lagged, laid$weight, compared$edge)
   if (sqrt(lagged$covariance[1]) > compared$edge) {
     crestline_abort(sprintf("the scans lie %.3g apart, more than an edge: they are not registered.",
@@ -76,16 +78,19 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
                     "Give specimens with three landmarks in common, or lay one scan on the other.",
                     stage = "scan noise", id = scans[[1]]$id)
   }
-  structure(c(fitted$noise, list(sd = sqrt(fitted$noise$independent^2 + fitted$noise$smooth^2),
-                                 covariance = cbind(lagged, fitted = fitted$values),
-                                 points = sum(laid$kept), converged = laid$converged,
-                                 rounds = laid$rounds)), class = "scan_noise")
+  structure(c(fitted$noise, list(
+              sd = sqrt(fitted$noise$independent^2 + fitted$noise$smooth^2),
+              covariance = cbind(lagged, fitted = fitted$values), points = sum(laid$kept),
+              converged = laid$converged, rounds = laid$rounds
+            )),
+            class = "scan_noise")
 }
 
 abort_few_compared <- function(count, id) {
   crestline_abort(sprintf("only %s of the first scan can be compared with the second.",
                           amount(count, "vertex", "vertices")),
-                  "Give a larger `reach`, places `near` that both scans hold, or landmarks on both.",
+                  paste("Give a larger `reach`, places `near` that both scans hold, or landmarks on",
+                        "both."),
                   stage = "scan noise", id = id, call = NULL)
 }
 
@@ -226,7 +231,7 @@ fitted_noise <- function(lagged, weight, edge, shortest = 2) {
 print.scan_noise <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("Noise of a scanner, from %d vertices of two scans: standard deviation %.3g\n",
+    cat(sprintf("<scan_noise> from %d vertices of two scans: standard deviation %.3g\n",
                 x$points, x$sd))
     cat(sprintf("  independent %.3g; smooth %.3g, correlated over %.3g\n", x$independent, x$smooth,
                 x$range))

@@ -89,8 +89,9 @@ check_settings <- function(settings) {
                 "tolerance", "longest", "inflation", "undetermined", "faint", "kernel_most",
                 "kernel_least", "kernel_vertices", "second_gain", "second_whole", "mix")
   for (name in positive) {
-    if (!identical(settings[[name]], Inf)) check_number(settings[[name]], name, lower = 0,
-                                                        open = TRUE)
+    if (!identical(settings[[name]], Inf)) {
+      check_number(settings[[name]], name, lower = 0, open = TRUE)
+    }
   }
   check_number(settings$kernel, "kernel", lower = 0)
   check_number(settings$second, "second", lower = 0, upper = 1)

@@ -142,8 +142,9 @@ predict.curvature_surface <- function(object, s, d, derivative = 0, ...) {
   s <- check_numbers(s, "s")
   d <- check_numbers(d, "d")
   derivative <- check_count(derivative, "derivative", lower = 0, upper = 3)
-  along <- margin_design(object$margins$along,
-                         rep_len(s, max(length(s), length(d))) / object$length)
+  along <- margin_design(
+    object$margins$along, rep_len(s, max(length(s), length(d))) / object$length
+  )
   across <- margin_design(object$margins$across, rep_len(d, nrow(along)) / object$width, derivative)
   rowSums(across * tcrossprod(along, object$coefficients)) / object$width^derivative
 }

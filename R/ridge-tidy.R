@@ -46,8 +46,9 @@ confint.curve <- function(object, parm = object$points$point, level = 0.95, ...)
   check_class(object, "curve", "object", "ridge_curve()")
   level <- check_number(level, "level", 0, 1, open = TRUE)
   row <- match(check_numbers(parm, "parm"), object$points$point)
-  if (anyNA(row)) refuse_argument("parm", parm, "Give numbers of points of the curve.",
-                                  rlang::current_env())
+  if (anyNA(row)) {
+    refuse_argument("parm", parm, "Give numbers of points of the curve.", rlang::current_env())
+  }
   tail <- (1 - level) / 2
   bounds <- object$points$d[row] +
     outer(object$points$se[row], stats::qnorm(c(tail, 1 - tail)))
@@ -108,8 +109,9 @@ summary.curve <- function(object, ...) {
   found <- object$type != "plane" && !all(is.na(points$d))
   lines <- c(printed_lines(object),
              if (found) sprintf("  distance from the reference path %s", range_text(points$d)),
-             if (found && !all(is.na(points$se))) sprintf("  standard error %s",
-                                                          range_text(points$se)))
+             if (found && !all(is.na(points$se))) {
+               sprintf("  standard error %s", range_text(points$se))
+             })
   settings <- if (object$type != "plane") list(ridge = unclass(object$settings))
   mesh <- if (!is.null(object$key)) list(id = object$id, key = object$key)
   new_summary(lines, c(made_with(), list(mesh = mesh, settings = settings)))

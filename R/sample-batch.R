@@ -195,8 +195,9 @@ measure_tasks <- function(tasks, scheme, settings, chunk) {
   results <- run_tasks(tasks, measure_task, arguments, chunk)
   again <- vapply(results, function(result) inherits(result, "lost_task") || isTRUE(result$fault),
                   NA)
-  if (any(again)) results[again] <- run_tasks(tasks[again], measure_task, arguments, 1,
-                                              alone = TRUE)
+  if (any(again)) {
+    results[again] <- run_tasks(tasks[again], measure_task, arguments, 1, alone = TRUE)
+  }
   lapply(results,
          function(result) if (inherits(result, "lost_task")) lost_failure(result) else result)
 }
@@ -243,7 +244,7 @@ failure_of <- function(e, heard = no_warnings(), fault = FALSE) {
 lost_failure <- function(lost) {
   new_failure("worker",
               sprintf("the worker that measured it died, and again when it measured it alone: %s.",
-                                sub("[.]$", "", first_line(lost$message))),
+                      sub("[.]$", "", first_line(lost$message))),
               "Is there memory enough? Run it again with fewer workers, or decimate the mesh.",
               fault = TRUE)
 }

@@ -23,8 +23,9 @@ with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rla
   }
   template <- batch_template(template, scheme)
   if (is.null(template)) return(jobs)
-  key <- content_hash(list(template$specimen$mesh[c("vb", "it")],
-                           template[c("landmarks", "predicted", "unit")], doubtful))
+  key <- content_hash(list(
+    template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful
+  ))
   shared <- rlang::env(template = template)
   folder <- if (is.null(dir)) tempdir() else dir
   pictures <- file.path(folder, paste0(file_stems(names(jobs)), "-placing.png"))
@@ -56,16 +57,16 @@ refused_bare <- function(job, others, never) {
             amount(others, "other"), if (others == 1) "has" else "have")
   if (!is.null(job$wanting)) problem <- job$wanting
   remedy <- paste0(beside, ", or have them found: found = TRUE.")
-  job$refusal <- tryCatch(refuse_landmarks(problem, remedy, job$id),
-                          crestline_error = identity)
+  job$refusal <- tryCatch(refuse_landmarks(problem, remedy, job$id), crestline_error = identity)
   job
 }
 
 batch_template <- function(template, scheme) {
   if (!is.null(template)) return(check_template(template))
   face <- face_template()
-  if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks),
-                                           rownames(face$predicted)))) face
+  if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) {
+    face
+  }
 }
 
 #' A specimen with found landmarks

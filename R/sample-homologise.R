@@ -120,18 +120,21 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     shape$specimen <- NULL
     shape
   })
-  provenance <- sample_provenance(found$template, plan,
-                                  list(tolerance = tolerance, rounds = rounds))
+  provenance <- sample_provenance(
+    found$template, plan, list(tolerance = tolerance, rounds = rounds)
+  )
   validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
   if (inherits(shapes, "shape_batch")) shapes <- measured(shapes)
   if (inherits(shapes, "shape")) shapes <- list(shapes)
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "homologise",
-                                                    call = call)
-  if (!is.list(shapes) || !length(shapes)) fail(sprintf("`shapes` is %s.", describe_value(shapes)),
-                                                "Give a list of shapes.")
+  fail <- function(problem, remedy) crestline_abort(
+    problem, remedy, stage = "homologise", call = call
+  )
+  if (!is.list(shapes) || !length(shapes)) {
+    fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")
+  }
   wrong <- which(!vapply(shapes, inherits, NA, "shape"))
   if (length(wrong)) {
     fail(sprintf("element %d of `shapes` is %s.", wrong[1], describe_value(shapes[[wrong[1]]])),
@@ -161,8 +164,8 @@ measured <- function(batch) {
 }
 
 specimens_in_files <- function(x) {
-  kept <- inherits(x, "shape_batch") && any(vapply(unclass(renewed_batch(x)), inherits, NA,
-                                                   "kept_shape"))
+  kept <- inherits(x, "shape_batch") &&
+    any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
   if (kept) function(id) x[[id]]$specimen
 }
 
@@ -183,8 +186,9 @@ specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
 check_specimens <- function(specimens, call = rlang::caller_env()) {
   if (is.null(specimens) || is.function(specimens)) return(invisible())
   specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
-  if (is.null(names(specimens))) refuse_argument("specimens", NULL, "Name each by its id.", call,
-                                                 "a list without names")
+  if (is.null(names(specimens))) {
+    refuse_argument("specimens", NULL, "Name each by its id.", call, "a list without names")
+  }
 }
 
 has_pairs <- function(scheme) any(scheme$pairs$level != "surface")
@@ -230,11 +234,11 @@ mean_curves <- function(states, template, settings, tolerance, rounds, stalled =
     moved <- sqrt(rowSums((after - before)^2))
     moved <- moved[!is.na(moved)]
     if (max(moved) >= stalled * last) after <- (before + after) / 2
-    table[[round]] <- data.frame(round = round, movement = sqrt(mean(moved^2)),
-                                 largest = max(moved),
-                                 energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after),
-                                                      0)),
-                                 slide = distance_slid(states, slid))
+    table[[round]] <- data.frame(
+      round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
+      energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
+      slide = distance_slid(states, slid)
+    )
     template <- template_shape(template, after, "mean", mean_error(states))
     if (max(moved) <= tolerance * plan$radius) break
   }
@@ -337,8 +341,9 @@ with_mean_surface <- function(template, stores) {
   })
   mean <- mean_of(laid)
   mean[core, ] <- xyz[core, ]
-  if (has_pairs(template$scheme)) mean <- symmetric_mean(mean, mirror_places(template$scheme),
-                                                         "mean", by = core)
+  if (has_pairs(template$scheme)) {
+    mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
+  }
   mean[core, ] <- xyz[core, ]
   template_shape(template, mean, "mean",
                  template$points$se[!duplicated(template$scheme$points$place)])

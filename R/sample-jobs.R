@@ -113,10 +113,14 @@ check_reading <- function(reading, call) {
   wrong <- !is.list(reading) || length(reading) && (is.null(named) || any(!nzchar(named)))
   strange <- if (!wrong) setdiff(names(reading), unlist(takes))
   if (wrong || length(strange)) {
-    crestline_abort(if (wrong) sprintf("`reading` is %s, not a list with names.",
-                                       describe_value(reading)) else
-      sprintf("`reading` has arguments that reading does not take: %s.", shorten(strange)),
-      sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments", call = call)
+    crestline_abort(if (wrong) {
+                      sprintf("`reading` is %s, not a list with names.", describe_value(reading))
+                    } else {
+                      sprintf("`reading` has arguments that reading does not take: %s.",
+                              shorten(strange))
+                    },
+                    sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments",
+                    call = call)
   }
   lapply(takes, function(names) reading[names(reading) %in% names])
 }
@@ -140,8 +144,9 @@ job_specimen <- function(job) {
   }
   if (!is.null(job$specimen)) return(job$specimen)
   at <- job$landmarks
-  if (!is.character(at)) return(do.call(read_specimen,
-                                        c(list(job$mesh, at, job$id), job$reading$specimen)))
+  if (!is.character(at)) {
+    return(do.call(read_specimen, c(list(job$mesh, at, job$id), job$reading$specimen)))
+  }
   points <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
   from_files(do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen)),
              job$mesh, at)

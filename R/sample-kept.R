@@ -113,8 +113,9 @@ write_whole <- function(bytes, file) {
 #' @noRd
 kept_bytes <- function(value, about, compression) {
   first <- charToRaw(paste(kept_layout, about$key, about$mesh))
-  about <- charToRaw(enc2utf8(jsonlite::toJSON(about, auto_unbox = TRUE, null = "null",
-                                               na = "null")))
+  about <- charToRaw(enc2utf8(jsonlite::toJSON(
+    about, auto_unbox = TRUE, null = "null", na = "null"
+  )))
   packed <- packed_bytes(value, compression)
   line <- as.raw(10L)
   c(first, line, charToRaw(checksum(first, about, packed)), line, about, line, packed)

@@ -46,12 +46,11 @@ run_tasks <- function(tasks, work, arguments, chunk, alone = FALSE, poll = 0.05)
 #' One future; or the condition by which its worker refused it
 #' @noRd
 start_lot <- function(tasks, work, arguments, tick) {
-  tryCatch(
-    future::future(work_lot(tasks, work, arguments, tick), packages = "crestline", seed = NULL,
-                   globals = list(tasks = tasks, work = work, arguments = arguments, tick = tick,
-                                  work_lot = work_lot)),
-    FutureError = identity
-  )
+  tryCatch(future::future(work_lot(tasks, work, arguments, tick), packages = "crestline",
+                          seed = NULL,
+                          globals = list(tasks = tasks, work = work, arguments = arguments,
+                                         tick = tick, work_lot = work_lot)),
+           FutureError = identity)
 }
 
 work_lot <- function(tasks, work, arguments, tick) {

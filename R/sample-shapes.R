@@ -219,13 +219,13 @@ refuse_place <- function(i, ids, call) {
   index <- is.character(i) || is.numeric(i) || is.logical(i)
   if (!index || anyNA(i)) refuse_place(i, ids, rlang::caller_env())
   at <- suppressWarnings(stats::setNames(seq_along(ids), ids)[i])
-  if (anyNA(at)) refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids,
-                              rlang::caller_env())
+  if (anyNA(at)) {
+    refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids, rlang::caller_env())
+  }
   shapes <- unclass(x)[at]
-  validate_shape_batch(new_shape_batch(shapes, attr(x, "failed")[intersect(names(shapes),
-                                                                           names(attr(x,
-                                                                                      "failed")))],
-                                       attr(x, "scheme")))
+  validate_shape_batch(new_shape_batch(
+    shapes, attr(x, "failed")[intersect(names(shapes), names(attr(x, "failed")))], attr(x, "scheme")
+  ))
 }
 
 #' @export
@@ -237,13 +237,12 @@ c.shape_batch <- function(...) {
   other <- which(vapply(schemes, `[[`, "", "key") != schemes[[1]]$key)
   if (length(other)) {
     crestline_abort(sprintf("the batches were measured by different schemes: %s, and another %s.",
-                            schemes[[1]]$name,
-                            schemes[[other[1]]]$name),
+                            schemes[[1]]$name, schemes[[other[1]]]$name),
                     "Measure all by one scheme: fit_shapes(..., scheme = ).", stage = "batch")
   }
-  validate_shape_batch(new_shape_batch(do.call(c, lapply(given, plain_list)),
-                                       do.call(c, lapply(given, attr, "failed")),
-                                       schemes[[1]]))
+  validate_shape_batch(new_shape_batch(
+    do.call(c, lapply(given, plain_list)), do.call(c, lapply(given, attr, "failed")), schemes[[1]]
+  ))
 }
 
 #' The elements of a batch as they are, without what makes it one
@@ -254,8 +253,9 @@ plain_list <- function(x) {
 }
 
 #' @export
-as.list.shape_batch <- function(x, ...) stats::setNames(lapply(seq_along(names(x)),
-                                                               function(i) x[[i]]), names(x))
+as.list.shape_batch <- function(x, ...) stats::setNames(
+  lapply(seq_along(names(x)), function(i) x[[i]]), names(x)
+)
 
 #' @export
 summary.shape_batch <- function(object, ...) {
@@ -268,8 +268,8 @@ summary.shape_batch <- function(object, ...) {
   count <- as.vector(table(factor(warnings_of(x)$id, names(x))))
   data.frame(specimen = names(x), measured = is.na(at),
              landmarks = unname(ifelse(is.na(at), landmarks, NA)),
-             lacking = unname(ifelse(is.na(at), lacking,
-                                     NA)), warnings = count, message = failed$message[at])
+             lacking = unname(ifelse(is.na(at), lacking, NA)), warnings = count,
+             message = failed$message[at])
 }
 
 #' @export
@@ -279,9 +279,8 @@ print.shape_batch <- function(x, most = 8, ...) {
     failed <- failures(x)
     files <- unlist(lapply(plain_list(x), attr, "file"))
     cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed),
-        " measured, ", nrow(failed),
-        " failed", if (length(files)) paste0(", in ",
-                                             shorten(unique(dirname(files)), 2)), "\n", sep = "")
+        " measured, ", nrow(failed), " failed",
+        if (length(files)) paste0(", in ", shorten(unique(dirname(files)), 2)), "\n", sep = "")
     told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
     print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]),
                   warning_lines(attr(failed, "warnings"))),
@@ -298,13 +297,14 @@ landmark_lines <- function(shapes) {
   found <- names(shapes)[vapply(told, `[[`, NA, "found")]
   lacking <- Filter(function(one) one$lacking[1] > 0, told)
   counts <- vapply(lacking, function(one) paste(one$lacking, collapse = " of "), "")
-  c(
-    if (length(found)) sprintf("%s: landmarks found by the template, not placed by hand: %s.",
-                               amount(length(found), "specimen"), shorten(found, 12)),
-    if (length(lacking)) sprintf("%s: landmarks of the scheme are missing: %s.",
-                                 amount(length(lacking), "specimen"),
-                                 shorten(sprintf("%s (%s)", names(lacking), counts), 12))
-  )
+  c(if (length(found)) {
+      sprintf("%s: landmarks found by the template, not placed by hand: %s.",
+              amount(length(found), "specimen"), shorten(found, 12))
+    },
+    if (length(lacking)) {
+      sprintf("%s: landmarks of the scheme are missing: %s.", amount(length(lacking), "specimen"),
+              shorten(sprintf("%s (%s)", names(lacking), counts), 12))
+    })
 }
 
 print_items <- function(lines, most, where) {
@@ -347,8 +347,9 @@ failures <- function(x) {
   rows <- lapply(names(x), function(name) {
     one <- elements[[name]]
     lost <- if (is.null(one)) failed[[name]] else if (inherits(one, "kept_shape")) kept_fault(one)
-    if (!is.null(lost)) data.frame(id = name, stage = lost$stage, message = lost$message,
-                                   remedy = lost$remedy)
+    if (!is.null(lost)) {
+      data.frame(id = name, stage = lost$stage, message = lost$message, remedy = lost$remedy)
+    }
   })
   empty <- data.frame(id = character(), stage = character(), message = character(),
                       remedy = character())

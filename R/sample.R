@@ -197,8 +197,9 @@ sample_field <- function(x, name) if (name == "shapes") as.list(x) else attr(x, 
     shape$id <- id
     shape
   }, x$shapes, value)
-  validate_shape_sample(new_shape_sample(stats::setNames(shapes, value), x$template, x$convergence,
-                                         x$provenance))
+  validate_shape_sample(new_shape_sample(
+    stats::setNames(shapes, value), x$template, x$convergence, x$provenance
+  ))
 }
 
 #' @rdname shape_sample
@@ -227,8 +228,9 @@ c.shape_sample <- function(...) {
   }
   warn_cut_scales(shapes, "sample")
   rounds <- Filter(Negate(is.null), lapply(samples, sample_field, "convergence"))
-  joined <- new_shape_sample(shapes, first$template, if (length(rounds)) rounds[[1]],
-                             first$provenance)
+  joined <- new_shape_sample(
+    shapes, first$template, if (length(rounds)) rounds[[1]], first$provenance
+  )
   validate_shape_sample(joined)
 }
 

@@ -8,27 +8,27 @@ check_scheme_curves <- function(curves, scheme) {
   side <- c("keep_side_from", "keep_side_to", "keep_side_towards")
   landmark_columns <- c("from", "to", "cut_from", "cut_to", "keep_away_from", "keep_away_to", side)
   by_curvature <- curves$kind != "plane"
-  empty <- function(column, where, why) problem(which(where & is.na(curves[[column]])), column,
-                                                paste("is empty:", why))
-  one <- function(a, b) problem(which(curves[[a]] == curves[[b]]), b,
-                                sprintf("is the same landmark as %s", a))
-  rbind(
-    named_once(curves$curve, "curve"),
-    problem(grep("[][+|]", curves$curve), "curve", "a name may not hold [ ] + or |"),
-    do.call(rbind, lapply(landmark_columns,
-                          function(column) unknown_names(curves[[column]], known, column,
-                                                         "landmark"))),
-    one("from", "to"), one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
-    one(side[1], side[2]), one(side[1], side[3]), one(side[2], side[3]), whole_group(curves, side),
-    empty("radius", by_curvature, "a ridge or valley needs it"),
-    empty("width", by_curvature, "a ridge or valley needs it"),
-    whole_group(curves, c("cut_share", "cut_from", "cut_to")),
-    whole_group(curves, c("keep_away_from", "keep_away_to")),
-    whole_group(curves, c("side_of", "side")),
-    needs(curves, "keep_away_radius", "keep_away_from"),
-    needs(curves, "keep_away_extension", "keep_away_from"),
-    check_trust(curves), check_side_of(curves)
+  empty <- function(column, where, why) problem(
+    which(where & is.na(curves[[column]])), column, paste("is empty:", why)
   )
+  one <- function(a, b) problem(
+    which(curves[[a]] == curves[[b]]), b, sprintf("is the same landmark as %s", a)
+  )
+  rbind(named_once(curves$curve, "curve"),
+        problem(grep("[][+|]", curves$curve), "curve", "a name may not hold [ ] + or |"),
+        do.call(rbind, lapply(landmark_columns, function(column) unknown_names(
+          curves[[column]], known, column, "landmark"
+        ))),
+        one("from", "to"), one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
+        one(side[1], side[2]), one(side[1], side[3]), one(side[2], side[3]),
+        whole_group(curves, side), empty("radius", by_curvature, "a ridge or valley needs it"),
+        empty("width", by_curvature, "a ridge or valley needs it"),
+        whole_group(curves, c("cut_share", "cut_from", "cut_to")),
+        whole_group(curves, c("keep_away_from", "keep_away_to")),
+        whole_group(curves, c("side_of", "side")),
+        needs(curves, "keep_away_radius", "keep_away_from"),
+        needs(curves, "keep_away_extension", "keep_away_from"), check_trust(curves),
+        check_side_of(curves))
 }
 
 check_trust <- function(curves) {
@@ -54,8 +54,9 @@ check_scheme_patches <- function(patches, scheme) {
   blocks <- ifelse(is.na(patches$block), patches$patch, paste0(patches$patch, "|", patches$block))
   both <- patches$patch %in% patches$patch[is.na(patches$block)] & duplicated(patches$patch) &
     !duplicated(blocks)
-  unreadable <- function(column) which(vapply(patches[[column]],
-                                              function(text) is.null(number_list(text)), NA))
+  unreadable <- function(column) which(vapply(
+    patches[[column]], function(text) is.null(number_list(text)), NA
+  ))
   problems <- rbind(
     named_once(blocks, "patch"),
     problem(which(both), "block", "is empty in one row of the patch and not in another"),
@@ -77,8 +78,9 @@ check_scheme_patches <- function(patches, scheme) {
 #' Ranges, counts and ends of blocks that can be read
 #' @noRd
 block_problems <- function(patches) {
-  own <- function(text) vapply(text,
-                               function(x) if (is.na(x)) NA_integer_ else nrow(side_points(x)), 1L)
+  own <- function(text) vapply(
+    text, function(x) if (is.na(x)) NA_integer_ else nrow(side_points(x)), 1L
+  )
   length_of <- function(text, resample) ifelse(is.na(resample), own(text), resample)
   a <- length_of(patches$curve_a, patches$resample_a)
   b <- length_of(patches$curve_b, patches$resample_b)
@@ -94,17 +96,19 @@ block_problems <- function(patches) {
   apart <- which(!is.na(b) & a != b)
   wide <- outside(columns, a)
   high <- outside(rows, patches$rows)
-  rbind(
-    problem(apart, "curve_b",
-            sprintf("gives %d columns where curve_a gives %d", b[apart], a[apart])),
-    problem(wide, "columns",
-            sprintf("%s does not lie within 1 to %d, each once", patches$columns[wide], a[wide])),
-    problem(high, "rows_kept",
-            sprintf("%s does not lie within 1 to %d, each once", patches$rows_kept[high],
-                                       patches$rows[high])),
-    problem(wrong, "n", sprintf("is %d, but %d columns times %d rows are kept", patches$n[wrong],
-                                lengths(columns)[wrong], lengths(rows)[wrong]))
-  )
+  rbind(problem(apart, "curve_b", sprintf(
+          "gives %d columns where curve_a gives %d", b[apart], a[apart]
+        )),
+        problem(wide, "columns", sprintf(
+          "%s does not lie within 1 to %d, each once", patches$columns[wide], a[wide]
+        )),
+        problem(high, "rows_kept", sprintf(
+          "%s does not lie within 1 to %d, each once", patches$rows_kept[high], patches$rows[high]
+        )),
+        problem(wrong, "n", sprintf(
+          "is %d, but %d columns times %d rows are kept", patches$n[wrong], lengths(columns)[wrong],
+          lengths(rows)[wrong]
+        )))
 }
 
 #' Bounding curves that cannot be read, are unknown, or have fewer points
@@ -112,14 +116,16 @@ block_problems <- function(patches) {
 side_problems <- function(patches, column, curves) {
   each <- lapply(which(!is.na(patches[[column]])), function(row) {
     parts <- curve_parts(patches[[column]][row])
-    if (is.null(parts)) return(problem(row, column,
-                                       "cannot be read: write curve[1:8], joined by +"))
+    if (is.null(parts)) {
+      return(problem(row, column, "cannot be read: write curve[1:8], joined by +"))
+    }
     unknown <- unknown_names(parts$curve, curves$curve, column, "curve")
     n <- curves$n[match(parts$curve, curves$curve)]
     beyond <- which(!is.na(n) & (pmin(parts$from, parts$to) < 1 | pmax(parts$from, parts$to) > n))
-    text <- c(unknown$text,
-              sprintf("%s has points 1 to %d, not %d:%d", parts$curve[beyond], n[beyond],
-                                    parts$from[beyond], parts$to[beyond]))
+    text <- c(unknown$text, sprintf(
+      "%s has points 1 to %d, not %d:%d", parts$curve[beyond], n[beyond], parts$from[beyond],
+      parts$to[beyond]
+    ))
     problem(rep(row, length(text)), column, text)
   })
   do.call(rbind, c(list(problem(integer())), each))
@@ -150,8 +156,9 @@ check_scheme_definitions <- function(definitions, scheme) {
   names <- c("landmark", "from", "to", "across_from", "across_to")
   on_curve <- kind %in% c("turn", "end", "crossing")
   other <- !is.na(definitions$across_from)
-  wants <- function(column, where, why) problem(which(where & is.na(definitions[[column]])), column,
-                                                paste("is empty:", why))
+  wants <- function(column, where, why) problem(
+    which(where & is.na(definitions[[column]])), column, paste("is empty:", why)
+  )
   bends <- list(profile = c("out", "in"), turn = c("left", "right"))
   wrong_bend <- which(kind %in% names(bends) &
                       !mapply(function(k, bend) bend %in% bends[[k]], kind, definitions$bend))

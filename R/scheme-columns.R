@@ -95,8 +95,9 @@ typed_table <- function(table, columns) {
   })
   problems <- rbind(problems,
                     do.call(rbind, lapply(typed[names(columns) %in% given], `[[`, "problems")))
-  known <- as.data.frame(stats::setNames(lapply(typed, `[[`, "cells"), names(columns)),
-                         stringsAsFactors = FALSE)
+  known <- as.data.frame(
+    stats::setNames(lapply(typed, `[[`, "cells"), names(columns)), stringsAsFactors = FALSE
+  )
   list(table = cbind(known, table[setdiff(names(table), names(columns))]), problems = problems)
 }
 

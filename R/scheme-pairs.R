@@ -15,9 +15,9 @@ check_scheme_pairs <- function(pairs, scheme) {
     problem(here$row[found$row], here$side[found$row], found$text)
   })
   twice <- sides[duplicated(sides[c("level", "name")]), ]
-  problems <- rbind(do.call(rbind, problems),
-                    problem(twice$row, twice$side,
-                            sprintf("\"%s\" has a partner already", twice$name)))
+  problems <- rbind(do.call(rbind, problems), problem(
+    twice$row, twice$side, sprintf("\"%s\" has a partner already", twice$name)
+  ))
   if (nrow(problems) || !nrow(pairs)) return(problems)
   rbind(unlike_curves(pairs, scheme$curves), unlike_patches(pairs, scheme$patches))
 }
@@ -41,8 +41,9 @@ unlike_curves <- function(pairs, curves) {
   found <- unlike_pairs(pairs, "curves", curves$curve, curves, mirror, columns)
   for (axis in c("cut", "keep_away", "keep_side")) {
     ends <- paste0(axis, c("_from", "_to"))
-    found <- rbind(found, unlike_pairs(pairs, "curves", curves$curve, unordered(curves, ends),
-                                       unordered(mirror, ends), axis))
+    found <- rbind(found, unlike_pairs(
+      pairs, "curves", curves$curve, unordered(curves, ends), unordered(mirror, ends), axis
+    ))
   }
   ends <- c("from", "to")
   unlike <- unordered(curves, ends)[[1]] != unordered(mirror, ends)[[1]]
@@ -104,11 +105,13 @@ unlike_pairs <- function(pairs, level, name, table, mirror, columns) {
     }
     unlike <- Filter(function(column) !all(same(mirror[[column]][left], table[[column]][right])),
                      columns)
-    cells <- function(table, rows) vapply(unlike, function(column) toString(table[[column]][rows]),
-                                          "")
-    problem(rep(row, length(unlike)), "right",
-            sprintf("is no mirror image: %s is %s, the partner's %s", unlike,
-                                                       cells(table, right), cells(mirror, left)))
+    cells <- function(table, rows) vapply(
+      unlike, function(column) toString(table[[column]][rows]), ""
+    )
+    problem(rep(row, length(unlike)), "right", sprintf(
+      "is no mirror image: %s is %s, the partner's %s", unlike, cells(table, right),
+      cells(mirror, left)
+    ))
   })
   do.call(rbind, c(list(problem(integer())), each))
 }

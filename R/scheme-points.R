@@ -84,8 +84,9 @@ curve_places <- function(curve, point, curves) {
 #' @return Data frame `level`, `part`, `point`, `place`: points of one place have one name of it.
 #' @noRd
 scheme_points <- function(landmarks, curves, patches) {
-  on_curve <- data.frame(part = rep(curves$curve, curves$n),
-                         point = unlist(lapply(curves$n, seq_len)))
+  on_curve <- data.frame(
+    part = rep(curves$curve, curves$n), point = unlist(lapply(curves$n, seq_len))
+  )
   surface <- lapply(seq_len(nrow(patches)), function(i) block_surface(patches[i, ], curves))
   rbind(
     data.frame(level = rep("landmarks", nrow(landmarks)), part = landmarks$landmark,

@@ -79,8 +79,9 @@ quad_triangles <- function(grid, outward, part, group) {
 grid_quads <- function(grid) {
   nc <- nrow(grid)
   nr <- ncol(grid)
-  if (nc < 2 || nr < 2) return(matrix(integer(), 0, 4,
-                                      dimnames = list(NULL, c("a", "b", "c", "d"))))
+  if (nc < 2 || nr < 2) {
+    return(matrix(integer(), 0, 4, dimnames = list(NULL, c("a", "b", "c", "d"))))
+  }
   corner <- function(columns, rows) as.vector(grid[columns, rows])
   cbind(a = corner(-nc, -nr), b = corner(-1, -nr), c = corner(-1, -1), d = corner(-nc, -1))
 }

@@ -119,8 +119,10 @@ build_scheme <- function(tables, name, labels) {
   }
   scheme$curves <- with_defaults(scheme$curves)
   points <- scheme_points(scheme$landmarks, scheme$curves, scheme$patches)
-  scheme <- new_curve_scheme(scheme$name, scheme[names(scheme_columns)], points,
-                             scheme_triangles(scheme$patches, scheme$strips, points))
+  scheme <- new_curve_scheme(
+    scheme$name, scheme[names(scheme_columns)], points,
+    scheme_triangles(scheme$patches, scheme$strips, points)
+  )
   scheme_plan(scheme)
   scheme
 }
@@ -193,8 +195,11 @@ present_table <- function(table, which, label) {
     return(as.data.frame(stats::setNames(rep(list(character()), length(names)), names)))
   }
   if (!is.data.frame(table) || nrow(table) == 0) {
-    crestline_abort(sprintf("table %s is %s.", label,
-                            if (is.data.frame(table)) "empty" else describe_value(table)),
+    crestline_abort(sprintf("table %s is %s.", label, if (is.data.frame(table)) {
+                      "empty"
+                    } else {
+                      describe_value(table)
+                    }),
                     "Give a data frame, see `?curve_scheme`.", stage = "scheme",
                     class = "crestline_scheme_error", call = NULL)
   }
@@ -247,8 +252,9 @@ print.curve_scheme <- function(x, ...) {
          sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
          sum(!is.na(curves$angle_limit)), " limited in angle")
     line("surface: ", surface_line(x))
-    if (nrow(x$definitions)) line("landmarks with a definition: ",
-                                  shorten(x$definitions$landmark, 30))
+    if (nrow(x$definitions)) {
+      line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
+    }
     line("left-right pairs: ",
          paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
     invisible(x)

@@ -85,7 +85,8 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
     if (!is.numeric(value) || length(value) != size || any(!is.finite(value) | value < low)) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(value)),
                       sprintf("Give %d finite number%s %s 0.", size, if (size > 1) "s" else "",
-                              if (low > 0) "above" else "of at least"), stage = "arguments")
+                              if (low > 0) "above" else "of at least"),
+                      stage = "arguments")
     }
   }
   structure(settings, class = "find_settings")

@@ -29,8 +29,9 @@ shape_checks <- function(shape, scan, fits, faults, ends = 0.05, crumpled = 30, 
                        cut = NA_real_, guessed = NA, bridged = NA_real_, faults = NA_integer_,
                        size = vapply(places, `[[`, 0, "size"))
   curves <- status$level == "curves"
-  checks$determined[curves] <- ifelse(shape$scheme$curves$n > 2, fit_values(fits, "determined") > 0,
-                                      NA)
+  checks$determined[curves] <- ifelse(
+    shape$scheme$curves$n > 2, fit_values(fits, "determined") > 0, NA
+  )
   checks$cut[curves] <- fit_values(fits, "cut")
   checks$guessed[curves] <- fit_values(fits, "guessed") > 0
   checks$bridged[curves] <- vapply(fits, function(fit) bridged_share(fit$path, ncol(mesh$it)), 0)
@@ -113,8 +114,11 @@ local_mesh <- function(places, mesh, bend) {
              row_lengths(corner[[1]] - corner[[3]])) / 3
   mean_of <- function(values) {
     vapply(places, function(place) {
-      if (length(place$face)) stats::weighted.mean(values[match(place$face, face)],
-                                                   place$weight) else NA_real_
+      if (length(place$face)) {
+        stats::weighted.mean(values[match(place$face, face)], place$weight)
+      } else {
+        NA_real_
+      }
     }, 0)
   }
   data.frame(roughness = mean_of(bend[face]), edge = mean_of(edge))
@@ -239,8 +243,9 @@ overlapping_boxes <- function(low, high) {
   second <- first + sequence(count)
   pairs <- cbind(along[first], along[second])
   for (axis in 2:3) {
-    apart <- low[pairs[, 1], axis] > high[pairs[, 2],
-                                          axis] | low[pairs[, 2], axis] > high[pairs[, 1], axis]
+    apart <- low[pairs[, 1], axis] > high[pairs[, 2], axis] | low[pairs[, 2], axis] > high[
+      pairs[, 1], axis
+    ]
     pairs <- pairs[!apart, , drop = FALSE]
   }
   cbind(pmin(pairs[, 1], pairs[, 2]), pmax(pairs[, 1], pairs[, 2]))

@@ -105,12 +105,14 @@ cut_span <- function(row, scan) {
   known <- !is.na(at[, 1])
   if (all(known)) return(list(length = sqrt(sum((at[1, ] - at[2, ])^2))))
   gone <- c(row$cut_from, row$cut_to)[!known]
-  plane <- if (any(known) &&
-               partner_of(row$cut_from, pairs,
-                          "landmarks") == row$cut_to) mirror_plane(scan, pairs)
-  if (is.null(plane)) return(list(length = NA_real_,
-                                  note = sprintf("%s is missing: where to cut it is not known",
-                                                 toString(gone))))
+  plane <- if (any(known) && partner_of(row$cut_from, pairs, "landmarks") == row$cut_to) {
+    mirror_plane(scan, pairs)
+  }
+  if (is.null(plane)) {
+    return(list(length = NA_real_, note = sprintf(
+      "%s is missing: where to cut it is not known", toString(gone)
+    )))
+  }
   list(length = 2 * abs(sum(at[known, ] * plane$normal) - plane$offset),
        note = sprintf("%s is missing: cut by the distance of its pair from the mirror plane", gone))
 }
@@ -196,8 +198,9 @@ way_out <- function(scan, near, target, angles = 121, bend = 1.35, inside = 1e-6
   at <- as.vector(xyz[, scan$it[, near[["face"]]]] %*% weight) / sum(weight)
   axis <- unit_vector(target - at)
   across <- unit_vector(cross_product(axis, path_normals(scan, as.list(near))[, 1]))
-  normals <- plane_normal(list(axis = axis, across = across),
-                          seq(-pi / 2, pi / 2, length.out = angles)[-1])
+  normals <- plane_normal(
+    list(axis = axis, across = across), seq(-pi / 2, pi / 2, length.out = angles)[-1]
+  )
   ways <- lapply(seq_len(ncol(normals)), function(i) {
     level <- as.vector(normals[, i] %*% xyz) - sum(normals[, i] * at)
     walk <- cpp_level_path(scan$vb, scan$it, scan$twin, near[["face"]], 0, level, axis)$points
@@ -235,8 +238,9 @@ cut_curve <- function(mesh, fit, length, n) {
   path <- part_of_path(mesh, fit$path, start, fit$length)
   at <- resample_path(mesh, path, placed)
   se <- rep(NA_real_, placed)
-  if (any(is.finite(fit$points$se))) se <- stats::approx(fit$points$s, fit$points$se, at$s + start,
-                                                         rule = 2)$y
+  if (any(is.finite(fit$points$se))) {
+    se <- stats::approx(fit$points$s, fit$points$se, at$s + start, rule = 2)$y
+  }
   points <- cbind(at[c(mesh_columns, "s")], se = se)[c(rep(NA, n - placed), seq_len(placed)), ]
   rownames(points) <- NULL
   cut <- list(points = points, path = path, length = attr(path, "length"), se = stats::median(se),
@@ -289,8 +293,8 @@ check_tracks <- function(shape, scan) {
     check_class(track$path, "mesh_path", said, "fit_shape()")
     check_places(track$path, scan, said, shape$id)
     s <- track$s[!is.na(track$s)]
-    right <- is.numeric(track$s) && length(track$s) == sum(shape$points$level == "curves" &
-                                                           shape$points$part == name) &&
+    right <- is.numeric(track$s) &&
+      length(track$s) == sum(shape$points$level == "curves" & shape$points$part == name) &&
       !is.unsorted(s) && all(abs(s / attr(track$path, "length") - 0.5) <= 0.5 + 1e-9)
     if (!right) {
       crestline_abort(sprintf("%s has points that are not on it, in order.", said),

@@ -187,8 +187,9 @@ edges_on_curves <- function(paths, at, ends, tolerance) {
 fill_quads <- function(points, lattice, cutter) {
   lines <- inner_lines(lattice, points, cutter$factor)
   inner <- seq_len(cutter$factor - 1) + 1
-  points[t(lines[, inner]), ] <- cut_points(points, lines[, c(1, cutter$factor + 1), drop = FALSE],
-                                            cutter)
+  points[t(lines[, inner]), ] <- cut_points(
+    points, lines[, c(1, cutter$factor + 1), drop = FALSE], cutter
+  )
   points
 }
 

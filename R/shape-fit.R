@@ -148,8 +148,9 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   specimen <- with_located(specimen)
   if (!is.null(specimen$placing)) specimen$placing <- current_placing(specimen)
   scan <- prepare_scan(specimen, scheme, settings, passes, column, threads)
-  tick <- progress_ticks(progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches),
-                         specimen$id)
+  tick <- progress_ticks(
+    progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id
+  )
   given <- if (length(curves)) given_fits(scan, curves)
   slips <- scheme_slips(specimen, scheme)
   fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
@@ -157,13 +158,12 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   open <- !names(fits) %in% names(given)
   fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan, cut_scale)
   patches <- fit_scheme_patches(scan, fits, place_store(scan, fits), tick)
-  shape <- new_shape(specimen$id, shape_points(scheme, patches$store),
-                     shape_status(scan, fits, patches$problems), scheme,
-                     paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
-                     tracks = curve_tracks(fits, scan), column = column,
-                     specimen = specimen,
-                     provenance = shape_provenance(specimen, named, unit, scan, cut_scale,
-                                                   names(curves)))
+  shape <- new_shape(
+    specimen$id, shape_points(scheme, patches$store), shape_status(scan, fits, patches$problems),
+    scheme, paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
+    tracks = curve_tracks(fits, scan), column = column, specimen = specimen,
+    provenance = shape_provenance(specimen, named, unit, scan, cut_scale, names(curves))
+  )
   triangles <- triangles_there(scheme$triangles, shape$points, "model")
   faults <- if (nrow(triangles)) {
     faults_among(triangles, shape$points[shape$points$level == "surface", ], specimen$mesh)

@@ -11,8 +11,9 @@ given_fits <- function(scan, curves) {
   specimen <- scan$specimen
   scheme <- scan$scheme
   for (name in names(curves)) {
-    if (inherits(curves[[name]], "curve")) check_curve_on(curves[[name]], specimen,
-                                                          sprintf("`curves`: %s", name))
+    if (inherits(curves[[name]], "curve")) {
+      check_curve_on(curves[[name]], specimen, sprintf("`curves`: %s", name))
+    }
   }
   curves <- as_curves(curves)
   unknown <- unknown_names(names(curves), scheme$curves$curve, "curve", "curve")
@@ -54,8 +55,10 @@ given_fit <- function(row, xyz, scan, tolerance) {
   points <- if (own) data.frame(knots, s = joined$s) else resample_path(scan, joined$path, row$n)
   points[seq_len(joined$first - 1), ] <- NA
   said <- sprintf("as given: points up to %.2g from the mesh", max(off[joined$first:nrow(xyz)]))
-  if (joined$first > 1) said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first,
-                                        row$n, joined$problem)
+  if (joined$first > 1) {
+    said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first, row$n,
+                    joined$problem)
+  }
   new_record(points = cbind(points[c(mesh_columns, "s")], se = NA_real_), path = joined$path,
              length = attr(joined$path, "length"), reason = said)
 }

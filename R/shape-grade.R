@@ -50,35 +50,36 @@ judge_parts <- function(parts, limits, scheme) {
   partner <- partner_of(parts$part, scheme$pairs, "curves")
   partner <- ifelse(partner == parts$part, "its own mirror image",
                     paste("the mirror image of", partner))
-  list(
-    judge("missing", NA),
-    flag(parts$determined %in% FALSE, "undetermined"),
-    flag(parts$guessed %in% TRUE, "guessed"),
-    judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius),
-          own(parts$se / parts$radius)),
-    se_max = judge("se_max",
-                   sprintf("its standard error is %.2g radii at one place",
-                           parts$se_max / parts$radius),
-          own(parts$se_max / parts$radius)),
-    judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing),
-          own(parts$competing)),
-    judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast),
-          own(parts$contrast)),
-    judge("z", sprintf("its length is off the others' (z = %.1f)", parts$z), abs(parts$z)),
-    judge("asymmetry", sprintf("it is off %s by %.0f %% of its length", partner,
-                               100 * parts$asymmetry)),
-    judge("roughness", sprintf("the surface is rough there: %.0f degrees", parts$roughness)),
-    judge("coarse", sprintf("the mesh is coarse there: edges of %.2g radii", parts$coarse),
-          ifelse(curved, own(parts$coarse), NA)),
-    judge("bridged", sprintf("it runs over a hole for %s of its length", per_cent(parts$bridged))),
-    judge("border", sprintf("it runs by a border or hole, %s of its %s away",
-                            per_cent(parts$border), its)),
-    judge("spike", sprintf("it runs by a spike, %s of its %s away", per_cent(parts$spike), its)),
-    judge("offset", sprintf("it runs beside its homologous points, %.2g radii of the template off",
-                            parts$offset)),
-    judge("cut", NA),
-    judge("faults", NA)
-  )
+  list(judge("missing", NA), flag(parts$determined %in% FALSE, "undetermined"),
+       flag(parts$guessed %in% TRUE, "guessed"),
+       judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius),
+             own(parts$se / parts$radius)),
+       se_max = judge("se_max",
+                      sprintf("its standard error is %.2g radii at one place",
+                              parts$se_max / parts$radius),
+                      own(parts$se_max / parts$radius)),
+       judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing),
+             own(parts$competing)),
+       judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast),
+             own(parts$contrast)),
+       judge("z", sprintf("its length is off the others' (z = %.1f)", parts$z), abs(parts$z)),
+       judge("asymmetry", sprintf(
+         "it is off %s by %.0f %% of its length", partner, 100 * parts$asymmetry
+       )),
+       judge("roughness", sprintf("the surface is rough there: %.0f degrees", parts$roughness)),
+       judge("coarse", sprintf("the mesh is coarse there: edges of %.2g radii", parts$coarse),
+             ifelse(curved, own(parts$coarse), NA)),
+       judge("bridged", sprintf(
+         "it runs over a hole for %s of its length", per_cent(parts$bridged)
+       )),
+       judge("border", sprintf(
+         "it runs by a border or hole, %s of its %s away", per_cent(parts$border), its
+       )),
+       judge("spike", sprintf("it runs by a spike, %s of its %s away", per_cent(parts$spike), its)),
+       judge("offset", sprintf(
+         "it runs beside its homologous points, %.2g radii of the template off", parts$offset
+       )),
+       judge("cut", NA), judge("faults", NA))
 }
 
 #' What is doubted of landmarks, and so of the curves that end there; where most are, of all parts
@@ -102,7 +103,8 @@ judge_landmarks <- function(parts, limits, scheme) {
   share <- if (any(parts$state %in% "found")) sum(low > 0) / of else 0
   all <- list(level = rep(level_beyond(share, limits$doubtful, FALSE), nrow(parts)),
               text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0),
-                                 of), nrow(parts)))
+                                 of),
+                         nrow(parts)))
   # A landmark's own reason says already that it looks exchanged.
   checks$exchanged$text[marks] <- NA
   unname(c(checks, ends, list(all)))

@@ -38,8 +38,9 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
                        column_angles = 51, column_reach = 1) {
   check_given()
   patch <- check_text(patch, "patch")
-  if (!is.null(block) && !is.atomic(block)) refuse_argument("block", block, "Give a block's name.",
-                                                            rlang::current_env())
+  if (!is.null(block) && !is.atomic(block)) {
+    refuse_argument("block", block, "Give a block's name.", rlang::current_env())
+  }
   check_class(x, "shape", "x", "fit_shape()")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   check_shape_on(x, specimen)
@@ -54,8 +55,9 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   outward <- if (is.na(block$outward)) "columns" else block$outward
   triangles <- quad_triangles(matrix(vertex, columns, byrow = TRUE), outward, "model", patch)
   it <- t(as.matrix(triangles[stats::complete.cases(triangles), c("v1", "v2", "v3")]))
-  if (!length(it)) refuse_patch(x, "no two columns side by side were found",
-                                "See `status` for what is missing.")
+  if (!length(it)) {
+    refuse_patch(x, "no two columns side by side were found", "See `status` for what is missing.")
+  }
   first <- match(seq_len(max(vertex, na.rm = TRUE)), vertex)
   mesh <- rgl::mesh3d(vertices = unname(rbind(t(as.matrix(points[first, c("x", "y", "z")])), 1)),
                       triangles = unname(it))
@@ -93,15 +95,17 @@ refuse_patch <- function(x, problem, remedy) {
 #' @noRd
 block_grid <- function(x, scan, block, columns, rows) {
   fits <- shape_fits(x, scan)
-  store <- as.matrix(x$points[match(unique(x$scheme$points$place), x$scheme$points$place),
-                              mesh_columns])
+  store <- as.matrix(
+    x$points[match(unique(x$scheme$points$place), x$scheme$points$place), mesh_columns]
+  )
   rownames(store) <- unique(x$scheme$points$place)
   ground <- list(scan = scan, fits = fits, store = store)
   side <- function(side, n) side_points_on(side, n, ground)
   a <- side(block$a, columns)
   b <- side(block$b, columns)
-  if (!is.null(c(a$problem, b$problem))) refuse_patch(x, c(a$problem, b$problem)[1],
-                                                      "See `status` for the reason.")
+  if (!is.null(c(a$problem, b$problem))) {
+    refuse_patch(x, c(a$problem, b$problem)[1], "See `status` for the reason.")
+  }
   outside <- vapply(seq_len(columns),
                     function(k) column_outside(a$points, b$points, k, block$outward), numeric(3))
   grid <- column_points(a$points, b$points, outside, rows, scan)
@@ -155,8 +159,9 @@ arc_lengths_on <- function(path, xyz, tolerance) {
     share <- closest_on_segments(p, a, b)
     away <- row_lengths(p - a - share * (b - a))
     best <- which.min(away)
-    if (away[best] <= tolerance) s[i] <- path$s[best] + share[best] * (path$s[best + 1] -
-                                                                       path$s[best])
+    if (away[best] <= tolerance) {
+      s[i] <- path$s[best] + share[best] * (path$s[best + 1] - path$s[best])
+    }
   }
   s
 }

@@ -28,7 +28,8 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
   radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
   if (radius > size / 2) {
     crestline_abort(sprintf(paste0("the scheme's radius of %.4g is as large as the mesh, whose ",
-                                   "size is %.4g."), radius, size),
+                                   "size is %.4g."),
+                            radius, size),
                     paste0("Is the mesh in another unit? For a scan in metres and a scheme in mm ",
                            "give `unit = 1000`."),
                     stage = "curvature", id = specimen$id, call = call)
@@ -91,17 +92,19 @@ scheme_slips <- function(specimen, scheme) {
   midline <- setdiff(eval(formals(crestline::specimen)$midline), unlist(pairs))
   located <- specimen$geometry$located[match(own, rownames(specimen$geometry$landmarks),
                                              nomatch = 0), ]
-  slips <- exchanged_landmarks(specimen$landmarks[own, , drop = FALSE],
-                               mean_front(specimen$mesh, located),
-                               pairs, midline, typical_landmarks(scheme))
+  slips <- exchanged_landmarks(
+    specimen$landmarks[own, , drop = FALSE], mean_front(specimen$mesh, located), pairs, midline,
+    typical_landmarks(scheme)
+  )
   if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
   # What is said of exchanged landmarks, by landmark; NA where there is nothing to say
   said <- stats::setNames(rep(NA_character_, length(own)), own)
   if (slips$mirrored) said[own %in% unlist(pairs)] <- "left and right look mirrored"
   for (group in slips$groups) said[group] <- paste(word_list(group), "look exchanged")
   for (two in slips$either) {
-    said[unlist(two)] <- paste(paste(vapply(two, word_list, ""), collapse = " or "),
-                               "look exchanged")
+    said[unlist(two)] <- paste(
+      paste(vapply(two, word_list, ""), collapse = " or "), "look exchanged"
+    )
   }
   slips$said <- said[own]
   slips

@@ -46,8 +46,9 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
   check_class(x, "shape", "x", "fit_shape()")
   dense <- check_count(dense, "dense", upper = 1000)
   column <- check_column(column_angle, column_angles, column_reach)
-  if (!is.null(specimen)) check_class(specimen, "specimen", "specimen",
-                                      "specimen() or read_specimen()")
+  if (!is.null(specimen)) {
+    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  }
   triangles <- whole_triangles(x, parts)
   check_memory(3 * nrow(triangles) * as.numeric(dense)^2 * 10, dense, "dense")
   corners <- as.matrix(triangles[c("v1", "v2", "v3")])
@@ -104,7 +105,8 @@ surface_mesh <- function(points, row, it, group) {
 
 warn_left_out <- function(n, of, id) {
   crestline_warn(sprintf(paste("%d of %d triangles of the denser surface are left out: no cut",
-                               "leads to their points."), n, of),
+                               "leads to their points."),
+                         n, of),
                  paste("Fill the holes of the specimen there, or try a greater `column_angle`",
                        "or `column_reach`."),
                  stage = "shape", id = id)

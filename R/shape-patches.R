@@ -170,11 +170,10 @@ fit_columns <- function(from, to, outside, rows, scan, inside = 1e-6, rim = pi /
   at <- c("face", "w1", "w2", "w3")
   same <- rowSums((from[, 1:3, drop = FALSE] - to[, 1:3, drop = FALSE])^2) == 0
   apart <- scan$piece[from[, "face"]] != scan$piece[to[, "face"]]
-  found <- cpp_fit_columns(scan$vb, scan$it, scan$twin, from[, at, drop = FALSE],
-                           to[, at, drop = FALSE],
-                           outside, rep(rows, nrow(from)),
-                           c(scan$column, inside = inside, rim = rim),
-                           chord_settings())
+  found <- cpp_fit_columns(
+    scan$vb, scan$it, scan$twin, from[, at, drop = FALSE], to[, at, drop = FALSE], outside,
+    rep(rows, nrow(from)), c(scan$column, inside = inside, rim = rim), chord_settings()
+  )
   why <- unname(column_problems[found$end])
   why[apart] <- "its ends lie on different pieces of the mesh"
   why[same] <- "its ends are the same point"

@@ -71,8 +71,10 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   measured <- Filter(Negate(is.null), shapes)
   parts <- Map(part_measures, measured, names(measured))
   scores <- sample_scores(measured, if (!is.null(others)) named_shapes(others, "others"), limits)
-  parts <- Map(function(part, name) grade_parts(part, scores[name, ], limits,
-                                                measured[[name]]$scheme), parts, names(parts))
+  parts <- Map(function(part, name) grade_parts(
+                 part, scores[name, ], limits, measured[[name]]$scheme
+               ),
+               parts, names(parts))
   noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
   lost <- lapply(setdiff(names(shapes), names(measured)), lost_specimen)
   table <- do.call(rbind, c(unname(parts), noted, lost))
@@ -162,9 +164,9 @@ lost_specimen <- function(name) specimen_row(name, "red", "it was not measured")
 #' What a specimen was warned of while it was measured; NULL where it was not
 #' @noRd
 noted_specimen <- function(name, warnings) {
-  if (NROW(warnings)) specimen_row(name, "amber",
-                                   paste(sub("[.]$", "", unique(warnings$problem)),
-                                         collapse = "; "))
+  if (NROW(warnings)) {
+    specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
+  }
 }
 
 specimen_row <- function(name, grade, why) {
@@ -285,8 +287,9 @@ curve_asymmetry <- function(shape) {
   points <- shape$points[shape$points$level == "curves", ]
   own <- split.data.frame(as.matrix(points[c("x", "y", "z")]), factor(points$part, curves$curve))
   partner <- partner_of(curves$curve, pairs, "curves")
-  backwards <- partner_of(curves$from, pairs,
-                          "landmarks") != curves$from[match(partner, curves$curve)]
+  backwards <- partner_of(curves$from, pairs, "landmarks") != curves$from[match(
+    partner, curves$curve
+  )]
   for (i in seq_along(none)) {
     mirrored <- image(own[[partner[i]]])
     if (backwards[i]) mirrored <- mirrored[rev(seq_len(nrow(mirrored))), , drop = FALSE]

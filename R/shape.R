@@ -37,26 +37,30 @@ validate_shape <- function(x) {
                     call = NULL)
   }
   fields <- c("id", "points", "status", "paths", "scheme")
-  if (!is.list(x) || !all(fields %in%
-                          names(x))) refuse(sprintf("a shape has the fields %s.", shorten(fields)))
+  if (!is.list(x) || !all(fields %in% names(x))) {
+    refuse(sprintf("a shape has the fields %s.", shorten(fields)))
+  }
   if (!inherits(x$scheme, "curve_scheme")) refuse("the shape's `scheme` is none.")
   validate(x$scheme)
   points <- x$points
   named <- c("level", "part", "point")
-  table <- function(value) is.data.frame(value) && all(vapply(value, is.atomic, NA) &
-                                                       lengths(value) == nrow(value))
+  table <- function(value) is.data.frame(value) &&
+    all(vapply(value, is.atomic, NA) & lengths(value) == nrow(value))
   own <- table(points) && !is.null(place_columns(points)) && is_error(points$se) &&
-    all(vapply(named, function(name) identical(as.vector(points[[name]]),
-                                               as.vector(x$scheme$points[[name]])), NA))
-  if (!own) refuse(paste0("its `points` are not those of its scheme: a row was added or lost, or ",
-                          "a column changed."))
+    all(vapply(named,
+               function(name) identical(
+                 as.vector(points[[name]]), as.vector(x$scheme$points[[name]])
+               ),
+               NA))
+  if (!own) {
+    refuse(paste0("its `points` are not those of its scheme: a row was added or lost, or ",
+                  "a column changed."))
+  }
   if (!is.list(x$paths) ||
       !is.data.frame(x$status)) refuse("its `paths` or `status` are not what they were.")
   kept <- function(name, is) is.null(x[[name]]) || is(x[[name]])
-  right <- kept("checks", table) && kept("placing",
-                                         table) && kept("warnings",
-                                                        table) && kept("provenance", is.list) &&
-    (is.null(x$checks) || nrow(x$checks) == nrow(x$status))
+  right <- kept("checks", table) && kept("placing", table) && kept("warnings", table) &&
+    kept("provenance", is.list) && (is.null(x$checks) || nrow(x$checks) == nrow(x$status))
   if (!right) refuse("its `checks`, `placing`, `warnings` or `provenance` are not what they were.")
   invisible(x)
 }

@@ -15,9 +15,9 @@ validate_specimen <- function(x) {
   }
   if (!fits_vertices(x$mesh$normals,
                      ncol(known$vb))) refuse_specimen("its normals do not fit its vertices.", x$id)
-  if (!is_landmark_matrix(x$landmarks)) refuse_specimen(paste("its landmarks are no k x 3",
-                                                              "numeric matrix with row names."),
-                                                              x$id)
+  if (!is_landmark_matrix(x$landmarks)) {
+    refuse_specimen(paste("its landmarks are no k x 3", "numeric matrix with row names."), x$id)
+  }
   validate_geometry(x$geometry, known, x$id)
   remember_passed(x, "specimen")
 }
@@ -33,8 +33,8 @@ refuse_specimen <- function(problem, id) {
 }
 
 is_landmark_matrix <- function(x) {
-  is.numeric(x) && is.matrix(x) && ncol(x) == 3 && (nrow(x) == 0 || !is.null(rownames(x)) &&
-                                                    !anyDuplicated(rownames(x)))
+  is.numeric(x) && is.matrix(x) && ncol(x) == 3 &&
+    (nrow(x) == 0 || !is.null(rownames(x)) && !anyDuplicated(rownames(x)))
 }
 
 #' @param known As of [passed_mesh()].
@@ -54,9 +54,8 @@ validate_geometry <- function(geometry, known, id) {
 }
 
 validate_topology <- function(geometry, it, id) {
-  right <- is.integer(geometry$twin) && identical(dim(geometry$twin),
-                                                  dim(it)) && is.numeric(geometry$piece) &&
-    length(geometry$piece) == ncol(it)
+  right <- is.integer(geometry$twin) && identical(dim(geometry$twin), dim(it)) &&
+    is.numeric(geometry$piece) && length(geometry$piece) == ncol(it)
   if (!right || cpp_twin_faults(it, geometry$twin) > 0) refuse_geometry(id)
 }
 

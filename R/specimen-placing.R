@@ -57,8 +57,10 @@ print_placing <- function(placing, wrong = find_settings()$wrong) {
   line("landmarks by machine: ", paste(states, names(states), collapse = ", "))
   doubt <- placing_doubt(placing)
   if (!length(doubt$names) && doubt$of) return(invisible())
-  if (doubt$share > wrong) line(paste("- the template lies badly on it: nothing that follows",
-                                      "from these landmarks is sure"))
+  if (doubt$share > wrong) {
+    line(paste("- the template lies badly on it: nothing that follows",
+               "from these landmarks is sure"))
+  }
   line("- little confidence: ",
        shorten(paste0(doubt$names, " (", round(doubt$confidence, 2), ")"), 20))
 }

@@ -83,15 +83,15 @@ default_settings <- function(name) {
     f <- match.fun(f)
     lapply(as.list(formals(f))[c(...)], eval, envir = environment(f))
   }
-  switch(name,
-         ridge = unclass(match.fun("ridge_settings")()),
+  switch(name, ridge = unclass(match.fun("ridge_settings")()),
          slide = unclass(match.fun("slide_settings")()),
          fit = c(of("fit_shape", "passes", "cut_scale", "bridge", "column_angle", "column_angles",
                     "column_reach"),
                  list(given = character())),
          homologise = of("homologise", "tolerance", "rounds"),
-         align = utils::modifyList(of("align", "scale", "tangent", "tolerance", "rounds"),
-                                   list(missing = "estimate")),
+         align = utils::modifyList(
+           of("align", "scale", "tangent", "tolerance", "rounds"), list(missing = "estimate")
+         ),
          pca = of("shape_pca", "tolerance"),
          compare = c(of("compare_groups", "n_perm", "components", "tests", "equal_spread"),
                      list(exchange = "free")),

@@ -77,8 +77,7 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
                origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
                                landmarks = placed$landmarks, located = placed$located,
-                               size = placed$size,
-                               slips = placed$slips),
+                               size = placed$size, slips = placed$slips),
                vertices = door$vertices)
 }
 

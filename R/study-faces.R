@@ -89,21 +89,22 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
   side <- rep_len(c(-1 / 2, 1 / 2), n)
   mean <- list(centre = rowMeans(template$mesh$vb[1:3, ]), effect = effect_field(places, effect))
   drawn <- lapply(seq_len(n), function(i) {
-    with_seed(seeds[1, i],
-              face_deformation(mean, side[i], log(1 + size_effect), random,
-                               if (!is.null(scan)) scan))
+    with_seed(seeds[1, i], face_deformation(
+      mean, side[i], log(1 + size_effect), random, if (!is.null(scan)) scan
+    ))
   })
   id <- paste("face", formatC(seq_len(n), width = nchar(n), flag = "0"))
   deformations <- stats::setNames(lapply(drawn, `[[`, "map"), id)
   scanned <- scan_faces(template, deformations, scan, seeds[2, ], progress)
-  structure(
-    list(specimens = lapply(scanned, `[[`, "specimen"),
-         covariates = data.frame(id = id, group = factor(groups[side + 3 / 2], groups),
-                                 size = vapply(drawn, `[[`, 0, "size")),
-         vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places,
-         effect = effect, size_effect = size_effect, deformations = deformations, scan = scan),
-    class = "simulated_faces"
-  )
+  structure(list(specimens = lapply(scanned, `[[`, "specimen"),
+                 covariates = data.frame(
+                   id = id, group = factor(groups[side + 3 / 2], groups),
+                   size = vapply(drawn, `[[`, 0, "size")
+                 ),
+                 vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places,
+                 effect = effect, size_effect = size_effect, deformations = deformations,
+                 scan = scan),
+            class = "simulated_faces")
 }
 
 #' One face: its size and its deformation, a function of a k x 3 matrix
@@ -154,9 +155,10 @@ scan_face <- function(template, map, scan, id) {
       corner <- face_corners(own)
       mean(vapply(1:3, function(i) mean(row_lengths(corner[[i]] - corner[[i %% 3 + 1]])), 0))
     } else scan$edge
-    new <- Rvcg::vcgIsotropicRemeshing(own,
-                                       TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)),
-                                       FeatureAngleDeg = scan$crease, iterations = scan$rounds)
+    new <- Rvcg::vcgIsotropicRemeshing(
+      own, TargetLen = edge * exp(stats::rnorm(1, 0, scan$edge_sd)), FeatureAngleDeg = scan$crease,
+      iterations = scan$rounds
+    )
     order <- sample(ncol(new$vb))
     it <- matrix(match(new$it, order), 3)[, sample(ncol(new$it)), drop = FALSE]
     own <- structure(list(vb = new$vb[, order, drop = FALSE], it = it), class = "mesh3d")
@@ -189,9 +191,8 @@ humface_specimen <- function() {
 }
 
 check_variation <- function(variation, call = rlang::caller_env()) {
-  ok <- is.data.frame(variation) && all(c("range", "sd") %in%
-                                        names(variation)) && all(variation$range > 0) &&
-    all(variation$sd >= 0)
+  ok <- is.data.frame(variation) && all(c("range", "sd") %in% names(variation)) &&
+    all(variation$range > 0) && all(variation$sd >= 0)
   if (!isTRUE(ok)) {
     crestline_abort("`variation` has no ranges above 0 with standard deviations.",
                     "Give data.frame(range = , sd = ), in the unit of the template.",
@@ -220,8 +221,9 @@ print.simulated_faces <- function(x, ...) {
     share <- split(x$places$share, factor(x$places$part, names(x$effect)))
     step <- vapply(share, function(own) own[which.max(abs(own))], 0) * x$effect
     cat(sprintf("  %s is %+.3g %% in size", names(count)[2], 100 * x$size_effect),
-        if (length(step)) paste0(", ",
-                                 paste(sprintf("%s %+.3g", names(step), step), collapse = ", ")),
+        if (length(step)) {
+          paste0(", ", paste(sprintf("%s %+.3g", names(step), step), collapse = ", "))
+        },
         "\n", sep = "")
     cat("  size ", paste(format(range(x$covariates$size), digits = 3), collapse = " to "), "\n",
         sep = "")

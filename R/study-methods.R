@@ -3,8 +3,9 @@
 #' The methods of a study by name
 #' @noRd
 study_methods <- function(settings) {
-  if (inherits(settings, "ridge_settings")) settings <- stats::setNames(list(settings),
-                                                                        attr(settings, "preset"))
+  if (inherits(settings, "ridge_settings")) {
+    settings <- stats::setNames(list(settings), attr(settings, "preset"))
+  }
   known <- function(x) inherits(x, "ridge_settings") || is.function(x)
   listed <- is.list(settings) && length(settings) && !is.null(names(settings))
   if (!listed || !all(vapply(settings, known, NA))) {
@@ -41,8 +42,9 @@ value_print <- function(x, seen = rlang::env(list = list())) {
 function_print <- function(x, seen) {
   if (is.primitive(x)) return(deparse(x))
   home <- environment(x)
-  text <- deparse(utils::removeSource(x), control = c("keepNA", "keepInteger", "niceNames",
-                                                      "showAttributes", "hexNumeric"))
+  text <- deparse(utils::removeSource(x), control = c(
+    "keepNA", "keepInteger", "niceNames", "showAttributes", "hexNumeric"
+  ))
   if (is_package(home)) return(list(text, environmentName(home)))
   # Names and texts in a function
   code <- utils::removeSource(x)

@@ -70,8 +70,9 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
 #' @noRd
 check_spacing <- function(spacing, call = rlang::caller_env()) {
   spacing <- check_number(spacing, "spacing", lower = 1e-3, upper = 0.5, call = call)
-  if (spacing == 0.5) check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE,
-                                   call = call)
+  if (spacing == 0.5) {
+    check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE, call = call)
+  }
   spacing
 }
 
@@ -103,8 +104,8 @@ simulated_ridge <- function(a, b, spacing, noise, seed, jitter, correlation, lan
 ridge_mesh <- function(height, spacing, jitter, noise, correlation) {
   n <- round(2 / spacing) + 1
   side <- seq(-1, 1, length.out = n)
-  at <- as.matrix(expand.grid(x = side,
-                              y = side)) + stats::runif(2 * n^2, -jitter, jitter) * spacing
+  at <- as.matrix(expand.grid(x = side, y = side)) +
+    stats::runif(2 * n^2, -jitter, jitter) * spacing
   # Standard normal noise on an n x n grid; smoothed by a Gaussian kernel, its variance kept at 1
   white <- matrix(stats::rnorm(n^2), n)
   rough <- if (correlation == 0) as.vector(white) else {

@@ -77,10 +77,11 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
   check_number(points, "points", 3, 1e5)
   check_count(points, "points", lower = 3)
   check_count(block, "block")
-  grid <- check_study_grid(list(passes = passes, correlation = correlation, radius = radius,
-                                spacing = spacing,
-                                landmark_error = landmark_error, noise = noise, b = b, a = a),
-                           largest)
+  grid <- check_study_grid(
+    list(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
+         landmark_error = landmark_error, noise = noise, b = b, a = a),
+    largest
+  )
   constant <- study_constant(width, points, list(...))
   curves <- n * prod(lengths(grid)) * length(methods)
   if (curves > largest) {
@@ -92,10 +93,11 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
   tasks <- study_tasks(cells, n, block, methods, constant, dir)
   run <- function() apply_tasks(tasks, list(methods = methods, constant = constant))
   blocks <- if (isTRUE(progress) && runs_parallel()) progressr::with_progress(run()) else run()
-  blocks[] <- Map(function(block,
-                           task) if (inherits(block,
-                                              "lost_task")) lost_block(task, methods,
-                                                                       block) else block,
+  blocks[] <- Map(function(block, task) if (inherits(block, "lost_task")) {
+                    lost_block(task, methods, block)
+                  } else {
+                    block
+                  },
                   blocks, tasks)
   warn_unkept(blocks, dir)
   # All rows as one data frame
@@ -192,8 +194,10 @@ study_block <- function(task, methods, constant) {
   cell <- task$cell
   rows <- lapply(task$seeds, function(seed) {
     # One surface's estimates by all methods
-    surface <- simulated_ridge(cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter,
-                               cell$correlation, cell$landmark_error, constant$end)
+    surface <- simulated_ridge(
+      cell$a, cell$b, cell$spacing, cell$noise, seed, constant$jitter, cell$correlation,
+      cell$landmark_error, constant$end
+    )
     truths <- list(attr(surface, "truth"), if (!anyNA(crest)) crest)
     lapply(names(methods), function(name) {
       start <- proc.time()
@@ -229,8 +233,7 @@ warn_unkept <- function(blocks, dir) {
     crestline_warn(sprintf("%s of %s not kept: %s", length(unkept), amount(length(blocks), "block"),
                            unkept[1]),
                    sprintf("Make room in %s; what was not kept is run again next time.", dir),
-                   stage = "keeping",
-                   class = "crestline_keeping_warning")
+                   stage = "keeping", class = "crestline_keeping_warning")
   }
 }
 
@@ -250,9 +253,10 @@ study_estimate <- function(method, surface, cell, constant) {
                 determined = NA,
                 converged = NA))
   }
-  curve <- quiet(ridge_curve(surface, "from", "to", "ridge", cell$radius, constant$width, points,
-                             settings = method,
-                             passes = if (!is.na(cell$passes)) cell$passes))
+  curve <- quiet(ridge_curve(
+    surface, "from", "to", "ridge", cell$radius, constant$width, points, settings = method,
+    passes = if (!is.na(cell$passes)) cell$passes
+  ))
   list(line = columns_of(curve$path, c("x", "y", "z")),
        at = columns_of(curve$points, c("x", "y", "z")),
        error = curve$points$se, se = curve$se, determined = curve$determined,

@@ -103,8 +103,9 @@ energy_matrix <- function(xyz, nugget, tolerance, kernel = function(r) -r) {
   functions <- svd(cbind(1, centred / max(sqrt(mean(rowSums(centred^2))), .Machine$double.xmin)))
   affine <- sum(functions$d > tolerance * functions$d[1])
   if (length(there) > affine) {
-    b[there, there] <- bending_matrix(at, nugget[there],
-                                      functions$u[, seq_len(affine), drop = FALSE], kernel)
+    b[there, there] <- bending_matrix(
+      at, nugget[there], functions$u[, seq_len(affine), drop = FALSE], kernel
+    )
   }
   structure(b, affine = affine)
 }

@@ -92,11 +92,13 @@ joint_start <- function(shape, store, plan, specimen) {
             points$place[on_curve & (points$part %in% given |
                                      points$part %in% cut & points$point == "1")])
   free <- setdiff(there, held)
-  image <- landmark_warp(plan$xyz[there, , drop = FALSE],
-                         store[there, c("x", "y", "z"), drop = FALSE],
-                         intersect(landmark_keys(plan$scheme), there), plan$settings$rank)
-  store[free, mesh_columns] <- columns_of(surface_points(specimen$mesh,
-                                                         image[free, , drop = FALSE]))
+  image <- landmark_warp(
+    plan$xyz[there, , drop = FALSE], store[there, c("x", "y", "z"), drop = FALSE],
+    intersect(landmark_keys(plan$scheme), there), plan$settings$rank
+  )
+  store[free, mesh_columns] <- columns_of(surface_points(
+    specimen$mesh, image[free, , drop = FALSE]
+  ))
   x <- store[there, c("x", "y", "z"), drop = FALSE]
   energy <- quadratic_form(joint_energy(there, landmark_nuggets(shape, plan$settings), plan), x)
   list(store = store, image = image, places = there, free = free,
@@ -128,11 +130,12 @@ slide_joint <- function(shape, cut, start, plan, specimen) {
   chosen <- list(scale = plan$scale, reach = settings$reach, relaxation = settings$relaxation,
                  gap = settings$gap, tolerance = settings$joint_tolerance * plan$radius,
                  halvings = settings$halvings, sweeps = settings$joint_sweeps)
-  slid <- cpp_slide_jointly(surface$vb, surface$it, surface$twin,
-                            joint_energy(start$places, landmark_nuggets(shape, settings), plan),
-                            start$store[start$places, c("x", "y", "z"), drop = FALSE], rows,
-                            start$store[start$free, c("face", "w1", "w2", "w3"), drop = FALSE],
-                            chosen)
+  slid <- cpp_slide_jointly(
+    surface$vb, surface$it, surface$twin,
+    joint_energy(start$places, landmark_nuggets(shape, settings), plan),
+    start$store[start$places, c("x", "y", "z"), drop = FALSE], rows,
+    start$store[start$free, c("face", "w1", "w2", "w3"), drop = FALSE], chosen
+  )
   store <- cut$store
   store[start$free, mesh_columns] <- slid$points
   moved <- store[, c("x", "y", "z")] - cut$store[, c("x", "y", "z")]

@@ -63,8 +63,8 @@ kept <- function(plan, what, make) {
 #'   that the template lacks, is in none.
 #' @noRd
 curve_sets <- function(state, plan) {
-  slides <- function(curve) nrow(curve$rows) > 0 && !anyNA(plan$xyz[curve$place[!is.na(curve$s)],
-                                                                    1])
+  slides <- function(curve) nrow(curve$rows) > 0 &&
+    !anyNA(plan$xyz[curve$place[!is.na(curve$s)], 1])
   can <- names(Filter(slides, state$curves))
   groups <- if (plan$settings$energy == "all" && length(can)) list(curves = can) else
     stats::setNames(as.list(can), can)

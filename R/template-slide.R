@@ -274,9 +274,10 @@ slide_set <- function(set, state, plan) {
     curve$rows[, "point"] <- points[curve$rows[, "point"]]
     curve$rows
   }, curves, set$points))
-  slid <- cpp_slide_on_tracks(set$b, state$store[set$places, c("x", "y", "z"), drop = FALSE],
-                              lapply(curves, `[[`, "track"),
-                              rows, settings$strain * mean(diag(set$b)), settings$sweeps)
+  slid <- cpp_slide_on_tracks(
+    set$b, state$store[set$places, c("x", "y", "z"), drop = FALSE], lapply(curves, `[[`, "track"),
+    rows, settings$strain * mean(diag(set$b)), settings$sweeps
+  )
   own <- split(slid$s, factor(rows[, "track"], seq_along(curves)))
   s <- Map(function(curve, own) replace(curve$s, curve$rows[, "point"], own), curves, own)
   list(s = s, x = slid$x, trace = c(slid$trace, points = nrow(rows)))

@@ -78,10 +78,11 @@ slide_free <- function(set, store, specimen, plan) {
   free <- match(set$free, set$places)
   x <- store[set$places, c("x", "y", "z"), drop = FALSE]
   held <- set$b[free, -free, drop = FALSE] %*% x[-free, , drop = FALSE]
-  slid <- cpp_slide_on_mesh(surface$vb, surface$it, surface$twin, set$b[free, free, drop = FALSE],
-                            x[free, , drop = FALSE], held,
-                            store[set$free, c("face", "w1", "w2", "w3"), drop = FALSE],
-                            settings$surface_tolerance * plan$radius, settings$surface_sweeps)
+  slid <- cpp_slide_on_mesh(
+    surface$vb, surface$it, surface$twin, set$b[free, free, drop = FALSE], x[free, , drop = FALSE],
+    held, store[set$free, c("face", "w1", "w2", "w3"), drop = FALSE],
+    settings$surface_tolerance * plan$radius, settings$surface_sweeps
+  )
   rest <- quadratic_form(set$b[-free, -free, drop = FALSE], x[-free, , drop = FALSE])
   slid$trace$energy <- slid$trace$energy + rest
   store[set$free, mesh_columns] <- slid$points
@@ -94,15 +95,17 @@ slide_transects <- function(set, store, cutting, plan) {
   cuts <- transects(set, store, cutting, plan$settings)
   if (!length(cuts)) return(list(store = store, trace = NULL))
   rows <- stack_rows(lapply(cuts, `[[`, "rows"))
-  slid <- cpp_slide_on_tracks(set$b, store[set$places, c("x", "y", "z"), drop = FALSE],
-                              lapply(cuts, `[[`, "track"), rows, 0,
-                              plan$settings$sweeps)
+  slid <- cpp_slide_on_tracks(
+    set$b, store[set$places, c("x", "y", "z"), drop = FALSE], lapply(cuts, `[[`, "track"), rows, 0,
+    plan$settings$sweeps
+  )
   at <- split(slid$s, rows[, "track"])
   mesh <- cutting$specimen$mesh
   for (i in seq_along(cuts)) {
     track <- cuts[[i]]$track
-    store[cuts[[i]]$place, mesh_columns] <- cpp_place_along(mesh$vb, mesh$it, track[, 2:4],
-                                                            track[, 1], track[, 5], at[[i]])
+    store[cuts[[i]]$place, mesh_columns] <- cpp_place_along(
+      mesh$vb, mesh$it, track[, 2:4], track[, 1], track[, 5], at[[i]]
+    )
   }
   list(store = store, trace = c(slid$trace, points = length(slid$s)))
 }
@@ -139,11 +142,12 @@ block_transects <- function(block, grid, set, store, cutting, settings) {
     track <- made$cuts[[1]]
     length <- track[nrow(track), 1]
     s <- rep(NA_real_, block$rows)
-    s[c(1, rows$row, block$rows)] <- c(0,
-                                       track_places(track, store[rows$place, c("x", "y", "z"),
-                                                                 drop = FALSE]), length)
-    sliders <- slider_rows(s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length,
-                           settings)
+    s[c(1, rows$row, block$rows)] <- c(
+      0, track_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length
+    )
+    sliders <- slider_rows(
+      s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length, settings
+    )
     sliders[, "point"] <- match(rows$place, set$places)
     on_mesh <- track[, 5] <= cutting$scan$faces
     list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)),

@@ -59,14 +59,13 @@ asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
   check_given()
   check_class(shape, "shape", "shape", "fit_shape()")
   by <- check_choice(by, c("part", "point"), "by")
-  off <- as.matrix(shape$points[c("x", "y",
-                                  "z")]) - as.matrix(symmetrise(shape,
-                                                                off_middle)$points[c("x", "y",
-                                                                                     "z")])
+  off <- as.matrix(shape$points[c("x", "y", "z")]) -
+    as.matrix(symmetrise(shape, off_middle)$points[c("x", "y", "z")])
   points <- shape$points[c("level", "part", "point")]
   distance <- sqrt(rowSums(off^2))
-  if (by == "point") return(cbind(points, distance = distance, dx = off[, 1], dy = off[, 2],
-                                  dz = off[, 3]))
+  if (by == "point") {
+    return(cbind(points, distance = distance, dx = off[, 1], dy = off[, 2], dz = off[, 3]))
+  }
   place <- shape$scheme$points$place
   row <- function(level, part, at) {
     d <- distance[at][!duplicated(place[at]) & !is.na(distance[at])]
@@ -92,8 +91,9 @@ warn_unpaired <- function(shape, xyz, mean, off_middle) {
   landmark <- shape$scheme$landmarks$landmark
   alone <- landmark[partner_of(landmark, shape$scheme$pairs, "landmarks") == landmark]
   points <- shape$points[shape$points$level == "landmarks", ]
-  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(alone,
-                                                                                     points$part)]
+  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(
+    alone, points$part
+  )]
   off <- row_lengths(xyz[place, , drop = FALSE] - mean[place, , drop = FALSE])
   known <- xyz[!is.na(xyz[, 1]), , drop = FALSE]
   radius <- sqrt(mean(rowSums(sweep(known, 2, colMeans(known))^2)))
@@ -103,8 +103,7 @@ warn_unpaired <- function(shape, xyz, mean, off_middle) {
   crestline_warn(sprintf(paste("%s in no pair, but off the mid-plane: %s; the symmetric mean",
                                "puts %s on it."),
                          if (length(far) == 1) "a landmark is" else "landmarks are",
-                         shorten(said, 6),
-                         if (length(far) == 1) "it" else "them"),
+                         shorten(said, 6), if (length(far) == 1) "it" else "them"),
                  paste("Add it with its partner to the scheme's `pairs`, or raise `off_middle`",
                        "where the object is that crooked."),
                  stage = "symmetry", id = shape$id, class = "crestline_unpaired")
@@ -219,7 +218,8 @@ mirror_surface_rows <- function(scheme) {
 mirror_side <- function(text, scheme) {
   points <- scheme$points[scheme$points$level == "curves", ]
   own <- side_points(text)
-  mirrored <- mirror_curve_rows(scheme)[match(paste(own$curve, own$point),
-                                              paste(points$part, points$point))]
+  mirrored <- mirror_curve_rows(scheme)[match(
+    paste(own$curve, own$point), paste(points$part, points$point)
+  )]
   sub("^curves[|]", "", mirrored)
 }

@@ -35,8 +35,9 @@ per_cent <- function(share, least = 0.1) {
 }
 
 near_names <- function(name, known) {
-  if (!length(known)) return(paste0("The specimen has no landmarks: give them to specimen() or ",
-                                    "read_specimen()."))
+  if (!length(known)) {
+    return(paste0("The specimen has no landmarks: give them to specimen() or ", "read_specimen()."))
+  }
   near <- if (is.character(name) && length(name) == 1 && !is.na(name)) {
     known[order(utils::adist(name, known, ignore.case = TRUE))]
   } else {
@@ -48,8 +49,10 @@ near_names <- function(name, known) {
 describe_value <- function(x) {
   if (is.null(x)) return("NULL")
   if (!is.atomic(x)) return(paste0("of class ", class(x)[1]))
-  if (is.array(x)) return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array",
-                                  paste(dim(x), collapse = " x ")))
+  if (is.array(x)) {
+    return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array",
+                   paste(dim(x), collapse = " x ")))
+  }
   shown <- paste(shorten_text(utils::head(format(x), 3)), collapse = ", ")
   if (length(x) > 3) return(paste0(shown, ", ... (", length(x), " values)"))
   if (!length(x)) "empty" else if (identical(shown, "")) "an empty string" else shown
@@ -61,8 +64,9 @@ describe_range <- function(lower, upper, open) {
   paste(paste(words, bounds)[is.finite(bounds)], collapse = " and ")
 }
 
-shorten_text <- function(x, most = 60) ifelse(nchar(x) > most,
-                                              paste0(substr(x, 1, most - 3), "..."), x)
+shorten_text <- function(x, most = 60) ifelse(
+  nchar(x) > most, paste0(substr(x, 1, most - 3), "..."), x
+)
 
 comment_text <- function(text) {
   gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
