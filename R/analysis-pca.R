@@ -142,8 +142,7 @@ turn_components <- function(pca, which) {
 #' Singular values and right vectors of a matrix by the smaller of its two cross-products, or the
 #' greatest ones by Lanczos' method
 #' @param most How many; `NULL`: all.
-#' @param share Share of the smaller side, up to which those asked for are found by Lanczos' method:
-#'   at 250 and at 2,000 specimens both take as long near it.
+#' @param share Share of the smaller side, up to which those asked for are found by Lanczos' method.
 #' @noRd
 thin_svd <- function(x, tolerance, most = NULL, share = 0.1) {
   side <- min(dim(x))

@@ -123,6 +123,12 @@ format_key <- function(x) as.character(if (is.numeric(x)) signif(x, 6) else x)
 # first few.
 settle <- function(name, found, setting, value, error) {
   file <- file.path("vignettes", paste0(name, ".csv"))
+  empty <- found$failed == found$n
+  if (any(empty)) {
+    cat("every estimate failed in", sum(empty), "cells: no table is written.\n")
+    print(utils::head(found[empty, setting], 10), row.names = FALSE)
+    return(FALSE)
+  }
   if ("write" %in% argument) {
     shown <- lapply(found, function(x) if (is.double(x)) signif(x, 8) else x)
     utils::write.csv(as.data.frame(shown, check.names = FALSE), file, row.names = FALSE)
