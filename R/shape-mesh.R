@@ -24,8 +24,9 @@
 #'   `points`, data frame `x, y, z, face, w1, w2, w3` of the vertices on the specimen's mesh;
 #'   `group`, the patch or strip of every triangle, as in the scheme's `triangles`.
 #' @section Errors: of class `crestline_error`, when the scheme has no such part, no triangle is
-#'   left, or `dense` lacks the specimen. A warning of class `crestline_warning` tells how many
-#'   triangles a hole of the specimen costs a denser surface.
+#'   left, or `dense` lacks the specimen. Warnings of class `crestline_warning` of a denser surface
+#'   give the number of triangles that a hole of the specimen costs, and name the parts in which
+#'   triangles are turned over.
 #' @template glossary
 #' @seealso [fit_shape()]; [write_mesh()] to save it
 #' @examples
@@ -66,9 +67,11 @@ shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_an
   whole <- colSums(matrix(there[divided$it], 3)) == 3
   if (!all(whole)) warn_left_out(sum(!whole), length(whole), x$id)
   used <- sort(unique(as.vector(divided$it[, whole])))
-  surface_mesh(divided$points[used, mesh_columns], divided$points$row[used],
-               matrix(match(divided$it[, whole], used), 3),
-               quads$group[divided$quad[whole]])
+  mesh <- surface_mesh(divided$points[used, mesh_columns], divided$points$row[used],
+                       matrix(match(divided$it[, whole], used), 3),
+                       quads$group[divided$quad[whole]])
+  warn_turned(mesh, specimen$mesh, x$id)
+  mesh
 }
 
 #' The triangles of some parts of a shape's surface that have all their points
@@ -109,6 +112,17 @@ warn_left_out <- function(n, of, id) {
                          n, of),
                  paste("Fill the holes of the specimen there, or try a greater `column_angle`",
                        "or `column_reach`."),
+                 stage = "shape", id = id)
+}
+
+warn_turned <- function(dense, scan, id) {
+  normals <- t(path_normals(scan, attr(dense, "points")))
+  turned <- flipped_triangles(t(dense$vb[1:3, ]), dense$it, normals)
+  if (!length(turned)) return(invisible())
+  crestline_warn(sprintf("%d of %d triangles of the denser surface are turned over: in %s.",
+                         length(turned), ncol(dense$it),
+                         shorten(unique(attr(dense, "group")[turned]))),
+                 "Look there: a curve may swing aside, or two curves all but meet.",
                  stage = "shape", id = id)
 }
 
