@@ -89,8 +89,8 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
 abort_few_compared <- function(count, id) {
   crestline_abort(sprintf("only %s of the first scan can be compared with the second.",
                           amount(count, "vertex", "vertices")),
-                  paste("Give a larger `reach`, places `near` that both scans hold, or landmarks on",
-                        "both."),
+                  paste("Give a larger `reach`, places `near` that both scans hold, or landmarks",
+                        "on both."),
                   stage = "scan noise", id = id, call = NULL)
 }
 
