@@ -111,7 +111,8 @@ test_that("free points are on the mesh, landmarks stay, and offsets say how far 
 })
 
 test_that("a shape slid again, and a new one against the saved sample, come to the same points", {
-  file <- withr::local_tempfile(fileext = ".rds")
+  file <- tempfile(fileext = ".rds")
+  on.exit(unlink(file))
   saveRDS(sample, file)
   kept <- readRDS(file)
   for (i in seq_along(shapes)) {
