@@ -23,7 +23,18 @@ verdict <- function(name, lines, least) {
 
 argument <- commandArgs(TRUE)
 least <- as.numeric(Sys.getenv("COVERAGE_MIN", "90"))
-lines <- tally_coverage(package_coverage(argument[1], type = "tests", quiet = FALSE), by = "line")
+# The log that the error names goes with this process: what failed in it is shown first.
+show_failed <- function(problem) {
+  file <- regmatches(conditionMessage(problem), regexpr("[^`]+testthat[.]Rout[.]fail",
+                                                        conditionMessage(problem)))
+  if (!length(file) || !file.exists(file)) return(invisible())
+  log <- readLines(file, warn = FALSE)
+  at <- grep("^(\u2500\u2500|--) (Failure|Error)", log)
+  for (i in at) writeLines(log[i:min(i + 12, length(log))])
+}
+covered <- withCallingHandlers(package_coverage(argument[1], type = "tests", quiet = FALSE),
+                               error = show_failed)
+lines <- tally_coverage(covered, by = "line")
 is_r <- grepl("^R/", lines$filename)
 writeLines(
   c(file_rows(lines), verdict("R", lines[is_r, ], least), verdict("C++", lines[!is_r, ], least)),
