@@ -2,22 +2,22 @@
 
 #' Shape index and curvedness
 #'
-#' The shape index is the kind of shape of a place, whatever its size, on a scale from -1 (a cup)
-#' over -0.5 (a rut, or valley), 0 (a symmetric saddle) and 0.5 (a ridge) to 1 (a cap):
-#' \deqn{S = \frac{2}{\pi} \arctan \frac{k_1 + k_2}{k_2 - k_1}, \quad k_1 \ge k_2.}{S = (2/pi)
+#' The shape index describes the kind of shape of a place, independent of its size. The scale runs
+#' from -1 (a cup) over -0.5 (a rut, or valley), 0 (a symmetric saddle) and 0.5 (a ridge) to 1 (a
+#' cap): \deqn{S = \frac{2}{\pi} \arctan \frac{k_1 + k_2}{k_2 - k_1}, \quad k_1 \ge k_2.}{S = (2/pi)
 #' atan((k1 + k2)/(k2 - k1)), k1 >= k2.} The curvedness \eqn{\sqrt{(k_1^2 + k_2^2)/2}}{sqrt((k1^2 +
 #' k2^2)/2)} is the amount of curvature.
 #'
-#' The formula as printed in the paper runs over \[0, 1\], where its text
-#' has cups at -1 and caps at 1; this is the text's.
+#' The formula as printed in the paper gives values in \[0, 1\]. The paper's text has cups at -1 and
+#' caps at 1. The formula here follows the text.
 #'
 #' @param x A `curvature`, as [curvature()] returns it, or a numeric vector of principal
 #'   curvatures, in 1 / the unit of length; positive where the surface bends towards its normal.
 #' @param k2 The other principal curvatures, as many as in `x`, when `x` is numeric. The greater of
 #'   the two at each place is taken as k1.
-#' @return A numeric vector, one value a place. `shape_index()`: in \[-1, 1\], without unit, NA
-#'   where the surface is plane (both curvatures 0) or a curvature is NA. `curvedness()`: in 1 / the
-#'   unit of length.
+#' @return A numeric vector with one value for each place. `shape_index()`: in \[-1, 1\], without
+#'   unit. It is NA if the surface is plane (both curvatures are 0) or a curvature is NA.
+#'   `curvedness()`: in 1 / the unit of length.
 #' @template glossary
 #' @templateVar where section 2
 #' @template paper
@@ -67,16 +67,17 @@ shape_scale <- function() {
 
 #' Names and colours of shapes
 #'
-#' Koenderink and van Doorn's nine named categories of the shape index, each 1/4 wide about -1,
-#' -0.75, ..., 1 (the two at the ends half of that), and their colours: cup green, trough cyan, rut
-#' blue, saddle rut pale blue, saddle white, saddle ridge pale yellow, ridge yellow, dome orange,
-#' cap red.
+#' Koenderink and van Doorn divide the shape index into nine named categories, centred at -1, -0.75,
+#' ..., 1. Each is 1/4 wide; the two at the ends are half as wide. Their colours are: cup green,
+#' trough cyan, rut blue, saddle rut pale blue, saddle white, saddle ridge pale yellow, ridge
+#' yellow, dome orange, cap red.
 #'
 #' @param index Numeric vector of shape indices, in \[-1, 1\] or NA.
-#' @param missing The colour where the index is NA.
-#' @return `shape_category()`: a factor with nine levels, from "spherical cup" to "spherical cap"; a
-#'   value on a limit belongs to the category above it. `shape_colours()`: colours `#RRGGBB`, the
-#'   category's own at its centre and in between (linear in red, green and blue) elsewhere.
+#' @param missing Colour for an index that is NA.
+#' @return `shape_category()`: a factor with nine levels, from "spherical cup" to "spherical cap",
+#'   one value for each index. A value on a limit belongs to the category above it.
+#'   `shape_colours()`: colours `#RRGGBB`, one for each index. The centre of a category has its
+#'   colour; colours between are interpolated linearly in red, green and blue.
 #' @inherit shape_index references
 #' @template glossary
 #' @examples

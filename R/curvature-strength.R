@@ -37,9 +37,9 @@ normal_curvature <- function(curved, at, direction) {
 #' beside the brow. Curvature is ignored inside a cylinder whose axis joins two
 #' landmarks.
 #'
-#' @param from,to Names of landmarks, or positions.
+#' @param from,to Names of landmarks, or positions (three co-ordinates, in the unit of the mesh).
 #' @param radius Radius of the cylinder, as a share of the distance between them.
-#' @param extension Length by which the cylinder goes beyond each landmark, as a share of the
+#' @param extension Length by which the cylinder extends beyond each landmark, as a share of the
 #'   distance.
 #' @return A `keep_away` object for [reference_path()] and [ridge_curve()].
 #' @section Errors: of class `crestline_error` when a share is negative.
@@ -71,11 +71,13 @@ print.keep_away <- function(x, ...) {
 #' is ignored. The dividing plane contains the two landmarks and is perpendicular to the plane
 #' through all three.
 #'
-#' @param from,to Names of landmarks, or positions, that the line joins.
+#' @param from,to Names of the two landmarks that the line joins, or positions (three co-ordinates,
+#'   in the unit of the mesh).
 #' @param towards Name of a landmark, or a position, on the side that counts.
 #' @return A `keep_side` object, for the argument `keep_away` of [reference_path()] and
 #'   [ridge_curve()].
-#' @section Errors: of class `crestline_error`, where it is used, when the three lie on one line.
+#' @section Errors: of class `crestline_error`, by the function that uses the object, if the three
+#'   points lie on one line.
 #' @template glossary
 #' @seealso [keep_away()]
 #' @examples

@@ -1,36 +1,37 @@
 #' Principal curvatures by local polynomial fits
 #'
-#' At every vertex a polynomial surface is fitted to the vertices within `radius`
-#' that are connected to it over edges inside that ball, in the frame of a normal
-#' that a first fit has refined. The principal curvatures and directions are those
-#' of the fitted surface at the vertex's foot (its Weingarten map).
+#' At every vertex a polynomial surface is fitted to the vertices within `radius`. Only vertices
+#' that are connected to it by edges inside that ball count. A first fit refines the normal, whose
+#' frame the second fit uses. The principal curvatures and directions are those of the fitted
+#' surface (its Weingarten map) at the foot of the vertex.
 #'
-#' Constant and linear terms are kept, so that the surface need not pass through the noisy vertex.
-#' With `order = "adaptive"` nested fits of order 2, 3 and 4 are combined. The Hessian of the higher
-#' order counts as far as it differs from the lower one by more than noise does:
-#' \eqn{H = H_{lo} + w (H_{hi} - H_{lo})}{H = H_lo + w (H_hi - H_lo)} with
-#' \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} - V_{lo}) / |H_{hi} - H_{lo}|^2)}{w = max(0, 1 - c
-#' sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)}. \eqn{\sigma^2 V} is the covariance of a fit's
-#' Hessian.
+#' Constant and linear terms are kept: the surface need not pass through the noisy vertex. With
+#' `order = "adaptive"` nested fits of order 2, 3 and 4 are combined. The Hessian of the higher
+#' order counts as far as it differs from the lower one by more than noise does: \eqn{H = H_{lo} + w
+#' (H_{hi} - H_{lo})}{H = H_lo + w (H_hi - H_lo)} with \eqn{w = \max(0, 1 - c \sigma^2 tr(V_{hi} -
+#' V_{lo}) / |H_{hi} - H_{lo}|^2)}{w = max(0, 1 - c sigma^2 tr(V_hi - V_lo) / |H_hi - H_lo|^2)}.
+#' \eqn{\sigma^2 V} is the covariance of a fit's Hessian.
 #'
 #' @param mesh A `mesh3d` with n vertices, normals outward, or a `specimen`.
 #' @param radius Radius of the ball, in the unit of the mesh. On faces, 10 mm for broad
 #'   features (the paper: 10 mm) and 5 mm for lips, nose and eyes (our choice).
-#' @param order `"adaptive"` (nested fits up to order 4: most accurate), `"adaptive cubic"` (up to
-#'   order 3: smoother, the default of [ridge_curve()]), or a plain polynomial: `"quadratic"`,
-#'   `"cubic"`, `"quartic"`; or `"forced"`, the paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2}
-#'   through the vertex, level along the average of the triangles' normals.
-#' @param threads Number of threads.
-#' @param vertices Vertices to work at (indices or logical); all when `NULL`.
+#' @param order Order of the polynomial. `"adaptive"`: nested fits up to order 4, the most accurate.
+#'   `"adaptive cubic"`: nested fits up to order 3, which are smoother; the default of
+#'   [ridge_curve()]. `"quadratic"`, `"cubic"`, `"quartic"`: one plain polynomial. `"forced"`: the
+#'   paper's \eqn{z = (a x^2 + 2 b x y + c y^2) / 2} through the vertex, in the frame of the average
+#'   of the triangles' normals.
+#' @param threads Number of threads, at least 1.
+#' @param vertices Vertices at which curvature is estimated (indices, or n logical values). NULL:
+#'   all.
 #' @param shrinkage The factor c above, without unit; chosen on seven closed-form
 #'   surfaces with 0.1 mm of noise. For values from 3 to 6 the error of k1 is 1.94 to 1.99 % of the
 #'   root mean square curvedness; on clean surfaces it is 0.023 to 0.025 %.
-#' @param points_per_term Fewest neighbours for each coefficient of a fit: with
-#'   fewer, the order steps down.
-#' @param one_sided A neighbourhood whose centroid lies further from the vertex
-#'   than this share of the radius, as on a border, is fitted with order 3 at most.
-#' @param widen Where even a quadratic has too few points the ball grows, step by
-#'   step by half, to at most this multiple of `radius`.
+#' @param points_per_term Least number of neighbours for each coefficient of a fit. With fewer
+#'   neighbours the order is reduced.
+#' @param one_sided Limit on the distance between the vertex and the centroid of its neighbourhood,
+#'   as a share of the radius. Beyond it, as on a border, the order is 3 at most.
+#' @param widen If there are too few points even for a quadratic, the ball grows by half at each
+#'   step, to at most this multiple of `radius`.
 #'
 #' @return An object of class `curvature`, a list with
 #'   * `k1`, `k2`: numeric n, principal curvatures, `k1 >= k2`, in 1 / unit;
@@ -40,13 +41,13 @@
 #'   * `order`: integer n, the highest order that has weight in the fit;
 #'   * `sigma`: numeric n, residual standard deviation of the fit, in the unit;
 #'   * `neighbours`: integer n, vertices in the ball;
-#'   * `reason`: character n, `NA` where fitted, else why not.
+#'   * `reason`: character n, the reason if a vertex could not be fitted, else `NA`.
 #'
-#'   At vertices that are not in `vertices` all are `NA`, and `reason` says so. Attributes are
+#'   At vertices that are not in `vertices` all values are `NA`, with that `reason`. Attributes are
 #'   `radius`, `order`, and the `key` and `id` of the mesh. Functions that take a curvature refuse
-#'   that of another mesh.
-#' @section Errors: of class `crestline_error`, when `radius` is not a positive
-#'   number, larger than half the diagonal of the mesh, or so small that no vertex can be fitted.
+#'   the curvature of another mesh.
+#' @section Errors: of class `crestline_error`: `radius` is not a positive number, is larger than
+#'   half the diagonal of the mesh, or is so small that no vertex can be fitted.
 #' @template glossary
 #' @templateVar where section 2
 #' @template paper

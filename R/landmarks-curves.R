@@ -2,18 +2,18 @@
 
 #' Read curves from a landmark file, by name
 #'
-#' Reads the curves of a file that [write_landmarks()] or another program wrote. `write_landmarks()`
-#' stores a shape's curves as points where the format has no curves. There, points named "curve 1",
-#' "curve 2", ... make up a curve.
+#' Reads the curves of a file that [write_landmarks()] or another program wrote. Some formats have
+#' no curves. There `write_landmarks()` stores curves as points named "curve 1", "curve 2", ..., and
+#' `read_curves()` makes curves of them again.
 #'
 #' @param file Path of the file, see [read_landmarks()].
-#' @param curves Names of the curves that are wanted, in this order; NULL for all.
+#' @param curves Names of the curves to read; the value has them in this order. NULL: all.
 #' @param ... Further arguments of [read_landmarks()].
-#' @return Named list of n x 3 matrices with columns `x`, `y`, `z`, NA in missing points, each with
-#'   the attribute `closed`; of a file of several specimens a named list of such lists.
-#'   [fit_shape()] takes such curves in place of its own.
-#' @section Errors: of class `crestline_landmark_error`, when a curve is not in the file (near names
-#'   are given), and as [read_landmarks()].
+#' @return Named list with one n x 3 matrix for each curve: columns `x`, `y`, `z`, in the file's
+#'   unit; NA in missing points; attribute `closed` (TRUE or FALSE). A file of several specimens
+#'   gives a named list of such lists. Argument `curves` of [fit_shape()] takes such curves.
+#' @section Errors: of class `crestline_landmark_error`: a curve is not in the file (the error lists
+#'   similar names). The errors of [read_landmarks()] can occur too.
 #' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".csv")

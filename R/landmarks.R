@@ -1,6 +1,6 @@
 # Landmarks in files: the format by the file's extension, one file of code a format.
 
-#' Read and write landmarks and curves of points
+#' Read and write landmarks and curves
 #'
 #' The file's extension, in upper or lower case, gives the format. Files are read as UTF-8 or
 #' UTF-16, else as Latin 1. They are written in UTF-8, with all digits of a number. Landmarks that
@@ -20,71 +20,74 @@
 #'
 #' * `.csv`: fields are separated by commas, tabs or semicolons; with semicolons, decimals may be
 #'   points or commas. There is a header line. The name is in a column `name`, `landmark` or
-#'   `label`, otherwise in the first column that is not a number. The co-ordinates are in `x`, `y`,
-#'   `z`, in any order; or in `r`, `a`, `s` or `l`, `p`, `s`, as 3D Slicer exports its lists
-#'   (`defined` 0: missing). A row with a name in a column `curve` is a point of that curve. A
-#'   column `point` gives the order of the points; a curve is closed where a column `closed` is
-#'   TRUE. A column of specimens (`specimen`, `subject`, `file`, `scan`, ...; `id` where landmarks
-#'   repeat) makes a list of them. Other columns are ignored. A missing landmark has NA or an empty
-#'   field. A row with more or fewer fields than the header is refused. Leftovers of spreadsheets
-#'   are ignored: a line `sep=;`, comments (#) above the header, empty rows and columns, a separator
-#'   at the end of all rows.
-#' * `.pts`: names may hold blanks. `C000-001` is a point of curve `C000`. Curves of other names get
+#'   `label`, otherwise in the first column that is not a number. The co-ordinates are in columns
+#'   `x`, `y`, `z`, in any order. Tables that 3D Slicer exports have `r`, `a`, `s` or `l`, `p`, `s`
+#'   in their place; `defined` 0 marks a missing landmark. A row with a name in a column `curve` is
+#'   a point of that curve. A column `point` gives the order of the points. A curve is closed if its
+#'   column `closed` is TRUE. A column that names specimens (`specimen`, `subject`, `file`, `scan`,
+#'   ...; `id` if landmarks repeat) gives a list of specimens. Other columns are ignored. A missing
+#'   landmark has NA or an empty field. A row with more or fewer fields than the header is refused.
+#'   A line `sep=;`, comments (#) above the header, empty rows and columns, and a separator at the
+#'   end of all rows are ignored.
+#' * `.pts`: names may have spaces. `C000-001` is a point of curve `C000`. Curves of other names get
 #'   numbers, and closed ones are opened, with a warning.
 #' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. The format has no names of landmarks and
-#'   curves, so they are stored in `COMMENT=` lines. Specimens are named by `ID=`, else by `IMAGE=`,
-#'   else numbered. Negative co-ordinates are numbers, not missing.
-#' * `.nts`, `.dta`: the header's code for missing values counts where the header announces missing
-#'   values, or where a point has the code in all its co-ordinates. Names of landmarks are stored in
-#'   a comment.
+#'   curves, so they are stored in `COMMENT=` lines. A specimen's name is its `ID=`, else its
+#'   `IMAGE=`, else its number. Negative co-ordinates are numbers, not missing.
+#' * `.nts`, `.dta`: the header gives a code for missing values. The code is used if the header
+#'   announces missing values, or if all co-ordinates of a point have it. Names of landmarks are
+#'   stored in a comment.
 #' * `.landmarkAscii`: sets of co-ordinates are specimens. Names are stored among the parameters,
 #'   and missing landmarks are NaN. Not every program reads these.
 #' * `.fcsv`: points in another state than "defined" are missing. Names are the labels, else the
 #'   ids.
-#' * `.mrk.json`: all lists of the file are read. Fiducial lists are landmarks; where two lists
-#'   share labels, the list's name comes before the label. Curve, ClosedCurve, Line and Angle are
-#'   curves of control points. Lists of other types are left out with a warning. Numbers stay in the
-#'   file's unit.
+#' * `.mrk.json`: all lists of the file are read. Fiducial lists are landmarks. If two lists share
+#'   labels, the list's name is put before the label. Curve, ClosedCurve, Line and Angle are curves
+#'   of control points. Lists of other types are left out with a warning. Numbers stay in the file's
+#'   unit.
 #' * `.pp`: a point that is not active is missing.
 #' * `.ckpt`: single points are read, in the file's unit. Points of curves and patches are left out
 #'   with a warning.
 #'
-#' The provenance of a specimen or shape (see [summary.specimen()]) is written too, where other
-#' programs ignore it: in `COMMENT=` of `.tps`, in comment lines of `.nts` and `.dta`, in a field
-#' `provenance` of `.mrk.json`. It is left out of `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and
-#' `.pp`, where it would disturb some programs.
+#' The provenance of a specimen or shape (see [summary.specimen()]) is written to formats in which
+#' other programs ignore it. In `.tps` it is in `COMMENT=`, in `.nts` and `.dta` in comment lines,
+#' in `.mrk.json` in a field `provenance`. The formats `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and
+#' `.pp` do not get it, as it would disturb some programs.
 #'
-#' All landmark files of a folder are read. A specimen has the name of its file, or the name in the
-#' file where that has several specimens. Two files of one specimen must agree. Empty and compressed
-#' files, pipes and devices are refused before they are opened.
+#' If `file` is a folder, all its landmark files are read. Each specimen is named after its file. In
+#' a file of several specimens the names in the file are used. Two files of one specimen must agree.
+#' Empty and compressed files, pipes and devices are refused before they are opened.
 #'
-#' Of a `shape` the landmarks and curves are written, their missing points as missing. Where the
-#' format has no curves, their points are written as landmarks, named "curve point" as in
-#' [coords()], with a warning (`curves = list()` leaves them out). [read_curves()] reads curves by
-#' name from either.
+#' The landmarks and curves of a `shape` are written; missing points are written as missing. If the
+#' format has no curves, their points are written as landmarks with a warning. Their names are
+#' "curve point", as in [coords()]. `curves = list()` leaves the curves out. [read_curves()] reads
+#' curves by name from all formats.
 #'
-#' @param file Path of the file; for reading also of a folder of landmark files.
-#' @param frame For the formats of 3D Slicer, which write x and y of either sign.
-#'   `read_landmarks()`: the frame that you want the co-ordinates in. By default Slicer saves meshes
-#'   in "LPS" (left, posterior, superior). Its scene is in "RAS". "file" leaves the numbers as they
-#'   are. `write_landmarks()`: the frame that `x` is in, which the file will name.
-#' @param missing Number that stands for a missing co-ordinate in `.pts`: a point that has it three
-#'   times is missing.
+#' @param file Path of the file. `read_landmarks()` also takes the path of a folder.
+#' @param frame Frame of the co-ordinates, for the formats of 3D Slicer only. The frames "LPS"
+#'   (left, posterior, superior) and "RAS" (right, anterior, superior) differ in the signs of x and
+#'   y. Slicer saves meshes in "LPS" by default; its scene is in "RAS". `read_landmarks()` turns the
+#'   co-ordinates into this frame; "file" leaves the numbers as they are. `write_landmarks()` writes
+#'   the frame of `x` into the file.
+#' @param missing Number that stands for a missing co-ordinate in `.pts` files. A point is missing
+#'   if all three co-ordinates are this number.
 #' @param scale Whether the co-ordinates of a `.tps` file are multiplied by `SCALE=`. A file in
 #'   which only some specimens have one is refused.
-#' @param x k x 3 numeric matrix with row names (missing landmarks NA), a data frame name, x, y, z,
-#'   a [specimen()], a `shape` as [fit_shape()] returns it, NULL for no landmarks, or, where the
-#'   format holds several specimens, a list of them, a k x 3 x n array, a `shape_sample`, a
-#'   `shape_batch` or an `aligned`.
-#' @param curves Named list of n x 3 matrices (attribute `closed`: TRUE or FALSE, FALSE without), of
-#'   data frames with columns x, y, z, or of values of [ridge_curve()]. NULL: those of the shape, or
-#'   the attribute `curves` of `x`, if any; `list()`: none.
+#' @param x Landmarks: a k x 3 numeric matrix with row names (missing landmarks NA), a data frame
+#'   with columns `name`, `x`, `y`, `z`, a [specimen()], or a `shape` of [fit_shape()]. NULL: no
+#'   landmarks. Formats of several specimens also take a list of these, a k x 3 x n array, a
+#'   `shape_sample`, a `shape_batch` or an `aligned`.
+#' @param curves Curves that are written: a named list of n x 3 matrices, of data frames with
+#'   columns `x`, `y`, `z`, or of values of [ridge_curve()]. The attribute `closed` of a matrix is
+#'   TRUE for a closed curve. NULL: the curves of the shape, or the attribute `curves` of `x`, if
+#'   there is one. `list()`: none.
 #' @return `read_landmarks()`: k x 3 numeric matrix with row names and columns `x`, `y`, `z`, in the
-#'   file's unit and order; points of the plane with z = 0; landmarks without a name by number; NA
-#'   in all three co-ordinates of a missing one. Where the file has curves, the attribute `curves`:
-#'   named list of n x 3 matrices, each with the attribute `closed`. For a file of several
-#'   specimens, or a folder, a named list of such matrices. `write_landmarks()`: `file`, invisibly.
-#'   Errors are of class `crestline_landmark_error` and name file, line and remedy.
+#'   file's unit and order. A missing landmark has three NA. Points of two-dimensional files have
+#'   z = 0. Landmarks without a name are numbered. If the file has curves, the attribute `curves`
+#'   has them: a named list of n x 3 matrices, each with the attribute `closed`. A folder, or a file
+#'   of several specimens, gives a named list of such matrices. `write_landmarks()`: `file`,
+#'   invisibly. Errors are of class `crestline_landmark_error`; they name the file, the line and the
+#'   remedy.
 #' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".csv")

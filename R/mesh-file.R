@@ -35,35 +35,36 @@ mesh_readers <- function() list(ply = read_ply, obj = read_obj, stl = read_stl)
 #' | `.stl` | single precision, with `ascii` as in `.obj` | no | no |
 #'
 #' * `.ply`: binary (little endian) or ascii. MeshLab and CloudCompare show `quality` as a scalar
-#'   field. The mesh of [shape_mesh()] has a property `row` too: the row of every vertex in
-#'   `coords(shape, "surface")`, 0 for the points between them, since the format has no names of
-#'   points: `rownames(coords(shape, "surface"))[row]` are these.
+#'   field. The mesh of [shape_mesh()] has a property `row` too. It gives the row of each vertex in
+#'   `coords(shape, "surface")`, and 0 for the points between them. The format has no names of
+#'   points; `rownames(coords(shape, "surface"))[row]` gives them.
 #' * `.obj`: text, colours as numbers from 0 to 1.
 #' * `.stl`: triangles without shared vertices; reading merges equal ones, in the order of the
 #'   triangles.
 #' * `.ply` and `.obj` of a specimen or a shape have its provenance (see [summary.specimen()]) in
 #'   comment lines; `.stl` has no place for it.
 #'
-#' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer takes meshes for LPS unless
-#' told otherwise, as [write_landmarks()] does.
+#' Co-ordinates are written as they stand, in the mesh's unit. 3D Slicer reads meshes in the frame
+#' LPS by default. The default of [write_landmarks()] is the same.
 #'
 #' @param x A `shape` (its surface, see [shape_mesh()]), a [specimen()], or a `mesh3d` such as a
 #'   denser surface of [shape_mesh()].
 #' @param file Path of the file, ending in `.ply`, `.obj` or `.stl`.
-#' @param colour Colours of the vertices. NULL: the natural ones, if any. Colours: one, or one for
-#'   each vertex. Numbers: one for each vertex (with a shape also one for each of its surface
-#'   points); `palette` turns them into colours. "patch": a colour a patch, with the strips between
-#'   patches grey. "se": the standard errors of a shape's surface points, NA inside patches.
-#' @param parts Of a shape: parts of the surface, as in [shape_mesh()].
-#' @param palette Colours from the least number to the greatest, with even steps between.
-#' @param limits The numbers at the ends of the palette; the range of the numbers unless given.
-#'   Numbers beyond have the colour of the end.
+#' @param colour Colours of the vertices. NULL: the natural colours, if the mesh has any. Colours:
+#'   one, or one for each vertex. Numbers: one for each vertex, or one for each surface point of a
+#'   shape; `palette` turns them into colours. "patch": one colour for each patch of a shape; the
+#'   strips between patches are grey. "se": the standard errors of a shape's surface points, in the
+#'   unit of the mesh; NA inside patches.
+#' @param parts Parts of a shape's surface that are written, as in [shape_mesh()].
+#' @param palette Two or more colours, from the least number to the greatest, evenly spaced.
+#' @param limits Two numbers: the values at the ends of the palette. NULL: the range of the numbers.
+#'   Numbers beyond a limit get the colour of that end.
 #' @param missing Colour where the number is NA.
 #' @param ascii Whether `.ply` and `.stl` are written as text, not binary.
 #' @return `file`, invisibly.
 #' @section Errors: of class `crestline_error`, for an unknown extension, a file that cannot be
-#'   written, a mesh without triangles, or colours that do not fit. A warning of class
-#'   `crestline_format_warning` tells when STL leaves out colours that were asked for.
+#'   written, a mesh without triangles, or colours whose number does not match the vertices. STL has
+#'   no colours: if you ask for them, you get a warning of class `crestline_format_warning`.
 #' @template glossary
 #' @seealso [shape_mesh()], [write_landmarks()] for the points, [write_page()] for the browser
 #' @examples

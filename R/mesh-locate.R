@@ -10,20 +10,20 @@ frame_of <- function(columns, ..., class = NULL) {
 
 #' The closest places of a surface
 #'
-#' For every point the place of the surface that is nearest to it, exactly and in double precision.
-#' A place on a mesh is a triangle (`face`) and three weights of its corners; from these any value
-#' that is known at the vertices can be interpolated.
+#' Finds for every point the closest place of the surface, exactly and in double precision. A place
+#' on a mesh is a triangle (`face`) and three barycentric weights of its corners. With these weights
+#' any value that is known at the vertices can be interpolated.
 #'
 #' @param mesh A [specimen()], or a `mesh3d` of triangles.
 #' @param xyz Points in the unit of the mesh: n x 3 matrix, three co-ordinates, or a data frame with
 #'   columns `x`, `y`, `z`. A row with `NA` gives a row of `NA`.
 #' @return Data frame, a row a point, with the row names of `xyz`: `face` (column of `mesh$it`),
-#'   `w1`, `w2`, `w3` (weights of its corners: 0 to 1, of sum 1), `x`, `y`, `z` (the place),
-#'   `distance` (of the point from it, in the unit of the mesh). Of triangles that are equally near,
-#'   the one with the lowest number. A triangle without area is never the nearest, unless there are
-#'   no others.
-#' @section Errors: of class `crestline_error`: a mesh without triangles, `xyz` that is no matrix of
-#'   three columns, or holds infinite numbers.
+#'   `w1`, `w2`, `w3` (weights of its corners, from 0 to 1, with sum 1), `x`, `y`, `z` (the place),
+#'   `distance` (from the point to the place, in the unit of the mesh). If several triangles are
+#'   equally close, the one with the lowest number is given. A triangle without area is given only
+#'   if the mesh has no others.
+#' @section Errors: of class `crestline_error`: the mesh has no triangles; `xyz` has not three
+#'   columns, or holds infinite numbers.
 #' @template glossary
 #' @seealso [frechet_mean()] for the mean of such places; [path_coordinates()]
 #' @examples

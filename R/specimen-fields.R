@@ -70,17 +70,17 @@ refuse_geometry <- function(id) refuse_specimen("its `geometry` is not that of i
 
 #' Change a field of a specimen
 #'
-#' `specimen$landmarks["tL", ] <- c(x, y, z)` moves or adds a landmark: it is put on the surface
-#' where it is used. `specimen$mesh <- other` passes [specimen()] again: other colours or normals
-#' are taken as they are, other vertices or triangles are checked, and the landmarks put on them or
-#' refused. `report`, `key` and the like follow.
+#' `specimen$landmarks["tL", ] <- c(x, y, z)` moves a landmark or adds one. Functions that use the
+#' landmark put it on the surface. `specimen$mesh <- other` replaces the mesh. New colours or
+#' normals are taken as they are. New vertices or triangles are checked as by [specimen()], and the
+#' landmarks are put on them or refused. The fields `report` and `key` are updated.
 #'
 #' @param x A [specimen()].
 #' @param name,i Name of a field.
-#' @param value What it shall be.
+#' @param value New value of the field.
 #' @return The specimen.
-#' @section Errors: of class `crestline_error`: landmarks that are no k x 3 numeric matrix with row
-#'   names, a mesh that [specimen()] refuses, a field that specimens do not have.
+#' @section Errors: of class `crestline_error`: the landmarks are not a k x 3 numeric matrix with
+#'   row names; [specimen()] refuses the mesh; specimens have no such field.
 #' @template glossary
 #' @seealso [specimen()]
 #' @examples

@@ -174,17 +174,20 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #' * the template against which points were slid;
 #' * the settings that are not the default.
 #'
-#' Shapes, samples and results keep it as `provenance`. Files that the package writes include it if
-#' their format has a place for comments, see [write_mesh()] and [write_landmarks()].
+#' Shapes, samples and results have it as the field `provenance`. Files that the package writes
+#' include it if their format has a place for comments, see [write_mesh()] and [write_landmarks()].
 #'
 #' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
 #'   `repeatability`.
 #' @param ... Ignored.
-#' @return Object of class `crestline_summary`, a list: `lines` (text), `provenance` (list:
-#'   `package`, `r`; of what there is: `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`,
-#'   `file`), `landmarks` (data frame `landmark`, `how`, `file`, `time`), `template` (`id`, `hash`),
-#'   `specimens` (data frame `id`, `file`, `key`, `landmarks`), `settings`). Of a `shape_pca` that
-#'   of `prcomp` with `provenance`.
+#' @return Object of class `crestline_summary`, a list:
+#'   * `lines`: the text (character);
+#'   * `provenance`: a list of `package` and `r` (versions) and, if the object has them, `scheme`
+#'     (`name`, `hash`, `unit`), `mesh` (`id`, `key`, `file`), `landmarks` (data frame `landmark`,
+#'     `how`, `file`, `time`), `template` (`id`, `hash`), `specimens` (data frame `id`, `file`,
+#'     `key`, `landmarks`) and `settings`.
+#'
+#'   For a `shape_pca`: the summary of `prcomp`, with a field `provenance`.
 #' @template glossary
 #' @seealso [summary.group_comparison()]
 #' @examples

@@ -14,19 +14,20 @@
 #' Lines may end in LF, CR or both. Text files may have a byte-order mark or be UTF-16, and may
 #' spell NaN as any system does. Decimal commas are refused.
 #'
-#' A warning of class `crestline_file_warning` names a file whose header disagrees with its content,
-#' or that seems cut short.
+#' A warning of class `crestline_file_warning` names the file if its header disagrees with its
+#' content, or if it seems cut short.
 #'
 #' @param file Path of a `.ply`, `.obj` or `.stl` file, also packed by gzip (`.ply.gz`).
 #' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for
-#'   [specimen()]. A file or folder of several specimens, a list of matrices and a k x 3 x n array
-#'   are searched for the specimen `id`.
-#' @param id Name of the specimen. Unless given, the file's name without extension (and `.gz`).
-#' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` calls
-#'   the file's `prn` `pn`. Names that the specimen does not have are passed over.
+#'   [specimen()]; in the unit of the mesh. A file or folder of several specimens, a list of
+#'   matrices or a k x 3 x n array is searched for the specimen `id`. NULL: none.
+#' @param id Name of the specimen, one string. NULL: the file's name without its extension (and
+#'   without `.gz`).
+#' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` renames
+#'   the landmark `prn` of the file to `pn`. Names that the specimen does not have are ignored.
 #' @param ... Further arguments of [specimen()].
-#' @return A [specimen()]. Errors are of class `crestline_error`, name the specimen and say what to
-#'   do.
+#' @return A [specimen()]. Errors are of class `crestline_error`; they name the specimen and the
+#'   remedy.
 #' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".ply")

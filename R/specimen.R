@@ -6,37 +6,39 @@
 #' `report`. Any other fault is an error that names the specimen, the landmark and the remedy.
 #' Vertices and faces that are kept stay in their order. [crestline-package] has a glossary.
 #'
-#' @param mesh A `mesh3d` (as of `Rvcg::vcgImport()` or rgl): `vb` 4 x n, `it` 3 x m; quads (`ib`)
-#'   are cut in two, a point cloud without faces is triangulated by `Rvcg::vcgBallPivoting()`.
+#' @param mesh A `mesh3d`, as `Rvcg::vcgImport()` or rgl make it: `vb` 4 x n, `it` 3 x m. Quads
+#'   (`ib`) are cut into two triangles. A point cloud without faces is triangulated by
+#'   `Rvcg::vcgBallPivoting()`.
 #' @param landmarks k x 3 numeric matrix with row names, or a data frame with columns `name` (or
-#'   `landmark`, `label`), `x`, `y`, `z`; in the mesh's unit; NA: missing on this specimen.
+#'   `landmark`, `label`), `x`, `y`, `z`; in the unit of the mesh. NA: this specimen lacks the
+#'   landmark. NULL: no landmarks.
 #' @param id Name of the specimen, one string.
-#' @param outward Ridges and valleys swap when triangles face inwards. "detect" turns a piece round,
-#'   with a warning, when its triangles clearly face the middle of the mesh. The measure is the
-#'   area-weighted mean cosine between the normal and the direction away from the centroid; the
-#'   limit is -0.4 (face scans have 0.55 to 0.85). "keep" leaves all pieces as they are, for a small
-#'   or hollow surface. "flip" turns all.
+#' @param outward Orientation of the triangles. Ridges and valleys swap if the triangles face
+#'   inwards. "detect" turns a piece round, with a warning, if its triangles clearly face the middle
+#'   of the mesh. The measure is the area-weighted mean cosine between the normal and the direction
+#'   away from the centroid; the limit is -0.4 (face scans have 0.55 to 0.85). "keep" leaves all
+#'   pieces as they are; use it for a small or hollow surface. "flip" turns all pieces.
 #' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's
-#'   size (0.01 is 3 to 4 mm on a face). Nearer landmarks are put on the surface. Farther ones are
-#'   an error. The size is taken from where most of the surface lies, of the pieces that carry the
-#'   landmarks. On a face it is about the diagonal of the bounding box. A platform or a stray vertex
-#'   does not change it.
-#' @param debris Pieces with less than this share of the mesh's faces are left out.
-#' @param midline Names of midline landmarks from top to bottom. Together with landmarks whose names
-#'   end in L and R they show whether left and right are mirrored (a warning of class
-#'   `crestline_mirrored`), and whether two landmarks are exchanged (of class
-#'   `crestline_exchanged`): left for right, two of the midline, or two of one side.
+#'   size (0.01 is 3 to 4 mm on a face). Closer landmarks are moved onto the surface. Farther
+#'   landmarks are an error. The size is that of the part where most of the surface lies, on the
+#'   pieces that carry the landmarks. On a face it is about the diagonal of the bounding box. A
+#'   platform or a stray vertex does not change it.
+#' @param debris Pieces with less than this share of the mesh's faces are removed (no unit).
+#' @param midline Names of midline landmarks from top to bottom. Together with the landmarks whose
+#'   names end in L and R they serve two checks. If left and right are mirrored, you get a warning
+#'   of class `crestline_mirrored`. If two landmarks look exchanged (left for right, two of the
+#'   midline, or two of one side), you get a warning of class `crestline_exchanged`.
 #' @return An object of class `specimen`, a list:
 #'   * `id` (character);
 #'   * `mesh` (`mesh3d`; `vb` with fourth row 1, `it`, outward unit `normals` 4 x n, and
 #'     `material$color`, one colour a vertex, where there is natural colour);
-#'   * `landmarks` (k x 3 matrix with row names, exactly on the surface; perhaps no row);
-#'   * `report` (data frame: `check`, `count`, `action`; a row for every check, also where nothing
-#'     was found);
-#'   * `vertices` (integer, for every vertex given its number in `mesh`, NA where it was left out:
-#'     `values[!is.na(vertices)]` belong to `vertices[!is.na(vertices)]`);
-#'   * `file` (path of the mesh, NA where it was given) and `origin` (data frame `landmark`, `how`,
-#'     `file`, `time`: where each landmark came from, see [summary.specimen()]);
+#'   * `landmarks` (k x 3 matrix with row names, exactly on the surface; 0 x 3 without landmarks);
+#'   * `report` (data frame with a row for every check: `check`, `count`, `action`; `count` is 0 if
+#'     nothing was found);
+#'   * `vertices` (integer, for every vertex of the input its number in `mesh`; NA if it was left
+#'     out: `values[!is.na(vertices)]` belong to `vertices[!is.na(vertices)]`);
+#'   * `file` (path of the mesh; NA for a mesh from memory) and `origin` (data frame `landmark`,
+#'     `how`, `file`, `time`: the source of each landmark, see [summary.specimen()]);
 #'   * `key` (hash of the vertices and triangles, in their order): curves, shapes and curvatures of
 #'     the mesh carry it. They are refused with any other mesh (errors of class
 #'     `crestline_wrong_mesh`);
@@ -46,17 +48,18 @@
 #' @section Warnings: Of class `crestline_warning`, each with a class of its own:
 #'   * `crestline_triangulated`: triangles were made from points;
 #'   * `crestline_triangles_dropped`: more than 1 % of the triangles are left out;
-#'   * `crestline_far_vertices`: vertices are left out that are 50 times as far from the middle as
-#'     half of the others;
+#'   * `crestline_far_vertices`: vertices are left out, as they are more than 50 times the median
+#'     distance from the middle;
 #'   * `crestline_loose_triangles`: triangles touch no other;
 #'   * `crestline_seam`: borders lie beside one another;
-#'   * `crestline_double_skin`: the surface is there twice, one skin a hair from the other.
+#'   * `crestline_double_skin`: the surface is double, with one skin very close to the other.
 #'
 #'   Corners within 1e-6 of the size are joined without a warning: both sides of a seam, single
 #'   triangles, vertices on the edge of another triangle.
-#' @section Errors: Of class `crestline_error`: the mesh (class `crestline_mesh_error`) has no
-#'   triangles and gives none, faces name missing vertices; landmarks (class
-#'   `crestline_landmark_error`) without names, named twice, off the surface, in another unit.
+#' @section Errors: Of class `crestline_mesh_error`: the mesh has no triangles and none can be made,
+#'   or its faces refer to missing vertices. Of class `crestline_landmark_error`: landmarks have no
+#'   names, share a name, lie off the surface, or are in another unit. Both are of class
+#'   `crestline_error`.
 #' @seealso [read_specimen()], [read_landmarks()]
 #' @examples
 #' ball <- specimen(Rvcg::vcgSphere(3), rbind(top = c(0, 0, 1), front = c(1, 0, 0)), id = "ball")
