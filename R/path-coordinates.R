@@ -1,22 +1,23 @@
 #' Arc length and signed distance of the surface near a path
 #'
-#' Unrolls the surface near a path. Each vertex gets two numbers. `s` is the arc length of the
-#' nearest place of the path. `d` is the signed distance from that place, positive to the left of
-#' the path seen from outside (the side of normal x tangent).
+#' Gives each vertex near a path two co-ordinates. `s` is the arc length at the closest place of the
+#' path. `d` is the signed distance from that place. It is positive to the left of the path as seen
+#' from outside (the side of normal x tangent).
 #'
-#' Only vertices connected to the path within the window and its margin are kept. Past its ends the
-#' path is taken to go on straight; vertices there have `s < 0` or `s` above the length. Those in
-#' the margin are needed to lift a curve that comes near the edge or the ends, and take no part in
-#' fits.
+#' Only vertices that are connected to the path within the window and its margin are kept. Beyond
+#' its ends the path is continued straight; vertices there have `s < 0` or `s` above the length.
+#' Vertices in the margin are not used in fits. [lift()] needs them for a curve near the edge or the
+#' ends of the window.
 #'
 #' @param specimen A [specimen()] or `mesh3d`.
-#' @param path A `mesh_path` on it.
+#' @param path A `mesh_path` on that mesh, as of [plane_path()] or [reference_path()].
 #' @param width Half width of the window, in the unit of the mesh.
-#' @param margin How far outside the window vertices are kept, in the unit of the mesh.
-#' @return Object of class `path_coordinates`: data frame with a row a vertex and columns
-#'   `vertex` (index), `s`, `d` (unit of the mesh), `inside` (in the
-#'   window, not its margin), `tx`, `ty`, `tz` (unit tangent of the path at the nearest place);
-#'   attributes `length` (of the path), `width`, `key` and `id` (of the mesh).
+#' @param margin Width of the strip outside the window in which vertices are kept, in the unit of
+#'   the mesh.
+#' @return Object of class `path_coordinates`: a data frame with a row for each vertex. Its columns
+#'   are `vertex` (index), `s`, `d` (unit of the mesh), `inside` (TRUE in the window, FALSE in its
+#'   margin), `tx`, `ty`, `tz` (unit tangent of the path at the closest place). Its attributes are
+#'   `length` (of the path), `width`, `key` and `id` (of the mesh).
 #' @section Errors: of class `crestline_wrong_mesh`, when the path belongs to another mesh.
 #' @template glossary
 #' @templateVar where section 3.2

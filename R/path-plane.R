@@ -1,26 +1,25 @@
 #' Plane cut of a surface between two points
 #'
-#' The plane contains both points and is turned about the axis through them by
-#' `angle`; at angle 0 it also contains the mean of the surface normals at the two
-#' points, so that it cuts straight into the surface. The cut is walked from
-#' triangle to triangle, from the first point until the second is reached.
+#' The plane contains both points; `angle` turns it about the axis through them. At angle 0 it also
+#' contains the mean of the surface normals at the two points, and so cuts straight into the
+#' surface. The cut is followed from triangle to triangle, from the first point to the second.
 #'
 #' @param mesh A `specimen` or a `mesh3d`.
-#' @param from,to Name of a landmark (with a `specimen`), or a position: three
-#'   co-ordinates, put on the surface.
+#' @param from,to The two ends. Each is the name of a landmark (of a `specimen`), or a position:
+#'   three co-ordinates in the unit of the mesh, which are moved onto the surface.
 #' @param angle Angle of the plane in radians, in (-pi/2, pi/2]; positive turns
 #'   right-handed about the axis from `from` to `to`.
-#' @param side 0 when the path leaves `from` on the side of `to`, 1 for the way
-#'   round the other side of the object.
-#' @param reach A cut that gets further from the straight line between the points
-#'   than this share of its length is given up; `Inf` for no limit.
-#' @return A `mesh_path`: data frame of the points where the plane crosses the edges of
-#'   the mesh, from `from` to `to`, with columns `s` (arc length, in the unit of the
-#'   mesh), `x`, `y`, `z`, `face` (the triangle in which the segment that ends at the
-#'   point lies) and barycentric weights `w1`, `w2`, `w3` there; attributes `length`,
-#'   `angle`, `side`.
-#' @section Errors: of class `crestline_path_error`, when the cut ends at a border
-#'   of the mesh (a hole between the points) or comes round without meeting `to`.
+#' @param side 0: the path leaves `from` towards `to`. 1: it runs round the other side of the
+#'   object.
+#' @param reach Greatest distance of the cut from the straight line between the points, as a share
+#'   of that line's length. `Inf`: no limit.
+#' @return A `mesh_path`: a data frame with a row for each point where the plane crosses an edge of
+#'   the mesh, in order from `from` to `to`. Its columns are `s` (arc length, in the unit of the
+#'   mesh), `x`, `y`, `z`, `face` (triangle of the segment that ends at the point) and the
+#'   barycentric weights `w1`, `w2`, `w3` in it. Its attributes are `length` (unit of the mesh),
+#'   `angle` (radians) and `side`.
+#' @section Errors: of class `crestline_path_error`: the cut ends at a border of the mesh (such as a
+#'   hole between the points), exceeds `reach`, or returns without meeting `to`.
 #' @template glossary
 #' @templateVar where section 3.1
 #' @template paper

@@ -6,20 +6,19 @@ path_columns <- c("s", mesh_columns)
 
 #' Parts of a path, and paths joined
 #'
-#' `path[i, ]` is a path of its own: its arc lengths begin at 0 and its `length` is that of the
-#' steps between its points, straight where points between them were left out. What was true of the
-#' whole path (angle, side, optima, criterion, ...) is dropped; the mesh that it lies on is
-#' remembered. `rbind()` puts paths of one mesh behind each other; where one ends and the next
-#' begins at the same place, that point is there once. A path whose co-ordinates are set has the
-#' length of these.
+#' `path[i, ]` is a new path. Its arc lengths begin at 0, and its `length` is the sum of the steps
+#' between its points. A step over points that were left out is straight. Attributes of the whole
+#' path (angle, side, optima, criterion, ...) are dropped; the key of the mesh is kept. `rbind()`
+#' joins paths of one mesh end to end. If one path ends where the next begins, that point is kept
+#' once. If co-ordinates are set, the length is computed again.
 #'
 #' @param x A `mesh_path`, see [plane_path()].
-#' @param ... Rows and columns as for any data frame; of `rbind()`: `mesh_path`s of one mesh.
+#' @param ... Rows and columns, as for any data frame. For `rbind()`: `mesh_path`s of one mesh.
 #' @param deparse.level Ignored.
-#' @return A `mesh_path` with the attribute `length`. Without one of the columns `s`, `x`, `y`, `z`,
-#'   `face`, `w1`, `w2`, `w3` it is no path but a plain data frame, or a vector, as of any data
-#'   frame.
-#' @section Errors: of class `crestline_error`: rows that are not there; paths of different meshes.
+#' @return A `mesh_path` with the attribute `length`. If one of the columns `s`, `x`, `y`, `z`,
+#'   `face`, `w1`, `w2`, `w3` is dropped, a plain data frame or a vector.
+#' @section Errors: of class `crestline_error`: rows that the path does not have; paths of different
+#'   meshes.
 #' @template glossary
 #' @examples
 #' ball <- Rvcg::vcgSphere(4)
@@ -49,8 +48,8 @@ NULL
 }
 
 #' @rdname mesh_path
-#' @param name,i A column.
-#' @param value What it shall hold; NULL takes it away.
+#' @param name,i Name or number of a column.
+#' @param value New values of the column; NULL removes it.
 #' @export
 `$<-.mesh_path` <- function(x, name, value) changed_path(x, NextMethod())
 

@@ -1,67 +1,78 @@
 #' Ridge or valley curve between two landmarks
 #'
-#' Finds the curve of strongest curvature between two landmarks, beside a first path that joins
-#' them. It has five stages: the reference path ([reference_path()]), co-ordinates (s, d) along and
-#' across it ([path_coordinates()]), a smooth surface of curvature over them
-#' ([curvature_surface()]), its ridge line ([ridge_line()]), and the way back to the mesh
-#' ([lift()]). The value keeps the result of each stage. [crestline-package] has a glossary.
+#' Finds the crest line between two landmarks: the curve of strongest curvature near a first path
+#' that joins them. It has five stages, and the value has the result of each:
+#'
+#' * [reference_path()] finds a reference path between the landmarks;
+#' * [path_coordinates()] gives co-ordinates (s, d) along and across this path;
+#' * [curvature_surface()] fits a smooth surface of curvature over (s, d);
+#' * [ridge_line()] finds the ridge line of this surface;
+#' * [lift()] carries the line back to the mesh.
+#'
+#' [crestline-package] has a glossary.
 #'
 #' @inheritParams reference_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for
 #'   `"plane"`. On faces, 10 mm for broad features (the paper: 10 mm) and 5 mm for lips, nose and
 #'   eyes (our choice).
-#' @param width How far the curve may wander from the reference path, in the unit
-#'   of the mesh; the window is no wider than `settings$window` radii. Not needed for `"plane"`.
-#' @param n Number of points, both ends counted, at equal chords.
+#' @param width Half width of the window: the greatest distance of the curve from the reference
+#'   path, in the unit of the mesh. It is limited to `settings$window` radii. Not needed for
+#'   `"plane"`.
+#' @param n Number of points (semilandmarks), both ends included. The straight distances between
+#'   neighbours are equal.
 #' @param settings [ridge_settings()].
-#' @param passes Number of passes, each about the curve of the one before and counted whole. `NULL`:
-#'   one pass and a share of a second, as `settings$second` says.
+#' @param passes Number of passes. Each pass takes the curve of the pass before as its reference
+#'   path. `NULL`: one pass and a share of a second one, by `settings$second`.
 #' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), if you
-#'   have it. `NULL`: curvature is estimated where the curve may lie.
-#' @param trust Two shares of the path's length, between which the reference path and curvature are
-#'   believed. From there to the landmarks the path is the shortest cut, and curvature is ignored.
-#'   Use it where a feature fades, or the mesh is crumpled, near a landmark. For ridges and valleys
-#'   only.
+#'   have it. `NULL`: curvature is estimated in the region where the curve may lie.
+#' @param trust Two shares of the path's length, 0 to 1. Curvature is used between them only. From
+#'   there to the landmarks curvature is ignored, and the path is the shortest cut. Use it if a
+#'   feature fades near a landmark, or if the mesh is crumpled there. For ridges and valleys only.
 #' @return Object of class `curve`, a list:
-#'   * `points`: data frame of n rows `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d`
-#'     (signed distance from the reference path; NA where no ridge was found and the points lie on
-#'     the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`;
-#'     lengths in the unit of the mesh; `as.data.frame()` gives it;
+#'   * `points`: data frame with n rows, which `as.data.frame()` gives; lengths in the unit of the
+#'     mesh. Columns: `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance
+#'     from the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`.
+#'     If no ridge was found, the points lie on the reference path, and `d` is NA;
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
-#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: the stages of the last pass
-#'     (`NULL` for a plane curve but the first); the reference of a second pass is the first pass's
-#'     curve. `line$kernel` is the half width of the kernel;
-#'   * `share`: share of the second pass that was taken, 0 with one pass;
-#'   * `noise_factor`: how many times as much the strengths scatter about their smooth surface as
-#'     under independent noise, at least 1: the noise is correlated along the mesh, or fine relief
-#'     counts as noise. 1 where the noise is known;
+#'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: results of the stages of the
+#'     last pass. A plane curve has only `reference`; the others are `NULL`. The reference of a
+#'     second pass is the curve of the first. `line$kernel` is the half width of the kernel, in the
+#'     unit of the mesh;
+#'   * `share`: share of the second pass in the curve; 0 with one pass;
+#'   * `noise_factor`: variance of the strengths about their smooth surface, as a multiple of the
+#'     variance under independent noise; at least 1 (no unit). Noise that is correlated along the
+#'     mesh raises it, and so does fine relief. It is 1 if the noise is known;
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the
 #'     reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
-#'   * `determined`: whether curvature determines the curve. It is `FALSE` when the median standard
-#'     error exceeds `settings$undetermined` radii, the curve runs along the edge of the window, the
-#'     curvature is fainter than `settings$faint`, the line cannot be lifted onto the mesh, or there
-#'     is no such curvature by the path; `reason` gives the cause. The plane path (`reference`, or
-#'     `type = "plane"`) is then the safer choice. `NA` for plane curves and without standard
-#'     errors;
+#'   * `determined`: whether curvature determines the curve. `FALSE` has one of five causes, which
+#'     `reason` gives: the median standard error exceeds `settings$undetermined` radii; the curve
+#'     runs along the edge of the window; the curvature is fainter than `settings$faint`; the line
+#'     cannot be lifted onto the mesh; the path has no such curvature near it. The plane path
+#'     (`reference`, or `type = "plane"`) is then the safer choice. `NA` for plane curves and
+#'     without standard errors;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
-#'   * `key`: of the mesh, so that what draws it refuses another.
-#' @section Standard error: the standard deviation of the curve's position across itself if the mesh
-#'   had been scanned again. Without a repeat scan, noise is taken to be independent at each vertex,
-#'   and its variance is multiplied by `noise_factor`: smooth noise, which every scanner has, leaves
-#'   small residuals in each local fit, but the strengths scatter. On simulated ridges of noise 0.01
-#'   (b = 1 and 2; 15 curves each) the crest lies within two standard errors at 98 and 99 % of the
-#'   places with independent noise. With noise correlated over one, two and three spacings it does
-#'   at 79, 59 and 57 % (b = 1) and 96, 92 and 92 % (b = 2): on blunt ridges such noise is seen in
-#'   part only. On a clean real scan the factor is about 10, since fine relief counts as noise, and
-#'   the band is too wide. Two scans of one subject tell noise from relief: with
-#'   [ridge_settings()]`(noise = )` of [scan_noise()] the error follows the noise that was measured.
-#'   A wider radius leaves a bias that the standard error does not include.
-#'   `vignette("how-good", "crestline")` has the tables.
-#' @section Errors: of class `crestline_error`, naming specimen, stage and remedy.
-#' @section Warnings: of class `crestline_undetermined`, when the curve is not
-#'   determined by curvature; and that of [reference_path()].
+#'   * `key`: key of the mesh. Functions that draw or use the curve refuse another mesh.
+#' @section Standard error: `se` is the standard deviation of the curve's position across itself,
+#'   over repeated scans of the mesh. Without a repeat scan, the noise is first taken to be
+#'   independent at each vertex. Every scanner also has smooth noise. Smooth noise leaves small
+#'   residuals in each local fit, but it makes the strengths scatter. The variance is therefore
+#'   multiplied by `noise_factor`.
+#'
+#'   Coverage was measured on simulated ridges with noise 0.01 (b = 1 and 2; 15 curves each). With
+#'   independent noise the crest lies within two standard errors at 98 and 99 % of the places. With
+#'   noise correlated over one, two and three spacings it does at 79, 59 and 57 % for b = 1. For b =
+#'   2 the figures are 96, 92 and 92 %. On blunt ridges the factor sees only part of such noise.
+#'
+#'   On a clean real scan the factor is about 10, as fine relief counts as noise, and the band is
+#'   too wide. Two scans of one subject separate noise from relief. With [ridge_settings()]`(noise =
+#'   )` of [scan_noise()] the standard error follows the measured noise. A wider radius adds a bias
+#'   that the standard error does not include. `vignette("how-good", "crestline")` has the tables.
+#' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,
+#'   or an argument is wrong. The error names the specimen, the stage and the remedy.
+#' @section Warnings: of class `crestline_undetermined`: curvature does not determine the curve. The
+#'   warning of [reference_path()] can occur too.
 #' @templateVar where section 3
 #' @template paper
 #' @examples

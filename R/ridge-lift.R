@@ -1,20 +1,19 @@
 #' Lift a curve given in arc length and distance onto the mesh
 #'
-#' The curve d = alpha(s) is followed through the triangles of the mesh: at every
-#' vertex of the window d - alpha(s) is taken, and its zero line is walked from the
-#' triangle of the first end to that of the second, edge by edge. So the curve is a
-#' connected path on the mesh, and where (s, d) folds over it stays on the sheet
-#' that is joined to the reference path.
+#' The curve d = alpha(s) is followed through the triangles of the mesh. Every vertex of the window
+#' has a value d - alpha(s). The zero line of these values is followed edge by edge, from the
+#' triangle of the first end to that of the second. The result is a connected path on the mesh. If
+#' (s, d) folds over, the path stays on the sheet that is joined to the reference path.
 #'
 #' @param specimen A [specimen()] or `mesh3d`.
 #' @param coordinates [path_coordinates()] of the window.
 #' @param path The reference path.
 #' @param s,alpha The curve: offsets at increasing arc lengths from 0 to the length of the path.
-#' @return A `mesh_path` from the first to the last point of `path`. Attribute `lifted` is `FALSE`
-#'   where the walk was cut off by a border or fold and the path was pieced together from plane cuts
-#'   between the places of the curve.
-#' @section Errors: of class `crestline_path_error`, when neither way gives a path; of class
-#'   `crestline_wrong_mesh`, when the path or its co-ordinates belong to another mesh.
+#' @return A `mesh_path` from the first to the last point of `path`. If a border or a fold stopped
+#'   the walk, the path is made of plane cuts between the places of the curve, and the attribute
+#'   `lifted` is `FALSE`.
+#' @section Errors: of class `crestline_path_error`: neither the walk nor plane cuts give a path. Of
+#'   class `crestline_wrong_mesh`: the path or its co-ordinates belong to another mesh.
 #' @template glossary
 #' @templateVar where section 3.3
 #' @template paper

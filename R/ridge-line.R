@@ -1,19 +1,18 @@
 #' Penalised ridge of a curvature surface
 #'
-#' The offset alpha(u) from the reference path, u = s / length, that maximises
-#' \deqn{\int \nu(u, \alpha) / \nu_0 \, du - \lambda \int (d^2 (\alpha / r) / du^2)^2 du}
-#' with alpha = 0 at both ends: nu the smooth strength, nu0 its mean near the path,
-#' r the radius of the curvature estimates. The criterion has no unit. Newton's
-#' method from alpha = 0; the criterion is not concave, so where the negative
-#' Hessian is not positive definite the second derivatives of nu enter by their absolute
-#' value, steps are bounded, and halved until the criterion rises. The local optimum
-#' by the reference path is wanted: the global one is usually a competing feature.
+#' Finds the offset alpha(u) from the reference path, with u = s / length, that maximises \deqn{\int
+#' \nu(u, \alpha) / \nu_0 \, du - \lambda \int (d^2 (\alpha / r) / du^2)^2 du} with alpha = 0 at
+#' both ends. Here nu is the smooth strength, nu0 its mean near the path, and r the radius of the
+#' curvature estimates. The criterion has no unit. It is maximised by Newton's method from
+#' alpha = 0. The criterion is not concave. If the negative Hessian is not positive definite, the
+#' second derivatives of nu are replaced by their absolute values. Steps are bounded, and halved
+#' until the criterion rises. The result is the local optimum near the reference path; the global
+#' optimum is usually a competing feature.
 #'
 #' With `kernel` > 0, nu is replaced by its mean across the path under a biweight kernel,
-#' \deqn{\nu_h(u, \alpha) = \int \nu(u, d) K_h(d - \alpha) \, dd, \quad
-#' K_h(t) = \frac{15}{16 h} (1 - t^2 / h^2)^2,}
-#' and 0 outside the window. As h grows the line passes from the mode of nu to its centroid in the
-#' window. The mean is exact: it is a change of the B-splines across.
+#' \deqn{\nu_h(u, \alpha) = \int \nu(u, d) K_h(d - \alpha) \, dd, \quad K_h(t) = \frac{15}{16 h}
+#' (1 - t^2 / h^2)^2,} and 0 outside the window. As h grows, the line moves from the mode of nu to
+#' its centroid in the window. The mean is computed exactly, through the B-splines across the path.
 #'
 #' @param surface A [curvature_surface()].
 #' @param scale Mean strength nu0 near the path, in 1 / unit.
@@ -22,10 +21,13 @@
 #'   `iterations`, `tolerance`.
 #' @param kernel Half width h of the kernel, in the unit of the mesh; 0: none. [ridge_curve()]
 #'   chooses it from the standard error.
-#' @return Object of class `ridge_line`, a list: `s` and `alpha` (unit of the mesh) at the grid;
-#'   `lambda` (of the criterion above); `criterion`, `gradient` (largest absolute, in the interior
-#'   of the bounds), `iterations`, `converged`, `at_bound` (the ridge runs along the edge of the
-#'   window); `kernel`.
+#' @return Object of class `ridge_line`, a list:
+#'   * `s` and `alpha`: the line at the points of the grid, in the unit of the mesh;
+#'   * `lambda` and `criterion`: of the criterion above, without unit;
+#'   * `gradient`: largest absolute gradient in the interior of the bounds;
+#'   * `iterations`, `converged`;
+#'   * `at_bound`: TRUE if the ridge runs along the edge of the window;
+#'   * `kernel`: half width of the kernel, in the unit of the mesh.
 #' @template glossary
 #' @templateVar where section 3.2
 #' @template paper

@@ -2,40 +2,44 @@
 
 #' Noise of a scanner, from two scans of one subject
 #'
-#' One scan cannot tell noise from fine relief; two scans of the same subject can. The second is
-#' registered on the first by iterated closest points (point to plane), and the distances between
-#' the two surfaces along the normals give the noise's standard deviation and how far it is
-#' correlated along the mesh. With [ridge_settings()]`(noise = )` standard errors follow that noise
-#' through the local fits.
+#' Noise and fine relief cannot be separated in one scan. Two scans of the same subject separate
+#' them. The second scan is registered on the first by iterated closest points (point to plane). The
+#' distances between the two surfaces along the normals give the standard deviation of the noise and
+#' its correlation along the mesh. With [ridge_settings()]`(noise = )` standard errors follow that
+#' noise through the local fits.
 #'
-#' The noise is taken to have two parts: an independent error of each vertex, and an error that is
-#' smooth in space, with correlation \eqn{\exp(-d^2 / (2 range^2))}{exp(-d^2 / (2 range^2))} at
-#' distance d. Both scans are taken to have the same noise, and expression and posture to be the
-#' same: a change of the face counts as noise.
+#' The model of the noise has two parts: an independent error of each vertex, and an error that is
+#' smooth in space. The smooth error has correlation \eqn{\exp(-d^2 / (2 range^2))}{exp(-d^2 / (2
+#' range^2))} at distance d. Both scans are assumed to have the same noise. Expression and posture
+#' are assumed equal: a change of the face counts as noise.
 #'
 #' @param first,second [specimen()]s or `mesh3d`s of one subject in one unit. If both are specimens
-#'   with three landmarks in common or more, registration begins with these, otherwise with the
-#'   scans as they stand.
-#' @param near Places of `first` (k x 3 matrix or data frame `x, y, z`) by which the scans are
-#'   compared, such as `coords(fit_shape(first, scheme), "curves")`; `NULL`: its landmarks, or all
-#'   of a mesh without.
+#'   with three or more landmarks in common, registration starts from these. Otherwise it starts
+#'   from the scans as they lie.
+#' @param near Places of `first` near which the scans are compared: k x 3 matrix, or data frame `x`,
+#'   `y`, `z`, in the unit of the mesh. An example is `coords(fit_shape(first, scheme), "curves")`.
+#'   `NULL`: the landmarks of `first`, or the whole mesh if it has none.
 #' @param reach Vertices within this distance of `near` are compared, as a share of the largest
 #'   extent of `near`.
-#' @param points At most so many vertices are compared, those nearest to `near`.
-#' @param trim Distances beyond this many median absolute deviations are left out, as of holes and
-#'   hair.
-#' @param lags Largest distance at which correlation is looked at, in mean edges.
-#' @param rounds,tolerance Most rounds of the registration; it has converged when no point moves by
-#'   more than `tolerance` of the extent.
-#' @return Object of class `scan_noise`, a list: `independent` and `smooth`, standard deviations in
-#'   the unit of the mesh; `range`, of the correlation, in the same unit (0: no smooth part);
-#'   `sd`, of both parts; `covariance`, data frame by `lag` (unit of the mesh) of the covariance of
-#'   the distances between the scans, and of what is `fitted`; `points`, the number compared;
-#'   `converged` and `rounds` of the registration.
-#'   Of simulated scans, 40 spacings wide, `sd` comes out at 0.8 to 1 times the truth, and `range`
-#'   at 0.8 to 1.2 times; on slopes less, since the distance is along the normal.
-#' @section Errors: of class `crestline_error`, when fewer than 100 vertices can be compared, and
-#'   when the scans lie more than a mean edge apart.
+#' @param points Greatest number of vertices that are compared; the closest to `near` are taken.
+#' @param trim Distances beyond this many median absolute deviations are left out, such as those at
+#'   holes and hair.
+#' @param lags Largest distance at which correlation is measured, in mean edge lengths.
+#' @param rounds,tolerance Greatest number of rounds of the registration. It has converged when no
+#'   point moves by more than `tolerance` times the extent.
+#' @return Object of class `scan_noise`, a list:
+#'   * `independent`, `smooth`: standard deviations of the two parts, in the unit of the mesh;
+#'   * `range`: range of the correlation, in the unit of the mesh (0: no smooth part);
+#'   * `sd`: standard deviation of both parts together, in the unit of the mesh;
+#'   * `covariance`: data frame by `lag` (unit of the mesh): covariance of the distances between the
+#'     scans, and the `fitted` covariance;
+#'   * `points`: number of vertices compared;
+#'   * `converged`, `rounds`: of the registration.
+#'
+#'   On simulated scans, 40 spacings wide, `sd` is 0.8 to 1 times the true value, and `range` 0.8 to
+#'   1.2 times. On slopes both are smaller, as the distance is taken along the normal.
+#' @section Errors: of class `crestline_error`: fewer than 100 vertices can be compared, or the
+#'   scans lie more than a mean edge length apart.
 #' @seealso [ridge_settings()], [ridge_curve()]
 #' @template glossary
 #' @examples

@@ -5,15 +5,21 @@
 #' number of equivalent degrees of freedom.
 #'
 #' @param coordinates [path_coordinates()] of the window.
-#' @param strength Strength at each of its rows (1 / unit), `NA` to leave a vertex out.
+#' @param strength Strength at each row of `coordinates`, in 1 / unit of the mesh. `NA` leaves a
+#'   vertex out.
 #' @param settings [ridge_settings()]: `basis`, `anisotropy`, `df`.
-#' @return Object of class `curvature_surface`, a list: `coefficients` (basis across x basis along),
-#'   `length`, `width`, `rows` (rows of `coordinates` in the fit), `strength` there,
-#'   `penalty` (the smoothing parameter), `df` (reached), `converged`, and the spline
-#'   margins. `predict(x, s, d, derivative)` gives the strength, or its
-#'   derivative of the given order by `d`, at places (s, d).
-#' @section Errors: of class `crestline_error`, when fewer vertices are left than the fit has
-#'   degrees of freedom.
+#' @return Object of class `curvature_surface`, a list:
+#'   * `coefficients`: matrix, basis across x basis along;
+#'   * `length`, `width`: of the window, in the unit of the mesh;
+#'   * `rows`, `strength`: rows of `coordinates` in the fit, and their strength;
+#'   * `penalty`: the smoothing parameter;
+#'   * `df`: equivalent degrees of freedom of the fit; `converged`;
+#'   * the spline margins.
+#'
+#'   `predict(x, s, d, derivative)` gives the strength at places (s, d), one number each, or its
+#'   derivative of the given order by `d`.
+#' @section Errors: of class `crestline_error`: fewer vertices are left than the fit has degrees of
+#'   freedom.
 #' @template glossary
 #' @templateVar where section 3.2
 #' @template paper

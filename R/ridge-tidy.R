@@ -2,16 +2,16 @@
 
 #' Confidence intervals, tidy tables and summary of a curve
 #'
-#' `confint()` gives an interval for the distance d of each point from the reference path, across
-#' the curve. `tidy()`, `glance()` and `augment()` are methods for the generics of the package
-#' generics, which broom re-exports.
+#' `confint()` gives a confidence interval for the distance d of each point from the reference path.
+#' `tidy()`, `glance()` and `augment()` are methods for the package generics; broom re-exports its
+#' functions.
 #'
 #' The intervals are `d` plus and minus a normal quantile times `se`. They hold for one point at a
-#' time, and for the landmarks given, where the curve is fixed (`se` is 0). See the section on the
-#' standard error in [ridge_curve()] for what `se` leaves out.
+#' time. The landmarks are taken as exact: `se` is 0 at the ends. The section on the standard error
+#' in [ridge_curve()] names the errors that `se` does not include.
 #'
 #' @param object,x A `curve`, as [ridge_curve()] returns it.
-#' @param parm Numbers of points, as in the column `point`; all by default.
+#' @param parm Numbers of points, as in the column `point`. Default: all.
 #' @param level,conf.level Confidence level, a share between 0 and 1.
 #' @param conf.int Whether to add the interval.
 #' @param ... Ignored.
@@ -21,9 +21,10 @@
 #'   `tidy()`: data frame with a row for each point: `term` (point), `s` (arc length along the
 #'   curve), `estimate` (d), `std.error`, and with `conf.int` `conf.low` and `conf.high`.
 #'
-#'   `glance()`: data frame of one row: `type`, `length`, `strength` (mean along the curve),
-#'   `std.error` (median), `nobs` (vertices in the smooth surface of curvature), `df`, `sigma`
-#'   (residual standard deviation of strength), `converged`, `determined`.
+#'   `glance()`: data frame with one row. `type`, `length` (unit of the mesh), `strength` (mean
+#'   along the curve, 1 / unit), `std.error` (median, unit of the mesh), `nobs` (number of vertices
+#'   in the smooth surface of curvature), `df`, `sigma` (residual standard deviation of strength, 1
+#'   / unit), `converged`, `determined`.
 #'
 #'   `augment()`: data frame with a row for each vertex in that surface: `vertex`, `s`, `d`,
 #'   `strength`, `.fitted`, `.resid` (1 / unit).

@@ -2,18 +2,18 @@
 
 #' The facial model: 23 landmarks, 40 curves, 922 surface points
 #'
-#' The model of the paper, as tables that [read_scheme()] reads from the package's
-#' folder `extdata/face_scheme`: 467 curve points, 29 patches with 922 points at 907 places,
-#' 1,602 triangles (36 more close the nose from below, 38 the eyes). Copy the folder to make a
-#' scheme of your own. Lengths in mm.
+#' The model of the paper. It has 467 curve points, and 29 patches with 922 points at 907 places.
+#' There are 1,602 triangles; 36 more close the nose from below, and 38 close the eyes. Lengths are
+#' in mm. [read_scheme()] reads the tables from the package's folder `extdata/face_scheme`. Copy the
+#' folder to make a scheme of your own.
 #'
 #' The landmarks are pn, acL, acR, sn, se, n, exL, exR, enL, enR, tL, tR, ls, cphL, cphR, chL, chR,
-#' st, li, sl, gn, oiL and oiR; `as.data.frame(face_scheme(), "landmarks")` has their full names,
-#' and where they lie.
+#' st, li, sl, gn, oiL and oiR. `as.data.frame(face_scheme(), "landmarks")` gives their full names
+#' and positions.
 #'
 #' Left is the subject's own left. The five curves on each side that start at the ear (`t`, `oi`)
-#' are cut off at a multiple of the distance between the inner corners of the eyes. Where this model
-#' finds a curve in another way than its authors do (`authors_kind`), `note` says why.
+#' are cut off at a multiple of the distance between the inner corners of the eyes. Some curves are
+#' of another kind than in the authors' model (column `authors_kind`). Column `note` has the reason.
 #'
 #' @return A [curve_scheme()].
 #' @template glossary

@@ -2,16 +2,17 @@
 
 #' Read a scheme from a folder
 #'
-#' @param dir Folder with `landmarks.csv`, `curves.csv` and, where there are such, `patches.csv`,
-#'   `pairs.csv`, `strips.csv` and `definitions.csv`: a header line, commas, semicolons (then with
-#'   decimal points or commas) or tabs between, the columns of [curve_scheme()], empty cells for
-#'   what is not given. A row with more or fewer cells than the header is refused.
-#' @param name Name of the scheme; the folder's unless given.
+#' @param dir Folder with `landmarks.csv` and `curves.csv`. It may also have `patches.csv`,
+#'   `pairs.csv`, `strips.csv` and `definitions.csv`. Each file has a header line and the columns of
+#'   the table in [curve_scheme()]; cells may be empty. Fields are separated by commas, tabs or
+#'   semicolons; with semicolons, decimals may be points or commas. A row with more or fewer cells
+#'   than the header is refused.
+#' @param name Name of the scheme, one string. Default: the folder's name.
 #' @return As [curve_scheme()].
-#' @section Errors: as [curve_scheme()], with the file's name for the table's; also for a folder or
-#'   file that is not there or cannot be read.
-#' @section Warnings: of class `crestline_unread_table`, when a file has nearly the name of a table
-#'   that is not there (`pair.csv`).
+#' @section Errors: of class `crestline_scheme_error`: the folder or a file does not exist or cannot
+#'   be read, or a table has mistakes (see [curve_scheme()]). The error names the file.
+#' @section Warnings: of class `crestline_unread_table`: a table is missing, and a file has nearly
+#'   its name (`pair.csv`).
 #' @template glossary
 #' @examples
 #' face <- read_scheme(system.file("extdata", "face_scheme", package = "crestline"))

@@ -6,84 +6,95 @@
 #' [face_scheme()] is one. The tables are checked as a whole. An error names the table, row and
 #' column of each mistake.
 #'
-#' @param landmarks Data frame, a row a landmark: `landmark` (its name); if wanted `name` and
-#'   `where` (words for the reader), and `x`, `y`, `z`: where it lies on a typical object, in the
-#'   scheme's unit, in any pose. By them [fit_shape()] sees that a specimen is in another unit, and
-#'   which landmarks are exchanged.
-#' @param curves Data frame, a row a curve from one landmark to another:
+#' @param landmarks Data frame with a row for each landmark: `landmark` (its name). Optional columns
+#'   are `name` and `where` (words for the reader), and `x`, `y`, `z`: the position on a typical
+#'   object, in the scheme's unit, in any pose. [fit_shape()] compares each specimen with these
+#'   positions. It so detects a specimen in another unit, and landmarks that are exchanged.
+#' @param curves Data frame with a row for each curve from one landmark to another:
 #'   * `curve` (its name, without `[ ] + |`), `from`, `to` (landmarks), `kind` ("ridge", "valley" or
-#'     "plane": the shortest plane cut), `n` (points at equal chords, both ends counted);
+#'     "plane": the shortest plane cut), `n` (number of points at equal chords, both ends included);
 #'   * `radius` of the curvature and half `width` of the window, in the unit of the mesh; needed for
 #'     ridges and valleys;
-#'   * `cut_share`, `cut_from`, `cut_to`: only the part next to the end `to` is kept, as long as
-#'     this share of the distance between two landmarks (arc length; empty: the whole curve);
+#'   * `cut_share`, `cut_from`, `cut_to`: only the part next to the end `to` is kept. Its arc length
+#'     is `cut_share` times the distance between the landmarks `cut_from` and `cut_to`. Empty: the
+#'     whole curve;
 #'   * `keep_away_from`, `keep_away_to`, `keep_away_radius` (0.7), `keep_away_extension` (0.2): a
 #'     region where curvature is ignored, see [keep_away()];
-#'   * `keep_side_from`, `keep_side_to`, `keep_side_towards`: curvature is ignored beyond the line
-#'     between two landmarks,
-#'     away from the third, see [keep_side()];
-#'   * `side_of`, `side`: curvature is ignored unless it lies to the "left" or "right" of another
-#'     curve (walked from
-#'     its `from` to its `to`, seen from outside);
-#'   * `trust_from`, `trust_to` (0, 1): the part of the reference path, as shares of its length,
-#'     where it and curvature are believed; from there to the landmarks the path is the shortest
+#'   * `keep_side_from`, `keep_side_to`, `keep_side_towards`: curvature beyond the line between two
+#'     landmarks, away from the third, is ignored, see [keep_side()];
+#'   * `side_of`, `side`: only curvature to the "left" or "right" of another curve is used, as seen
+#'     from outside along that curve from its `from` to its `to`;
+#'   * `trust_from`, `trust_to` (defaults 0, 1): the part of the reference path in which curvature
+#'     is used, as shares of the path's length. From there to the landmarks the path is the shortest
 #'     cut;
 #'   * `angle_limit`: greatest angle in radians (at most pi / 2) between the plane of a cut and the
 #'     mean of the surface normals at the ends, see [plane_path()];
-#'   * `note`, and any further columns, which are kept.
-#' @param patches Data frame, a row a patch, or a block of one (`NULL`: no surface). Column c of a
-#'   block is the cut from point c of a bounding curve A to point c of another, B; row 1 lies on A,
-#'   the last on B.
-#'   * `patch` (its name), `block` (1, 2, ... where a patch has several, else empty), `n` (its
+#'   * `note`, and any further columns; they are kept.
+#' @param patches Data frame with a row for each patch, or for each block of a patch (`NULL`: no
+#'   surface). A block lies between two bounding curves A and B. Its column c is the cut from point
+#'   c of A to point c of B. Its first row lies on A, its last row on B.
+#'   * `patch` (its name), `block` (1, 2, ... if a patch has several, else empty), `n` (number of
 #'     points);
-#'   * `columns`: those that are kept, such as "1,3:8"; `rows`: the points a column is divided into,
-#'     both ends counted; `rows_kept`, such as "2:6";
-#'   * `curve_a`, `curve_b`: such as `upper lip left[1:8]+philtrum lip left[2]` (`[14:1]` runs
-#'     backwards); `resample_a`, `resample_b`: the number of points at equal chords that replace the
-#'     curve's own; a block without `curve_b` is one row on A;
-#'   * `first_column`: the curve from A to B that column 1 follows in place of a cut, such as
-#'     `nasolabial left[1:6]`; its own points where it has as many as `rows`, else resampled to
-#'     them;
-#'   * `outward`: the order of the corners of a quad seen from outside, "columns" ((c, r), (c + 1,
-#'     r), (c + 1, r + 1)) or "rows" ((c, r), (c, r + 1), (c + 1, r + 1)); empty: no triangles;
-#'     `note`.
+#'   * `columns`: the columns that are kept, such as "1,3:8"; `rows`: number of points in a column,
+#'     both ends included; `rows_kept`: the rows that are kept, such as "2:6";
+#'   * `curve_a`, `curve_b`: the curves A and B, such as `upper lip left[1:8]+philtrum lip left[2]`
+#'     (`[14:1]` runs backwards). A block without `curve_b` is one row on A;
+#'   * `resample_a`, `resample_b`: number of points at equal chords that replace the points of the
+#'     curve;
+#'   * `first_column`: a curve from A to B that replaces the cut of column 1, such as `nasolabial
+#'     left[1:6]`. If its number of points differs from `rows`, it is resampled;
+#'   * `outward`: order of the corners of a quad as seen from outside. "columns": (c, r), (c + 1,
+#'     r), (c + 1, r + 1). "rows": (c, r), (c, r + 1), (c + 1, r + 1). Empty: no triangles;
+#'   * `note`.
 #'
-#'   The points of the surface are in the order of the rows, then by column, then by row; the index
-#'   of a point is "block column row", "column row" or, where a patch is one row of one block,
-#'   "column"; columns are counted as kept, rows as made.
-#' @param pairs Data frame, a row a pair (`NULL`: none): `level` ("landmarks", "curves" or
-#'   "surface": patches), `left`, `right`. What is not listed is its own mirror image (a curve
-#'   between the two landmarks of a pair: run backwards).
-#' @param strips Data frame of the triangles that join patches (`NULL`: none): `part` ("model", or
-#'   the name of an optional part), `strip` (its name), `rung` (1, 2, ...), `a`, `b` (points, as
-#'   "patch|index"), `outward` ("columns": a, b, next b; "rows": a, next a, next b). Each two rungs
-#'   are a quad.
-#' @param definitions Data frame of what [refine_landmarks()] goes by (`NULL`: none), a row a
-#'   landmark that has a definition by shape:
-#'   * `landmark`; `kind`: "cap" or "cup" (strongest: the lesser of its two curvatures is greatest),
-#'     "profile" (extreme of the curvature of the surface's cut with a plane), "turn" (extreme of
-#'     the geodesic curvature of a curve), "end" (where a ridge or valley has faded), "crossing" (of
-#'     a curve with a mirror plane or with another curve);
-#'   * `radius` of the curvature; `reach`: how far from the landmark its place is looked for; both
-#'     in the unit of the mesh;
-#'   * `bend`: "out" or "in" of a profile (a crest or a fold), "left" or "right" of a turn (seen
-#'     from outside);
-#'   * `mirror` (profile, crossing): left landmarks of pairs, with spaces between, that span the
-#'     mirror plane of the object; or `across_from`, `across_to`: two landmarks, through which the
-#'     plane of a profile stands straight into the surface, or between which the crossed curve runs
-#'     (`across_type`: "ridge", "valley" or "plane");
-#'   * `from`, `to`, `type`, `width` (turn, crossing, end): the curve, as in `curves`, but neither
-#'     end the landmark itself, since its place may not depend on where it was put. The curve of an
-#'     end comes from `from` and goes on straight through the landmark (no `to`);
+#'   The points of the surface are in the order of the table's rows, then by column, then by row of
+#'   the block. The index of a point is "block column row"; without blocks it is "column row", and
+#'   for a patch of one row "column". Columns are numbered after those that are not kept were
+#'   dropped, rows before.
+#' @param pairs Data frame with a row for each left-right pair (`NULL`: none): `level` ("landmarks",
+#'   "curves", or "surface" for patches), `left`, `right`. A part that is not listed is its own
+#'   mirror image. A curve between the two landmarks of a pair is its own mirror image in reverse
+#'   order.
+#' @param strips Data frame of the triangles that join patches (`NULL`: none). Columns: `part`
+#'   ("model", or the name of an optional part), `strip` (its name), `rung` (1, 2, ...), `a`, `b`
+#'   (points, as "patch|index"), `outward` (order of the corners: "columns" for a, b, next b; "rows"
+#'   for a, next a, next b). Two successive rungs make a quad.
+#' @param definitions Data frame with the definitions that [refine_landmarks()] uses (`NULL`: none).
+#'   It has a row for each landmark that is defined by curvature:
+#'   * `landmark` (its name) and `kind`;
+#'   * `kind` "cap" or "cup": the place where the lesser of the two principal curvatures is
+#'     strongest;
+#'   * `kind` "profile": the extreme of the curvature of a plane cut through the surface;
+#'   * `kind` "turn": the extreme of the geodesic curvature of a curve;
+#'   * `kind` "end": the place where a ridge or valley fades;
+#'   * `kind` "crossing": the place where a curve crosses a mirror plane or another curve;
+#'   * `radius` of the curvature, and `reach`: greatest distance of the defined place from the
+#'     landmark; both in the unit of the mesh;
+#'   * `bend`: "out" (a crest) or "in" (a fold) for a profile; "left" or "right" (as seen from
+#'     outside) for a turn;
+#'   * `mirror` (profile, crossing): left landmarks of pairs, separated by spaces. These pairs
+#'     define the mirror plane of the object;
+#'   * `across_from`, `across_to` (in place of `mirror`): two landmarks. For a profile, its plane
+#'     contains both and stands straight on the surface. For a crossing, the crossed curve runs
+#'     between them; its type is `across_type` ("ridge", "valley" or "plane");
+#'   * `from`, `to`, `type`, `width` (turn, crossing, end): the curve, as in `curves`. Neither end
+#'     may be the landmark itself, as the definition must not depend on its first position. The
+#'     curve of an "end" starts at `from` and continues straight through the landmark; it has no
+#'     `to`;
 #'   * `note`, and any further columns.
 #' @param name Name of the scheme, one string.
-#' @return Object of class `curve_scheme`, a list: `name`; data frames `landmarks`, `curves`,
-#'   `patches`, `pairs`, `strips`, `definitions` with all columns above (`NA` where empty); `points`
-#'   (`level`, `part`, `point`, `place`: points that coincide by construction have the same
-#'   `place`); `triangles` (`part`, `group`, `v1`, `v2`, `v3`: rows of the surface's points,
-#'   outward; coinciding points by the first). `as.data.frame(scheme, table)` gives any of them.
-#' @section Errors: of class `crestline_scheme_error`, with all problems of the first table that has
-#'   any (the message shows eight).
+#' @return Object of class `curve_scheme`, a list:
+#'   * `name`;
+#'   * data frames `landmarks`, `curves`, `patches`, `pairs`, `strips` and `definitions` with all
+#'     columns above; empty cells are `NA`;
+#'   * `points`: data frame `level`, `part`, `point`, `place`. Points that coincide by construction
+#'     have the same `place`;
+#'   * `triangles`: data frame `part`, `group`, `v1`, `v2`, `v3` (rows of the surface's points, in
+#'     outward order). Of coinciding points the first is used.
+#'
+#'   `as.data.frame(scheme, table)` gives each of these tables.
+#' @section Errors: of class `crestline_scheme_error`. It lists all problems of the first table that
+#'   has any; the message shows the first eight.
 #' @template glossary
 #' @seealso [read_scheme()], [face_scheme()], [refine_landmarks()]
 #' @examples
