@@ -4,24 +4,25 @@
 #'
 #' Adapts the template to your own landmark definitions, from a few scans that you have marked. Most
 #' of the error of [find_landmarks()] is a difference of definition. Three scans remove most of it.
-#' Landmarks that the template does not have are added;
-#' those of a symmetric template stay symmetric.
+#' Landmarks that the template does not have are added. A symmetric template stays symmetric.
 #'
 #' @param template A [landmark_template()], or a [specimen()] with landmarks.
-#' @param specimens List of [specimen()]s (or one) with landmarks placed or corrected by hand; NA
-#'   where missing.
-#' @param rounds How often the landmarks are moved by the mean of what they are off.
+#' @param specimens One [specimen()] or a list of them, with landmarks that were placed or corrected
+#'   by hand. NA: missing landmarks.
+#' @param rounds Number of rounds. In each round the landmarks are moved by the mean of their
+#'   errors.
 #' @inheritParams find_landmarks
-#' @return The `landmark_template`, its landmarks moved; `calibration`: data frame `landmark`,
-#'   `specimens` (number that have it), `moved` (how far on the template), `spread` (RMS of what is
-#'   left, over the specimens), in the template's unit.
-#' @section Errors: of class `crestline_error`: no specimens, without landmarks, or nothing like the
-#'   template.
+#' @return The `landmark_template` with moved landmarks, and a field `calibration`: a data frame
+#'   with a row for each landmark. Columns: `landmark`, `specimens` (number of specimens that have
+#'   it), `moved` (distance on the template), `spread` (RMS of the remaining errors over the
+#'   specimens); lengths in the template's unit.
+#' @section Errors: of class `crestline_error`: there are no specimens, a specimen has no landmarks,
+#'   or nothing in a scan resembles the template.
 #' @template glossary
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
 #' @seealso [find_landmarks()]
-#' @section Warnings: of class `crestline_unused_landmarks`, as [fit_shape()].
+#' @section Warnings: of class `crestline_unused_landmarks`, as in [fit_shape()].
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

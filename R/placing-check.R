@@ -3,16 +3,17 @@
 #' Check found landmarks, or refuse the specimen
 #'
 #' Measurements from wrong landmarks look normal. This function stops with an error that names the
-#' specimen, and saves a picture of its landmarks if `picture` asks for one. [fit_shapes()] calls it
-#' for meshes that come without landmarks. `plot(specimen, what = "placing")` draws the picture.
+#' specimen if too many of its found landmarks are doubtful. With `picture` it saves a picture of
+#' the landmarks. [fit_shapes()] calls it for meshes without landmarks. `plot(specimen, what =
+#' "placing")` draws the picture.
 #'
 #' @param specimen A [specimen()] of [find_landmarks()].
-#' @param least Least confidence of a landmark that is found.
-#' @param doubtful Greatest share of the found landmarks that may have less.
-#' @param picture Path of a `.png` file that is written where the specimen is refused; NULL: none.
-#' @return The specimen. Those of its landmarks that are doubtful are in it still.
-#' @section Errors: of class `crestline_placing_error` (a `crestline_error`), with the specimen's
-#'   name, the landmarks, and the picture's path.
+#' @param least Least confidence of a found landmark (0 to 1); below it the landmark is doubtful.
+#' @param doubtful Greatest share of the found landmarks that may be doubtful.
+#' @param picture Path of a `.png` file that is written if the specimen is refused. NULL: none.
+#' @return The specimen, unchanged. Doubtful landmarks are not removed.
+#' @section Errors: of class `crestline_placing_error` (a `crestline_error`): too many landmarks are
+#'   doubtful. The error gives the specimen's name, the landmarks, and the picture's path.
 #' @template glossary
 #' @seealso [find_landmarks()]; [plot.specimen()] for the picture; [review_landmarks()] to correct
 #'   landmarks by hand

@@ -3,42 +3,46 @@
 
 #' Find the landmarks of a raw scan
 #'
-#' Places the landmarks of a template on a scan. The scan is brought to the template's unit (a power
-#' of ten). The template is laid on the scan by its strongest caps and cups, in many turns. Then it
-#' is bent onto the scan, by nearest points in place and curvature. Its landmarks go along, each to
-#' the closest point of the mesh. The result does not depend on the scan's pose, nor on which way
-#' its triangles face. The scan may show more than the object, or lack parts of it.
-#' [crestline-package] has a glossary.
+#' Finds the landmarks of a template on a scan. The scan is brought to the template's unit (a power
+#' of ten). The template is placed on the scan by matching its strongest caps and cups, in many
+#' poses. It is then deformed onto the scan, by points that are closest in position and curvature.
+#' Each of its landmarks moves to the closest point of the mesh. The result does not depend on the
+#' scan's pose, nor on the orientation of its triangles. The scan may show more than the object, or
+#' lack parts of it. [crestline-package] has a glossary.
 #'
-#' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
-#' @param template A [landmark_template()], or a [specimen()] with landmarks, which is made one; by
-#'   default that of the face.
-#' @param id Name of the specimen, where a mesh is given.
+#' @param mesh A `mesh3d`, or a [specimen()] whose own landmarks are ignored.
+#' @param template A [landmark_template()], or a [specimen()] with landmarks, of which one is made.
+#'   Default: the template of the face.
+#' @param id Name of the specimen, one string, if `mesh` is not a specimen.
 #' @param settings Of [find_settings()].
-#' @param unit Factor from the mesh's unit to the template's; `NULL`: the power of ten that brings
-#'   their diagonals nearest to each other, which is wrong where the scan is three times as large as
-#'   the object, or a third of it.
+#' @param unit Factor from the mesh's unit to the template's. `NULL`: the power of ten that brings
+#'   their diagonals closest to each other. This is wrong if the scan is more than three times as
+#'   large as the object, or less than a third of it.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
-#'   * `placing`: data frame, a row a landmark: `landmark`; `state`, "found", "predicted" (so marked
-#'     in the template: placed by the positions of the others, perhaps off the mesh) or "absent"
-#'     (the scan has no surface there); `confidence`, from 0 to 1, doubtful below 0.5: 1 / (1 +
-#'     (`moved` / a)^2 + (`residual` / b)^2 + (`sd` / c)^2), with a, b and c the settings `moved`,
-#'     `off` and `vague`, times (1 - score) / (1 - `poor`) where the score is poor; `moved`,
-#'     distance between the answers with and without curvature; `sd`, standard deviation that is
-#'     added by what the scan lacks; `residual`, mean distance of the bent template from the scan
-#'     about the landmark; `lost`, share of the template about it that has no counterpart; `x`, `y`,
-#'     `z`, the place, of absent ones too. Lengths in the unit of the mesh;
-#'   * `match`: list: `score` (0 the template as it is lies on the scan, 1 nowhere), `unit` (factor
-#'     to the template's unit), `scale` (of the template), `rotation` (3 x 3, from the template to
-#'     the scan), `inverted` (the triangles faced the other way), `doubtful` (the share of found
-#'     landmarks with little confidence is above the setting `wrong`), `template`.
-#' @section Errors: of class `crestline_error`, stage "landmarks": where nothing in the scan is like
-#'   the template (score above the setting `refuse`).
-#' @section Warnings: of class `crestline_doubtful_placing`, where most landmarks have little
-#'   confidence (settings `low`, `wrong`): most likely the scan is not the object, or not whole
-#'   enough. [quality()] then grades nothing green. `print()` names a single landmark with little
-#'   confidence. [quality()] grades it, and the curves that end there, amber.
+#'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:
+#'     * `landmark`;
+#'     * `state`: "found"; "predicted" (the template marks it so: it is placed by the positions of
+#'       the others, perhaps off the mesh); or "absent" (the scan has no surface there);
+#'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
+#'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. If
+#'       the score is above the setting `poor`, it is multiplied by (1 - score) / (1 - `poor`);
+#'     * `moved`: distance between the positions with and without curvature;
+#'     * `sd`: standard deviation that missing parts of the scan add;
+#'     * `residual`: mean distance of the deformed template from the scan near the landmark;
+#'     * `lost`: share of the template near the landmark that has no counterpart on the scan;
+#'     * `x`, `y`, `z`: the position, of absent landmarks too;
+#'   * `match`: list of `score` (0: the undeformed template fits the scan; 1: it fits nowhere),
+#'     `unit` (factor to the template's unit), `scale` (of the template), `rotation` (3 x 3, from
+#'     the template to the scan), `inverted` (TRUE if the triangles faced inwards), `doubtful` (TRUE
+#'     if the share of found landmarks with low confidence is above the setting `wrong`) and
+#'     `template`.
+#' @section Errors: of class `crestline_error`, stage "landmarks": nothing in the scan resembles the
+#'   template (the score is above the setting `refuse`).
+#' @section Warnings: of class `crestline_doubtful_placing`: most landmarks have low confidence
+#'   (settings `low`, `wrong`). Most likely the scan does not show the object, or not enough of it.
+#'   [quality()] then grades nothing green. A single landmark with low confidence gives no warning.
+#'   `print()` names it, and [quality()] grades it, and the curves that end there, amber.
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
 #' @section Keeping the result: `saveRDS(specimen, file)` keeps the specimen with its states and

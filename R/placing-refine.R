@@ -1,51 +1,54 @@
 # Each landmark beside the place that its definition says.
 
-#' Landmarks beside the places that their definitions say
+#' Compare landmarks with their definitions by curvature
 #'
 #' Compares each landmark with the position that its definition by curvature gives. A definition is
 #' the crossing of two curves, the place where a curve turns most or ends, the strongest cap or cup,
-#' or an extreme of a profile. The search begins at the landmark and takes nothing else from it. So
-#' two people who put it a little apart get the same place. The value has how far each landmark
-#' would move. With `move` it is moved there.
+#' or an extreme of a profile. The search starts at the landmark, and its result does not otherwise
+#' depend on the landmark. Two people whose landmarks differ a little therefore get the same place.
+#' The value gives the distance by which each landmark would move. With `move` it is moved.
 #'
-#' Moving is a choice, and off by default. People often put a landmark where curvature has no
-#' extreme. On faces, most definitions of [face_scheme()] lie 0.2 to 3 mm from where people put the
-#' points: `vignette("without-landmarks", "crestline")` has the figures. Moving takes a landmark
-#' that was placed with care away from where it was meant to be, the same way in every specimen. The
-#' distance also serves as a flag: a landmark much farther from its defined place than those of
+#' By default nothing is moved. People often place a landmark where curvature has no extreme. On
+#' faces, most definitions of [face_scheme()] lie 0.2 to 3 mm from the landmarks that people placed;
+#' `vignette("without-landmarks", "crestline")` has the figures. Moving shifts carefully placed
+#' landmarks away from their intended position, in the same direction in every specimen. The
+#' distance also serves as a flag. A landmark that is much farther from its defined place than in
 #' other specimens was probably misplaced.
 #'
-#' Landmarks whose definitions build on others (the mirror plane of pairs, the ends of a curve) are
-#' found from the defined places of these, until none changes.
+#' Some definitions depend on other landmarks (the mirror plane of pairs, the ends of a curve). They
+#' use the defined places of these landmarks, and are repeated until none changes.
 #'
 #' @param specimen A [specimen()] with landmarks.
-#' @param scheme A [curve_scheme()] with definitions.
-#' @param move Whether to take the moves: FALSE, TRUE, or the names of the landmarks that are moved.
-#' @param window Half width of the local fits by which a peak is settled between vertices, as a
-#'   share of the radius (wider where the vertices are far apart).
-#' @param apart Distance within which only the greatest of several peaks is tried, as a share of the
+#' @param scheme A [curve_scheme()] with a table of definitions, such as [face_scheme()].
+#' @param move Landmarks that are moved: FALSE (none), TRUE (all), or their names.
+#' @param window Half width of the local fits that locate a peak between vertices, as a share of the
+#'   radius. It is wider if the vertices are far apart.
+#' @param apart Distance within which only the highest of several peaks is tried, as a share of the
 #'   radius.
-#' @param faint Peaks of curvature below this, times 1 / radius, do not count.
-#' @param share A ridge ends where its strength has fallen to this share of its greatest.
-#' @param order Of the curvature, see [curvature()].
-#' @param tolerance Definitions that build on others are taken again until none of these moves by
-#'   more than this share of the radius; `rounds`: most times.
-#' @param rounds See `tolerance`.
-#' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh, where
-#'   that is known, as for many sets of landmarks on one mesh; NULL: it is estimated where it is
-#'   needed.
+#' @param faint Peaks of curvature below this value times 1 / radius are ignored (no unit).
+#' @param share A ridge ends where its strength has fallen to this share of its maximum.
+#' @param order Order of the curvature fits, see [curvature()].
+#' @param tolerance Definitions that depend on other landmarks are repeated until none moves by more
+#'   than this share of the radius.
+#' @param rounds Greatest number of repetitions, see `tolerance`.
+#' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh. It
+#'   saves time for many sets of landmarks on one mesh. NULL: curvature is estimated.
 #' @param unit As in [fit_shape()].
 #' @param threads Number of threads of [curvature()].
-#' @return The specimen with `refinement`, a data frame with a row a definition: `landmark`, `kind`;
-#'   `state`: "found", "none" (`reason` says why: it is left alone) or "missing" (the specimen lacks
-#'   the landmark, or one that the definition builds on); `distance`, how far the landmark would
-#'   move; `value`, the curvature that is extreme there (NA for a crossing); `moved`; `given_x`,
-#'   `given_y`, `given_z`, the landmark as it was; `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`, the
-#'   defined place, on the mesh; `reason`. Lengths in the unit of the mesh. With `move`, its
-#'   `landmarks` are moved, and their places in `placing`, where it has that: what was doubted
-#'   before still is.
-#' @section Errors: of class `crestline_error`: a scheme without definitions, a specimen without any
-#'   of their landmarks, `move` that names others.
+#' @return The specimen with a field `refinement`. With `move`, its `landmarks` are moved, and their
+#'   positions in `placing` too, if it has that field. Confidences are not changed. `refinement` is
+#'   a data frame with a row for each definition; lengths are in the unit of the mesh:
+#'   * `landmark`, `kind`;
+#'   * `state`: "found"; "none" (not found, `reason` gives the cause); or "missing" (the specimen
+#'     lacks the landmark, or one that the definition depends on);
+#'   * `distance`: from the landmark to its defined place;
+#'   * `value`: the extreme curvature at that place (NA for a crossing);
+#'   * `moved`: TRUE if the landmark was moved;
+#'   * `given_x`, `given_y`, `given_z`: the original position of the landmark;
+#'   * `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`: the defined place, on the mesh;
+#'   * `reason`.
+#' @section Errors: of class `crestline_error`: the scheme has no definitions, the specimen has none
+#'   of their landmarks, or `move` names other landmarks.
 #' @template glossary
 #' @templateVar where sections 1 and 7
 #' @template paper

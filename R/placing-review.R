@@ -1,45 +1,48 @@
 # Landmarks looked at, moved and placed by a person, on a page in the browser.
 
-#' Review landmarks, or place them, by hand
+#' Review landmarks, or place them by hand
 #'
 #' Opens a page in the browser (package shiny). It shows the turning specimen, its landmarks, and
 #' the curves of the scheme between them. Choose a landmark in the list or by a click on its ball. A
 #' click on the surface puts it there, exactly on the mesh. The curves that end on it are fitted
 #' again at once. Drag to turn, use the wheel to zoom, and the right button to shift.
 #'
-#' `review_landmarks()` begins with the landmarks of the specimen. Those in which [find_landmarks()]
-#' has little confidence are red, and are chosen one after the other: move each, confirm it, or mark
-#' it as not on this scan. Found landmarks are green, predicted ones blue, placed ones violet, and
-#' the chosen one is yellow. `place_landmarks()` begins without any, and names and describes the
-#' next landmark of the scheme. Names that end in L belong to the subject's own left. Use
-#' `review_landmarks()` to continue with a specimen that has some landmarks.
+#' `review_landmarks()` begins with the landmarks of the specimen. Landmarks in which
+#' [find_landmarks()] has little confidence are red. They are selected one after the other: move
+#' each, confirm it, or mark it as not on this scan. Found landmarks are green, predicted ones blue,
+#' placed ones violet, and the chosen one is yellow. `place_landmarks()` begins without landmarks.
+#' It names and describes the next landmark of the scheme. Names that end in L belong to the
+#' subject's own left. Use `review_landmarks()` to continue with a specimen that has some landmarks.
 #'
 #' @param specimen A [specimen()], with landmarks that were found or given.
-#' @param scheme A [curve_scheme()]: its landmarks, with their words `name` and `where`, and its
-#'   curves; NULL: the landmarks of the specimen alone.
-#' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
-#' @param least Least confidence of a found landmark that is not doubtful, as in [check_placing()].
+#' @param scheme A [curve_scheme()]: its landmarks, with their columns `name` and `where`, and its
+#'   curves. NULL: only the landmarks of the specimen.
+#' @param surface Quantity that the colours of the surface show, as `colour` of [plot.specimen()].
+#' @param least Least confidence of a found landmark (0 to 1); below it the landmark is doubtful, as
+#'   in [check_placing()].
 #' @param settings [ridge_settings()] of the curves.
-#' @param view Where to look from, see [draw_surface()]; NULL: from the front, as [find_landmarks()]
-#'   has it where the landmarks were found.
-#' @param radius Of the curvature that `surface` shows, as in [plot.specimen()].
-#' @param faces Number of triangles of the surface that is shown. A finer mesh is thinned out for
-#'   the browser; landmarks are put on the mesh as it is.
+#' @param view Direction of view, see [draw_surface()]. NULL: from the front, as [find_landmarks()]
+#'   determined it, if it found the landmarks.
+#' @param radius Radius of the curvature that `surface` shows, in the unit of the mesh, as in
+#'   [plot.specimen()].
+#' @param faces Number of triangles of the surface that is shown. A finer mesh is reduced for the
+#'   browser. Landmarks are always put on the full mesh.
 #' @param bridge,unit As in [fit_shape()].
 #' @param ... Passed to [shiny::runApp()]: `port`, `host`, `quiet`, `launch.browser` (a function
 #'   gets the address of the page).
 #' @inheritParams curvature
-#' @details The address of the page has a random token. R answers nobody who does not know it, and
-#'   no page of another site. With `launch.browser = FALSE` the address is printed.
-#' @return The [specimen()] with its landmarks as the person left them ("Done", or the page closed)
-#'   or as they were ("Cancel"). In its `placing`, where it has that, moved and confirmed landmarks
-#'   have the state "placed", those said not to be there "absent", both without confidence:
-#'   [check_placing()] has no doubts about them. `place_landmarks()`: a specimen with a row for each
-#'   landmark of the scheme, NA where it was not placed. A warning of class `crestline_mirrored`
-#'   tells where left and right look mirrored, one of class `crestline_exchanged` which landmarks
-#'   look exchanged.
-#' @section Errors: of class `crestline_error`, when specimen, mesh or scheme are not what they
-#'   should be.
+#' @details The address of the page has a random token. R answers only requests with this token, and
+#'   none from pages of another site. With `launch.browser = FALSE` the address is printed.
+#' @return `review_landmarks()`: the [specimen()] with the edited landmarks ("Done", or the page was
+#'   closed) or with the original ones ("Cancel"). If it has `placing`, moved and confirmed
+#'   landmarks get the state "placed" there. Landmarks that were marked as not on the scan get the
+#'   state "absent". Both have no confidence, and [check_placing()] accepts them.
+#'   `place_landmarks()`: a specimen with a row for each landmark of the scheme; NA if it was not
+#'   placed.
+#' @section Errors: of class `crestline_error`: `specimen`, `mesh` or `scheme` has the wrong class,
+#'   or the package shiny is not installed.
+#' @section Warnings: of class `crestline_mirrored`: left and right look mirrored. Of class
+#'   `crestline_exchanged`: landmarks look exchanged; the warning names them.
 #' @template glossary
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
@@ -85,8 +88,8 @@ review_landmarks <- function(specimen, scheme = face_scheme(),
 }
 
 #' @rdname review_landmarks
-#' @param mesh A `mesh3d`, or a [specimen()], whose own landmarks are not looked at.
-#' @param id Name of the specimen, where a mesh is given.
+#' @param mesh A `mesh3d`, or a [specimen()] whose own landmarks are ignored.
+#' @param id Name of the specimen, one string, if `mesh` is not a specimen.
 #' @export
 place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
   check_given()

@@ -1,27 +1,28 @@
 # What landmarks are carried over from: a surface with landmarks, in a frame of its own.
 
-#' A template that landmarks are found by
+#' Templates for finding landmarks
 #'
-#' `landmark_template()` makes one of any specimen with landmarks; `face_template()` is the
-#' package's own, for faces.
+#' `landmark_template()` makes a template of any specimen with landmarks. `face_template()` is the
+#' package's own template of the face. [find_landmarks()] uses templates.
 #'
-#' The built-in face is the mean of two heads that come with the package Rvcg, `dummyhead` and
-#' `humface` (S. Schlager, GPL), made symmetric. The script `face-template.R` of the sources makes
-#' it, and describes how its landmarks were placed.
+#' The template of the face is the symmetric mean of two heads of the package Rvcg, `dummyhead` and
+#' `humface` (S. Schlager, GPL). The script `face-template.R` of the sources makes it, and describes
+#' how its landmarks were placed.
 #'
 #' @param specimen A [specimen()] with at least four landmarks, in mm or any other unit.
-#' @param predicted Names of landmarks for which the surface has no evidence, such as those at ears
-#'   that most scans lack. They are not searched for, but placed by the positions of the others.
-#' @param unit Factor on the lengths of [find_settings()], which are mm on a face, in the template's
-#'   unit. By default a template's diagonal is 280 of these lengths, as it is on a face.
-#' @param mirror Whether left and right are alike: then landmarks whose names end in L and R are
-#'   partners, and the displacements that are tried are mostly symmetric. `NA`: where there are at
-#'   least two such pairs.
-#' @return Object of class `landmark_template`: `id`, `specimen` (in the template's own frame: where
-#'   there is a mirror, left is at positive x and the mirror is x = 0), `landmarks` (k x 3, those
-#'   that are found), `predicted` (k x 3), `unit`, `mirror`.
-#' @section Errors: of class `crestline_error`: a specimen with fewer than four landmarks, or
-#'   `predicted` that name none of them.
+#' @param predicted Names of landmarks for which the surface has no evidence, such as those at the
+#'   ears, which most scans lack. They are placed by the positions of the others.
+#' @param unit Factor on the lengths of [find_settings()], in the template's unit. These lengths are
+#'   mm on a face. By default the template's diagonal is 280 of these lengths, as on a face.
+#' @param mirror TRUE if left and right are alike. Landmarks whose names end in L and R are then
+#'   partners, and the deformations are mostly symmetric. `NA`: TRUE if there are at least two such
+#'   pairs.
+#' @return Object of class `landmark_template`, a list: `id`; `specimen` (in the template's own
+#'   frame: with `mirror`, left is at positive x, and the mirror plane is x = 0); `landmarks` (k x 3
+#'   matrix of those that are found); `predicted` (k x 3 matrix); `unit`; `mirror`. Lengths are in
+#'   the unit of `specimen`.
+#' @section Errors: of class `crestline_error`: the specimen has fewer than four landmarks, or
+#'   `predicted` names others.
 #' @template glossary
 #' @seealso [find_landmarks()], [calibrate_template()]
 #' @examples

@@ -1,4 +1,4 @@
-#' Settings of finding landmarks
+#' Settings of find_landmarks()
 #'
 #' All tuning constants of [find_landmarks()] in one place. Lengths are in mm, for a face. They are
 #' multiplied by the `unit` of the template, so that they fit a template of another size, see
@@ -6,31 +6,32 @@
 #'
 #' @param ... Former names of settings: `kept`, `kernel_length`, `kernel_sd`, `robust`. They give a
 #'   message of class `crestline_deprecated`.
-#' @param cluster,coarse Edge of the cells in which one vertex stands for all: of the fits, and of
-#'   the first fits (length).
-#' @param bend,feature Radii of the curvature that anchors are found by, and that points are matched
-#'   by (length).
-#' @param cap Least size of both principal curvatures at an anchor (1 / length).
+#' @param cluster,coarse Edge of the cells by which vertices are thinned out, one vertex in each:
+#'   for the fits, and for the first fits (length).
+#' @param bend,feature Radii of the curvature estimates: for finding anchors, and for matching
+#'   points (length).
+#' @param cap Least absolute value of both principal curvatures at an anchor (1 / length).
 #' @param apart Least distance of two anchors (length).
-#' @param anchors,own Number of anchors that are tried, of caps and of cups: of the scan, of the
-#'   template.
-#' @param turns Number of turns about the normal in which each pair of anchors is tried.
+#' @param anchors,own Number of anchors that are tried, of caps and of cups each: on the scan, and
+#'   on the template.
+#' @param turns Number of rotations about the normal that are tried for each pair of anchors.
 #' @param reach Greatest distance of a match in the rigid fits, at the first and at the last step
 #'   (two lengths).
 #' @param steps Number of steps of a rigid fit.
-#' @param trim_share Share of the matches that count, nearest first, as in the trimmed ICP.
-#' @param followed,refined Number of the best starts that are continued: on thin clouds, on whole
-#'   ones.
-#' @param tight,loose Bounds of the scale: at first, and where the fit is poor (two numbers each).
+#' @param trim_share Share of the matches that are used, closest first, as in trimmed ICP.
+#' @param followed,refined Number of the best starts that are continued: on thinned clouds, and on
+#'   full clouds.
+#' @param tight,loose Bounds of the scale: at first, and if the fit is poor (two numbers each, no
+#'   unit).
 #' @param cosine Least cosine of the angle between the normals of two matched points.
-#' @param saturation Distance from which on a point of the template counts as not matched in the
-#'   score (length).
-#' @param poor,refuse Scores: above the first, other ways are tried and confidence is lowered; above
-#'   the second, there is no answer.
-#' @param left_over Weight of the share of the scan without a match in the template, against the
-#'   share of the template without a match in the scan, when poses are compared.
+#' @param saturation Distance beyond which a point of the template counts as unmatched in the score
+#'   (length).
+#' @param poor,refuse Scores (0 to 1). Above `poor`, further fits are tried, and confidence is
+#'   lowered. Above `refuse`, [find_landmarks()] stops with an error.
+#' @param left_over Weight of the share of the scan without a match in the template, relative to the
+#'   share of the template without a match in the scan. It is used when poses are compared.
 #' @param length_scale,length_scale_sd Length scales and standard deviations of the Gaussian
-#'   processes that make the displacement (three lengths each).
+#'   processes of which the displacement is the sum (three lengths each).
 #' @param affine Standard deviation of the affine part of the displacement (length).
 #' @param uneven Standard deviation of its left-right antisymmetric part, as a share.
 #' @param rank Number of basis functions.
@@ -41,21 +42,21 @@
 #' @param robust_scale Scale of the Cauchy weights (length).
 #' @param along Weight of the part of a match that runs along the surface.
 #' @param points,thin Number of the template's points: of the fits, and of the first fits.
-#' @param moved,off,vague Distances at which confidence is a half (lengths): between the answers
-#'   with and without curvature; between template and scan near a landmark; the standard deviation
-#'   that missing parts of the scan add.
-#' @param near,about Radius of what is near a landmark (length), and the least number of the
-#'   template's points there.
-#' @param lost Share of the points near a landmark without a match at which the landmark counts as
-#'   missing.
-#' @param slip Distance along the surface from which on a match is none, in units of `cluster`.
-#' @param low Confidence below which a found landmark is doubted.
-#' @param wrong Share of doubted landmarks above which the whole answer is doubted. On 42 faces that
-#'   are found right the share is at most 0.47. On two that are found wrong, and on objects that are
-#'   no face, it is at least 0.68.
-#' @param fewest Number of matches without which the template is not bent.
+#' @param moved,off,vague Distances at which confidence is a half (lengths). `moved`: between the
+#'   positions with and without curvature. `off`: between template and scan near a landmark.
+#'   `vague`: the standard deviation that missing parts of the scan add.
+#' @param near,about Radius of the neighbourhood of a landmark (length), and the least number of the
+#'   template's points in it.
+#' @param lost Share of unmatched points near a landmark from which on the landmark counts as
+#'   absent.
+#' @param slip Distance along the surface beyond which a match is rejected, in units of `cluster`.
+#' @param low Confidence below which a found landmark is doubtful.
+#' @param wrong Share of doubtful landmarks above which the whole result is doubtful. On 42 faces
+#'   with correct results the share is at most 0.47. On two faces with wrong results, and on objects
+#'   that are not faces, it is at least 0.68.
+#' @param fewest Least number of matches for the deformation of the template.
 #' @return List of class `find_settings`.
-#' @section Errors: of class `crestline_error`, for a name that is no setting or a value that is not
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is not
 #'   numeric.
 #' @template glossary
 #' @examples

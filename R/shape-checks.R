@@ -153,19 +153,19 @@ damage_distance <- function(places, damage, count, inner = FALSE) {
 
 #' Faults of a shape's surface
 #'
-#' Lists the triangles that face into the specimen, that are there twice, or that pass through one
-#' another.
+#' Lists the triangles of a shape's surface that face into the specimen, that are double, or that
+#' cross one another.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
-#' @param specimen The `specimen` it was measured on.
+#' @param specimen The [specimen()] that the shape was measured on.
 #' @param parts Parts of the surface, as in [shape_mesh()].
-#' @return Data frame, a row a fault (none: no fault): `fault` ("flipped": the triangle's normal is
-#'   more than 90 degrees from the specimen's normals at its corners; "doubled"; "crossing"),
-#'   `group` (the patch or strip of the triangle, as in the scheme's `triangles`), `v1`, `v2`, `v3`
-#'   (rows of the surface points), and for crossings `other` (group of the triangle that it passes
-#'   through).
-#' @section Errors: as [shape_mesh()]; of class `crestline_wrong_mesh`, for a specimen with another
-#'   mesh.
+#' @return Data frame with a row for each fault; without faults it has no row. Columns: `fault`
+#'   ("flipped", "doubled" or "crossing"), `group` (the patch or strip of the triangle, as in the
+#'   scheme's `triangles`), `v1`, `v2`, `v3` (rows of the surface points), and `other` (for a
+#'   crossing, the group of the other triangle). A triangle is flipped if its normal is more than 90
+#'   degrees from the specimen's normals at its corners.
+#' @section Errors: those of [shape_mesh()]; of class `crestline_wrong_mesh`: the specimen has
+#'   another mesh.
 #' @template glossary
 #' @examples
 #' \donttest{

@@ -2,118 +2,121 @@
 
 #' Measure a specimen by a scheme
 #'
-#' Finds every curve of the scheme, trims the curves that the scheme cuts off, and spaces the points
-#' of all. Then it puts the points of the patches between the curves. If a landmark or curve is
-#' missing, only the points that depend on it are NA. `status` gives the reason, see below.
-#' [crestline-package] has a glossary.
+#' Finds every curve of the scheme, trims the curves that the scheme cuts off, and puts
+#' semilandmarks on all of them. Then it puts the semilandmarks of the patches between the curves.
+#' If a landmark or curve is missing, only the points that depend on it are NA. `status` gives the
+#' reason, see below. [crestline-package] has a glossary.
 #'
-#' Curvature is estimated once for all curves of one radius. Some ridges and valleys are not
-#' determined by curvature, see [ridge_curve()]: they keep their estimate. A window with too few
-#' vertices gives no estimate: the curve is then the shortest plane cut. If a trimmed curve is
-#' shorter than its share, all trimmed curves are cut at the same smaller multiple of their shares.
-#' `reason` names each of these cases.
+#' Curvature is estimated once for all curves of one radius. Ridges and valleys that curvature does
+#' not determine keep their estimate, see [ridge_curve()]. A window with too few vertices gives no
+#' estimate; the curve is then the shortest plane cut. If a trimmed curve is shorter than its share,
+#' all trimmed curves are cut at the same smaller multiple of their shares. `reason` names each of
+#' these cases.
 #'
 #' A column of a patch is the shortest plane cut between two points of its bounding curves. Only
 #' planes near the surface's normal are tried. The points of a column have equal chords. On a sharp
-#' rim the surface normals at the two ends are unreliable. There the patch's `outward` setting (the
-#' order of its corners) tells which side is outside, and the cut follows that side. All points lie
-#' on the mesh. Points that coincide by construction are stored once and agree exactly. Flipped or
-#' crossing triangles of the model are named in the `reason` of the patch at which they begin, see
-#' [surface_faults()].
+#' rim the surface normals at the two ends are unreliable. There the column `outward` of the
+#' scheme's table of patches determines the outer side, and the cut follows that side. All points
+#' lie on the mesh. Points that coincide by construction are stored once and agree exactly. If
+#' triangles of the model are flipped or cross, the `reason` of the patch of their first corner
+#' names them, see [surface_faults()].
 #'
 #' @param specimen A [specimen()].
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
-#' @param settings [ridge_settings()] of all curves; `error = FALSE` saves the time of standard
-#'   errors.
+#' @param settings [ridge_settings()] of all curves. `ridge_settings(error = FALSE)` omits standard
+#'   errors and saves their time.
 #' @param passes As in [ridge_curve()].
-#' @param curves Curves drawn by hand or found by other software: a named list (names of the
-#'   scheme's curves) of n x 3 matrices, data frames with columns x, y, z, or values of
-#'   [ridge_curve()], such as the attribute `curves` of [read_landmarks()]. They may run either way
-#'   round. They are put on the mesh (nearest points, joined by cuts), and are neither searched for
-#'   nor cut off. Their ends are moved to their landmarks. A curve with as many points as the scheme
-#'   asks for keeps them. Any other gets points at equal chords. Curves that are not in the list are
-#'   searched for.
+#' @param curves Curves that were drawn by hand or found by other software. A named list, with names
+#'   of the scheme's curves, of n x 3 matrices, data frames with columns `x`, `y`, `z`, or values of
+#'   [ridge_curve()]; in the unit of the mesh. [read_curves()] gives such a list. The curves may run
+#'   in either direction. They are moved onto the mesh: closest points, joined by cuts. Their ends
+#'   are moved to their landmarks. They are not trimmed. A curve with the number of points of the
+#'   scheme keeps its points; any other curve gets points at equal chords. Curves that are not in
+#'   the list are found by curvature or cuts as usual.
 #' @param cut_scale Multiplies the length at which trimmed curves are cut (no unit). Use one value
-#'   below 1 for all specimens if some scans are too short. It is lowered where a curve is too short
-#'   for it.
-#' @param bridge Holes up to this size (diagonal of the bounding box, as a share of the object's
-#'   size) are bridged by flat triangles, so that curves and columns run on where the surface would
-#'   be. Their points there are missing. Curves and columns run round larger holes, and with 0 round
-#'   all.
-#' @param column_angle Greatest angle in radians between a column's plane and that of the mean of
-#'   the surface normals at its ends (the programs of the paper's authors: 45 degrees).
-#' @param column_angles Number of planes that are tried for a column (there: 51).
-#' @param column_reach A column stays within this share of the distance of its ends from the
-#'   straight line between them (there: 1).
-#' @param unit Factor from the mesh's unit to that of the scheme's lengths: 1000 for a scan in
-#'   metres and [face_scheme()]. NULL: that of [find_landmarks()] where the landmarks were found,
+#'   below 1 for all specimens if some scans are too short. It is reduced for a specimen with a
+#'   shorter curve.
+#' @param bridge Greatest size of a hole that is bridged by flat triangles: the diagonal of its
+#'   bounding box, as a share of the object's size. Curves and columns cross a bridged hole, and
+#'   their points inside it are missing. They run round larger holes. 0: no hole is bridged.
+#' @param column_angle Greatest angle in radians between a column's plane and the plane of the mean
+#'   surface normal at its ends (pi / 4 in the programs of the paper's authors).
+#' @param column_angles Number of planes that are tried for a column (51 in the authors' programs).
+#' @param column_reach Greatest distance of a column from the straight line between its ends, as a
+#'   share of that line's length (1 in the authors' programs).
+#' @param unit Factor from the mesh's unit to the unit of the scheme's lengths: 1000 for a scan in
+#'   metres and [face_scheme()]. NULL: the factor of [find_landmarks()] if it found the landmarks,
 #'   else 1.
 #' @param progress Whether to show a progress bar.
 #' @inheritParams curvature
 #' @return Object of class `shape`, a list:
 #'   * `id`: of the specimen;
-#'   * `points`: data frame, a row a point in the order of the scheme: `level` ("landmarks",
-#'     "curves", "surface"), `part`, `point` (text), `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (all NA
-#'     where missing), `se` (standard error across the curve, in the unit of the mesh; NA where
-#'     there is none: landmarks, plane curves, insides of patches);
-#'   * `status`: data frame, a row a landmark, curve and patch: `part`, `level`, `kind` ("landmark",
-#'     "ridge", "valley", "plane", "patch"), `ok` (whether all its points are there), `reason`
-#'     (text, NA where all is well), and of curves `length` (as cut off), `strength` (mean, as
-#'     found, 1 / unit), `contrast` (strength over the mean strength beside the curve, in its window
-#'     but farther than `settings$core` radii from it: 1, no more than its surroundings), `se`
-#'     (median), `competing` (how good the best other reference path is, as a share of the one
-#'     chosen: near 1, a rival; NA: none), `se_max` (largest standard error at its points);
-#'   * `checks`: data frame, a row for each of `status`, with what [quality()] judges by: `part`,
-#'     `level`, `missing` (share of the points); of curves `determined` (by curvature, see
-#'     [ridge_curve()]; NA where there is no point but landmarks), `cut` (what was left of a curve
-#'     that the scheme cuts off, as a share of what was asked for), `guessed` (TRUE if a trimmed
-#'     curve had to be directed or measured without one of its landmarks, see below), `bridged`
-#'     (share of its length that lies over holes); of patches `faults` (number of them, see
-#'     [surface_faults()]); of both `size` (a curve's length; of a patch the diameter of a disc with
-#'     points as far from their centroid), `roughness` (mean angle in degrees between the normals of
-#'     its triangles and those at their corners), `edge` (mean edge of its triangles), `border`
-#'     (distance to the nearest border that is not bridged, but for the ends of a curve), `spike`
-#'     (distance within which there are four triangles with such an angle above 30 degrees); lengths
-#'     in the unit of the mesh, Inf where there is none; of landmarks `state` and `confidence` (of
-#'     [find_landmarks()], NA where they were given) and `exchanged` (what other landmark it looks
-#'     exchanged with, text);
-#'   * `paths`: list by curve of `mesh_path`s, as cut off, over holes straight from rim to rim;
-#'     `NULL` where it failed;
+#'   * `points`: data frame with a row for each point, in the order of the scheme: `level`
+#'     ("landmarks", "curves", "surface"), `part`, `point` (text), `x`, `y`, `z`, `face`, `w1`,
+#'     `w2`, `w3` (all NA for a missing point), `se` (standard error across the curve, in the unit
+#'     of the mesh). `se` is NA for landmarks, plane curves and the insides of patches;
+#'   * `status`: data frame with a row for each landmark, curve and patch: `part`, `level`, `kind`
+#'     ("landmark", "ridge", "valley", "plane", "patch"), `ok` (TRUE if it has all its points),
+#'     `reason` (text; NA without a problem). For curves it has also
+#'     * `length`: after trimming, in the unit of the mesh;
+#'     * `strength`: mean strength before trimming, 1 / unit;
+#'     * `contrast`: strength over the mean strength beside the curve, in its window but farther
+#'       than `settings$core` radii from it. 1: no stronger than its surroundings;
+#'     * `se`, `se_max`: median and largest standard error at its points, in the unit of the mesh;
+#'     * `competing`: criterion of the best other reference path, as a share of the chosen path's.
+#'       Near 1: a rival. NA: no other path;
+#'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Columns
+#'     are `part`, `level`, `missing` (share of the points), and
+#'     * curves: `determined` (see [ridge_curve()]; NA if the curve has no points besides
+#'       landmarks), `cut` (length of a trimmed curve as a share of the scheme's), `guessed` (TRUE
+#'       if a trimmed curve had to be directed or measured without one of its landmarks, see below),
+#'       `bridged` (share of the length that lies over holes);
+#'     * patches: `faults` (number of faults, see [surface_faults()]);
+#'     * curves and patches: `size` (length of a curve; for a patch the diameter of a disc whose
+#'       points are on average as far from their centroid), `roughness` (mean angle in degrees
+#'       between the normals of its triangles and those at their corners), `edge` (mean edge length
+#'       of its triangles), `border` (distance to the closest border that is not bridged; the ends
+#'       of a curve do not count), `spike` (distance within which there are four triangles with such
+#'       an angle above 30 degrees). Lengths are in the unit of the mesh; Inf if there is no border
+#'       or spike;
+#'     * landmarks: `state` and `confidence` (of [find_landmarks()]; NA for given landmarks),
+#'       `exchanged` (text: the landmark that it looks exchanged with);
+#'   * `paths`: named list with the `mesh_path` of each curve, after trimming; over holes it is
+#'     straight from rim to rim. `NULL` for a curve that failed;
 #'   * `scheme`, its lengths in the unit of the mesh;
-#'   * `provenance`: what it came from, see [summary.shape()];
-#'   * `key`: of the specimen's mesh, see [specimen()]; what takes a shape and a specimen refuses
-#'     another mesh, and one whose vertices or triangles stand in another order, by name (an error
-#'     of class `crestline_wrong_mesh`);
-#'   * `tracks`, `column`, `specimen`: kept for [slide()], and needed by nothing else
-#'     (`shape$specimen <- NULL` makes the shape small).
+#'   * `provenance`: versions, scheme, mesh, landmarks and settings, see [summary.shape()];
+#'   * `key`: key of the specimen's mesh, see [specimen()]. Functions of a shape and a specimen
+#'     refuse another mesh, and a mesh whose vertices or triangles are in another order (error of
+#'     class `crestline_wrong_mesh`);
+#'   * `tracks`, `column`, `specimen`: for [slide()] only. `shape$specimen <- NULL` makes the shape
+#'     small.
 #'
 #'   `as.data.frame(shape)` gives the points; see also [coords()], [shape_mesh()] and
 #'   [plot.shape()].
 #' @section Missing parts: If a landmark or curve is missing, only the points that depend on it are
 #'   NA. `status` gives the reason.
-#'   * Where a landmark is absent or NA, the curves that end there and the columns that begin on
-#'     them are missing.
-#'   * A curve that is cut off (`cut_share`) keeps only the part next to its end `to`, and needs no
-#'     more of the mesh. Its other landmark may lie outside the scan (an ear). The curve then runs
-#'     towards it as far as the mesh goes: towards the landmark's own co-ordinates where it has any
-#'     (`specimen$landmarks["tL", ] <- ...` after [specimen()] lets it lie off the mesh), else
-#'     towards the mirror image of its pair. The points keep the places that they would have on the
-#'     whole curve. Points beyond the mesh are missing. A smaller `cut_scale` gives all of them a
-#'     place.
+#'   * If a landmark is absent or NA, the curves that end there and the columns that begin on them
+#'     are missing.
+#'   * A trimmed curve (`cut_share`) keeps only the part next to its end `to`, and needs no more of
+#'     the mesh. Its other landmark may lie outside the scan (an ear). The curve then runs towards
+#'     that landmark to the border of the mesh. The direction is that of the landmark's
+#'     co-ordinates, if it has any. `specimen$landmarks["tL", ] <- ...` after [specimen()] sets
+#'     co-ordinates off the mesh. Otherwise it is that of the mirror image of its pair. The points
+#'     keep their places on the whole curve; points beyond the mesh are missing. With a smaller
+#'     `cut_scale` all points lie on the mesh.
 #'   * Shares are measured between the two landmarks of a pair. On half a face one of them is
-#'     missing. Twice the distance of the other from the mirror plane is then taken. The mirror
-#'     plane is square to the directions between left and right. Without a whole pair, it runs
-#'     through the landmarks of the middle.
-#'   * The points inside a hole are missing, see `bridge`. Take triangles that you do not trust out
-#'     of the mesh beforehand, such as long ones over unseen parts: then they are a hole.
-#' @section Errors: of class `crestline_error`, when specimen or scheme are not what they should be;
-#'   of class `crestline_unit_error`, when the landmarks are not about as far apart as those of the
-#'   scheme, with the `unit` to give.
-#' @section Warnings: of class `crestline_exchanged`, which names landmarks that look exchanged
+#'     missing. The length is then twice the distance of the other from the mirror plane. The mirror
+#'     plane is perpendicular to the directions between left and right. Without a whole pair, it
+#'     runs through the midline landmarks.
+#'   * The points inside a hole are missing, see `bridge`. Remove triangles that you do not trust
+#'     from the mesh first, such as long ones over unseen parts. They then count as a hole.
+#' @section Errors: of class `crestline_error`: an argument is not of the class it should be, or the
+#'   specimen has no landmarks. Of class `crestline_unit_error`: the distances between landmarks
+#'   differ from the scheme's by a factor, as in another unit. The error gives the `unit` to use.
+#' @section Warnings: of class `crestline_exchanged`: landmarks look exchanged
 #'   (`crestline_mirrored`: left and right of all pairs). [quality()] grades them, and the curves
-#'   that end there, red. Of class `crestline_unused_landmarks`, when a landmark of the scheme is
-#'   missing and the specimen has one of another name that may be meant (`prn` for `pn`, `CHL` for
-#'   `chL`).
+#'   that end there, red. Of class `crestline_unused_landmarks`: a landmark of the scheme is
+#'   missing, and the specimen has one of a similar name (`prn` for `pn`, `CHL` for `chL`).
 #' @templateVar where section 4
 #' @template paper
 #' @examples

@@ -2,25 +2,25 @@
 
 #' A patch of a shape with any number of columns and rows
 #'
-#' The bounding curves of the patch are spaced anew at equal chords, matching points joined by the
-#' shortest plane cut, as in [fit_shape()], and every cut divided at equal chords. The grid covers
-#' the whole patch, from one bounding curve to the other, also where the scheme leaves columns or
-#' rows to its neighbours. See [shape_mesh()] for denser patches that fit together.
+#' Makes a grid over one patch, from one bounding curve to the other. The bounding curves get new
+#' points at equal chords. Matching points are joined by the shortest plane cut, as in
+#' [fit_shape()], and every cut gets points at equal chords. Columns and rows that the scheme leaves
+#' to neighbouring patches are included. See [shape_mesh()] for denser patches that fit together.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
-#' @param specimen The `specimen` it was measured on.
+#' @param specimen The [specimen()] that the shape was measured on.
 #' @param patch Name of a patch of the scheme.
-#' @param columns Number of points on each bounding curve; the scheme's unless given.
-#' @param rows Number of points in each column, both ends counted; the scheme's unless given.
-#' @param block Number of the block, where the patch has several with columns.
+#' @param columns Number of points on each bounding curve. NULL: as in the scheme.
+#' @param rows Number of points in each column, both ends included. NULL: as in the scheme.
+#' @param block Number of the block, if the patch has several with columns.
 #' @inheritParams shape_mesh
-#' @return A `mesh3d` with normals, outward: a vertex for every point, by column, then by row from
-#'   the first bounding curve; triangles with a missing point are left out. Attribute `points`: data
-#'   frame `column`, `row`, `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` of all points on the specimen's
-#'   mesh (NA where a column is missing; these have no vertex).
-#' @section Errors: of class `crestline_error`, when there is no such patch or block, it is a single
-#'   row of points, a bounding curve is missing, or no column is left; of class
-#'   `crestline_wrong_mesh`, for a specimen with another mesh.
+#' @return A `mesh3d` with outward normals. It has a vertex for every point, by column, then by row
+#'   from the first bounding curve. Triangles with a missing point are left out. Attribute `points`:
+#'   data frame `column`, `row`, `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` of all points on the
+#'   specimen's mesh. Points of a missing column are NA and have no vertex.
+#' @section Errors: of class `crestline_error`: the scheme has no such patch or block, the patch is
+#'   a single row of points, a bounding curve is missing, or no column is left. Of class
+#'   `crestline_wrong_mesh`: the specimen has another mesh.
 #' @template glossary
 #' @seealso [shape_mesh()]
 #' @examples

@@ -2,23 +2,23 @@
 
 #' Limits of the quality report
 #'
-#' All limits of [quality()]. Each has two values: the first makes a part amber, the second red.
-#' `Inf` (or `-Inf` where small values are bad) switches one off. No limit depends on the unit of
+#' All limits of [quality()]. Each limit has two values: the first makes a part amber, the second
+#' red. `Inf` switches a limit off (`-Inf` if small values are bad). No limit depends on the unit of
 #' the mesh.
 #'
-#' The defaults were chosen on 26 good scans and on scans spoiled on purpose (holes, spikes, noise,
-#' decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber or red; of the
-#' parts of good whole faces, up to 4.3 %.
+#' The defaults were chosen on 26 good scans and on scans that were spoiled on purpose (holes,
+#' spikes, noise, decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber
+#' or red. Of the parts of good whole faces, up to 4.3 % were.
 #'
 #' @param ... Limits to change, by name, each `c(amber, red)`; print the defaults to see them. Bad
 #'   is what is above
-#'   * `missing`: share of the part's points that are not there;
-#'   * `se`: median standard error across a curve, in radii of its curvature estimate (0.2 is where
-#'     [ridge_settings()] calls a curve not determined);
+#'   * `missing`: share of the part's points that are missing;
+#'   * `se`: median standard error across a curve, in radii of its curvature estimate (above 0.2,
+#'     the setting `undetermined` of [ridge_settings()], a curve counts as not determined);
 #'   * `se_max`: largest standard error across a curve, in radii;
 #'   * `doubtful`: share of the found landmarks whose confidence is below the first limit of
-#'     `confidence`: of all parts of a specimen;
-#'   * `competing`: how good the best other reference path is, as a share of the one chosen;
+#'     `confidence`. It applies to all parts of a specimen;
+#'   * `competing`: criterion of the best other reference path, as a share of the chosen path's;
 #'   * `z`: size of the z-score of the length against other specimens;
 #'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner, as a share of
 #'     its length;
@@ -27,17 +27,18 @@
 #'   * `coarse`: mean edge of the triangles along a ridge or valley, in radii of its curvature
 #'     estimate;
 #'   * `bridged`: share of a curve's length that lies over holes;
-#'   * `offset`: of a shape that was slid: root mean square distance of a curve's homologous points
-#'     from the curve that was measured, across it, in radii of the template (1/19 is 3 mm on a
-#'     face). The curve may run along another feature than on the other specimens. On ten simulated
-#'     faces of another population it names 8 of 29 such cuts that nothing else names, and 3 of 230
-#'     curves that are right;
+#'   * `offset`: root mean square distance of a curve's homologous points from the measured curve,
+#'     across it, in radii of the template (1/19 is 3 mm on a face). It exists for shapes that were
+#'     slid. A large value can mean that the curve runs along another feature than on the other
+#'     specimens. On ten simulated faces of another population it detects 8 of 29 such curves that
+#'     no other limit detects. It also flags 3 of 230 correct curves;
 #'   * `faults`: number of flipped, doubled or crossing triangles of a patch;
 #'
 #'   and below
-#'   * `confidence`: of a landmark that [find_landmarks()] found, and of the curves that end there;
-#'   * `contrast`: mean strength along a curve over that beside it;
-#'   * `cut`: what was left of a curve that the scheme cuts off, as a share of what was asked for;
+#'   * `confidence`: confidence of a landmark that [find_landmarks()] found. It also applies to the
+#'     curves that end there;
+#'   * `contrast`: mean strength along a curve over the mean strength beside it;
+#'   * `cut`: length of a trimmed curve, as a share of the length that the scheme asks for;
 #'   * `border`: distance from a border of the mesh or of a hole, as a share of the part's size (a
 #'     curve's length, the diameter of a patch);
 #'   * `spike`: distance within which there are four crumpled triangles (bent by more than 30
@@ -53,8 +54,8 @@
 #' @param spread Least spread of a length across specimens (as a share of it) that z-scores count
 #'   with, so that a sample of nearly equal specimens flags nobody.
 #' @return List of class `quality_limits`.
-#' @section Errors: of class `crestline_error`, for a name that is no limit, and for limits in the
-#'   wrong order.
+#' @section Errors: of class `crestline_error`: a name is not that of a limit, or two values are in
+#'   the wrong order.
 #' @template glossary
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))

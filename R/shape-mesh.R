@@ -2,31 +2,34 @@
 
 #' The surface of a shape as a mesh
 #'
-#' The triangles of the scheme between the shape's surface points; on request denser, for a smooth
-#' picture of the specimen, with all new points on its mesh.
+#' Makes a mesh of the scheme's triangles between the shape's surface points. With `dense` it is
+#' denser, for a smooth picture of the specimen. All new points lie on the specimen's mesh.
 #'
-#' With `dense` = k every side of the model's quads is divided into k pieces at equal chords: along
-#' the curve that it is part of (unless that would turn a triangle over), else along the shortest
-#' plane cut between its ends. Inside, cuts join opposite sides. So a patch of 19 x 5 points has 37
-#' x 9 at 2, and the model's own points are among them. Neighbours share the points of their common
-#' sides: the surface has the borders of the model and no others. See [patch_mesh()] for a patch by
-#' itself, with any number of columns and rows.
+#' With `dense = k` every side of the model's quads is divided into k pieces at equal chords. A side
+#' that is part of a curve is divided along the curve, unless that would turn a triangle over. Other
+#' sides are divided along the shortest plane cut between their ends. Inside a quad, cuts join
+#' opposite sides. So a patch of 19 x 5 points has 37 x 9 points with `dense = 2`, and the model's
+#' own points are among them. Neighbouring patches share the points of their common sides: the
+#' surface has no further borders. See [patch_mesh()] for one patch with any number of columns and
+#' rows.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
-#' @param parts Which triangles of the scheme: "model", and names of optional parts.
-#' @param specimen The `specimen` it was measured on; needed where `dense` is above 1.
-#' @param dense Whole number: pieces that every side of a quad is divided into.
-#' @param column_angle,column_angles,column_reach Of the cuts, as in [fit_shape()].
-#' @return A `mesh3d` with normals: `vb` 4 x k, a vertex for every place that has triangles (the
-#'   model's points first, in the order of `coords(x, "surface")`), and `it` 3 x m, outward.
-#'   Triangles with a missing point are left out. Attributes: `row`, the row of every vertex among
-#'   the shape's surface points, as in `coords(x, "surface")`, NA of the points between them;
-#'   `points`, data frame `x, y, z, face, w1, w2, w3` of the vertices on the specimen's mesh;
-#'   `group`, the patch or strip of every triangle, as in the scheme's `triangles`.
-#' @section Errors: of class `crestline_error`, when the scheme has no such part, no triangle is
-#'   left, or `dense` lacks the specimen. Warnings of class `crestline_warning` of a denser surface
-#'   give the number of triangles that a hole of the specimen costs, and name the parts in which
-#'   triangles are turned over.
+#' @param parts Triangles of the scheme: "model", or names of optional parts, or both.
+#' @param specimen The [specimen()] that the shape was measured on. Needed if `dense` is above 1.
+#' @param dense Number of pieces into which every side of a quad is divided; a whole number.
+#' @param column_angle,column_angles,column_reach Settings of the cuts, as in [fit_shape()].
+#' @return A `mesh3d` with normals. `vb` (4 x k) has a vertex for every place that has triangles, in
+#'   the unit of the specimen's mesh. The model's points come first, in the order of `coords(x,
+#'   "surface")`. `it` (3 x m) has the triangles, outward; triangles with a missing point are left
+#'   out. Attributes:
+#'   * `row`: row of every vertex in `coords(x, "surface")`; NA for the points between;
+#'   * `points`: data frame `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` of the vertices on the
+#'     specimen's mesh;
+#'   * `group`: patch or strip of every triangle, as in the scheme's `triangles`.
+#' @section Errors: of class `crestline_error`: the scheme has no such part, no triangle is left, or
+#'   `dense` is above 1 without a specimen. Warnings of class `crestline_warning` of a denser
+#'   surface give the number of triangles that are lost at holes of the specimen, and name the parts
+#'   with triangles that are turned over.
 #' @template glossary
 #' @seealso [fit_shape()]; [write_mesh()] to save it
 #' @examples

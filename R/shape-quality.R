@@ -7,10 +7,9 @@
 #'
 #' * the fit: curvature does not determine the curve, another path is as good, or points are
 #'   missing;
-#' * the mesh about the part: noise, spikes, holes, coarse triangles (see `checks` of
-#'   [fit_shape()]);
-#' * the mirror image of the part's partner, where the scheme has pairs;
-#' * the lengths in the other specimens, where there are several.
+#' * the mesh near the part: noise, spikes, holes, coarse triangles (see `checks` of [fit_shape()]);
+#' * the mirror image of the part's partner, if the scheme has pairs;
+#' * the lengths in the other specimens, if there are several.
 #'
 #' Grades are passed on. The points of a patch depend on the curves that bound it. The patch is at
 #' least amber if one of these is not green. A curve is at least amber if it ends on a landmark that
@@ -18,40 +17,40 @@
 #' exchanged with another. If most found landmarks have little confidence, nothing is green.
 #' [crestline-package] has a glossary.
 #'
-#' `quality()` does not see a wrong landmark that was placed by hand, unless lengths, symmetry or
-#' the order of landmarks show it. It does not see a smooth error of the scan. A curve along another
-#' feature than the one meant is seen in a sample of [homologise()], and in a shape of [slide()]: if
-#' the homologous points lie far beside the curve, it is amber (limit `offset`).
+#' `quality()` does not detect a wrong landmark that was placed by hand, unless lengths, symmetry or
+#' the order of landmarks show it. It does not detect a smooth error of the scan. A curve along the
+#' wrong feature can be detected in a sample of [homologise()], and in a shape of [slide()]. There a
+#' curve is amber if its homologous points lie far beside it (limit `offset`).
 #'
-#' @param x A `shape`, as [fit_shape()] returns it, or a list of them; names of the list, where it
-#'   has any, name the specimens. `NULL` in the list is a specimen that could not be measured.
+#' @param x A `shape`, as [fit_shape()] returns it, or a list of shapes. Names of the list, if any,
+#'   name the specimens. `NULL` in the list stands for a specimen that could not be measured.
 #' @param limits [quality_limits()].
-#' @param others Further shapes of the same scheme, only to compare lengths with, such as those of
-#'   an old sample when `x` is one new specimen.
+#' @param others Further shapes of the same scheme. Their lengths are compared with those of `x`.
+#'   Use an earlier sample if `x` is one new specimen.
 #' @return Data frame of class `shape_quality`, a row for each specimen and part:
 #'   * `specimen`, `part`, `level` ("landmarks", "curves", "surface"), `kind`, `length`, `strength`,
 #'     `contrast`, `se`, `competing`: as in `status` of [fit_shape()];
-#'   * `z`: robust z-score of a curve's length, relative to the specimen's size, against the others
-#'     (by their median and MAD); NA with fewer than `limits$others` others, and for curves that the
-#'     scheme cuts off;
-#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner (its own,
-#'     where it has none) between their ends, as a share of its length; NA where the scheme has no
-#'     pairs;
+#'   * `z`: robust z-score of a curve's length, relative to the specimen's size, by the median and
+#'     MAD of the other specimens. NA with fewer than `limits$others` others, and for trimmed
+#'     curves;
+#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner between their
+#'     ends, as a share of its length. A curve without a partner is compared with its own mirror
+#'     image. NA if the scheme has no pairs;
 #'   * `missing`, `cut`, `bridged`, `faults`, `roughness` (degrees): as in `checks` of
 #'     [fit_shape()];
 #'   * `offset`: root mean square distance of a curve from its homologous points, across it, in
-#'     radii of the template; NA where the shape was not slid with free curve points;
+#'     radii of the template. NA if the shape was not slid with free curve points;
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
 #'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
-#'   * `why`: text, NA where the part is green.
+#'   * `why`: the reason, as text; NA if the part is green.
 #'
-#'   A specimen that could not be measured is one row with level "specimen", red. A specimen with
-#'   warnings (see [warnings_of()]) has such a row, amber. `print()` gives the counts, the worst
-#'   parts, and the specimens whose landmarks were found and not placed by hand; `summary()` a data
-#'   frame with a row for each specimen: `specimen`, the number of parts that are `green`, `amber`,
-#'   `red`, and `landmarks` ("found" or "placed"; NA where it could not be measured).
-#' @section Errors: of class `crestline_error`, when `x` holds no shapes.
+#'   A specimen that could not be measured has one row with level "specimen", red. A specimen with
+#'   warnings (see [warnings_of()]) has such a row too, amber. `print()` gives the counts, the worst
+#'   parts, and the specimens whose landmarks were found and not placed by hand. `summary()` gives a
+#'   data frame with a row for each specimen: `specimen`, `green`, `amber`, `red` (numbers of
+#'   parts), and `landmarks` ("found" or "placed"; NA if it could not be measured).
+#' @section Errors: of class `crestline_error`: `x` has no shapes.
 #' @seealso [quality_report()] for a page with pictures.
 #' @examples
 #' \donttest{

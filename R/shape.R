@@ -99,11 +99,11 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' Co-ordinates of a shape
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
-#' @param level "curves", "landmarks" or "surface".
+#' @param level Kind of points: "curves", "landmarks" or "surface".
 #' @param ... Ignored.
-#' @return k x 3 matrix with columns x, y, z and row names "part point" (of landmarks: their names),
-#'   NA where missing; in the unit of the mesh.
-#' @section Errors: of class `crestline_error`, for another level.
+#' @return k x 3 matrix with columns `x`, `y`, `z`, in the unit of the mesh. Row names are "part
+#'   point", or the names of landmarks. Missing points are NA.
+#' @section Errors: of class `crestline_error`: `x` is not a shape, or there is no such level.
 #' @template glossary
 #' @seealso [fit_shape()]
 #' @examples
