@@ -9,68 +9,75 @@
 #' that fails does not stop the others, see [failures()]. Warnings are kept with each shape, see
 #' [warnings_of()], and printed. [crestline-package] has a glossary.
 #'
-#' With `dir` every result is written there as soon as it is ready, and read only when it is asked
-#' for. So memory does not grow with the number of specimens. A result is written whole or not at
-#' all. A run that was interrupted continues where it stopped. A specimen is not measured again if
-#' `dir` has a result of the same mesh, landmarks, scheme, settings, template and `reading`, made by
-#' a version of the package that gives the same answers. File names do not matter: a scan that was
-#' renamed is not measured again, and two scans of one name in different folders are never taken for
-#' each other. Failures are tried again.
+#' With `dir` every result is written to that folder as soon as it is ready, and read again when it
+#' is needed. Memory therefore does not grow with the number of specimens. A result is written whole
+#' or not at all. A run that was interrupted continues where it stopped; failures are tried again. A
+#' result in `dir` is used again if mesh, landmarks, scheme, settings, template and `reading` are
+#' the same, and if the version of the package gives the same answers. File names do not matter. A
+#' scan that was renamed is not measured again, and two scans of one name in different folders are
+#' kept apart.
 #'
 #' The file of a result has a checksum, which is compared before the file is read. A damaged or
 #' truncated result is measured again. Several runs may share a folder. A run deletes only its own
-#' unfinished files. Those of a run that was killed (`part-*.tmp`) stay, are never read, and may be
-#' deleted.
+#' unfinished files. Unfinished files of a run that was killed (`part-*.tmp`) remain. They are never
+#' read, and you may delete them.
 #'
 #' If a result cannot be written (a full disk) or a worker dies, its specimens are tried once more,
-#' each alone. They are failures if it happens again.
+#' each alone. After a second error they are failures.
 #'
-#' If no mesh comes with landmarks, they are found by `template`, see [find_landmarks()]. A landmark
-#' with little confidence is left out, and with it the curves that end there. If most landmarks have
-#' little confidence, the specimen is refused, see [check_placing()], and a picture of them is saved
-#' in `dir`, or in R's temporary folder. `print()` and `summary()` show of which specimens landmarks
-#' were found.
+#' If no mesh has landmarks, they are found by `template`, see [find_landmarks()]. A landmark with
+#' little confidence is left out, and with it the curves that end there. If most landmarks have
+#' little confidence, the specimen is refused, see [check_placing()]. A picture of its landmarks is
+#' then saved in `dir`, or in R's temporary folder. `print()` and `summary()` show which specimens
+#' have found landmarks.
 #'
 #' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file
-#'   is its name without the extension; where files share it, with as many folders as tell them
-#'   apart: "visit 1/anna", "visit 2/anna".
+#'   is its name without the extension. If several files share that name, their folders are added:
+#'   "visit 1/anna", "visit 2/anna".
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
-#' @param dir Folder for the results, made where it is not there; `NULL`: they are kept in memory.
-#' @param landmarks With mesh files: `NULL` takes the file beside each mesh that has its name and an
-#'   extension of [read_landmarks()], in upper or lower case, if there is one. Two such files that
-#'   differ are a failure. Otherwise one of these, matched by the ids of the specimens: a landmark
-#'   file for each, one file for all (.tps, .nts, .csv with a column of specimens), a folder of
-#'   landmark files, a list of k x 3 matrices by name, a k x 3 x n array with names.
-#' @param template A [landmark_template()] for meshes without landmarks; `NULL`: [face_template()]
-#'   where the scheme's landmarks are those of the face, else none.
-#' @param doubtful Greatest share of found landmarks with little confidence that are used
-#'   nevertheless (and graded amber).
+#' @param dir Folder for the results; it is created if it does not exist. `NULL`: results are kept
+#'   in memory.
+#' @param landmarks Landmarks of mesh files. `NULL`: those of a file in the same folder with the
+#'   name of the mesh and an extension of [read_landmarks()], in upper or lower case, if there is
+#'   one. Two such files that differ are a failure. Otherwise one of the following, matched by the
+#'   ids of the specimens:
+#'   * a landmark file for each specimen;
+#'   * one file for all (.tps, .nts, .csv with a column of specimens);
+#'   * a folder of landmark files;
+#'   * a named list of k x 3 matrices;
+#'   * a k x 3 x n array with names.
+#' @param template A [landmark_template()] for meshes without landmarks. `NULL`: [face_template()]
+#'   if the scheme's landmarks are those of the face, else none.
+#' @param doubtful Greatest share of found landmarks with little confidence that are not left out.
+#'   They are used and graded amber.
 #' @param ... Further arguments of [fit_shape()], the same for all.
-#' @param found Whether landmarks are found where a mesh has none. `NULL`: only if none of the
-#'   meshes has any. A mesh without landmarks among others that have some is then a failure, so that
-#'   found and placed landmarks are not mixed by accident.
-#' @param reading With mesh files: named list of further arguments of [read_specimen()],
-#'   [specimen()] and [read_landmarks()], such as
-#'   `list(frame = "RAS", names = c(prn = "pn"), tolerance = 0.02)`; also `unit`, as in
-#'   [fit_shape()].
+#' @param found TRUE: landmarks are found for every mesh that has none. FALSE: such a mesh is a
+#'   failure. `NULL`: landmarks are found only if no mesh has any. A mesh without landmarks among
+#'   others with landmarks is then a failure. So found and placed landmarks are not mixed by
+#'   accident.
+#' @param reading For mesh files: named list of further arguments of [read_specimen()], [specimen()]
+#'   and [read_landmarks()], such as `list(frame = "RAS", names = c(prn = "pn"), tolerance = 0.02)`.
+#'   It may also have `unit`, as in [fit_shape()].
 #' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
-#'   lots. Small lots cost more starts, large ones more waiting at the end.
+#'   such parts. With small parts workers are started more often; with large ones they wait longer
+#'   at the end.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @return Object of class `shape_batch`: a list of shapes by id, `NULL` where a specimen failed.
-#'   With `dir`, a shape is read when it is asked for.
-#'   * `x[["id"]]`, `x$id`, `x[[i]]`: one shape; an id that is not there is an error;
-#'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some; `c(x, y)`: one of both, where they have one
-#'     scheme and no id twice, in files or not;
+#' @return Object of class `shape_batch`: a named list with a shape for each id, or `NULL` for a
+#'   specimen that failed. With `dir`, a shape is read from its file when you use it.
+#'   * `x[["id"]]`, `x$id`, `x[[i]]`: one shape; an unknown id is an error;
+#'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some specimens. `c(x, y)` joins two batches of one
+#'     scheme without common ids;
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
-#'   * `for (shape in x)` gives one shape after the other, `lapply(x, f)` and `as.list(x)` have all
-#'     in memory at once;
-#'   * `print(x)` counts and lists failures and warnings, `summary(x)` is a data frame, a row a
-#'     specimen: `specimen`, `measured`, `landmarks` ("placed", "found"), `lacking` (number of the
-#'     scheme's landmarks that are missing), `warnings` (their number), `message` (why it failed).
-#' @section Errors: of class `crestline_error`, for arguments that are wrong for every specimen.
-#'   Errors of single specimens are kept, see [failures()].
-#' @section Warnings: of class `crestline_keeping_warning`, when the file of a result is damaged, is
-#'   gone, or has another result now. The value is then `NULL`.
+#'   * `for (shape in x)` has one shape in memory at a time; `lapply(x, f)` and `as.list(x)` have
+#'     all in memory;
+#'   * `print(x)` counts and lists failures and warnings. `summary(x)` is a data frame with a row
+#'     for each specimen: `specimen`, `measured` (TRUE or FALSE), `landmarks` ("placed", "found"),
+#'     `lacking` (number of the scheme's landmarks that are missing), `warnings` (number), `message`
+#'     (reason of a failure).
+#' @section Errors: of class `crestline_error`: an argument is wrong for every specimen. Errors of
+#'   single specimens do not stop the batch, see [failures()].
+#' @section Warnings: of class `crestline_keeping_warning`: the file of a result is damaged or
+#'   missing, or has another result now. The value is then `NULL`.
 #' @seealso [failures()], [warnings_of()], [homologise()]
 #' @examplesIf rlang::is_installed(c("future", "progressr"))
 #' ball <- Rvcg::vcgSphere(4)

@@ -2,26 +2,28 @@
 
 #' The mean of points on a surface
 #'
-#' The point of the surface whose weighted sum of squared geodesic distances to the given points is
-#' least (Frechet mean).
+#' Finds the Frechet mean: the point of the surface whose weighted sum of squared geodesic distances
+#' to the given points is least.
 #'
 #' Geodesic distances are computed triangle by triangle (see References). They are exact on a plane,
 #' and about 1 % too long if they bend round a hole. On spheres of 642, 2,562 and 10,242 vertices
-#' they are 0.6, 0.3 and 0.1 % short on average, and 2.6, 1.4 and 0.8 % at most. Paths over edges
-#' alone, as of `Rvcg::vcgDijkstra()`, are 7 % too long on all of these spheres and 23 % at most.
-#' Their error depends on the direction, so that they do not determine a mean. The search begins at
+#' they are 0.6, 0.3 and 0.1 % short on average. The greatest errors are 2.6, 1.4 and 0.8 %. Paths
+#' along edges alone, as of `Rvcg::vcgDijkstra()`, are 7 % too long on all of these spheres and 23 %
+#' at most. Their error depends on the direction; they do not determine a mean. The search begins at
 #' the vertex with the least sum. A quadratic in the tangent plane then gives the point. On these
 #' spheres it is within a tenth of an edge of the true mean.
 #'
 #' @param mesh A `mesh3d` of triangles, or a [specimen()].
-#' @param points k x 3 matrix, in the unit of the mesh; taken to the closest places of the surface.
-#' @param weights k numbers of at least 0; `NULL`: all the same.
-#' @param rings Rings of vertices about the least one that the quadratic is fitted to.
-#' @return Data frame of one row: `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (a place on the mesh), and
-#'   `variance` (weighted mean of squared geodesic distances at the least vertex, unit squared).
-#'   Where several places have the same least sum, one of them.
-#' @section Errors: of class `crestline_error`: points that are no k x 3 matrix of numbers or lie on
-#'   separate pieces of the mesh; weights that are negative, all 0, or of another number.
+#' @param points k x 3 matrix, in the unit of the mesh. The points are moved to the closest places
+#'   of the surface.
+#' @param weights k numbers of at least 0, without unit. `NULL`: all equal.
+#' @param rings Number of rings of vertices, about the vertex with the least sum, to which the
+#'   quadratic is fitted.
+#' @return Data frame with one row: `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (a place on the mesh),
+#'   and `variance` (weighted mean of squared geodesic distances from the vertex with the least sum,
+#'   unit of the mesh squared). If several places have the least sum, one of them is given.
+#' @section Errors: of class `crestline_error`: the points are not a k x 3 matrix of numbers, or lie
+#'   on separate pieces of the mesh; the weights are negative, all 0, or not k numbers.
 #' @template glossary
 #' @templateVar where section 3
 #' @template paper

@@ -1,64 +1,65 @@
 # Many shapes made homologous: slid against a template that is their own mean.
 
-#' Make the shapes of a sample homologous
+#' Make the semilandmarks of a sample homologous by sliding
 #'
-#' Slides the curve points of all shapes against a template, and takes the shapes' Procrustes mean
-#' as the next template. This is repeated until the mean no longer moves. Then the points of curves
-#' and patches slide together over the surface, see [slide()]. The result therefore does not depend
-#' on the first template. [crestline-package] has a glossary.
+#' Slides the semilandmarks of all shapes. The curve points of all shapes slide against a template,
+#' and the Procrustes mean of the slid shapes is the next template. This is repeated until the mean
+#' no longer moves. The result therefore does not depend on the first template. Then the points of
+#' curves and patches slide together over the surface, see [slide()]. [crestline-package] has a
+#' glossary.
 #'
 #' Sliding all points of a curve the same way in every specimen hardly changes the bending energies.
 #' Without a constraint the mean could drift along its curves. In every round we therefore space the
-#' points of the mean curves at equal shares of arc length, averaged over the sample. The template
-#' of a patch's points is the mean of the cuts between the slid curves.
+#' points of the mean curves evenly along the arc length, averaged over the sample. The template of
+#' a patch's points is the mean of the cuts between the slid curves.
 #'
 #' In the joint step the bending energy is weighed against the standard errors of the curves. The
-#' scale of the energy is estimated from the sample itself: the mean over specimens of the energy of
-#' the warp by landmarks, a place and direction. It is kept in the template
-#' (`sample$template$energy_scale`, unit of the mesh squared), so that `slide(shape, sample)` slides
-#' a new specimen in the same way.
+#' scale of the energy is estimated from the sample. It is the mean over specimens of the energy of
+#' the warp by landmarks, for each place and direction. The template stores it
+#' (`sample$template$energy_scale`, unit of the mesh squared). `slide(shape, sample)` uses it to
+#' slide a new specimen in the same way.
 #'
-#' Where the scheme has left-right pairs, the template is made symmetric in every round
+#' If the scheme has left-right pairs, the template is made symmetric in every round
 #' ([symmetrise()]).
 #'
-#' @param shapes List of `shape`s of one scheme, as [fit_shape()] returns them, with different
-#'   `id`s, or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. Of a batch in files
-#'   one scan at a time is in memory. Ends of curves that are cut off are homologous only if all
-#'   shapes were measured with the same `cut_scale`.
-#' @param template A `shape` of the same scheme to begin with, or a `shape_sample`, whose template
-#'   is taken; `NULL`: the first of those with the most points, symmetrised.
+#' @param shapes List of `shape`s of one scheme with different `id`s, as [fit_shape()] returns them,
+#'   or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. For a batch in files one
+#'   scan at a time is in memory. The ends of trimmed curves are homologous only if all shapes were
+#'   measured with the same `cut_scale`.
+#' @param template First template: a `shape` of the same scheme, or a `shape_sample`, whose template
+#'   is used. `NULL`: the first of the shapes with the most points, made symmetric.
 #' @param settings [slide_settings()].
-#' @param specimens Where the shapes do not keep their specimens (`shape$specimen`): a list of them,
-#'   by its names or else by their own ids, or a function that gives the specimen of an id (so that
-#'   only one at a time is in memory).
-#' @param tolerance The rounds end when no point of the mean moves further than this share of its
-#'   RMS radius (2e-4: about
-#'   0.01 mm on a face).
-#' @param rounds Most rounds; 0: slide against the given template and keep it, as for new specimens
-#'   of an old sample.
+#' @param specimens Specimens of the shapes, if the shapes do not have them (`shape$specimen` is
+#'   NULL). Either a list of specimens, matched by its names or by their ids; or a function that
+#'   gives the specimen of an id, so that only one is in memory.
+#' @param tolerance The rounds end when no point of the mean moves by more than this share of the
+#'   mean's RMS radius (2e-4: about 0.01 mm on a face).
+#' @param rounds Greatest number of rounds. 0: the shapes slide against the given template, which is
+#'   not changed. Use 0 for new specimens of an old sample.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `shape_sample`, a list:
-#'   * `shapes`: the slid shapes, named by id, each as of [slide()] (without its specimen);
-#'   * `template`: the `shape` that they were slid against: `slide(shape, template)` gives the shape
-#'     again;
-#'   * `convergence`: data frame, a row a round: `round`, `movement` (RMS over the points of the
-#'     template), `largest` (unit of the mesh), `energy` (mean over specimens of the sum over
-#'     curves), `slide` (RMS distance that curve points have slid);
-#'   * `missing`: data frame, a row a specimen and part with points missing: `id`, `level`, `part`,
-#'     `points`;
-#'   * `provenance`: what it came from, see [summary.shape_sample()].
+#'   * `shapes`: named list of the slid shapes, as of [slide()], without their specimens;
+#'   * `template`: the `shape` against which they were slid. `slide(shape, template)` gives a slid
+#'     shape again;
+#'   * `convergence`: data frame with a row for each round: `round`, `movement` and `largest` (RMS
+#'     and largest movement of the template's points, unit of the mesh), `energy` (mean over
+#'     specimens of the sum over curves), `slide` (RMS distance that curve points have slid, unit of
+#'     the mesh);
+#'   * `missing`: data frame with a row for each specimen and part that has missing points: `id`,
+#'     `level`, `part`, `points` (their number);
+#'   * `provenance`: versions, scheme, specimens and settings, see [summary.shape_sample()].
 #'
 #'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample].
 #'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
-#' @section Errors: of class `crestline_error`: no list of shapes, different schemes, an id twice, a
-#'   specimen that is not there, or has another mesh than the shape was measured on.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last
-#'   round; of class `crestline_cut_scale`, when curves were cut off at different shares
-#'   (`cut_scale`), with the one to measure all by.
+#' @section Errors: of class `crestline_error`: `shapes` is not a list of shapes; schemes differ;
+#'   two shapes have one id; a specimen is missing, or has another mesh than its shape.
+#' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
+#'   Of class `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning
+#'   gives the one to use for all.
 #' @templateVar where section 4
 #' @template paper
-#' @details [slide_settings()] differ from the paper's, and the points of the mean curves are spaced
-#'   evenly here.
+#' @details The defaults of [slide_settings()] differ from the paper's. The paper does not space the
+#'   points of the mean curves.
 #' @examples
 #' \donttest{
 #' mesh <- Rvcg::vcgSphere(4)

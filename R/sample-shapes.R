@@ -321,14 +321,14 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 
 #' Failed specimens of a batch
 #'
-#' Lists the specimens that could not be measured, why, and what to do.
+#' Lists the specimens that could not be measured, with the reason and the remedy.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
-#' @return Data frame, a row a specimen that failed: `id`, `stage` (where), `message` (what),
-#'   `remedy` (what to do about it). Its attribute `warnings` is the data frame of [warnings_of()].
-#'   Of a batch in files a row, too, for each whose file is damaged, is gone, or has another result
-#'   now.
-#' @section Errors: of class `crestline_error`, when `x` is no batch.
+#' @return Data frame with a row for each failed specimen: `id`, `stage` (of the measurement),
+#'   `message` (the error), `remedy`. A batch in files also has a row for each specimen whose file
+#'   is damaged or missing, or has another result now. Attribute `warnings`: the data frame of
+#'   [warnings_of()].
+#' @section Errors: of class `crestline_error`: `x` is not a batch.
 #' @template glossary
 #' @seealso [warnings_of()] for the warnings of specimens that were measured.
 #' @examplesIf rlang::is_installed(c("future", "progressr"))
@@ -358,16 +358,15 @@ failures <- function(x) {
 
 #' Warnings of measured specimens
 #'
-#' The warnings of reading, finding and fitting, for each specimen of a batch. A warning does not
-#' stop [fit_shapes()]. It is kept with the shape (`shape$warnings`), so that it is not lost among
-#' those of many specimens. A single call of [specimen()] or [fit_shape()] gives its warnings at
-#' once, and keeps none.
+#' Lists the warnings of reading, finding and fitting, for each specimen of a batch. A warning does
+#' not stop [fit_shapes()]; it is stored with the shape (`shape$warnings`). A single call of
+#' [specimen()] or [fit_shape()] gives its warnings at once, and stores none.
 #'
-#' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`, or a list of them.
-#' @return Data frame, a row a warning: `id`; `stage` (where); `class`, the condition's first, such
-#'   as `"crestline_mirrored"`; `problem` (what); `remedy` (what to do about it, "" where another
-#'   package warned). Those of failed specimens of a batch are in it.
-#' @section Errors: of class `crestline_error`, when `x` holds no shapes.
+#' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`; or a list of shapes.
+#' @return Data frame with a row for each warning, those of failed specimens included: `id`, `stage`
+#'   (of the measurement), `class` (first class of the condition, such as `"crestline_mirrored"`),
+#'   `problem` (the warning), `remedy` ("" for a warning of another package).
+#' @section Errors: of class `crestline_error`: `x` has no shapes.
 #' @template glossary
 #' @seealso [failures()], [quality()]
 #' @examplesIf rlang::is_installed(c("future", "progressr"))

@@ -92,24 +92,24 @@ missing_parts <- function(shapes) {
 
 #' The specimens of a sample
 #'
-#' A `shape_sample` is a container of its slid shapes: `length()` and `names()` (the ids),
-#' `sample[ids]`, `sample[-3]` and `sample[logical]` give a sample of these specimens,
-#' `sample[["id"]]` one shape; `for`, `lapply()`, `split()` and `as.list()` go through the shapes.
-#' `c()` joins samples that were slid against the same template.
+#' A `shape_sample` is a list of its slid shapes. `length()` is their number, `names()` are their
+#' ids. `sample[ids]`, `sample[-3]` and `sample[logical]` give a sample of some specimens.
+#' `sample[["id"]]` gives one shape. `for`, `lapply()`, `split()` and `as.list()` go through the
+#' shapes. `c()` joins samples that were slid against the same template.
 #'
-#' Nothing is slid again: points, template and convergence stay, and `missing` is that of the
-#' specimens that are left. So a sample without some specimens still has the template of all. Where
-#' one that was wrong moved the template, run [homologise()] without it.
+#' Nothing is slid again: points, template and convergence do not change, and `missing` has the
+#' remaining specimens. A sample without some specimens therefore still has the template of all. If
+#' a wrong specimen has affected the template, run [homologise()] without it.
 #'
-#' @param x,... A `shape_sample`, as [homologise()] returns it; of `c()` several.
-#' @param i Ids, numbers (negative: all but these), or a logical value for each specimen; logical
-#'   values with names are matched by these. In `[[` one id or number.
+#' @param x,... A `shape_sample`, as [homologise()] returns it. `c()` takes several.
+#' @param i Ids, numbers (negative: all but these), or a logical value for each specimen. Logical
+#'   values with names are matched by name. For `[[`: one id or number.
 #' @param name "shapes", "template", "convergence", "missing" or "provenance": see [homologise()].
-#' @param value Of `names<-`: new ids. Of `$<-`: the field.
-#' @return A `shape_sample`; of `[[` a `shape`; of `as.list()` a list of shapes by id.
-#' @section Errors: of class `crestline_error`: a specimen that is not there, or is asked for twice
-#'   (the error says which there are); in `c()` different schemes, templates or settings of sliding,
-#'   and ids that both have.
+#' @param value For `names<-`: new ids. For `$<-`: the new value of the field.
+#' @return A `shape_sample`. `[[` gives a `shape`, `as.list()` a list of shapes by id.
+#' @section Errors: of class `crestline_error`: an unknown specimen, or one specimen twice (the
+#'   error lists the ids). For `c()`: different schemes, templates or settings of sliding, or ids
+#'   that both samples have.
 #' @template glossary
 #' @seealso [homologise()], [as.array.shape_sample()]
 #' @examples
@@ -262,11 +262,12 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #' Co-ordinates of a sample
 #'
 #' @param x A `shape_sample`, as [homologise()] returns it.
-#' @param level "landmarks", "curves" or "surface".
+#' @param level Kind of points: "landmarks", "curves" or "surface".
 #' @param ... Ignored.
-#' @return k x 3 x n array with the names of points ("part point"; of landmarks: their names), x, y,
-#'   z and specimens; NA where missing; in the unit of the meshes, where each specimen lies.
-#' @section Errors: of class `crestline_error`, for another level.
+#' @return k x 3 x n array in the unit of the meshes; each specimen keeps its position. The
+#'   dimension names are the points ("part point", or the names of landmarks), `x`, `y`, `z`, and
+#'   the ids of the specimens. Missing points are NA.
+#' @section Errors: of class `crestline_error`: there is no such level.
 #' @template glossary
 #' @seealso [homologise()]
 #' @examples
@@ -295,8 +296,8 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
 
 #' @rdname as.array.shape_sample
 #' @param row.names,optional Ignored.
-#' @return `as.data.frame()`: a row a specimen and point: `id`, and the columns of a shape's
-#'   `points`.
+#' @return `as.data.frame()`: data frame with a row for each specimen and point: `id`, and the
+#'   columns of a shape's `points`.
 #' @export
 as.data.frame.shape_sample <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

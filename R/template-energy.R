@@ -2,29 +2,30 @@
 
 #' Bending energy of the deformation of a template
 #'
-#' The 3-D thin-plate spline (kernel `-|r|`) that takes the template to a configuration X bends by
-#' E(X) = tr X' B X, B = Z (Z' (K + N) Z)^-1 Z': K holds -|r| between the template's points, Z spans
-#' what is orthogonal to the affine functions on them, N is the diagonal of the nugget. The matrix B
-#' depends on the template only, so it is worked out once for all specimens. E is 0 for every affine
-#' image of the template and does not change when X is moved or turned.
+#' The 3-D thin-plate spline (kernel `-|r|`) from the template to a configuration X has the bending
+#' energy E(X) = tr X' B X, with B = Z (Z' (K + N) Z)^-1 Z'. K has -|r| between the template's
+#' points. Z spans the complement of the affine functions on them. N is the diagonal matrix of the
+#' nugget. B depends on the template only; it is computed once for all specimens. E is 0 for every
+#' affine image of the template. It does not change if X is moved or rotated.
 #'
-#' Affine functions are counted by rank: points on a plane have three of them, points on a line two,
-#' so a flat template has the energy of its own plane. A nugget smooths in place of interpolating:
-#' the larger it is, the less the spline follows that point.
+#' Affine functions are counted by rank: points on a plane have three, points on a line two. A flat
+#' template therefore has the energy of its own plane. With a nugget the spline smooths in place of
+#' interpolating. The larger the nugget of a point, the less the spline follows that point.
 #'
-#' @param template k x 3 matrix, or a `shape`: then its points of `level`, those that coincide
-#'   counted once (the first). Rows of NA are left out.
-#' @param nugget One number, or one a row of the template: in the unit of the template, 0 or more.
-#'   Not 0 where points of a matrix coincide.
-#' @param level "landmarks", "curves" or "surface", where `template` is a shape.
-#' @param tolerance Singular values below this share of the largest count as none, where affine
-#'   functions are counted.
-#' @return A function of class `bending_energy`: `energy(x)` is the energy of a configuration, a k x
-#'   3 matrix (rows as in the template) or a shape of the same scheme, in the unit of the mesh;
-#'   points that are NA in `x` are left out of template and energy both. Attributes: `matrix` (B, k
-#'   x k, 0 in rows that are left out; 1 / unit), `affine` (number of affine functions).
-#' @section Errors: of class `crestline_error`: a template that is no matrix of numbers, or two
-#'   points at one place without a nugget; a configuration of other points.
+#' @param template k x 3 matrix, or a `shape`, whose points of `level` are used. Of coinciding
+#'   points of a shape the first counts. Rows of NA are left out.
+#' @param nugget One number, or one for each row of the template: in the unit of the template, 0 or
+#'   more. It must not be 0 if points of a matrix coincide.
+#' @param level Kind of points if `template` is a shape: "landmarks", "curves" or "surface".
+#' @param tolerance Singular values below this share of the largest count as 0 when affine functions
+#'   are counted.
+#' @return A function of class `bending_energy`. `energy(x)` is the energy of a configuration, one
+#'   number in the unit of the mesh. `x` is a k x 3 matrix (rows as in the template) or a shape of
+#'   the same scheme. Points that are NA in `x` are left out of both template and energy.
+#'   Attributes: `matrix` (B, k x k, 0 in rows that are left out, 1 / unit), `affine` (number of
+#'   affine functions).
+#' @section Errors: of class `crestline_error`: the template is not a matrix of numbers, or two of
+#'   its points coincide without a nugget; the configuration has other points.
 #' @template glossary
 #' @templateVar where section 4 (the same integral up to a constant factor)
 #' @template paper

@@ -1,56 +1,60 @@
 # Points slid along curves and over patches until they are homologous to those of a template.
 
-#' Slide the points of a shape until they are homologous to a template's
+#' Slide the semilandmarks of a shape against a template
 #'
-#' First, points of curves slide along their own curve. Each goes to where the bending energy from
-#' the template (plus a strain of the spacings) is least. Landmarks do not move, nor do the ends of
-#' curves at landmarks. An end at which the scheme cuts a curve off slides along the whole curve
-#' too.
+#' First, semilandmarks of curves slide along their own curve. Each moves to the place with the
+#' least bending energy from the template (plus a strain of the spacings). Landmarks do not move,
+#' nor do the ends of curves at landmarks. An end at which the scheme trims a curve slides along the
+#' whole curve.
 #'
 #' Then points of curves and patches slide together over the surface, in one energy (the joint step;
-#' not with `slide_settings(curves = "held")`). They begin at the thin-plate warp of the template by
-#' the landmarks, put on the mesh. The measured ridges and valleys draw their points across the
-#' ridge, by their standard errors, and let them go where they are far off: such a curve runs along
-#' another feature. Plane cuts mark no feature, and draw nothing. Curves that were given to
-#' [fit_shape()] (`curves`) stay as they are. `offset` is the distance of a homologous point from
-#' the curve that was measured, and [quality()] judges by it. The curves themselves (`paths`) stay
-#' as measured.
+#' not with `slide_settings(curves = "held")`). They start at the thin-plate warp of the template by
+#' the landmarks, moved onto the mesh. The measured ridges and valleys attract their points across
+#' the ridge; the weight comes from their standard errors. A curve that is far from its points does
+#' not attract them, as it runs along another feature. Plane cuts mark no feature, and attract no
+#' points. Points of curves that were given to [fit_shape()] (`curves`) do not move. `offset` is the
+#' distance of a homologous point from the measured curve; [quality()] grades by it. The curves
+#' themselves (`paths`) do not change.
 #'
-#' In both steps points are taken in turn, each towards its minimiser, until none moves. So the sum
-#' of energy, strain and pull never rises. Points keep their order, and never leave the mesh.
-#' [crestline-package] has a glossary.
+#' In both steps points move in turn, each towards its minimiser, until none moves. The sum of
+#' energy, strain and attraction therefore never increases. Points keep their order, and never leave
+#' the mesh. [crestline-package] has a glossary.
 #'
-#' Points that only the template has, or only the shape, are left out of the energy. Missing points
-#' stay NA. Points that coincide by construction still do.
+#' Points that only the template or only the shape has are left out of the energy. Missing points
+#' remain NA. Points that coincide by construction still coincide.
 #'
-#' After the curves have slid, the patches are cut anew between them (see [fit_shape()]). Points of
-#' patches that lie on curves without being points of theirs go along: at the same share of the way
-#' between their neighbours.
+#' After the curves have slid, the patches are cut again between them (see [fit_shape()]). Some
+#' points of patches lie on a curve without being points of it. They move with the curve, and keep
+#' their share of the distance between their neighbours.
 #'
 #' @param shape A `shape`, as of [fit_shape()].
 #' @param template A `shape` of the same scheme, such as of [symmetrise()], or a `shape_sample` of
-#'   [homologise()]: then a new specimen is slid as those of the sample were, against their
-#'   template. The other scans are not needed.
-#' @param settings [slide_settings()]; where a sample is given, by default those of the sample.
+#'   [homologise()]. With a sample, a new specimen is slid against the sample's template, as the
+#'   specimens of the sample were. The other scans are not needed.
+#' @param settings [slide_settings()]. If `template` is a sample, the default are the settings of
+#'   the sample.
 #' @param specimen The [specimen()] that the shape was measured on.
-#' @return The `shape` with its points slid (`se` goes along), and besides:
-#'   * a column `offset` of `points`: distance of a curve's point from the curve that was measured,
-#'     across it, positive to the curve's left as seen from outside; in the unit of the mesh; NA for
-#'     landmarks and insides of patches. And a column `offset` of `checks`: the root mean square
-#'     over each curve, in radii of the template. Both are there after the joint step only;
-#'   * `sliding`: data frame, a row a set of points that share an energy (`part`: the curve,
-#'     "curves", "joint", "surface", or the patch): `level`, `points` (that slide), `sweeps`,
-#'     `converged`, `energy_before`, `energy_after` (unit of the mesh; of the joint step, squared),
-#'     `longest` (largest distance that a point has slid, along its curve, or straight; of the joint
-#'     step, from where it was on its curve or patch);
-#'   * `trace`: list by the same parts of data frames `sweep` (0: the start), `energy`, `strain` (of
-#'     the joint step, the pull of the curves), `longest` (slide of that sweep).
-#' @section Errors: of class `crestline_error`: shapes of different schemes; a shape that does not
-#'   keep its specimen; of class `crestline_wrong_mesh`: a specimen with another mesh than the
-#'   shape's.
+#' @return The `shape` with slid points (`se` is interpolated along the curve), and
+#'   * column `offset` of `points`, after the joint step: distance of a curve's point from the
+#'     measured curve, across it, positive to the curve's left as seen from outside; in the unit of
+#'     the mesh; NA for landmarks and insides of patches;
+#'   * column `offset` of `checks`, after the joint step: its root mean square over each curve, in
+#'     radii of the template;
+#'   * `sliding`: data frame with a row for each set of points that share an energy. Columns: `part`
+#'     (the curve, "curves", "joint", "surface", or the patch), `level`, `points` (number of sliding
+#'     points), `sweeps`, `converged`, `energy_before` and `energy_after` (unit of the mesh; for the
+#'     joint step, squared), `longest` (largest distance that a point has slid, in the unit of the
+#'     mesh). `longest` is taken along the curve or straight; in the joint step, from the point's
+#'     place on its curve or patch;
+#'   * `trace`: list with a data frame for each of these parts: `sweep` (0: the start), `energy`,
+#'     `strain` (for the joint step, the attraction of the curves), `longest` (largest slide of that
+#'     sweep).
+#' @section Errors: of class `crestline_error`: the shapes have different schemes, or the shape has
+#'   no specimen and none is given. Of class `crestline_wrong_mesh`: the specimen has another mesh
+#'   than the shape.
 #' @templateVar where section 4
 #' @template paper
-#' @details The defaults differ from the paper's, which are `slide_settings("paper")`.
+#' @details The defaults differ from the paper's choices, which are `slide_settings("paper")`.
 #' @seealso [slide_settings()], [homologise()]
 #' @examples
 #' \donttest{

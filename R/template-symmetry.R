@@ -1,27 +1,29 @@
 # Left and right of a shape: its relabelled reflection, the symmetric mean of both, and how far the
 # two differ.
 
-#' A perfectly symmetric shape, and how far a shape is from symmetric
+#' Make a shape symmetric, or measure its asymmetry
 #'
-#' `symmetrise()` gives the mean of a shape and of its reflection with left and right relabelled,
-#' laid onto it by rotation (Procrustes superimposition of all places, without scaling). Reflecting
-#' and relabelling it changes nothing. It is a template for [slide()], not a measurement: its points
-#' lie on no mesh. A missing point takes its partner's reflection.
+#' `symmetrise()` gives the mean of a shape and its reflection with left and right relabelled. The
+#' reflection is first superimposed on the shape by Procrustes rotation of all places, without
+#' scaling. The mean is exactly symmetric. It is a template for [slide()], not a measurement: its
+#' points lie on no mesh. A missing point gets the reflection of its partner.
 #'
-#' `asymmetry()` measures the distances of the shape's points from the symmetric mean, half of those
-#' from their partners' reflections: for one specimen the asymmetric component of object symmetry.
+#' `asymmetry()` measures the distances of the shape's points from this symmetric mean. They are
+#' half the distances from the partners' reflections. For one specimen this is the asymmetric
+#' component of object symmetry.
 #'
-#' @param shape A `shape`, as of [fit_shape()] or [slide()]; its scheme's `pairs` say what is left
-#'   and right.
-#' @param off_middle How far off the mid-plane a landmark without a partner may lie without a
-#'   warning, as a share of the shape's RMS radius (0.1 is about 6 mm on a face). Such a landmark
-#'   counts as one of the mid-line, and the symmetric mean puts it there.
-#' @return `symmetrise()`: a `shape` in the place of the given one, with `face`, `w1`, `w2`, `w3`,
-#'   `se` all NA, and no paths.
-#' @section Errors: of class `crestline_error`: a scheme without pairs, or fewer than three places
-#'   that have a partner.
-#' @section Warnings: of class `crestline_unpaired`, naming the landmarks that are in no pair but
-#'   lie beside the mid-plane.
+#' @param shape A `shape`, as of [fit_shape()] or [slide()]. The table `pairs` of its scheme defines
+#'   left and right.
+#' @param off_middle Greatest distance of a landmark without a partner from the mid-plane, as a
+#'   share of the shape's RMS radius (0.1 is about 6 mm on a face). Such a landmark counts as a
+#'   midline landmark, and the symmetric mean has it on the mid-plane. Beyond this distance you get
+#'   a warning.
+#' @return `symmetrise()`: a `shape` in the pose of the given one. `face`, `w1`, `w2`, `w3` and `se`
+#'   are NA, and it has no paths.
+#' @section Errors: of class `crestline_error`: the scheme has no pairs, or fewer than three places
+#'   have a partner.
+#' @section Warnings: of class `crestline_unpaired`: landmarks of no pair lie off the mid-plane; the
+#'   warning names them.
 #' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
 #'   *Evolution* 56, 1909-1920.
@@ -49,11 +51,12 @@ symmetrise <- function(shape, off_middle = 0.1) {
 }
 
 #' @rdname symmetrise
-#' @param by "part": a row a part; "point": a row a point.
-#' @return `asymmetry()`: data frame `level` ("overall", "landmarks", "curves", "surface"), `part`
-#'   (landmark, curve, patch), `points` (their number, those that coincide counted once), `rms`,
-#'   `largest`, in the unit of the mesh, NA where nothing has a partner; by point: `level`, `part`,
-#'   `point`, `distance` and its components `dx`, `dy`, `dz` in the shape's own axes.
+#' @param by "part": a row for each part; "point": a row for each point.
+#' @return `asymmetry()`: data frame with `level` ("overall", "landmarks", "curves", "surface"),
+#'   `part` (landmark, curve, patch), `points` (their number; coinciding points count once), `rms`
+#'   and `largest` (in the unit of the mesh; NA if no point has a partner). With `by = "point"`:
+#'   `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` along the shape's
+#'   axes, in the unit of the mesh.
 #' @export
 asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
   check_given()
