@@ -1,64 +1,68 @@
 # Generalised Procrustes alignment of a sample.
 
-#' Align a sample
+#' Align a sample (generalised Procrustes analysis)
 #'
-#' Generalised Procrustes analysis centres, scales and turns every configuration so that the sum of
-#' squared distances from their mean is least. If all configurations are complete, mean and sizes
-#' equal those of `geomorph::gpagen()` (`scale = TRUE`) and of `Morpho::procSym()` (`scale = "full"`
-#' is its default), taken to convergence. [crestline-package] has a glossary.
+#' Generalised Procrustes analysis centres, scales and rotates every configuration so that the sum
+#' of squared distances from their mean is least. For complete configurations, mean and sizes equal
+#' those of `geomorph::gpagen()` (`scale = TRUE`) and of `Morpho::procSym()` (its default is
+#' `scale = "full"`), iterated to convergence. [crestline-package] has a glossary.
 #'
-#' A first alignment leaves missing points out. Then `missing = "estimate"` estimates them: a
-#' thin-plate spline takes the mean of the first alignment onto the points that the specimen has,
-#' and takes the missing points along (least bending energy). `"drop"` leaves these points out of
-#' all specimens.
+#' A first alignment leaves missing points out. Then `missing = "estimate"` estimates them by a
+#' thin-plate spline, with least bending energy. The spline maps the mean of the first alignment
+#' onto the points that the specimen has; the missing points are the images of those of the mean.
+#' `"drop"` leaves these points out of all specimens.
 #'
-#' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array (k x 2 x n for
-#'   flat configurations) of homologous points, NA where missing.
-#' @param level "landmarks", "curves", "surface", or "model": every place of the three once; of an
-#'   array only a name.
-#' @param scale `TRUE`: to unit centroid size (partial Procrustes); `"full"`: by the factor that
-#'   brings each nearest to the mean (full Procrustes); `FALSE`: sizes are kept, size and shape
-#'   together.
-#' @param weights `NULL`: all points count alike. "area": every point by the area of the surface
-#'   that is nearest to it, a third of its triangles' on the mean (levels "surface" and "model", or
-#'   with `triangles`); points without triangles count
-#'   0. "places": points that coincide, such as the common end of two curves, count as one. Or k
-#'      numbers, none negative.
-#' @param missing What to do with missing points: "estimate", "drop" or "stop" (an error).
-#' @param tangent Whether scaled configurations are projected onto the space tangent to the sphere
-#'   of shapes at the mean.
-#' @param triangles 3 x m matrix of rows of points: the triangles of an array's surface, for
-#'   pictures and areas.
-#' @param tolerance Greatest move of a co-ordinate of the mean in the last round, as a share of its
-#'   centroid size.
-#' @param rounds Most rounds.
-#' @param limits Of [sample_limits()]: the limits above which [align()] warns.
+#' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array of homologous
+#'   points (k x 2 x n for flat configurations). Missing points are NA.
+#' @param level Kind of points: "landmarks", "curves", "surface", or "model" (all three, each place
+#'   once). For an array it is only a name.
+#' @param scale `TRUE`: every configuration gets unit centroid size (partial Procrustes). `"full"`:
+#'   it is scaled by the factor that brings it closest to the mean (full Procrustes). `FALSE`: sizes
+#'   are kept, for size and shape together.
+#' @param weights Weights of the points (no unit). `NULL`: all points have equal weights. "area": the
+#'   weight is the area of the surface nearest to the point, a third of the area of its triangles on
+#'   the mean. This needs level "surface" or "model", or `triangles`; points without triangles have
+#'   no weight. "places": points that coincide, such as the common end of two curves, count as one.
+#'   Or k numbers of at least 0.
+#' @param missing Treatment of missing points: "estimate", "drop" or "stop" (an error).
+#' @param tangent TRUE: scaled configurations are projected onto the tangent space of the shape
+#'   space at the mean.
+#' @param triangles Triangles of an array's surface, for pictures and areas: 3 x m matrix of row
+#'   numbers of points.
+#' @param tolerance The rounds end when no co-ordinate of the mean changes by more than this share
+#'   of its centroid size.
+#' @param rounds Greatest number of rounds.
+#' @param limits Limits above which [align()] warns, as of [sample_limits()].
 #' @return Object of class `aligned`, a list:
-#'   * `coords`: k x 3 x n, the aligned configurations, with the names of points and specimens; of
-#'     unit size where scaled;
-#'   * `mean`: k x 3, their mean, in the pose of the sample's template (an array's first complete
-#'     configuration);
-#'   * `size`: n centroid sizes, in the unit of the meshes: the root of the (weighted) sum of
-#'     squared distances from the (weighted) centre, before scaling;
+#'   * `coords`: k x 3 x n array of the aligned configurations, with the names of points and
+#'     specimens. Without unit if scaled, else in the unit of the meshes;
+#'   * `mean`: k x 3 matrix, their mean, in the pose of the sample's template (of an array: its
+#'     first complete configuration);
+#'   * `size`: n centroid sizes before scaling, in the unit of the meshes. Centroid size is the root
+#'     of the (weighted) sum of squared distances from the (weighted) centre;
 #'   * `weights`: k, of mean 1; `scale`, `tangent`, `level`;
-#'   * `missing`: data frame, a row a missing point: `id`, `point`, `action` ("estimated",
-#'     "dropped");
-#'   * `moved`: the greatest move of the mean by round;
+#'   * `missing`: data frame with a row for each missing point: `id`, `point`, `action`
+#'     ("estimated", "dropped");
+#'   * `moved`: greatest change of a co-ordinate of the mean, by round;
 #'   * `triangles`: 3 x m, rows of `mean`, or `NULL`;
-#'   * `settings`, `reference`, `provenance`: the arguments, the configuration that `mean` was laid
-#'     onto, and where all came from, see [summary.aligned()].
+#'   * `settings`, `reference`, `provenance`: the arguments, the configuration that gives the pose
+#'     of `mean`, and the origin of the data, see [summary.aligned()].
 #'
-#'   It is a container of its configurations: `aligned[ids]` aligns these again, see [aligned].
-#'   `as.data.frame()` gives a row a specimen: `id`, `size`, `distance` (Procrustes distance from
-#'   the mean, in the unit of `coords`), `missing` (number of points).
-#' @section Errors: of class `crestline_error`: no array of that form, fewer than two specimens,
-#'   names twice, a specimen with too few points to fit, missing points with `missing = "stop"`.
-#' @section Warnings: of class `crestline_not_converged`, when the mean still moves after the last
-#'   round; of class `crestline_sample_doubt`, when a specimen or point exceeds one of the
-#'   [sample_limits()]: `crestline_far` (a specimen far from the others), `crestline_point` (points
-#'   of one far from those of the others), `crestline_size` (sizes that differ as units do),
-#'   `crestline_estimated` (points estimated for too many specimens, or too many of one),
-#'   `crestline_beyond` (points estimated far from what is there).
+#'   `aligned[ids]` aligns these specimens again, see [aligned]. `as.data.frame()` gives a data
+#'   frame with a row for each specimen: `id`, `size`, `distance` (Procrustes distance from the
+#'   mean, in the unit of `coords`), `missing` (number of missing points).
+#' @section Errors: of class `crestline_error`: `sample` is not such an array, has fewer than two
+#'   specimens, or has a name twice; a specimen has too few points; points are missing with
+#'   `missing = "stop"`.
+#' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
+#'   Of class `crestline_sample_doubt`: a specimen or point exceeds one of the [sample_limits()].
+#'   Its classes are
+#'   * `crestline_far`: a specimen is far from the others;
+#'   * `crestline_point`: some points of a specimen are far from those of the others;
+#'   * `crestline_size`: sizes differ as between two units;
+#'   * `crestline_estimated`: a point is estimated for too many specimens, or too many points for
+#'     one specimen;
+#'   * `crestline_beyond`: points are estimated far from those that the specimen has.
 #' @references Gower (1975) Generalized Procrustes analysis, *Psychometrika* 40, 33-51; Dryden and
 #'   Mardia (2016) *Statistical Shape Analysis*, chapter 7; Gunz, Mitteroecker, Neubauer, Weber and
 #'   Bookstein (2009) Principles for the virtual reconstruction of hominin crania, *Journal of Human

@@ -93,30 +93,31 @@ is_described <- function(x) {
 
 #' The specimens of an alignment
 #'
-#' An `aligned` is a container of its configurations: `length()` and `names()` are those of the
-#' specimens, `aligned[["id"]]` is one k x 3 matrix; `for`, `lapply()`, `split()` and `as.list()` go
-#' through them.
+#' An `aligned` is a list of its configurations. `length()` is the number of specimens, `names()`
+#' are their names. `aligned[["id"]]` is one k x 3 matrix. `for`, `lapply()`, `split()` and
+#' `as.list()` go through the configurations.
 #'
 #' The Procrustes mean, the space tangent to it and estimated points depend on all specimens. So
 #' `aligned[ids]`, `aligned[-3]` and `aligned[logical]` align these specimens again, with the same
 #' settings. The result is that of [align()] for a sample without the others. `c()` aligns the
-#' specimens of both together. Three things do not change: each specimen's size, the pose (the mean
-#' is laid onto the same reference), and the set of points. Points that some specimen lacked
-#' (`missing = "drop"`) are not brought back. If only the order changes, co-ordinates stay the same
-#' to the last bit. The value of [as_aligned()] does not say how it was aligned. Its co-ordinates
-#' stay as they are, the mean is taken of them, and `c()` does not join it.
+#' specimens of both together. Three things do not change: the size of each specimen, the pose of
+#' the mean, and the set of points. Points that some specimen lacked (`missing = "drop"`) are not
+#' brought back. If only the order changes, co-ordinates stay the same to the last bit. A value of
+#' [as_aligned()] has no record of its alignment. Its co-ordinates do not change, its mean is taken
+#' of them, and `c()` does not join it.
 #'
-#' @param x,... An `aligned`, as [align()] returns it; of `c()` several of the same points and
+#' @param x,... An `aligned`, as [align()] returns it. `c()` takes several with the same points and
 #'   settings.
-#' @param i Names, numbers (negative: all but these), or a logical value for each specimen; logical
-#'   values with names are matched by these. In `[[` one name or number.
+#' @param i Names, numbers (negative: all but these), or a logical value for each specimen. Logical
+#'   values with names are matched by name. For `[[`: one name or number.
 #' @param name A field, see [align()].
-#' @param value Of `names<-`: new names. Of `$<-`: the field.
-#' @return An `aligned`; of `[[` a matrix, of `as.list()` a list of them by name, of `as.array()`
-#'   the array `coords`. `$<-` sets one field as it is given: the others are yours to set.
-#' @section Errors: of class `crestline_error`: a specimen that is not there or is asked for twice
-#'   (the error says which there are); fewer than two; in `c()` other points, templates or settings,
-#'   and names that both have.
+#' @param value For `names<-`: new names. For `$<-`: the new value of the field.
+#' @return An `aligned`. `[[` gives a k x 3 matrix, `as.list()` a named list of matrices,
+#'   `as.array()` the array `coords` (k x 3 x n). `$<-` changes one field only; the fields that
+#'   depend on it do not follow.
+#' @section Errors: of class `crestline_error`: an unknown specimen, or one specimen twice (the
+#'   error lists the names); fewer than two specimens. For `c()`: other points, templates or
+#'   settings, or names that both have.
 #' @template glossary
 #' @seealso [align()]
 #' @examples

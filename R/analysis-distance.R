@@ -2,27 +2,30 @@
 
 #' Distance between two sets of curves
 #'
-#' Measures curve by curve how far two sets are apart: one specimen measured twice, by two people or
-#' programs, or an estimate and its truth. The sets are compared as they lie, or after the second is
-#' laid onto the first by rotation and shift (Procrustes, all points of all curves together; sizes
-#' are kept unless `scale = TRUE`).
+#' Measures the distance between two sets of curves, curve by curve. The sets may be two
+#' measurements of one specimen, or an estimate and its truth. They are compared as they lie, or
+#' after Procrustes superimposition of the second on the first by rotation and translation. The
+#' superimposition uses all points of all curves together. Sizes are kept unless `scale = TRUE`.
 #'
-#' The paper matches each pair of curves by Procrustes, which can also mean each curve by itself.
+#' The paper matches "each pair of curves" by Procrustes. That can also mean a superimposition of
+#' each curve by itself.
 #'
-#' @param a,b Sets of curves: `shape`s, as of [fit_shape()]; named lists of k x 3 matrices, one a
-#'   curve, as of [read_curves()]; or k x 3 matrices with row names "curve point", as of [coords()].
-#' @param match "none": as they lie; "procrustes": b is laid onto a first.
-#' @param between "points": from each point to the one of the same number. "curves": from each point
-#'   of either to the nearest place of the other's polyline, so that numbers and spacing of points
-#'   do not count.
-#' @param level Of shapes: "curves", "landmarks" or "surface".
-#' @param scale Whether matching also brings b to the size of a.
-#' @return Data frame of class `curve_distance`, a row a part that either has: `part`, `points`
-#'   (number of distances), and, in the unit of the curves (mm for faces), `rms` (root mean square),
-#'   `mean` and `max`; NA for parts that one of them lacks. Missing points are left out. The
-#'   attribute `all` is such a row for all points together.
-#' @section Errors: of class `crestline_error`: no sets of curves, no part in common, different
-#'   numbers of points where points are compared or matched.
+#' @param a,b Sets of curves in one unit. Each is a `shape` of [fit_shape()], a named list with a k
+#'   x 3 matrix for each curve, as of [read_curves()], or a k x 3 matrix with row names "curve
+#'   point", as of [coords()].
+#' @param match "none": the sets are compared as they lie. "procrustes": `b` is first superimposed
+#'   on `a`.
+#' @param between "points": distances between points of the same number. "curves": distances from
+#'   each point of either set to the closest place of the other's polyline. They do not depend on
+#'   the number and spacing of the points.
+#' @param level Kind of points of shapes: "curves", "landmarks" or "surface".
+#' @param scale Whether the superimposition also scales `b` to the size of `a`.
+#' @return Data frame of class `curve_distance` with a row for each part of either set. Columns:
+#'   `part`, `points` (number of distances), `rms` (root mean square), `mean` and `max`, in the unit
+#'   of the curves. Parts that one set lacks are NA. Missing points are left out. Attribute `all`:
+#'   such a row for all points together.
+#' @section Errors: of class `crestline_error`: an argument is not a set of curves; the sets have no
+#'   part in common; numbers of points differ, and points are compared or superimposed.
 #' @template glossary
 #' @templateVar where section 5.3
 #' @template paper

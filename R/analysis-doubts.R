@@ -1,27 +1,28 @@
 # The sample as a sample: what an alignment shows of single specimens that no specimen shows of
 # itself.
 
-#' Limits above which an alignment is doubted
+#' Limits of the warnings of align()
 #'
-#' [align()] warns of a specimen or point that exceeds one of these limits. `Inf` switches one off.
-#' No limit depends on the unit.
+#' [align()] warns of a specimen or point that exceeds one of these limits. `Inf` switches a limit
+#' off. No limit depends on the unit.
 #'
-#' @param far Robust z-score of a specimen's distance from the median shape: how many spreads
-#'   (1.4826 MAD, at least 0.15 times the median distance) it is above the median distance. On 23
-#'   and 11 faces of two collections the greatest is 2.3; a face with two landmarks of a pair
-#'   exchanged has 5 to 40.
-#' @param point How many times as far from its median place as others one point of a specimen may
-#'   lie. On those faces the greatest is 3.7; of exchanged neighbours 6 to 29.
-#' @param size Greatest ratio between the size of a specimen and the median size, either way: a
-#'   power of ten is another unit.
-#' @param estimated Greatest share of the specimens that lack a point, and of the points that a
-#'   specimen lacks.
-#' @param beyond How far an estimated point may lie beyond all points that the specimen has, seen
-#'   from their middle, on the mean and as a share of its RMS radius: there the spline extrapolates.
-#'   Half a face lacks points 1 radius beyond.
-#' @param fewest Specimens without which distances are not compared.
+#' @param far Greatest robust z-score of a specimen's distance from the median shape: the excess
+#'   over the median distance, in spreads. The spread is 1.4826 MAD, and at least 0.15 times the
+#'   median distance. On 23 and 11 faces of two collections the greatest value is 2.3. A face with
+#'   two exchanged landmarks of a pair has 5 to 40.
+#' @param point Greatest distance of a point of a specimen from its median place, as a multiple of
+#'   that of other points. On those faces the greatest value is 3.7. Exchanged neighbours have 6
+#'   to 29.
+#' @param size Greatest ratio between the size of a specimen and the median size, or its inverse. A
+#'   power of ten means another unit.
+#' @param estimated Greatest share of the specimens that lack a point, and greatest share of the
+#'   points that a specimen lacks.
+#' @param beyond Greatest distance of an estimated point beyond all points that the specimen has, as
+#'   seen from their middle. It is taken on the mean, as a share of its RMS radius. There the spline
+#'   extrapolates. Half a face lacks points at a distance of 1 radius.
+#' @param fewest Least number of specimens for the comparison of distances.
 #' @return List of class `sample_limits`.
-#' @section Errors: of class `crestline_error`, for values that are no numbers above 0.
+#' @section Errors: of class `crestline_error`: a value is not a number above 0.
 #' @template glossary
 #' @seealso [align()]
 #' @examples

@@ -4,7 +4,7 @@
 #'
 #' Tests whether groups differ in size, in mean shape, in the first principal components together
 #' (Hotelling's T2) and one by one, and at which points. Landmarks, curves and surface are tested
-#' side by side. All p-values come from the same permutations of the groups. Where there are few
+#' side by side. All p-values come from the same permutations of the groups. If there are only few
 #' regroupings, all of them are used.
 #'
 #' The paper's section 6 tests size (t), the first ten principal components together (Hotelling's
@@ -21,34 +21,34 @@
 #' | points | Welch's t of the displacement along the mean surface's normal; elsewhere F of Brown and Forsythe of the point | equal mean places | none |
 #' | "dispersion" | greatest over least spread (root mean square distance to the own mean) | equal mean distances | none |
 #'
-#' **Unequal spread.** By default every group has a spread of its own, and only the means are
-#' compared. F of Brown and Forsythe is the squares between groups over the sum of (1 - n_g / n)
-#' times the variance of group g. In every regrouping it is taken to the scale of a chi-squared
-#' variable by its own degrees of freedom (Satterthwaite's; Wallace 1959), and the values on that
-#' scale are compared. T2 is compared by its approximate p in the same way. It uses at most a third
-#' as many components as the summed variance has degrees of freedom. The tests are exact if the
-#' groups have one distribution. If only their means agree, they are right in large samples (Janssen
-#' 1997; Chung and Romano 2016). The page `spread.md` of the sources has their level in small ones.
+#' **Unequal spread.** By default every group has its own spread, and only the means are compared. F
+#' of Brown and Forsythe is the squares between groups over the sum of (1 - n_g / n) times the
+#' variance of group g. In every regrouping it is transformed to a chi-squared scale by its own
+#' degrees of freedom (Satterthwaite's; Wallace 1959). The values on that scale are compared. T2 is
+#' compared by its approximate p in the same way. It uses at most a third as many components as the
+#' summed variance has degrees of freedom. The tests are exact if the groups have one distribution.
+#' If only their means agree, they are right in large samples (Janssen 1997; Chung and Romano 2016).
+#' The page `spread.md` of the sources has their level in small ones.
 #'
 #' With `equal_spread = TRUE` variances are pooled: Student's t, Goodall's F, Hotelling's T2,
 #' Hotelling and Lawley's trace times (n - groups). The null hypothesis is then that the groups have
 #' one distribution, spread included. If a small group varies more than a large one, pooled tests
-#' reject although the means are equal: with 24 and 6 specimens and a threefold spread in up to 9 of
-#' 10 samples. The function warns where this can happen. If spreads are equal and sizes very
-#' unequal, pooled tests have more power.
+#' can reject although the means are equal. With 24 and 6 specimens and a threefold spread they do
+#' so in up to 9 of 10 samples. The function warns if this can happen. If spreads are equal and
+#' group sizes very unequal, pooled tests have more power.
 #'
-#' **Effects.** `effect` of the mean shape is the distance between the means less its mean over the
-#' regroupings, as the distance is above 0 without any difference too. `effect` of size is Cohen's
-#' d. Their intervals are quantiles of bootstrap samples within groups, about their mean. `z` is the
-#' standardised effect of RRPP.
+#' **Effects.** The distance between two sample means is above 0 even without a difference. `effect`
+#' of the mean shape is therefore this distance less its mean over the regroupings. `effect` of size
+#' is Cohen's d. Their intervals are quantiles of bootstrap samples within groups, about their mean.
+#' `z` is the standardised effect of RRPP.
 #'
-#' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent: name them
-#' by `block`. Some blocks hold specimens of several groups (before and after; sites with patients
-#' and controls). Specimens are then exchanged within their block only, and differences between
-#' blocks are removed. If each block lies in one group (repeated scans of persons), the means of the
-#' blocks are compared, and whole blocks are exchanged.
+#' **Pairs, repeats, sites.** Specimens of one person, family or site are not independent. Give the
+#' person, family or site as `block`. Some blocks have specimens of several groups (before and
+#' after; sites with patients and controls). Specimens are then exchanged within their block only,
+#' and differences between blocks are removed. If each block lies in one group (repeated scans of
+#' persons), the means of the blocks are compared, and whole blocks are exchanged.
 #'
-#' Other exchanges can be given as `permutations`. Pairs, as with `block`, for specimens 1 to 12
+#' Other exchanges can be given as `permutations`. An example are pairs, with specimens 1 to 12
 #' before and 13 to 24 after, in the same order:
 #' ```
 #' orders <- replicate(999, {
@@ -65,56 +65,65 @@
 #' For covariates and interactions see [shape_lm()].
 #' [crestline-package] has a glossary.
 #'
-#' @param sample A `shape_sample`; an array, k x 3 x n; a list of arrays or `aligned`s of the same
-#'   specimens, named by level; or an `aligned`.
-#' @param group Factor of n, or a vector that can become one. Values with names are matched to the
-#'   specimens by name. So is a data frame of one column of groups and one of the specimens (`id`,
-#'   `specimen`, `file` and the like, or row names). Case, blanks and a file's extension are
-#'   ignored. Values without names are taken in the order of the specimens, with a message.
+#' @param sample A `shape_sample`; a k x 3 x n array; an `aligned`; or a list of arrays or
+#'   `aligned`s of the same specimens, named by level.
+#' @param group Group of each specimen: a factor of length n, or a vector that can become one.
+#'   Values with names are matched to the specimens by name. A data frame with one column of groups
+#'   and one of specimens (`id`, `specimen`, `file` and the like, or row names) is matched too.
+#'   Case, blanks and a file's extension are ignored. Values without names are taken in the order of
+#'   the specimens, with a message.
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
 #' @param components Number of principal components: a whole number, or a share of the variance
 #'   below 1. At most n - groups - 1 are used; for T2 with separate covariances see above.
-#' @param seed Number that starts the random stream; the stream of the session is then left
-#'   untouched. `NULL`: the session's stream.
-#' @param tests Which: "size", "shape", "T2", "components", "points", "dispersion" (not with
+#' @param seed Seed of the random numbers, one number; the random stream of the session is then not
+#'   changed. `NULL`: the session's stream is used.
+#' @param tests Tests to make: "size", "shape", "T2", "components", "points", "dispersion" (not with
 #'   exchange within blocks).
-#' @param exact Most regroupings that are enumerated instead of drawn at random.
-#' @param permutations Orders to use in place of random ones: n x B matrix or list (as of
-#'   `RRPP:::perm.index()`), each an order of the specimens that replaces the observed one.
-#' @param block Factor of n, or a vector that can become one: specimens of one block are not
-#'   independent of each other. Values with names are matched to the specimens by name. `NULL`: all
-#'   specimens are independent.
-#' @param equal_spread Whether the groups are taken to be equally spread, and their variances
-#'   pooled.
+#' @param exact Greatest number of regroupings that are enumerated in place of random permutations.
+#' @param permutations Orders of the specimens to use in place of random ones: n x B matrix, or list
+#'   of B vectors (as of `RRPP:::perm.index()`).
+#' @param block Block of each specimen: a factor of length n, or a vector that can become one.
+#'   Specimens of one block are not independent of each other. Values with names are matched to the
+#'   specimens by name. `NULL`: all specimens are independent.
+#' @param equal_spread TRUE: the groups are assumed to have equal spread, and variances are pooled.
 #' @param n_boot Number of bootstrap samples for the intervals of effects.
-#' @param scale,weights,missing As in [align()]; "area" is for levels with triangles, the others
-#'   then have none. Not used with an `aligned`, which is aligned already.
+#' @param scale,weights,missing As in [align()]. "area" applies to levels with triangles; other
+#'   levels have equal weights. Not used for an `aligned`.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `group_comparison`, a list:
-#'   * `tests`: data frame `level`, `test`, `statistic`, `p_value` (by permutation: the share of
-#'     regroupings, the observed one among them, whose statistic is at least as great), `p_adjusted`
-#'     (for the components of a level: by the greatest statistic over them, which controls the
-#'     family-wise error, and unless spreads are equal not below Sidak's correction of
-#'     `p_parametric`; else as `p_value`), `p_parametric` (under normality), `share` (of variance:
-#'     between groups for size and mean shape, of the components used for the rest), `z`, `effect`,
-#'     `lower`, `upper` (95 % bootstrap interval; NA for more than two groups);
-#'   * `points`: data frame, a row a level and point: `level`, `point`, `x`, `y`, `z` (the mean, of
-#'     mean size), `distance` (second mean less first along the normal, outward positive; NA without
-#'     triangles), `displacement` (between the means), in the unit of the meshes; `statistic`,
-#'     `p_value`, `p_adjusted` (by the greatest statistic over all points of the level);
-#'   * `aligned`, `pca`: lists by level; `group`; `n_perm` (regroupings besides the observed one),
-#'     `exact` (whether all), `components` (by level), `seed`, `equal_spread`; `design`: list with
-#'     `kind` of exchange ("free", "within" or "whole" blocks), `group` (of the units exchanged),
-#'     `block`.
+#'   * `tests`: data frame with a row for each level and test:
+#'     * `level`, `test`, `statistic` (see the table above);
+#'     * `p_value`: by permutation, the share of regroupings (the observed one included) whose
+#'       statistic is at least as great;
+#'     * `p_adjusted`: for the components of a level, by the greatest statistic over them, which
+#'       controls the family-wise error. With separate spreads it is at least Sidak's correction of
+#'       `p_parametric`. For other tests it is `p_value`;
+#'     * `p_parametric`: p under normality;
+#'     * `share`: share of the variance. For size and mean shape, the share between groups; for
+#'       other tests, the share of the components used;
+#'     * `z`, `effect`, and `lower`, `upper` (95 % bootstrap interval of the effect); `effect` and
+#'       interval are NA for more than two groups;
+#'   * `points`: data frame with a row for each level and point; lengths in the unit of the meshes:
+#'     * `level`, `point`, `x`, `y`, `z` (the mean, of mean size);
+#'     * `distance`: second mean less first along the normal, outward positive; NA without
+#'       triangles;
+#'     * `displacement`: distance between the means;
+#'     * `statistic`, `p_value`, `p_adjusted` (by the greatest statistic over all points of the
+#'       level);
+#'   * `aligned`, `pca`: lists by level;
+#'   * `group`, `n_perm` (number of regroupings besides the observed one), `exact` (TRUE if these
+#'     are all), `components` (number by level), `seed`, `equal_spread`;
+#'   * `design`: list of `kind` (of exchange: "free", "within" or "whole" blocks), `group` (of the
+#'     exchanged units), `block`.
 #'
-#'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a test and a column a
-#'   level.
-#' @section Errors: of class `crestline_error`: a group with fewer than two specimens, one group
-#'   only, groups that do not match the specimens, a specimen in two groups, groups whose names
-#'   differ by blanks or case only, permutations that are none.
-#' @section Warnings: of class `crestline_unequal_spread`, when groups of unequal size differ in
-#'   spread and are pooled.
+#'   `as.data.frame()` gives `tests`. `summary()` gives the p-values, with a row for each test and a
+#'   column for each level.
+#' @section Errors: of class `crestline_error`: there is only one group, or a group has fewer than
+#'   two specimens; groups do not match the specimens; a specimen is in two groups; names of groups
+#'   differ by blanks or case only; `permutations` are not orders of the specimens.
+#' @section Warnings: of class `crestline_unequal_spread`: variances are pooled, and groups of
+#'   unequal size differ in spread.
 #' @templateVar where section 6
 #' @template paper
 #' @references Goodall (1991) Procrustes methods in the statistical analysis of shape,

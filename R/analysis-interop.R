@@ -1,34 +1,39 @@
 # To geomorph, RRPP and Morpho, and back.
 
-#' A sample for geomorph, RRPP and Morpho
+#' Hand a sample to geomorph, RRPP or Morpho
 #'
-#' For what [compare_groups()] does not do: covariates, interactions, nested designs, pairwise
-#' comparisons, allometry. Neither package is needed to make these objects.
+#' Converts a sample for analyses of other packages, such as nested designs, pairwise comparisons,
+#' allometry, phylogenies and modularity. None of these packages is needed for the conversion.
 #'
-#' `as_geomorph()` makes what `geomorph::geomorph.data.frame()` does, ready for
-#' `procD.lm(coords ~ size * sex, data = )`; `as_rrpp()` what `RRPP::rrpp.data.frame()` does, the
-#' co-ordinates as a matrix, for `lm.rrpp(coords ~ size * sex, data = )`; `as_morpho()` an object of
-#' the class of `Morpho::procSym()` with what its functions on such objects use. `as_aligned()` goes
-#' the other way.
+#' * `as_geomorph()` makes the object of `geomorph::geomorph.data.frame()`, for `procD.lm(coords ~
+#' size * sex, data = )`;
+#' * `as_rrpp()` makes the object of `RRPP::rrpp.data.frame()`, with the co-ordinates as a matrix,
+#'   for `lm.rrpp(coords ~ size * sex, data = )`;
+#' * `as_morpho()` makes an object of the class of `Morpho::procSym()`, with the fields that
+#'   Morpho's functions use;
+#' * `as_aligned()` converts in the other direction.
 #'
-#' @param sample A `shape_sample`, an `aligned`, or an array, k x 3 x n.
+#' @param sample A `shape_sample`, an `aligned`, or a k x 3 x n array.
 #' @param level Level of a `shape_sample`, as in [align()].
-#' @param data Data frame of covariates, a row a specimen, or `NULL`. Rows are matched to the
-#'   specimens by a column of their names (`id`, `specimen`, `subject`, `name`, `file`, `sample`,
-#'   `scan` and the like, in any case) or by row names; case and blanks of the names and a file's
-#'   extension aside. Rows are taken in order only where the specimens have no names and the table
-#'   none, with a message.
-#' @param ... Passed to [align()]: `scale`, `weights`, `missing`.
+#' @param data Data frame of covariates with a row for each specimen, or `NULL`. Rows are matched to
+#'   the specimens by a column of names (`id`, `specimen`, `subject`, `name`, `file`, `sample`,
+#'   `scan` and the like, in upper or lower case) or by row names. Case, blanks and a file's
+#'   extension are ignored. If neither the specimens nor the table have names, rows are taken in
+#'   order, with a message.
+#' @param ... Arguments of [align()]: `scale`, `weights`, `missing`.
 #' @return `as_geomorph()`: list of class `geomorph.data.frame`: `coords` (k x 3 x n, aligned),
-#'   `size` (centroid sizes), and the columns of `data`. `as_rrpp()`: list of class
-#'   `rrpp.data.frame`: `coords` (n x 3k, a row a specimen: x, y, z of the first point, then of the
-#'   second, as `geomorph::two.d.array()` has them), `size`, and the columns of `data`.
+#'   `size` (n centroid sizes, in the unit of the meshes), and the columns of `data`.
+#'
+#'   `as_rrpp()`: list of class `rrpp.data.frame`: `coords`, `size`, and the columns of `data`.
+#'   `coords` is an n x 3k matrix with a row for each specimen. Its columns are x, y, z of the first
+#'   point, then of the second, as in `geomorph::two.d.array()`.
+#'
 #'   `as_morpho()`: list of class `nosymproc`: `size`, `rotated` (before the projection), `orpdata`
-#'   (after), `mshape`, `PCs`, `PCscores`, `eigenvalues`, `Variance`, `rho`.
-#' @section Errors: of class `crestline_error`: `data` that lacks a specimen, has different rows of
-#'   one or no column of the specimens' names, or has a column `coords` or `size`.
-#' @section Warnings: of class `crestline_alike_groups`, when values of a column differ by blanks or
-#'   case only.
+#'   (after it), `mshape`, `PCs`, `PCscores`, `eigenvalues`, `Variance`, `rho`.
+#' @section Errors: of class `crestline_error`: `data` lacks a specimen, has two different rows for
+#'   one, has no column of the specimens' names, or has a column `coords` or `size`.
+#' @section Warnings: of class `crestline_alike_groups`: values of a column differ by blanks or case
+#'   only.
 #' @template glossary
 #' @seealso [compare_groups()]; `vignette("interop")`
 #' @examples
@@ -89,13 +94,13 @@ as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model
 }
 
 #' @rdname as_geomorph
-#' @param x A `geomorph.data.frame` (with `coords`), or what `geomorph::gpagen()` or
-#'   `Morpho::procSym()` returns, or an array of aligned configurations.
-#' @param size Centroid sizes, matched by name where they have names; `NULL`: those that `x` has
-#'   (`size`, `Csize`), else of `coords`.
+#' @param x A `geomorph.data.frame` (with `coords`), a value of `geomorph::gpagen()` or
+#'   `Morpho::procSym()`, or a k x 3 x n array of aligned configurations.
+#' @param size n centroid sizes; values with names are matched by name. `NULL`: the sizes in `x`
+#'   (`size`, `Csize`), else the centroid sizes of the co-ordinates.
 #' @param triangles As in [align()].
-#' @return `as_aligned()`: an `aligned`, as [align()] makes it, of the co-ordinates as they are:
-#'   nothing is turned or scaled.
+#' @return `as_aligned()`: an `aligned`, as of [align()]. The co-ordinates are neither rotated nor
+#'   scaled.
 #' @export
 as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   check_given()

@@ -1,37 +1,39 @@
 # Discriminant analysis of groups on principal components, its error by leaving one out.
 
-#' Tell groups apart by shape
+#' Classify specimens by shape (linear discriminant analysis)
 #'
-#' Linear discriminant analysis (`MASS::lda()`) on the first principal components, and how often it
-#' is right for a specimen that it has not seen. For each specimen in turn the others are aligned,
-#' their components found and their number chosen, all without it; it is then laid onto their mean
-#' and assigned to a group. An alignment or components of the whole sample would have seen it, and
-#' the error would look smaller than it is.
+#' Makes a linear discriminant analysis (`MASS::lda()`) on the first principal components, and
+#' estimates its error by cross-validation. Each specimen in turn is left out. The others are
+#' aligned, their components are found, and the number of components is chosen. The specimen is then
+#' superimposed on their mean and assigned to a group. An alignment of the whole sample would use
+#' the specimen itself, and the error would be underestimated.
 #'
 #' @param sample As in [compare_groups()]; one level of it.
 #' @param group Factor of n, as in [compare_groups()].
-#' @param components Numbers of components to choose among: the one with fewest errors when
-#'   `MASS::lda(CV = TRUE)` leaves out one of the training specimens (the fewest components of
-#'   several). One number: so many. Never more than leave the training specimens a degree of
-#'   freedom.
+#' @param components Numbers of components among which one is chosen: the number with the fewest
+#'   errors of `MASS::lda(CV = TRUE)` on the training specimens, and of several the least. One
+#'   number: this number is used. Numbers that leave the training specimens no degree of freedom are
+#'   not used.
 #' @param level Level of a `shape_sample`, as in [align()].
-#' @param prior Probabilities of the groups, in the order of their levels; `NULL`: their shares of
-#'   the sample.
+#' @param prior Prior probabilities of the groups, in the order of their levels. `NULL`: their
+#'   shares of the sample.
 #' @param scale,weights,missing,progress As in [compare_groups()].
 #' @return Object of class `shape_lda`, a list:
-#'   * `specimens`: data frame, a row a specimen: `id`, `group`, `predicted` (without it),
-#'     `correct`, `components` (number chosen without it);
-#'   * `posterior`: n x g, probabilities of the groups (without the specimen);
-#'   * `confusion`: table, true groups by predicted ones; `error`: share wrongly assigned; `chance`:
-#'     the error of always naming the most frequent group;
-#'   * `lda` (of `MASS`), `pca`, `components`: fitted to all specimens, for new ones; `group`,
-#'     `prior`, `candidates`.
+#'   * `specimens`: data frame with a row for each specimen: `id`, `group`, `predicted`, `correct`,
+#'     `components` (number chosen). Prediction and choice do not use the specimen;
+#'   * `posterior`: n x g matrix, posterior probabilities of the groups, by the model without the
+#'     specimen;
+#'   * `confusion`: table, true groups by predicted groups; `error`: share of wrong assignments;
+#'     `chance`: error of always choosing the most frequent group;
+#'   * `lda` (of `MASS`), `pca`, `components`: fitted to all specimens, for the prediction of new
+#'     ones;
+#'   * `group`, `prior`, `candidates`.
 #'
 #'   `as.data.frame()` gives `specimens`. `predict(lda, newdata)` takes new shapes as
 #'   [predict.shape_pca()] does. It returns a list: `class` (factor), `posterior` (m x g), `x`
 #'   (discriminant scores), with the names of the shapes.
-#' @section Errors: of class `crestline_error`: as of [compare_groups()]; a group with fewer than
-#'   three specimens; no number of components left.
+#' @section Errors: of class `crestline_error`: those of [compare_groups()]; a group has fewer than
+#'   three specimens; no number of components is left.
 #' @template glossary
 #' @references Kovarovic, Aiello, Cardini and Lockwood (2011) Discriminant function analyses in
 #'   archaeology: are classification rates too good to be true? *Journal of Archaeological Science*
@@ -141,8 +143,8 @@ unit_scores <- function(scores, pca, count) {
 
 #' @rdname shape_lda
 #' @param object,x A `shape_lda`.
-#' @param newdata As in [predict.shape_pca()]. `NULL`: the specimens of the sample, which the
-#'   discriminants have seen.
+#' @param newdata As in [predict.shape_pca()]. `NULL`: the specimens of the sample, with which the
+#'   discriminants were fitted.
 #' @param ... Ignored.
 #' @export
 predict.shape_lda <- function(object, newdata = NULL, ...) {

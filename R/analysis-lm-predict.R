@@ -1,24 +1,24 @@
 # The shapes that a linear model expects.
 
-#' The shapes that a linear model expects
+#' Predict shapes by a linear model
 #'
-#' Gives the expected configuration for each row of new values: the mean face at an age of 12 and of
-#' 40, or of each sex at the same size.
+#' Gives the expected configuration for each row of new values. Examples are the mean face at an age
+#' of 12 and of 40, or the mean face of each sex at the same size.
 #'
 #' @param object A `shape_lm`, as [shape_lm()] returns it.
-#' @param newdata Data frame with the model's variables, a row a shape. Its row names become those
-#'   of the shapes. `NULL`: the fitted shapes of the sample.
-#' @param level Level; the first.
-#' @param as "array", or "mesh": a list of `mesh3d`, where the level has triangles.
-#' @param size Size of the shapes: "mean" (mean centroid size of the sample), "fitted" (the `size`
-#'   of `newdata` if it is in the formula, else the geometric mean size that the same terms expect),
-#'   or a number (1: unit size). Ignored where the alignment kept sizes.
+#' @param newdata Data frame with the model's variables, a row for each shape. Its row names become
+#'   the names of the shapes. `NULL`: the fitted shapes of the sample.
+#' @param level Level of the model. `NULL`: its first level.
+#' @param as "array", or "mesh" for a list of `mesh3d`; the level must have triangles.
+#' @param size Centroid size of the shapes, in the unit of the meshes. "mean": the mean size of the
+#'   sample. "fitted": the `size` of `newdata` if it is in the formula, else the geometric mean size
+#'   that the same terms predict. Or a number (1: unit size). Ignored if the alignment kept sizes.
 #' @param ... Ignored.
-#' @return A k x 3 x m array with the names of the points; or a list of m meshes, as of
+#' @return A k x 3 x m array with the names of the points and shapes, or a list of m meshes, as of
 #'   [shape_at()].
-#' @section Errors: of class `crestline_error`: a variable that `newdata` lacks or that is missing
-#'   in it, a level of a factor that the sample has not, a combination of values for which the
-#'   sample has nothing, no triangles for a mesh.
+#' @section Errors: of class `crestline_error`: `newdata` lacks a variable, has a missing value, or
+#'   has a level of a factor that the sample lacks; the sample has no data for a combination of
+#'   values; the level has no triangles for a mesh.
 #' @template glossary
 #' @seealso [shape_lm()], [write_mesh()], [plot.shape_lm()]
 #' @inherit shape_lm examples

@@ -3,78 +3,86 @@
 #' Linear models of shape
 #'
 #' Tests the terms of a linear model of shape: age, sex, size and their interactions. Each term is
-#' tested for the whole shape, for size, for principal components, and at every point, so that a map
-#' shows where it acts. [predict.shape_lm()] gives the shape that the model expects, for instance
-#' the mean face at an age of 12 and of 40.
+#' tested for the whole shape, for size, for principal components, and at every point. A map of the
+#' points shows where the term acts. [predict.shape_lm()] gives the expected shape, such as the mean
+#' face at an age of 12 and of 40.
 #'
 #' **Tests.** The residuals of the model without the term are permuted and added to its fitted
-#' values (Freedman and Lane 1983); the term is tested again on each of these samples. Sums of
-#' squares, F, Z and p of the whole shape equal those of `RRPP::lm.rrpp()` and
-#' `geomorph::procD.lm()` on the same permutations. The same orders are used for all terms, tests
-#' and levels.
+#' values (Freedman and Lane 1983). The term is tested on each of these samples. Sums of squares, F,
+#' Z and p of the whole shape equal those of `RRPP::lm.rrpp()` and `geomorph::procD.lm()` on the
+#' same permutations. The same orders are used for all terms, tests and levels.
 #'
-#' **Sums of squares.** Type I tests a term given those before it: the order of the formula counts.
-#' Type II tests it given all terms that do not contain it. Type III tests it given all others; main
-#' effects then depend on the coding of factors, and need sums to zero (`contrasts = list(sex =
-#' "contr.sum")`).
+#' **Sums of squares.** Type I tests a term given the terms before it: the order in the formula
+#' matters. Type II tests it given all terms that do not contain it. Type III tests it given all
+#' other terms. Main effects then depend on the coding of factors, which must sum to zero
+#' (`contrasts = list(sex = "contr.sum")`).
 #'
-#' **Size.** `size` in the formula is the centroid size of the level, in the unit of the meshes.
-#' `~ log(size) + sex` tests whether the sexes differ in more than their size makes them differ.
-#' Do not take residuals of size first and test these by sex: with groups of different size that
-#' removes part of the difference and counts too many degrees of freedom.
+#' **Size.** `size` in the formula is the centroid size of the level, in the unit of the meshes. `~
+#' log(size) + sex` tests whether the sexes differ by more than the effect of size. Do not regress
+#' on size first and then test the residuals by sex. With groups of different size that removes part
+#' of the difference, and the degrees of freedom are too many.
 #'
 #' **Blocks.** Residuals are exchanged within the blocks of `block` only (persons measured twice,
-#' families, sites). Name the block in the formula as well, first, to remove the differences
-#' between blocks. If every variable but size is constant within the blocks, the means of the blocks
-#' are modelled. In the mixed case terms that are constant within blocks have no p-value, with a
-#' warning: for these and for other random effects, and for a phylogeny, use `RRPP::lmm.rrpp()` and
+#' families, sites). To remove the differences between blocks, put the block into the formula as
+#' well, as the first term. If every variable but size is constant within the blocks, the means of
+#' the blocks are modelled. If only some are, terms that are constant within blocks have no p-value,
+#' with a warning. For these terms, other random effects and phylogenies use `RRPP::lmm.rrpp()` and
 #' `RRPP::lm.rrpp()` with [as_rrpp()], see `vignette("interop")`.
 #'
 #' @param sample As in [compare_groups()].
-#' @param formula Right-hand side of a linear model, such as `~ age * sex + log(size)`. Numbers,
-#'   factors, interactions, and functions of variables such as `poly(age, 2)` and `splines::ns(age,
-#'   3)`. Characters are factors.
-#' @param data Data frame of the variables, matched to the specimens by name as in [as_geomorph()].
-#'   Not needed where `size` is the only variable.
+#' @param formula Right-hand side of a linear model, such as `~ age * sex + log(size)`. It may have
+#'   numbers, factors, interactions, and functions of variables such as `poly(age, 2)` and
+#'   `splines::ns(age, 3)`. Characters are factors.
+#' @param data Data frame of the variables with a row for each specimen, matched by name as in
+#'   [as_geomorph()]. Not needed if `size` is the only variable.
 #' @param level,n_perm,seed,scale,weights,missing,progress As in [compare_groups()].
-#' @param tests Which: "shape", "size" (centroid size; not with `size` in the formula), "manova"
-#'   (Pillai's trace of the first components), "components" (each by itself), "points".
+#' @param tests Tests to make: "shape", "size" (centroid size; not with `size` in the formula),
+#'   "manova" (Pillai's trace of the first components), "components" (each by itself), "points".
 #' @param components Number of principal components: a whole number, or a share of the variance
 #'   below 1.
-#' @param ss Type of the sums of squares.
-#' @param block Factor of n, or a vector that can become one; values with names are matched to the
-#'   specimens. `NULL`: all specimens are independent.
-#' @param permutations Orders to use in place of random ones, as in [compare_groups()]; those of
-#'   `RRPP:::perm.index()` give the p-values of RRPP.
+#' @param ss Type of the sums of squares: "I", "II" or "III".
+#' @param block Block of each specimen: a factor of length n, or a vector that can become one.
+#'   Values with names are matched to the specimens by name. `NULL`: all specimens are independent.
+#' @param permutations Orders to use in place of random ones, as in [compare_groups()]. The orders
+#'   of `RRPP:::perm.index()` give the p-values of RRPP.
 #' @param contrasts List of contrasts by factor, as in [stats::lm()].
 #' @return Object of class `shape_lm`, a list:
-#'   * `tests`: data frame `level`, `term`, `test` ("shape", "size", "manova", "PC1", ...), `df`,
-#'     `squares` (sum of squares of the term, of unit size where the alignment scales), `share` (of
-#'     all squares: R squared), `statistic` (F; of "manova" Pillai's trace), `z` (the observed
-#'     statistic among the permuted ones, transformed to normal and standardised, as in RRPP),
-#'     `p_value` (by permutation), `p_adjusted` (of components: by the greatest F over them), and
-#'     `p_parametric` (under normality; of "manova" by the approximate F);
-#'   * `points`: data frame, a row a level, term and point: `level`, `term`, `point`, `x`, `y`, `z`
-#'     (the mean), `distance` (along the normal, outward positive, for one unit of the term, or from
-#'     the reference level of a factor of two to the other; NA without triangles and for terms with
-#'     more degrees of freedom), `displacement` (root mean square of what the term moves the
-#'     specimens), both in the unit of the meshes; `statistic` (signed t where `distance` is there,
-#'     else F), `p_value`, `p_adjusted` (by the greatest F over all points of the level and term:
-#'     family-wise error);
-#'   * `parts`: data frame, the same by curve and patch of a `shape_sample`: `level`, `term`,
-#'     `part`, `points` (number),
-#'     `statistic` (F of all its points), `p_value`, `p_adjusted` (by the least p over all parts);
+#'   * `tests`: data frame with a row for each level, term and test:
+#'     * `level`, `term`, `test` ("shape", "size", "manova", "PC1", ...), `df`;
+#'     * `squares`: sum of squares of the term; without unit if the alignment scales;
+#'     * `share`: share of all squares (R squared);
+#'     * `statistic`: F; for "manova" Pillai's trace;
+#'     * `z`: standardised effect as in RRPP: the observed statistic among the permuted ones,
+#'       transformed to normal and standardised;
+#'     * `p_value`: by permutation;
+#'     * `p_adjusted`: for components, by the greatest F over them;
+#'     * `p_parametric`: under normality; for "manova" by the approximate F;
+#'   * `points`: data frame with a row for each level, term and point; lengths in the unit of the
+#'     meshes:
+#'     * `level`, `term`, `point`, `x`, `y`, `z` (the mean);
+#'     * `distance`: effect along the normal, outward positive. It is the effect of one unit of the
+#'       term, or the difference from the reference level of a factor with two levels. NA without
+#'       triangles, and for terms with more degrees of freedom;
+#'     * `displacement`: root mean square displacement of the specimens by the term;
+#'     * `statistic`: signed t if there is a `distance`, else F;
+#'     * `p_value`, `p_adjusted` (by the greatest F over all points of the level and term, which
+#'       controls the family-wise error);
+#'   * `parts`: data frame with a row for each level, term, and curve or patch of a `shape_sample`:
+#'     `level`, `term`, `part`, `points` (number), `statistic` (F of all its points), `p_value`,
+#'     `p_adjusted` (by the least p over all parts);
 #'   * `aligned`, `pca`, `models` (`terms`, `frame`, `matrix`, `coefficients`: p x dk): lists by
-#'     level; `left` (residual degrees of freedom); `formula`, `ss`, `n_perm`, `block`, `exchange`
-#'     ("free", "within", "whole"), `seed`, `provenance`.
+#'     level;
+#'   * `left`: residual degrees of freedom;
+#'   * `formula`, `ss`, `n_perm`, `block`, `exchange` ("free", "within", "whole"), `seed`,
+#'     `provenance`.
 #'
-#'   `as.data.frame()` gives `tests`; `summary()` the p-values with a row a term and test and a
-#'   column a level.
-#' @section Errors: of class `crestline_error`: a variable that is no column of `data`, or has
-#'   missing or infinite values (the error names the specimens); a term that follows from others; no
-#'   residual degrees of freedom.
-#' @section Warnings: of class `crestline_contrasts`, for type III with interactions of factors that
-#'   are not coded to sum to zero; `crestline_constant_term`, for terms that are constant within
+#'   `as.data.frame()` gives `tests`. `summary()` gives the p-values, with a row for each term and
+#'   test and a column for each level.
+#' @section Errors: of class `crestline_error`: a variable is not a column of `data`, or has missing
+#'   or infinite values (the error names the specimens); a term is a linear combination of others;
+#'   no residual degrees of freedom are left.
+#' @section Warnings: of class `crestline_contrasts`: type III has interactions of factors whose
+#'   coding does not sum to zero. Of class `crestline_constant_term`: terms are constant within
 #'   blocks.
 #' @template glossary
 #' @references Freedman and Lane (1983) A nonstochastic interpretation of reported significance

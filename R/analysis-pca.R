@@ -2,29 +2,38 @@
 
 #' Principal components of shape
 #'
-#' Finds the directions in which aligned shapes vary most, with the scores of the specimens on them.
+#' Finds the principal components of aligned shapes, and the scores of the specimens on them.
 #'
 #' @param aligned An `aligned`, as [align()] returns it.
-#' @param weights Weights of points, as in [align()]: by default those of the alignment. With "area"
-#'   variance is that per area of the surface, whether its points are dense or sparse.
-#' @param tolerance Components whose variance is below this share of the first one's are left out.
-#' @param components Number of components to find; `NULL`: all. A few of many are found by Lanczos'
-#'   method ([RSpectra::svds()]): seconds in place of minutes with thousands of specimens.
-#' @param sized A component whose scores correlate with centroid size at least that much has the
-#'   sign with which they rise with it. Of others the greatest entry of `rotation` is positive.
-#' @return Object of classes `shape_pca` and `prcomp`: `x` (n x r scores), `sdev` (r), `rotation` (d
-#'   k x r, rows in the order of `as.vector(mean)`), `center`, `scale` (`FALSE`) are those of
-#'   [stats::prcomp()] of the n x d k matrix of co-ordinates where all weights are 1, but for
-#'   signs (see `sized`). With weights the components are
-#'   orthogonal in the weighted product, and still `x` is the centred matrix times `rotation`.
-#'   Besides: `share` (r, of the variance), `direction` (d k x r: what one unit of a score adds to
-#'   the co-ordinates; `rotation` where all weights are 1), `mean` (k x d), `size` (mean centroid
-#'   size, in the unit of the meshes), `weights`, `level`, `triangles`, `laid` (list `mean`,
-#'   `weights`, `scale`, `tangent` of the alignment: what [predict.shape_pca()] lays new shapes by).
+#' @param weights Weights of points, as in [align()]. Default: those of the alignment. With "area"
+#'   the variance does not depend on the density of points on the surface.
+#' @param tolerance Components whose variance is below this share of the first component's are left
+#'   out.
+#' @param components Number of components to find. `NULL`: all. A few of many are found by Lanczos'
+#'   method ([RSpectra::svds()]), which takes seconds in place of minutes with thousands of
+#'   specimens.
+#' @param sized Least correlation of scores with centroid size by which a component gets its sign:
+#'   scores then increase with size. For other components the greatest entry of `rotation` is
+#'   positive.
+#' @return Object of classes `shape_pca` and `prcomp`, a list:
+#'   * `x` (n x r scores), `sdev` (r), `rotation` (d k x r, rows in the order of `as.vector(mean)`),
+#'     `center`, `scale` (`FALSE`). If all weights are 1, these are the values of [stats::prcomp()]
+#'     for the n x d k matrix of co-ordinates, apart from signs (see `sized`). With weights the
+#'     components are orthogonal in the weighted product, and `x` is still the centred matrix times
+#'     `rotation`;
+#'   * `share`: r shares of the variance;
+#'   * `direction`: d k x r, change of the co-ordinates for one unit of a score; equal to `rotation`
+#'     if all weights are 1;
+#'   * `mean` (k x d), `size` (mean centroid size, in the unit of the meshes), `weights`, `level`,
+#'     `triangles`;
+#'   * `laid`: list of `mean`, `weights`, `scale` and `tangent` of the alignment, which
+#'     [predict.shape_pca()] needs.
 #'
-#'   `as.data.frame()` gives a row a component: `component`, `sd`, `share`, `cumulative`;
-#'   `summary()` and `biplot()` are those of `prcomp`; `predict()` see [predict.shape_pca()].
-#' @section Errors: of class `crestline_error`: no `aligned`, or all shapes the same.
+#'   `as.data.frame()` gives a data frame with a row for each component: `component`, `sd`, `share`,
+#'   `cumulative`. `summary()` and `biplot()` are those of `prcomp`. For `predict()` see
+#'   [predict.shape_pca()].
+#' @section Errors: of class `crestline_error`: `aligned` is not an `aligned`, or all shapes are
+#'   equal.
 #' @template glossary
 #' @templateVar where section 6
 #' @template paper
@@ -192,17 +201,18 @@ print.shape_pca <- function(x, most = 6, ...) {
   })
 }
 
-#' The shape at a place on principal components
+#' Shapes along principal components
 #'
 #' @param pca A `shape_pca`.
 #' @param component Numbers of components.
-#' @param sd For each of them, how many standard deviations from the mean.
+#' @param sd Distance from the mean along each of these components, in standard deviations.
 #' @param as "matrix" or "mesh".
-#' @param size Size that the shape is given: 1 for that of the aligned shapes, `pca$size` for the
-#'   mean size in the unit of the meshes.
-#' @return k x 3 matrix with the names of points; or a `mesh3d` with normals, its vertices those
-#'   points that have triangles (attribute `row`: which).
-#' @section Errors: of class `crestline_error`: no such component; no triangles for a mesh.
+#' @param size Factor on the aligned shape. 1: the size of the aligned shapes; `pca$size`: the mean
+#'   size, in the unit of the meshes.
+#' @return k x 3 matrix with the names of points, or a `mesh3d` with normals. Its vertices are the
+#'   points that have triangles; attribute `row` gives their rows.
+#' @section Errors: of class `crestline_error`: there is no such component, or there are no
+#'   triangles for a mesh.
 #' @template glossary
 #' @seealso [shape_pca()]
 #' @examples

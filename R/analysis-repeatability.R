@@ -2,49 +2,54 @@
 
 #' Repeatability of measurements, curve by curve
 #'
-#' Needs specimens that were measured more than once, perhaps by several observers. Estimates, by
-#' curve and by point, the variance between specimens, between observers, of their interaction (how
-#' observers differ from specimen to specimen), and of the rest. The intra-class correlation is the
-#' share of the variance that is due to the specimens.
+#' Estimates variance components, by curve and by point, from specimens that were measured more than
+#' once, perhaps by several observers. The components are the variance between specimens, between
+#' observers, of their interaction, and of the residual. The intra-class correlation is the share of
+#' the variance between specimens.
 #'
-#' The variances are those of the random-effects model point = specimen + observer +
-#' specimen:observer + residual, in each co-ordinate by itself, then summed over the three
-#' co-ordinates and averaged over the points of a curve. They are estimated from the sequential sums
-#' of squares (Henderson's method 3, also where numbers of repeats differ; where they are equal,
-#' those of the analysis of variance). An estimate below 0 counts as 0. The interaction is in the
+#' The model has random effects: point = specimen + observer + specimen:observer + residual. It is
+#' fitted to each co-ordinate by itself. The variances are summed over the three co-ordinates and
+#' averaged over the points of a curve. They are estimated from sequential sums of squares by
+#' Henderson's method 3, which allows different numbers of repeats. For equal numbers the estimates
+#' are those of the analysis of variance. An estimate below 0 counts as 0. The interaction is in the
 #' model if some observer measured some specimen twice, else it is part of the residual. Differences
-#' between observers count as error: the correlation is that of agreement, ICC(1) without and ICC(2,
-#' 1) with observers. One specimen that was measured several times gives the error only; the
+#' between observers count as error: the correlation is that of agreement, ICC(1) without and
+#' ICC(2, 1) with observers. One specimen that was measured several times gives the error only; the
 #' variance of specimens and the correlation are NA.
 #'
-#' @param shapes The measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` where a
-#'   measurement failed), a `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of
+#' @param shapes The N measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` for a
+#'   failed measurement), a `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of
 #'   points "curve point".
-#' @param specimen N names: the specimen that each measurement is of; those that failed may be
-#'   counted or not. A vector with names, or a data frame with a column of names, is matched to the
-#'   names of the measurements; a vector without is taken in their order.
-#' @param observer N names, in the same way: who made it; `NULL`: not told apart.
-#' @param level Of shapes and samples: "landmarks", "curves" or "surface".
-#' @param match In which frame specimens are compared. "specimen": all measurements of a specimen
-#'   share a frame, as on one scan: each specimen is laid by rotation and shift onto the others by
-#'   its mean. "each": every measurement is laid onto the mean by itself, as when every one has a
-#'   scan of its own (a little of the error goes with the frame). "none": as they lie.
+#' @param specimen N names: the specimen of each measurement. Failed measurements may be included or
+#'   left out. A vector with names, or a data frame with a column of names, is matched to the names
+#'   of the measurements. A vector without names is taken in their order.
+#' @param observer N names, in the same way: the observer of each measurement. `NULL`: observers are
+#'   not in the model.
+#' @param level Kind of points of shapes and samples: "landmarks", "curves" or "surface".
+#' @param match Superimposition of the measurements. "specimen": all measurements of a specimen are
+#'   in one frame, as on one scan. The mean of each specimen is superimposed on the others by
+#'   rotation and translation. "each": every measurement is superimposed on the mean by itself, as
+#'   for measurements on different scans. This removes a little of the error. "none": the
+#'   measurements are compared as they lie.
 #' @return Object of class `repeatability`, a list:
-#'   * `parts`: data frame, a row a curve, and one for all: `part`, `points`; standard deviations in
-#'     the unit of the mesh, root mean squares over the points, of all three co-ordinates together:
-#'     `specimen`, `observer`, `interaction` (NA where not in the model), `residual`, and `error`,
-#'     of all but the specimen: the typical distance of a measured point from where it is on
-#'     average; `icc`;
-#'   * `points`: the same for each point, with its place `x, y, z` in the mean;
-#'   * `counts`: numbers of `specimens`, `observers`, `measurements`, `failed`; `failed`: names (or
-#'     numbers) of the measurements left out because they failed; `missing`: names of points left
-#'     out because some measurement lacks them.
+#'   * `parts`: data frame with a row for each curve, and one for all:
+#'     * `part`, `points` (number);
+#'     * `specimen`, `observer`, `interaction`, `residual`: standard deviations in the unit of the
+#'       mesh, of the three co-ordinates together, root mean square over the points; NA for effects
+#'       that are not in the model;
+#'     * `error`: standard deviation of all effects but the specimen, the typical distance of a
+#'       measured point from its average place;
+#'     * `icc`: intra-class correlation;
+#'   * `points`: data frame with the same columns for each point, and its place `x`, `y`, `z` in the
+#'     mean;
+#'   * `counts`: numbers of `specimens`, `observers`, `measurements`, `failed`;
+#'   * `failed`: names (or numbers) of the failed measurements, which are left out;
+#'   * `missing`: names of points that some measurement lacks, which are left out.
 #'
 #'   `as.data.frame()` gives `parts`.
-#' @section Errors: of class `crestline_error`: no measurements, factors of another length, none
-#'   measured twice, no point in all of them.
-#' @section Warnings: of class `crestline_failed_measurements`, when measurements are left out
-#'   because they failed.
+#' @section Errors: of class `crestline_error`: there are no measurements; a factor has another
+#'   length; no specimen was measured twice; no point is in all measurements.
+#' @section Warnings: of class `crestline_failed_measurements`: failed measurements are left out.
 #' @template glossary
 #' @references Searle, Casella and McCulloch (1992) *Variance Components*, chapters 4 and 5; Shrout
 #'   and Fleiss (1979) Intraclass correlations, *Psychological Bulletin* 86, 420-428; Klingenberg

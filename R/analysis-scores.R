@@ -1,10 +1,9 @@
 # Scores of shapes that were not in the sample: each laid onto the sample's mean.
 
-#' Scores of new shapes on the components of a sample
+#' Scores of new shapes on the principal components of a sample
 #'
-#' Lays each new shape onto the mean of the sample, as [align()] lays those of the sample, and gives
-#' its scores. The sample does not change: mean and components stay those of the old specimens.
-#' Shapes of the sample get their own scores back.
+#' Superimposes each new shape on the mean of the sample, as [align()] does, and gives its scores.
+#' Mean and components of the sample do not change. Shapes of the sample get their own scores.
 #'
 #' A new face must have the same points: fit it by the same scheme, then slide it against the
 #' template of the sample, `slide(shape, sample$template)`. Missing points are estimated from the
@@ -13,14 +12,14 @@
 #' @param object A `shape_pca`, as [shape_pca()] returns it.
 #' @param newdata A `shape` that was slid against the sample's template; a `shape_sample`; an
 #'   `aligned`; one configuration (k x 3 matrix); or an array (k x 3 x m). Points are matched by
-#'   name. `NULL`: the scores of the sample. A matrix with 3k columns holds aligned co-ordinates, as
-#'   for [stats::prcomp()]: nothing is laid.
+#'   name. `NULL`: the scores of the sample. A matrix with 3k columns has aligned co-ordinates, as
+#'   for [stats::prcomp()]; it is not superimposed.
 #' @param ... Ignored.
 #' @return m x r matrix of scores with the names of the shapes. Attribute `outside`: share of each
-#'   shape's squared distance from the mean that lies outside the space of the components (0 for
-#'   the shapes of the sample).
-#' @section Errors: of class `crestline_error`: points that are not those of the sample, a shape
-#'   that was slid against another template, or not at all.
+#'   shape's squared distance from the mean that is outside the space of the components (0 for the
+#'   shapes of the sample).
+#' @section Errors: of class `crestline_error`: the points are not those of the sample; a shape was
+#'   slid against another template, or not at all.
 #' @template glossary
 #' @seealso [shape_pca()], [slide()], [shape_lda()]
 #' @examples

@@ -2,42 +2,47 @@
 
 #' Symmetric and asymmetric variation of a sample
 #'
-#' Takes each shape apart: the mean of the shape and its reflection (left and right relabelled), and
-#' half of what they differ by. Both parts are samples of their own, which all tests and maps of the
-#' package take. Two tests are of asymmetry itself: is it directional (the same side differs in all
-#' specimens), and, where specimens were measured more than once, is it more than error of
-#' measurement.
+#' Splits each shape into a symmetric and an asymmetric part. The symmetric part is the mean of the
+#' shape and its reflection (left and right relabelled). The asymmetric part is half of their
+#' difference. Both parts are samples for all tests and maps of the package. Two tests are of
+#' asymmetry itself. The first tests directional asymmetry: the same side differs in all specimens.
+#' The second tests fluctuating asymmetry against the error of measurement; it needs specimens that
+#' were measured more than once.
 #'
 #' All shapes and their reflections are aligned together (Klingenberg, Barluenga and Meyer 2002).
 #' Degrees of freedom, sums of squares and F are those of `geomorph::bilat.symmetry()` with
 #' `object.sym = TRUE`. Its p-values come from permuted residuals of all configurations. Here
-#' directional asymmetry is tested by exchanging left and right of each specimen at random, and
-#' fluctuating asymmetry by exchanging the asymmetry of measurements between specimens. Both tests
-#' are exact: with 5 individuals directional asymmetry has 16 exchanges, and p is at least 1/16.
+#' directional asymmetry is tested by random exchanges of left and right in each specimen.
+#' Fluctuating asymmetry is tested by exchanges of the measurements' asymmetry between specimens.
+#' Both tests are exact. With 5 individuals directional asymmetry has 16 exchanges, and p is at
+#' least 1/16.
 #'
 #' @param sample,level,scale,weights,missing As in [compare_groups()]. Arrays need `pairs`.
-#' @param individual Factor of n, or a vector that can become one: whose measurement each shape is.
-#'   Values with names are matched by specimen. `NULL`: each shape is of another individual.
-#' @param pairs Of arrays: two columns with names or numbers of points, left and right. Points in no
-#'   pair lie on the mid-line. For a `shape_sample` its scheme has them.
-#' @param n_perm Number of random permutations; fewer exchanges of sides are all used.
+#' @param individual Individual of each shape: a factor of length n, or a vector that can become
+#'   one. Values with names are matched to the specimens by name. `NULL`: each shape is of another
+#'   individual.
+#' @param pairs Pairs of an array: two columns with names or numbers of points, left and right.
+#'   Points in no pair lie on the midline. For a `shape_sample` the scheme has the pairs.
+#' @param n_perm Number of random permutations. If there are fewer exchanges of sides, all are used.
 #' @param seed As in [compare_groups()].
 #' @return Object of class `symmetry_parts`, a list:
 #'   * `symmetric`, `asymmetric`: lists by level of `aligned`s of the same specimens. The first are
 #'     the symmetric means. The second are the mean shape plus half of the difference between a
 #'     shape and its reflection. Give either to [compare_groups()], [shape_lm()]; one level to
 #'     [shape_pca()], [shape_lda()].
-#'   * `tests`: data frame, a row a level and source: `level`, `source` ("individual",
-#'     "directional", "fluctuating", "error"), `df`, `squares`, `mean_squares`, `share`, `statistic`
-#'     (F: individuals and directional over fluctuating, fluctuating over error), `p_value`;
-#'   * `specimens`: data frame, a row a level and specimen: `level`, `id`, `asymmetry` (root mean
-#'     square distance of the points from those of the symmetric mean, in the unit of the meshes),
-#'     `fluctuating` (the same after the mean asymmetry is taken off);
-#'   * `directional`: list by level, k x 3: the mean asymmetry, in the unit of the meshes.
+#'   * `tests`: data frame with a row for each level and source: `level`, `source` ("individual",
+#'     "directional", "fluctuating", "error"), `df`, `squares`, `mean_squares`, `share`,
+#'     `statistic`, `p_value`. `statistic` is F: individual and directional over fluctuating,
+#'     fluctuating over error;
+#'   * `specimens`: data frame with a row for each level and specimen: `level`, `id`, `asymmetry`
+#'     (root mean square distance of the points from the symmetric mean, in the unit of the meshes),
+#'     `fluctuating` (the same after the mean asymmetry is subtracted);
+#'   * `directional`: list by level of k x 3 matrices: the mean asymmetry, in the unit of the
+#'     meshes.
 #'
 #'   `as.data.frame()` gives `tests`.
-#' @section Errors: of class `crestline_error`: a scheme without pairs, pairs that are none, fewer
-#'   than two individuals.
+#' @section Errors: of class `crestline_error`: the scheme has no pairs, `pairs` are not two columns
+#'   of points, or there are fewer than two individuals.
 #' @template glossary
 #' @references Klingenberg, Barluenga and Meyer (2002) Shape analysis of symmetric structures,
 #'   *Evolution* 56, 1909-1920; Palmer and Strobeck (1986) Fluctuating asymmetry, *Annual Review of

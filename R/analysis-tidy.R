@@ -5,17 +5,24 @@
 #' Methods for the generics `tidy()` and `glance()` of the package generics, which broom re-exports.
 #'
 #' @param x A `group_comparison`, `shape_lm`, `shape_pca` or `aligned`.
-#' @param what Of a `group_comparison`: "tests" or "points"; of a `shape_lm` also "parts".
+#' @param what "tests" or "points" of a `group_comparison`; "tests", "points" or "parts" of a
+#'   `shape_lm`.
 #' @param ... Ignored.
-#' @return Data frames. `tidy()` of a comparison: a row a level and test, `level`, `term` (test),
-#'   `statistic`, `p.value`, `adj.p.value`, `p.value.parametric`; by point: `level`, `term` (point),
-#'   `estimate` (`distance` along the normal, or the displacement where there is none), `statistic`,
-#'   `p.value`, `adj.p.value`. Of a model: a row a level, term and test, point or part. Of
-#'   components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as in broom). Of an alignment: a
-#'   row a specimen, as `as.data.frame()`. `glance()`: one row. Of a comparison: `nobs`, `groups`,
-#'   `levels`, `permutations`, `exact`, `p.value` (smallest of the mean shape's). Of components:
-#'   `nobs`, `points`, `components`, `variance` (total). Of an alignment: `nobs`, `points`, `size`
-#'   (mean), `distance` (root mean square from the mean), `missing`.
+#' @return Data frames. `tidy()` gives
+#'   * for a comparison: a row for each level and test, with `level`, `term` (test), `statistic`,
+#'     `p.value`, `adj.p.value`, `p.value.parametric`. With `what = "points"`: `level`, `term`
+#'     (point), `estimate` (`distance` along the normal, or the displacement without normals; unit
+#'     of the meshes), `statistic`, `p.value`, `adj.p.value`;
+#'   * for a model: a row for each level, term and test (or point, or part);
+#'   * for components: `PC`, `std.dev`, `percent`, `cumulative` (shares, as in broom);
+#'   * for an alignment: a row for each specimen, as `as.data.frame()`.
+#'
+#'   `glance()` gives one row:
+#'   * for a comparison: `nobs`, `groups`, `levels`, `permutations`, `exact`, `p.value` (smallest p
+#'     of the mean shape over the levels);
+#'   * for components: `nobs`, `points`, `components`, `variance` (total);
+#'   * for an alignment: `nobs`, `points`, `size` (mean), `distance` (root mean square from the
+#'     mean), `missing`.
 #' @template glossary
 #' @examplesIf requireNamespace("generics", quietly = TRUE)
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
