@@ -27,8 +27,8 @@
 #'   [landmark_template()], [face_template()], [calibrate_template()], with [find_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].
 #' * *One curve*: [ridge_curve()] with [ridge_settings()], [keep_away()], [keep_side()]; its stages:
-#'   [reference_path()], [path_coordinates()], [curvature_surface()], [ridge_line()], [lift()];
-#'   another path: [plane_path()].
+#'   [reference_path()] with [path_settings()], [path_coordinates()], [curvature_surface()],
+#'   [ridge_line()], [lift()]; another path: [plane_path()].
 #' * *Places on a mesh*: [locate()] (the closest one), [frechet_mean()].
 #' * *A whole specimen*: [fit_shape()] by a scheme ([face_scheme()], [read_scheme()],
 #'   [curve_scheme()]); its parts: [coords()], [shape_mesh()], [patch_mesh()], [write_mesh()].

@@ -19,21 +19,10 @@
 #'   ignored: one, or a list.
 #' @param curvature A `curvature` of the mesh at this radius, where it is already
 #'   known; otherwise it is estimated where the cuts may pass.
-#' @param reach Cuts stay within this share of the distance between the landmarks
-#'   from the straight line between them (the paper: 1/2).
-#' @param longest Cuts may be this many times as long as the shortest.
-#' @param spacing Strength is taken along a cut at places no further apart than this share of
-#'   `radius`.
-#' @param angles Number of angles of the coarse grid over a half turn.
-#' @param refined Number of angles between the neighbours of each local optimum.
-#' @param tie Of local optima within this share of the best the shortest cut is taken: curvature is
-#'   not known better than to some per cent, and planes that nearly touch the surface gather it on a
-#'   ragged way.
-#' @param rival Share within which a second optimum is a rival that is warned of.
-#' @param distinct A rival runs further than this share of the path's length from it at some place.
+#' @param settings [path_settings()], the constants of the search.
 #' @inheritParams curvature
-#' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of
-#'   its settings.
+#' @param ... Fields of [path_settings()], as they were given formerly. They give a message of class
+#'   `crestline_deprecated`.
 #' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion` (mean strength in
 #'   1 / unit, or length), `optima`: data frame with a row for every local optimum, that of the path
 #'   first, then from the best on: `angle` (radians), `side`, `criterion`, `length`; and
@@ -55,46 +44,29 @@
 #' head(as.data.frame(path), 3)
 #' @export
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"),
-                           radius = attr(curvature, "radius"),
-                           keep_away = NULL, curvature = NULL, reach = 0.5, longest = 1.25,
-                           spacing = 0.25, angles = 60, refined = 21, tie = 0.002,
-                           rival = 0.05, distinct = 0.05, order = "adaptive",
-                           threads = getOption("crestline.threads", 1L)) {
+                           radius = attr(curvature, "radius"), keep_away = NULL, curvature = NULL,
+                           settings = path_settings(),
+                           threads = getOption("crestline.threads", 1L), ...) {
   check_given()
   check_surface(specimen, "specimen")
   threads <- check_threads(threads)
-  reach <- check_reach(reach)
-  angles <- check_count(angles, "angles")
-  refined <- check_count(refined, "refined")
-  if (!identical(longest, Inf)) longest <- check_number(longest, "longest", lower = 1)
-  check_shares(spacing, tie, rival, distinct)
+  check_class(settings, "path_settings", "settings", "path_settings()")
+  settings <- settings_with_former(settings, "path_settings", ...)
   check_ends(from = from, to = to)
   keep_away <- check_regions(keep_away)
-  order <- check_order(order)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   strength <- if (type != "plane") {
     check_number(radius, "radius", lower = 0, open = TRUE)
-    source <- known_curvature(curvature, specimen, radius, threads, order)
+    source <- known_curvature(curvature, specimen, radius, threads, settings$order)
     id <- mesh_of(specimen)$id
     regions <- in_context(located_regions(keep_away, region_locator(specimen), id), id)
     path_strength(source, type, regions, as_mesh(specimen))
   }
   scan <- walkable(specimen)
-  search <- search_settings(reach, longest, spacing, angles, refined, tie, distinct)
   ends <- located_ends(specimen, scan, from, to)
-  path <- in_context(find_reference(ends, type, strength, radius, search), scan$id)
-  warn_rival(path, ends$names, scan$id, rival)
+  path <- in_context(find_reference(ends, type, strength, radius, settings), scan$id)
+  warn_rival(path, ends$names, scan$id, settings$rival)
   path
-}
-
-#' The constants of a search for a reference path, as [reference_path()] has them
-#'
-#' @param limited Number of angles where these are limited, see [limited_cut()].
-#' @noRd
-search_settings <- function(reach = 0.5, longest = 1.25, spacing = 0.25, angles = 60, refined = 21,
-                            tie = 0.002, distinct = 0.05, limited = 61) {
-  list(reach = reach, longest = longest, spacing = spacing, angles = angles, refined = refined,
-       tie = tie, distinct = distinct, limited = limited)
 }
 
 #' A reference path without checks and warnings, or a failure
@@ -102,7 +74,7 @@ search_settings <- function(reach = 0.5, longest = 1.25, spacing = 0.25, angles 
 #' @param ends As of [path_ends()]; a failure is handed on.
 #' @param strength As of [path_strength()]; not used for planes.
 #' @param radius Of the curvature.
-#' @param search As of [search_settings()].
+#' @param search As of [path_settings()].
 #' @return As [reference_path()].
 #' @noRd
 find_reference <- function(ends, type, strength, radius, search) {
@@ -335,7 +307,7 @@ trusted_path <- function(trust, scan, path) {
   between <- function(from, to) {
     exact <- rbind(from, to)
     names <- c(end_name(from), end_name(to))
-    find_reference(path_ends(scan, exact, names), "plane", NULL, NULL, search_settings())
+    find_reference(path_ends(scan, exact, names), "plane", NULL, NULL, path_settings())
   }
   parts <- list(
     if (trust[1] > 0) between(ends[1, ], at[1, ]),

@@ -18,7 +18,7 @@
 #'   named after the file, ending in `_files`, stands beside it.
 #' @param size Width and height of the picture in the browser's pixels.
 #' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`,
-#'   `view`, `band`.
+#'   `view`, `band`. `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
 #' @template glossary
 #' @examples
@@ -37,8 +37,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
                        title = paste("Specimen", x$id), caption = NULL,
                        surface = "shape index",
                        colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
-  check_given()
-  turned <- object_first(x, file, "write_page")
+  turned <- object_first(x, file, "write_page", "specimen", ...)
   x <- turned$x
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
   title <- check_text(title, "title")
@@ -60,7 +59,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
   plot(x, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
-  layers <- page_layers(curves, x, surface, colour, width, ...)
+  layers <- do.call(page_layers, c(list(curves, x, surface, colour, width), turned$more))
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
                    tags$h2(title),
@@ -73,11 +72,31 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
 
 #' The object and the file of a writer; those of a call in the former order, file first, turned
 #' round
+#'
+#' @param x,file Arguments of the writer, given or not.
+#' @param writer Its name.
+#' @param former Former name of `x`.
+#' @param ... The dots of the writer.
+#' @return List `x`, `file` and `more`, the rest of the dots.
 #' @noRd
-object_first <- function(x, file, writer) {
-  if (!is.character(x) || is.character(file)) return(list(x = x, file = file))
+object_first <- function(x, file, writer, former, ..., call = rlang::caller_env()) {
+  more <- list(...)
+  given <- c(x = !missing(x), file = !missing(file))
+  if (former %in% names(more)) {
+    if (sum(given) != 1) {
+      crestline_abort(sprintf("`%s` is the former name of `x`, and does not go with these arguments.",
+                              former),
+                      sprintf("Write %s(x, file), and all that follows by name.", writer),
+                      stage = "arguments", call = call)
+    }
+    inform_former(paste0(writer, "(", former, " = )"), sprintf("%s(x, file)", writer))
+    return(list(x = more[[former]], file = if (given[["file"]]) file else x,
+                more = more[names(more) != former]))
+  }
+  check_given(frame = call, fn = rlang::caller_fn())
+  if (!is.character(x) || is.character(file)) return(list(x = x, file = file, more = more))
   inform_former(sprintf("%s(file, x)", writer), sprintf("%s(x, file)", writer))
-  list(x = file, file = x)
+  list(x = file, file = x, more = more)
 }
 
 #' Make a page in a folder of our own, then put it where it belongs: what stands there may be the

@@ -113,6 +113,7 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' @param size Width and height of each picture in the browser's pixels.
 #' @param view Where to look from at first, as in [draw_surface()].
 #' @param selfcontained As in [write_page()].
+#' @param ... `pca`, the former name of `x`.
 #' @return The path of the file, invisibly.
 #' @section Errors: of class `crestline_error`: no surface, no such component, no folder to write
 #'   to.
@@ -131,9 +132,9 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
                            colour = "#E3CDB8",
                            title = "Principal components of shape", size = c(420, 460),
                            view = "front",
-                           selfcontained = TRUE) {
-  check_given()
-  turned <- object_first(x, file, "write_pca_page")
+                           selfcontained = TRUE, ...) {
+  turned <- object_first(x, file, "write_pca_page", "pca", ...)
+  do.call(check_dots, turned$more)
   x <- turned$x
   colour <- check_colour(colour, "colour")
   title <- check_text(title, "title")

@@ -12,6 +12,7 @@
 #' [crestline-package] has a glossary.
 #'
 #' @inheritParams reference_path
+#' @param reach As in [path_settings()].
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for
 #'   `"plane"`. On faces, 10 mm for broad features (the paper: 10 mm) and 5 mm for lips, nose and
@@ -130,9 +131,12 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 curve_job <- function(ends, type, n, settings, passes = NULL, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
                       reach = 0.5) {
+  search <- path_settings()
+  search$reach <- reach
+  if (type != "plane") search$longest <- settings$longest
   list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius,
        width = width, source = source, regions = regions, trust = trust, angle_limit = angle_limit,
-       search = search_settings(reach, if (type == "plane") 1.25 else settings$longest))
+       search = search)
 }
 
 #' One curve, without checks and warnings

@@ -104,7 +104,7 @@ piece_together <- function(scan, coordinates, path, s, alpha) {
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
     names <- c(end_name(knots[i, ]), end_name(knots[i + 1, ]))
     ends <- path_ends(scan, knots[c(i, i + 1), ], names)
-    find_reference(ends, "plane", NULL, NULL, search_settings(reach = Inf))
+    find_reference(ends, "plane", NULL, NULL, path_settings(reach = Inf))
   })
   bad <- Find(failed, pieces)
   if (!is.null(bad)) return(bad)

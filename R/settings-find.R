@@ -76,7 +76,11 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
   sizes <- lengths(lapply(formals(find_settings)[-1], eval))
   former <- c(kept = "trim_share", kernel_length = "length_scale", kernel_sd = "length_scale_sd",
               robust = "robust_scale")
-  settings <- changed_settings(mget(names(sizes)), list(...), former)
+  new_settings("find_settings", function(settings) check_find_settings(settings, sizes),
+               list(...), former = former)
+}
+
+check_find_settings <- function(settings, sizes) {
   may_be_none <- c("cap", "affine", "uneven", "weight", "along", "left_over", "lost", "cosine",
                    "low")
   for (name in names(settings)) {
@@ -90,41 +94,13 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
                       stage = "arguments")
     }
   }
-  structure(settings, class = "find_settings")
-}
-
-#' Settings with those that a call changes
-#'
-#' @param settings List of all settings.
-#' @param change The further arguments of the call, a list.
-#' @param former Names of today, by former ones: these still work, with a message.
-#' @noRd
-changed_settings <- function(settings, change, former = character()) {
-  for (old in intersect(names(change), names(former))) {
-    inform_former(paste(old, "="), paste(former[[old]], "="))
-    names(change)[names(change) == old] <- former[[old]]
-  }
-  unknown <- setdiff(names(change), names(settings))
-  if (length(unknown) || (length(change) && is.null(names(change)))) {
-    crestline_abort(sprintf("there is no setting %s.",
-                            paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Settings are: ", paste(names(settings), collapse = ", "), "."),
-                    stage = "arguments")
-  }
-  settings[names(change)] <- change
   settings
 }
 
 #' @export
 print.find_settings <- function(x, ...) {
   check_method_dots(...)
-  printed(x, {
-    cat("<find_settings> of find_landmarks()\n")
-    value <- vapply(x, function(v) paste(format(v, trim = TRUE), collapse = " to "), "")
-    cat(strwrap(paste(names(x), value, sep = " = ", collapse = ", "), indent = 2, exdent = 2),
-        sep = "\n")
-    invisible(x)
-  })
+  print_settings(x, "<find_settings> of find_landmarks()")
 }
 
 #' The settings' lengths for a template of another size

@@ -55,7 +55,7 @@ curve_record <- function(job) {
   if (failed(curve) && job$type != "plane") {
     job$type <- "plane"
     job[c("source", "regions")] <- list(NULL)
-    job$search <- search_settings()
+    job$search <- path_settings()
     curve <- trace_curve(job)
   }
   if (failed(curve)) return(new_record(reason = problem))

@@ -2,47 +2,47 @@
 
 #' Limits of the quality report
 #'
-#' All limits of [quality()]. Each limit has two values: the first makes a part amber, the second
-#' red. `Inf` switches a limit off (`-Inf` if small values are bad). No limit depends on the unit of
+#' All limits of [quality()]. Each limit has two values, `c(amber, red)`. A part is amber above the
+#' first and red above the second; where small values are bad, below them. `Inf` switches a limit
+#' off (`-Inf` if small values are bad). No limit depends on the unit of
 #' the mesh.
 #'
 #' The defaults were chosen on 26 good scans and on scans that were spoiled on purpose (holes,
 #' spikes, noise, decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber
 #' or red. Of the parts of good whole faces, up to 4.3 % were.
 #'
-#' @param ... Limits to change, by name, each `c(amber, red)`; print the defaults to see them. Bad
-#'   is what is above
-#'   * `missing`: share of the part's points that are missing;
-#'   * `se`: median standard error across a curve, in radii of its curvature estimate (above 0.2,
-#'     the setting `undetermined` of [ridge_settings()], a curve counts as not determined);
-#'   * `se_max`: largest standard error across a curve, in radii;
-#'   * `doubtful`: share of the found landmarks whose confidence is below the first limit of
-#'     `confidence`. It applies to all parts of a specimen;
-#'   * `competing`: criterion of the best other reference path, as a share of the chosen path's;
-#'   * `z`: size of the z-score of the length against other specimens;
-#'   * `asymmetry`: greatest distance of a curve from the mirror image of its partner, as a share of
-#'     its length;
-#'   * `roughness`: mean angle in degrees between the normals of the triangles along the part and
-#'     those at their corners (good scans: below 10);
-#'   * `coarse`: mean edge of the triangles along a ridge or valley, in radii of its curvature
-#'     estimate;
-#'   * `bridged`: share of a curve's length that lies over holes;
-#'   * `offset`: root mean square distance of a curve's homologous points from the measured curve,
-#'     across it, in radii of the template (1/19 is 3 mm on a face). It exists for shapes that were
-#'     slid. A large value can mean that the curve runs along another feature than on the other
-#'     specimens. On ten simulated faces of another population it detects 8 of 29 such curves that
-#'     no other limit detects. It also flags 3 of 230 correct curves;
-#'   * `faults`: number of flipped, doubled or crossing triangles of a patch;
-#'
-#'   and below
-#'   * `confidence`: confidence of a landmark that [find_landmarks()] found. It also applies to the
-#'     curves that end there;
-#'   * `contrast`: mean strength along a curve over the mean strength beside it;
-#'   * `cut`: length of a trimmed curve, as a share of the length that the scheme asks for;
-#'   * `border`: distance from a border of the mesh or of a hole, as a share of the part's size (a
-#'     curve's length, the diameter of a patch);
-#'   * `spike`: distance within which there are four crumpled triangles (bent by more than 30
-#'     degrees), as a share of the part's size.
+#' @param ... Nothing: limits are given by name, and an unknown name is an error.
+#' @param missing Share of the part's points that are missing.
+#' @param se,se_max Median and largest standard error across a curve, in radii of its curvature
+#'   estimate (above 0.2, the setting `undetermined` of [ridge_settings()], a curve counts as not
+#'   determined).
+#' @param doubtful Share of the found landmarks whose confidence is below the first limit of
+#'   `confidence`. It applies to all parts of a specimen.
+#' @param confidence Confidence of a landmark that [find_landmarks()] found. It also applies to the
+#'   curves that end there. Small values are bad.
+#' @param competing Criterion of the best other reference path, as a share of the chosen path's.
+#' @param z Size of the z-score of the length against other specimens.
+#' @param asymmetry Greatest distance of a curve from the mirror image of its partner, as a share of
+#'   its length.
+#' @param roughness Mean angle in degrees between the normals of the triangles along the part and
+#'   those at their corners (good scans: below 10).
+#' @param coarse Mean edge of the triangles along a ridge or valley, in radii of its curvature
+#'   estimate.
+#' @param bridged Share of a curve's length that lies over holes.
+#' @param offset Root mean square distance of a curve's homologous points from the measured curve,
+#'   across it, in radii of the template (1/19 is 3 mm on a face). It exists for shapes that were
+#'   slid. A large value can mean that the curve runs along another feature than on the other
+#'   specimens. On ten simulated faces of another population it detects 8 of 29 such curves that
+#'   no other limit detects. It also flags 3 of 230 correct curves.
+#' @param faults Number of flipped, doubled or crossing triangles of a patch.
+#' @param contrast Mean strength along a curve over the mean strength beside it. Small values are
+#'   bad.
+#' @param cut Length of a trimmed curve, as a share of the length that the scheme asks for. Small
+#'   values are bad.
+#' @param border Distance from a border of the mesh or of a hole, as a share of the part's size (a
+#'   curve's length, the diameter of a patch). Small values are bad.
+#' @param spike Distance within which there are four crumpled triangles (bent by more than 30
+#'   degrees), as a share of the part's size. Small values are bad.
 #' @param undetermined Grade of curves that curvature does not determine: "green", "amber" or "red".
 #' @param guessed Grade of trimmed curves that had to be directed or measured without one of their
 #'   landmarks (see [fit_shape()]): "green", "amber" or "red".
@@ -60,32 +60,26 @@
 #' @examples
 #' quality_limits(z = c(3, 4), faults = c(Inf, Inf))
 #' @export
-quality_limits <- function(..., undetermined = "amber", guessed = "amber", exchanged = "red",
-                           predicted = "amber",
-                           others = 10, spread = 0.01) {
-  limits <- list(missing = c(0, 0.2), se = c(0.2, 0.4), se_max = c(0.8, Inf),
-                 doubtful = c(0.6, Inf), confidence = c(0.5, -Inf),
-                 competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
-                 roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2),
-                 offset = c(1 / 19, Inf), faults = c(0, Inf),
-                 contrast = c(1.2, 0.9), cut = c(0.98, 0.7), border = c(0.04, 0.005),
-                 spike = c(0.07, 0.02))
-  change <- list(...)
-  unknown <- setdiff(names(change), names(limits))
-  if (length(unknown) || (length(change) && is.null(names(change)))) {
-    crestline_abort(sprintf("there is no limit %s.", paste0("\"", unknown, "\"", collapse = ", ")),
-                    paste0("Limits are: ", paste(names(limits), collapse = ", "), "."),
-                    stage = "arguments")
+quality_limits <- function(..., missing = c(0, 0.2), se = c(0.2, 0.4), se_max = c(0.8, Inf),
+                           doubtful = c(0.6, Inf), confidence = c(0.5, -Inf),
+                           competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
+                           roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2),
+                           offset = c(1 / 19, Inf), faults = c(0, Inf), contrast = c(1.2, 0.9),
+                           cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.07, 0.02),
+                           undetermined = "amber", guessed = "amber", exchanged = "red",
+                           predicted = "amber", others = 10L, spread = 0.01) {
+  new_settings("quality_limits", check_limits, list(...), noun = "limit")
+}
+
+check_limits <- function(limits) {
+  graded <- c("undetermined", "guessed", "exchanged", "predicted")
+  for (name in setdiff(names(limits), c(graded, "others", "spread"))) {
+    limits[[name]] <- check_limit(limits[[name]], name, name %in% small_is_bad)
   }
-  for (name in names(change)) limits[[name]] <- check_limit(change[[name]], name,
-                                                            name %in% small_is_bad)
-  structure(c(limits, list(undetermined = check_choice(undetermined, grades, "undetermined"),
-                           guessed = check_choice(guessed, grades, "guessed"),
-                           exchanged = check_choice(exchanged, grades, "exchanged"),
-                           predicted = check_choice(predicted, grades, "predicted"),
-                           others = check_count(others, "others", lower = 2),
-                           spread = check_number(spread, "spread", lower = 0))),
-            class = "quality_limits")
+  for (name in graded) limits[[name]] <- check_choice(limits[[name]], grades, name)
+  limits$others <- check_count(limits$others, "others", lower = 2)
+  limits$spread <- check_number(limits$spread, "spread", lower = 0)
+  limits
 }
 
 grades <- c("green", "amber", "red")

@@ -21,6 +21,7 @@
 #'   direction along the surface.
 #' @param turn,shift Standard deviations of the angle (radians, about a random axis) and of the
 #'   shift (in every co-ordinate) of each specimen's pose.
+#' @param ... Nothing: an unknown name is an error.
 #' @return A list of these settings, of class `scan_settings`.
 #' @section Errors: of class `crestline_error`, for a value out of its range.
 #' @template glossary
@@ -30,25 +31,22 @@
 #' str(scan_settings(noise = 0, remesh = FALSE))
 #' @export
 scan_settings <- function(noise = 0.1, noise_range = 0, remesh = TRUE, edge = NULL, edge_sd = 0.05,
-                          rounds = 1, crease = 30,
-                          holes = 0, hole_radius = 5, landmark_error = 0, turn = 0, shift = 0) {
-  if (!is.logical(remesh) || length(remesh) != 1 || is.na(remesh)) {
-    crestline_abort(sprintf("`remesh` is %s.", describe_value(remesh)), "Give TRUE or FALSE.",
-                    stage = "arguments")
+                          rounds = 1L, crease = 30, holes = 0L, hole_radius = 5, landmark_error = 0,
+                          turn = 0, shift = 0, ...) {
+  new_settings("scan_settings", check_scan_settings, list(...))
+}
+
+check_scan_settings <- function(settings) {
+  check_flag(settings$remesh, "remesh")
+  for (name in c("noise", "noise_range", "edge_sd", "landmark_error", "turn", "shift")) {
+    settings[[name]] <- check_number(settings[[name]], name, 0)
   }
-  structure(
-    list(noise = check_number(noise, "noise", 0),
-         noise_range = check_number(noise_range, "noise_range", 0), remesh = remesh,
-         edge = if (!is.null(edge)) check_number(edge, "edge", 0, open = TRUE),
-         edge_sd = check_number(edge_sd, "edge_sd", 0),
-         rounds = check_count(rounds, "rounds"), crease = check_number(crease, "crease", 0, 180),
-         holes = check_count(holes, "holes", lower = 0),
-         hole_radius = check_number(hole_radius, "hole_radius", 0, open = TRUE),
-         landmark_error = check_number(landmark_error, "landmark_error", 0),
-         turn = check_number(turn, "turn", 0),
-         shift = check_number(shift, "shift", 0)),
-    class = "scan_settings"
-  )
+  if (!is.null(settings$edge)) settings$edge <- check_number(settings$edge, "edge", 0, open = TRUE)
+  settings$rounds <- check_count(settings$rounds, "rounds")
+  settings$crease <- check_number(settings$crease, "crease", 0, 180)
+  settings$holes <- check_count(settings$holes, "holes", lower = 0)
+  settings$hole_radius <- check_number(settings$hole_radius, "hole_radius", 0, open = TRUE)
+  settings
 }
 
 #' A mesh with its vertices moved along their normals

@@ -20,7 +20,8 @@ twice <- function(specimen, radius, width, n) {
 
 # The cut that the ridge is sought beside, and no ridge.
 by_reference <- function(specimen, radius, width, n) {
-  positions(crestline::reference_path(specimen, "from", "to", "ridge", radius, order = "adaptive cubic"))
+  cubic <- crestline::path_settings(order = "adaptive cubic")
+  positions(crestline::reference_path(specimen, "from", "to", "ridge", radius, settings = cubic))
 }
 
 by_plane <- function(specimen, radius, width, n) {

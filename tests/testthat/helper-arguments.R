@@ -79,6 +79,16 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
   fitted_kinds <- c(column_angle = "number", column_angles = "count", column_reach = "number")
   given <- function(...) list(...)
   entry <- function(.args, ...) list(args = .args, kinds = c(...))
+  # A function of settings: kinds that are not given are those of the default's type.
+  fields <- function(maker, ...) {
+    args <- lapply(as.list(formals(maker))[-match("...", names(formals(maker)))], eval)
+    kind <- vapply(args, function(value) {
+      if (is.character(value)) "choice" else if (is.logical(value)) "flag" else
+        if (length(value) > 1) "numbers" else "number"
+    }, "")
+    kind[names(c(...))] <- c(...)
+    list(args = args, kinds = kind)
+  }
   list(
     align = entry(given(sample = sample, level = "curves", scale = TRUE, weights = NULL, missing = "drop", tangent = TRUE,
                         triangles = NULL, tolerance = 1e-6, rounds = 5, limits = sample_limits()),
@@ -134,8 +144,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     find_landmarks = entry(given(mesh = one, template = template, id = NULL, settings = find_settings(), unit = NULL, threads = 1L),
                            mesh = "object", template = "object", id = "id?", settings = "object", unit = "number?",
                            threads = "count"),
-    find_settings = entry(lapply(formals(find_settings)[-1], eval),
-                          vapply(formals(find_settings)[-1], function(x) if (is.call(x)) "numbers" else "number", "")),
+    find_settings = fields(find_settings),
     fit_shape = entry(c(given(specimen = one, scheme = made$scheme, settings = ridge_settings(), passes = NULL, curves = NULL,
                               cut_scale = 1, bridge = 0.2), fitted, given(unit = NULL, threads = 1L, progress = FALSE)),
                       specimen = "object", scheme = "object", settings = "object", passes = "count?", curves = "any",
@@ -195,10 +204,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                              curvedness = "number", spacing = "number", turn = "number", tilt = "number", resolution = "number",
                              samples = "count"),
     quality = entry(given(x = shape, limits = quality_limits(), others = NULL), x = "list", limits = "object", others = "any"),
-    quality_limits = entry(given(undetermined = "amber", guessed = "amber", predicted = "amber", exchanged = "red", others = 10,
-                                 spread = 0.01),
-                           predicted = "choice", exchanged = "choice",
-                           undetermined = "choice", guessed = "choice", others = "number", spread = "number"),
+    quality_limits = fields(quality_limits, others = "count"),
     quality_report = entry(given(x = made$shapes[1:2], file = path("q.html"), specimens = NULL, limits = quality_limits(),
                                  others = NULL, title = "t", pictures = 0, size = c(300, 200)),
                            x = "list", file = "object", specimens = "any", limits = "object", others = "any", title = "text",
@@ -211,13 +217,14 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                         dir = "object", name = "text"),
     read_specimen = entry(given(file = path("s.ply"), landmarks = path("s.csv"), id = "x", names = NULL),
                           names = "object?", file = "object", landmarks = "any", id = "id?"),
-    reference_path = entry(given(specimen = one, from = "aL", to = "aR", type = "ridge", radius = 20, keep_away = NULL,
-                                 curvature = curved, reach = 0.5, longest = 1.25, spacing = 0.25, angles = 5, refined = 3,
-                                 tie = 0.002, rival = 0.05, distinct = 0.05, order = "adaptive", threads = 1L),
-                           specimen = "object", from = "object", to = "object", type = "choice", radius = "number",
-                           keep_away = "list?", curvature = "object?", reach = "reach", longest = "reach",
-                           spacing = "number", angles = "count", refined = "count", tie = "number", rival = "number",
-                           distinct = "number", order = "choice", threads = "count"),
+    path_settings = fields(path_settings, reach = "reach", longest = "reach", angles = "count",
+                           refined = "count", limited = "count"),
+    reference_path = entry(given(specimen = one, from = "aL", to = "aR", type = "ridge", radius = 20,
+                                 keep_away = NULL, curvature = curved,
+                                 settings = path_settings(angles = 5, refined = 3), threads = 1L),
+                           specimen = "object", from = "object", to = "object", type = "choice",
+                           radius = "number", keep_away = "list?", curvature = "object?",
+                           settings = "object", threads = "count"),
     refine_landmarks = entry(given(specimen = one, scheme = made$scheme, move = FALSE, window = 0.75, apart = 0.5, faint = 0.05,
                                    share = 0.5, order = "adaptive cubic", tolerance = 0.001, rounds = 2, curvature = NULL,
                                    unit = NULL, threads = 1L),
@@ -242,7 +249,13 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                         curvature = "object?", reach = "reach", threads = "count", trust = "size"),
     ridge_line = entry(given(surface = surface, scale = 1, radius = 20, settings = ridge_settings(), kernel = 0),
                        surface = "object", scale = "number", radius = "number", settings = "object", kernel = "number"),
-    ridge_settings = entry(given(preset = "crestline"), preset = "choice"),
+    ridge_settings = fields(ridge_settings, cap = "reach", window = "reach", vertices = "reach",
+                            anisotropy = "reach", lambda = "reach", core = "reach", bound = "reach",
+                            step = "reach", tolerance = "reach", longest = "reach",
+                            inflation = "reach", undetermined = "reach", faint = "reach",
+                            kernel_most = "reach", kernel_least = "reach", kernel_vertices = "reach",
+                            second_gain = "reach", second_whole = "reach", mix = "reach",
+                            grid = "count", iterations = "count", noise = "any"),
     ridge_study = entry(given(settings = ridge_settings(error = FALSE), n = 1, a = 0, b = 1, noise = 0, landmark_error = 0,
                               passes = NULL, radius = 0.25, width = 0.4, spacing = 0.1, correlation = 0, points = 5, dir = NULL,
                               block = 50, progress = FALSE, largest = 2e6),
@@ -291,7 +304,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                            jitter = "number", correlation = "number", landmark_error = "number", end = "number"),
     slide = entry(given(shape = shape, template = sample$template, settings = slide_settings(), specimen = one),
                   shape = "object", template = "object", settings = "object", specimen = "object"),
-    slide_settings = entry(given(preset = "crestline"), preset = "choice"),
+    slide_settings = fields(slide_settings, sweeps = "count", surface_sweeps = "count",
+                            joint_sweeps = "count", halvings = "count"),
     specimen = entry(given(mesh = made$ball, landmarks = made$corners, id = "x", outward = "detect", tolerance = 0.05,
                            debris = 0.001, midline = c("n", "sn")),
                      mesh = "object", landmarks = "any", id = "id?", outward = "choice", tolerance = "number",

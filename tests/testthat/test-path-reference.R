@@ -15,7 +15,7 @@ test_that("the shortest cut of a sphere is the great circle, of a cylinder it is
 
 test_that("no angle of a fine grid does better", {
   bent <- bent_ridge(noise = 0.02)
-  path <- quietly(reference_path(bent, "a", "b", "plane", reach = 1))
+  path <- quietly(reference_path(bent, "a", "b", "plane", settings = path_settings(reach = 1)))
   lengths <- vapply(seq(-1.5, 1.55, by = 0.05), function(angle) {
     tryCatch(attr(plane_path(bent, "a", "b", angle), "length"), error = function(e) Inf)
   }, 0)
@@ -26,7 +26,7 @@ test_that("the ridge's cut gathers most strength: it goes out to the ridge besid
   aside <- arched_ridges(4, 2)
   curved <- curvature(aside, 3)
   shortest <- quietly(reference_path(aside, "a", "b", "plane"))
-  path <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, longest = 1.5)
+  path <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, settings = path_settings(longest = 1.5))
   expect_gt(max(path$y), 2)
   expect_identical(attr(path, "type"), "ridge")
   expect_path_on_mesh(path, aside$mesh)
@@ -35,7 +35,7 @@ test_that("the ridge's cut gathers most strength: it goes out to the ridge besid
     at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) * matrix(strength[t(aside$mesh$it[, p$face])], ncol = 3))
     sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / attr(p, "length")
   }
-  fine <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, longest = 1.5, spacing = 1e-3)
+  fine <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, settings = path_settings(longest = 1.5, spacing = 1e-3))
   expect_equal(attr(fine, "criterion"), mean_along(fine), tolerance = 1e-4)
   expect_equal(attr(path, "criterion"), mean_along(path), tolerance = 0.03)
   expect_gt(mean_along(path), 1.05 * mean_along(shortest))
@@ -46,7 +46,7 @@ test_that("`longest` holds a cut to the length of the shortest", {
   curved <- curvature(aside, 3)
   shortest <- attr(quietly(reference_path(aside, "a", "b", "plane")), "length")
   for (limit in c(1.01, 1.05)) {
-    path <- quietly(reference_path(aside, "a", "b", "ridge", 3, curvature = curved, longest = limit))
+    path <- quietly(reference_path(aside, "a", "b", "ridge", 3, curvature = curved, settings = path_settings(longest = limit)))
     expect_lte(attr(path, "length"), limit * shortest * 1.001)
   }
 })
@@ -67,16 +67,16 @@ test_that("curvature that is given is used, and the same as estimated on the way
 test_that("keep_away() turns the path from one ridge to the other", {
   twin <- arched_ridges(3.4, 3)
   curved <- curvature(twin, 2.5)
-  left <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, longest = 2))
+  left <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, settings = path_settings(longest = 2)))
   expect_gt(max(left$y), 2)
   region <- keep_away(c(-13, 4, 3), c(13, 4, 3), radius = 0.13)
-  right <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, keep_away = region, longest = 2))
+  right <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, keep_away = region, settings = path_settings(longest = 2)))
   expect_lt(min(right$y), -2)
 })
 
 test_that("optima hold every local optimum, best first, with angles in (-pi/2, pi/2]", {
   twin <- arched_ridges(3.2, 2)
-  path <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2))
+  path <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2)))
   optima <- attr(path, "optima")
   expect_named(optima, c("angle", "side", "criterion", "length"))
   expect_true(all(optima$angle > -pi / 2 & optima$angle <= pi / 2))
@@ -94,13 +94,13 @@ test_that("optima hold every local optimum, best first, with angles in (-pi/2, p
 
 test_that("two ridges nearly alike are warned of, with both angles", {
   twin <- arched_ridges(3, 3)
-  warning <- expect_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.3),
+  warning <- expect_warning(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2, rival = 0.3)),
                             class = "crestline_rival_path")
   expect_match(conditionMessage(warning), "nearly as good: at -?[0-9]+ and -?[0-9]+ degrees")
   expect_match(conditionMessage(warning), "a to b")
   expect_identical(warning$id, "graph")
-  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.15), class = "crestline_rival_path")
-  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, longest = 2, rival = 0.3, distinct = 1.2),
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2, rival = 0.15)), class = "crestline_rival_path")
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2, rival = 0.3, distinct = 1.2)),
                     class = "crestline_rival_path")
 })
 
@@ -159,7 +159,7 @@ test_that("of planes that gather the same the shortest cut is taken, not one tha
   optima <- attr(path, "optima")
   expect_gt(nrow(optima), 1)
   expect_lt(optima$length[1], min(optima$length[-1]))
-  best <- reference_path(straight, "from", "to", "ridge", radius = 0.25, tie = 0)
+  best <- reference_path(straight, "from", "to", "ridge", radius = 0.25, settings = path_settings(tie = 0))
   expect_gt(attr(best, "criterion"), attr(path, "criterion"))
   expect_gt(attr(path, "criterion"), (1 - 0.002) * attr(best, "criterion"))
 })

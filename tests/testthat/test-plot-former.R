@@ -45,3 +45,26 @@ test_that("writers take the file first, as they did, with a message", {
   expect_equal(file.size(files[1]), file.size(files[2]), tolerance = 0.01)
   expect_crestline_error(write_page("a.html", "b.html"), "`x`")
 })
+
+test_that("writers take the object under its former name, with a message", {
+  skip_if_not_installed("htmltools")
+  as_new("write_page(specimen = )")
+  file <- tempfile(fileext = ".html")
+  expect_message(write_page(file, specimen = ball_specimen(), surface = "plain"),
+                 "write_page(x, file)", fixed = TRUE, class = "crestline_deprecated")
+  expect_gt(file.size(file), 1000)
+  unlink(file)
+  write_page(file = file, specimen = ball_specimen(), surface = "plain", title = "By name")
+  expect_match(paste(readLines(file, warn = FALSE), collapse = ""), "By name")
+  expect_crestline_error(write_page(file, list(), specimen = ball_specimen()), "`specimen`")
+  expect_crestline_error(write_page(specimen = ball_specimen()), "`specimen`")
+  expect_crestline_error(write_page(ball_specimen()), "`file` is not given")
+  xyz <- t(Rvcg::vcgSphere(1)$vb[1:3, ])
+  balls <- simplify2array(lapply(1:5, function(i) xyz %*% diag(c(1 + i / 20, 1, 1 - i^2 / 99))))
+  pca <- shape_pca(align(balls, "ball", triangles = Rvcg::vcgSphere(1)$it))
+  as_new("write_pca_page(pca = )")
+  expect_message(write_pca_page(file, pca = pca, component = 1), "write_pca_page(x, file)",
+                 fixed = TRUE, class = "crestline_deprecated")
+  expect_match(paste(readLines(file, warn = FALSE), collapse = ""), "Principal components of shape")
+  expect_crestline_error(write_pca_page(pca, file, colours = "red"), "`colours`")
+})

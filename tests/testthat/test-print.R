@@ -15,6 +15,7 @@ printable_objects <- function(made = argument_objects()) {
        repeatability(made$shapes[1:4], c("a", "a", "b", "b")), keep_away("aL", "aR"),
        keep_side("aL", "aR", "n"),
        curvature(one, 20), ridge_settings(), find_settings(), slide_settings(),
+       path_settings(),
        bending_energy(shape),
        landmark_template(one), simulate_faces(2, scan = NULL, seed = 1, progress = FALSE),
        structure(list(ids = 1:2), class = "rgl_scene"),

@@ -47,7 +47,8 @@ test_that("every stage is kept, each of its class", {
 test_that("a ridge whose crest is known is found, better than by the reference path", {
   curve <- of_bent()
   expect_lt(off_crest(curve), 0.1)
-  path <- reference_path(bent_ridge(), "a", "b", "ridge", 4, order = "adaptive cubic")
+  path <- reference_path(bent_ridge(), "a", "b", "ridge", 4,
+                         settings = path_settings(order = "adaptive cubic"))
   expect_lt(off_crest(curve), 0.3 * mean(abs(path$y - crest(path$x))))
   expect_true(curve$determined)
   straight <- curve_of(straight_ridge(), "a", "b", "ridge", radius = 4, width = 5, n = 9)

@@ -1,0 +1,46 @@
+# A maker of settings of three fields, one of them with a former name.
+some_settings <- function(preset = "ours", ..., size = 1, whole = 2, part = 3) {
+  new_settings("some_settings", function(settings) {
+    check_number(settings$size, "size", lower = 0)
+    settings
+  }, list(...), if (preset == "theirs") list(size = 10, whole = 20), c(old = "part"))
+}
+
+test_that("a field is what the call gives, else what the preset says, else its default", {
+  expect_identical(some_settings(), structure(list(size = 1, whole = 2, part = 3),
+                                              class = "some_settings"))
+  expect_identical(unclass(some_settings("theirs")), list(size = 10, whole = 20, part = 3))
+  expect_identical(unclass(some_settings("theirs", size = 1)), list(size = 1, whole = 20, part = 3))
+  by_another <- function(...) some_settings("theirs", ...)
+  expect_identical(by_another(whole = 2)$whole, 2)
+  nothing <- new_settings("none", identity, fn = function(a = NULL) NULL,
+                          frame = (function(a = NULL) environment())())
+  expect_identical(unclass(nothing), list(a = NULL))
+})
+
+test_that("no field is taken for another, former names work with a message", {
+  expect_crestline_error(some_settings(siz = 2), c("\"siz\"", "size, whole, part"))
+  expect_crestline_error(some_settings("ours", 5), c("no setting without a name"))
+  expect_crestline_error(some_settings(size = -1), "`size`")
+  rlang::reset_message_verbosity("crestline: old =")
+  expect_message(former <- some_settings(old = 4), "part =", class = "crestline_deprecated")
+  expect_identical(former, some_settings(part = 4))
+})
+
+test_that("settings print as they are written in a call", {
+  printed <- utils::capture.output(print_settings(
+    structure(list(a = 0.25, b = c(40, 10), c = "x y"), class = "some_settings"), "<some_settings> of a test"
+  ))
+  expect_identical(printed, c("<some_settings> of a test",
+                              "  a = 0.25, b = c(40, 10), c = \"x y\""))
+})
+
+test_that("fields are arguments of every maker of settings, so that editors complete them", {
+  presets <- list(ridge_settings(), slide_settings(), find_settings(), path_settings(),
+                  quality_limits(), scan_settings())
+  for (one in presets) {
+    maker <- getExportedValue("crestline", class(one)[1])
+    expect_identical(setdiff(names(formals(maker)), c("preset", "...")), names(one))
+    expect_crestline_error(maker(no_such_field = 1), "no_such_field")
+  }
+})
