@@ -84,7 +84,7 @@ object_first <- function(x, file, writer, former, ..., call = rlang::caller_env(
   given <- c(x = !missing(x), file = !missing(file))
   if (former %in% names(more)) {
     if (sum(given) != 1) {
-      crestline_abort(sprintf("`%s` is the former name of `x`, and does not go with these arguments.",
+      crestline_abort(sprintf("`%s`, the former name of `x`, does not go with these arguments.",
                               former),
                       sprintf("Write %s(x, file), and all that follows by name.", writer),
                       stage = "arguments", call = call)
