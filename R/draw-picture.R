@@ -1,25 +1,26 @@
 # Pictures without a display: a z-buffered raster of the surface, base graphics on top of it.
 
-#' How pictures are lit and made
+#' Settings of pictures
 #'
-#' Settings of the engine "picture". Every function that draws a surface takes them by name in its
-#' `...`.
+#' Settings of the engine "picture", such as light and resolution. Every function that draws a
+#' surface takes them by name in its `...`.
 #'
-#' @param light Direction towards the light, as the viewer sees it: right, up, towards the viewer.
-#' @param ambient Share of the colour that needs no light, 0 to 1.
-#' @param wrap How far the light reaches round the edge into shade: 0 is Lambert's law, 1 leaves no
-#'   place without some.
-#' @param gloss Strength of highlights, 0 to 1; a little helps the eye, much hides colours.
-#' @param sharpness Exponent of the highlights (Blinn-Phong): greater is smaller.
-#' @param resolution Pixels per inch of the surface's raster: that of the device, at least 150.
-#' @param samples The samples in a pixel are this number squared.
-#' @param margin Room about what is shown, a share of its size.
-#' @param around Points (as `x` of [draw_lines()]) that the picture is to hold, NULL for the whole
+#' @param light Direction towards the light, three numbers: right, up, towards the viewer.
+#' @param ambient Share of ambient light, 0 to 1.
+#' @param wrap Softness of the shade, 0 to 1. 0: Lambert's law. 1: every place gets some light.
+#' @param gloss Strength of highlights, 0 to 1. Large values hide colours.
+#' @param sharpness Exponent of the highlights (Blinn-Phong). Highlights are smaller for larger
+#'   values.
+#' @param resolution Pixels per inch of the surface's raster. NULL: the resolution of the device, at
+#'   least 150.
+#' @param samples Root of the number of samples in a pixel.
+#' @param margin Margin of the picture, as a share of the size of its content.
+#' @param around Points (as `x` of [draw_lines()]) to which the picture is cropped. NULL: the whole
 #'   mesh.
-#' @param tolerance How far behind the surface a point may lie and still be seen, a share of the
-#'   diagonal of the mesh's box.
-#' @param inside Colour of the backs of triangles, NA for none: an open surface is looked through
-#'   from behind.
+#' @param tolerance Greatest distance behind the surface at which a point is still drawn, as a share
+#'   of the diagonal of the mesh's bounding box.
+#' @param inside Colour of the backs of triangles. NA: backs are not drawn, and an open surface is
+#'   transparent from behind.
 #' @return A list of these settings.
 #' @template glossary
 #' @template experimental

@@ -2,27 +2,28 @@
 
 #' Draw a surface, and lines, points and bands on it
 #'
-#' `draw_surface()` draws a mesh and returns a scene; the other functions add to the scene what can
-#' be seen of lines, points and bands that lie on the surface. The engine "picture" draws on the
-#' current graphics device with base graphics (orthographic, smoothly shaded, no display needed),
-#' the engine "rgl" in the current rgl scene or a new one, on rgl's null device when
-#' `options(rgl.useNULL = TRUE)`.
+#' `draw_surface()` draws a mesh and returns a scene. The other functions add lines, points and
+#' bands on the surface to the scene; hidden parts are not drawn. The engine "picture" draws on the
+#' current graphics device with base graphics (orthographic, smoothly shaded, no display needed).
+#' The engine "rgl" draws in the current rgl scene or a new one. With `options(rgl.useNULL = TRUE)`
+#' it uses rgl's null device.
 #'
 #' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
-#' @param view Where to look from, one of three kinds. A name: "front" (along -z at +z, y up),
+#' @param view Direction of view, in one of three forms. A name: "front" (from +z, with y up),
 #'   "left" and "right" (the subject's own), "three-quarter" (from the subject's left and a little
-#'   above), "below", "above", "back". Two angles in radians: how far the viewer goes round to the
-#'   subject's left, and how far up. Or a 3 x 3 rotation that turns the mesh so that x points right,
-#'   y up and z to the viewer.
+#'   above), "below", "above", "back". Two angles in radians: of the viewer towards the subject's
+#'   left, and upwards. A 3 x 3 rotation matrix that turns the mesh so that x points right, y up and
+#'   z to the viewer.
 #' @param engine "picture" or "rgl".
 #' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
 #'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].
-#' @return `draw_surface()`: a scene, of class "picture_scene" (a list: `rotation` 3 x 3, `pixel`,
-#'   the size of a pixel in the mesh's unit, `depth`, a matrix of what the pixels see, and how they
-#'   map to the plot) or "rgl_scene" (a list: `ids` of the rgl objects, `diagonal` of the mesh's
-#'   box). `draw_lines()`, `draw_points()`, `draw_band()`: the scene, with the rgl `ids` added,
-#'   invisibly. `visible_points()`: logical, which points of `x` are seen.
+#' @return `draw_surface()`: a scene. For the engine "picture" a list of class `picture_scene`:
+#'   `rotation` (3 x 3), `pixel` (size of a pixel, in the unit of the mesh), `depth` (matrix, by
+#'   pixel), and the map from pixels to the plot. For "rgl" a list of class `rgl_scene`: `ids` of
+#'   the rgl objects, `diagonal` of the mesh's bounding box. `draw_lines()`, `draw_points()`,
+#'   `draw_band()`: the scene with the added rgl `ids`, invisibly. `visible_points()`: a logical
+#'   value for each point of `x`, TRUE if it is visible.
 #' @template glossary
 #' @template experimental
 #' @examples
@@ -45,12 +46,12 @@ draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
 }
 
 #' @rdname draw_surface
-#' @param scene What `draw_surface()` returned.
-#' @param x Points: a matrix with three columns or a data frame with columns x, y and z, as a `path`
-#'   has. For lines a row of NA makes a gap.
+#' @param scene Value of `draw_surface()`.
+#' @param x Points: a matrix with three columns, or a data frame with columns `x`, `y` and `z`, such
+#'   as a `mesh_path`; in the unit of the mesh. In lines a row of NA makes a gap.
 #' @param width Line width, as `lwd` of [graphics::par()].
-#' @param halo Colour of a wider line below the line, or of a ring about the points, NA for none
-#'   ("picture" only).
+#' @param halo Colour of a wider line below the line, or of a ring about the points ("picture"
+#'   only). NA: none.
 #' @export
 draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) {
   check_given()
@@ -76,8 +77,8 @@ check_drawn <- function(colour, halo = NA, call = rlang::caller_env()) {
 }
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()]; "rgl" draws balls, 1/200 of the
-#'   diagonal of the mesh's box wide at size 1.
+#' @param size Diameter of points, as `cex` of [graphics::par()]. "rgl" draws balls; at size 1 their
+#'   diameter is 1/200 of the diagonal of the mesh's bounding box.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
 draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
@@ -91,7 +92,7 @@ draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels 
 }
 
 #' @rdname draw_surface
-#' @param left,right The two sides of a band: points, as many on one side as on the other.
+#' @param left,right The two sides of a band: points as `x`, the same number on both sides.
 #' @param opacity Opacity of the band, 0 to 1.
 #' @export
 draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) {

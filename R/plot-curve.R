@@ -2,26 +2,26 @@
 
 #' Plot curves on their specimen
 #'
-#' The estimated curve is drawn as a line, its points as dots, and a band of two standard errors to
+#' Draws the estimated curve as a line, its points as dots, and a band of two standard errors on
 #' each side. The band lies across the curve, in the direction normal x tangent at every point.
-#' `plot(x, what = "panel")` shows how one curve was found.
+#' `plot(x, what = "panel")` draws the smoothed strength in which the curve was found.
 #'
 #' @param x A `curve`, as [ridge_curve()] returns it.
 #' @param curves A list of curves, or one curve.
-#' @param specimen The `specimen` it lies on; not needed for the panel.
-#' @param surface What the colours of the surface show, as `colour` of [plot.specimen()].
-#' @param colour The colour of the curves, one for all or one for each; NULL for one a type: ridges
-#'   dark red, valleys dark blue, plane curves black.
+#' @param specimen The [specimen()] of the curves. Not needed for the panel.
+#' @param surface Quantity that the colours of the surface show, as `colour` of [plot.specimen()].
+#' @param colour Colour of the curves, one for all or one for each. NULL: ridges dark red, valleys
+#'   dark blue, plane curves black.
 #' @param band Whether to draw the band.
 #' @param points Whether to draw the curve's points.
 #' @param width Line width.
 #' @param landmarks Whether to draw the specimen's landmarks.
 #' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
-#' @param engine,... As in [plot.specimen()], which the rest is passed to: `view`, `curvature`,
-#'   `radius`, `main`, and the settings of the picture: `around = x$path` shows the curve from near.
-#'   `plot()` of a curve has the arguments of `plot_curves()` here, or those of the panel.
-#' @param what "surface": the curve on its specimen. "panel": the plane of s and d in which it was
-#'   found.
+#' @param engine,... Arguments of [plot.specimen()]: `view`, `curvature`, `radius`, `main`, and the
+#'   settings of the picture. `around = x$path` shows the curve enlarged. `plot()` of a curve also
+#'   takes the arguments of `plot_curves()`, or those of the panel.
+#' @param what "surface": the curve on its specimen. "panel": the plane of s and d in which the
+#'   curve was found.
 #' @section Panel: The smoothed strength over arc length s along the reference path and signed
 #'   distance d from it, with contours. It also shows the vertices from which it was smoothed, the
 #'   reference path (d = 0, dashed), and the ridge found (solid) with a band of two standard errors.
@@ -34,10 +34,11 @@
 #'   * `main`: title, by default the ends of the curve.
 #'
 #'   Others are passed to [graphics::image()].
-#' @return The scene of [draw_surface()], invisibly. Of a panel the grid, invisibly: a list of `s`,
-#'   `d` and `strength`, a matrix with a row for each `s`, NA beyond the data.
-#' @section Errors: of class `crestline_error`: a specimen with another mesh; the panel of a plane
-#'   curve, or of one that was not found by curvature.
+#' @return The scene of [draw_surface()], invisibly. For a panel its grid, invisibly: a list of `s`,
+#'   `d` (unit of the mesh) and `strength` (1 / unit), a matrix with a row for each `s` and a column
+#'   for each `d`; NA beyond the data.
+#' @section Errors: of class `crestline_error`: the specimen has another mesh; a panel is asked for
+#'   a plane curve, or for a curve that was not found by curvature.
 #' @template glossary
 #' @templateVar where Fig. 3
 #' @template paper

@@ -9,9 +9,9 @@
 #' * `plot_cuts(specimen, from, to)` is `plot(specimen, what = "cuts", from = from, to = to)`;
 #' * `plot_panel(x)` is `plot(x, what = "panel")`.
 #'
-#' So does the former order of arguments of [write_page()] and [write_pca_page()], file first, and
-#' the former names of their first argument, `specimen` and `pca`. So do the search constants of
-#' [reference_path()] as arguments of its own; they are fields of [path_settings()] today.
+#' The former order of arguments of [write_page()] and [write_pca_page()], file first, works too,
+#' with a message. So do the former names of their first argument, `specimen` and `pca`, and the
+#' search constants of [reference_path()] as arguments; they are fields of [path_settings()] today.
 #'
 #' @param specimen,x A `specimen`, a `curve`.
 #' @param from,to Names of two landmarks.

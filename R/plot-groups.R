@@ -3,34 +3,37 @@
 #' Plot a comparison of groups
 #'
 #' @param x A `group_comparison`, as [compare_groups()] returns it.
-#' @param what "boxes": boxplots of centroid size and of scores by group, all specimens as points,
-#'   the means as diamonds (the paper's Fig. 9, upper); "means": the two mean shapes laid over each
-#'   other, of equal size, transparent in two colours (lower); "map": the signed distance between
-#'   the means along the normal, the second's outside the first's positive, as colours on the mean
-#'   surface, points where it is significant outlined. Levels without a surface (landmarks, curves)
-#'   are drawn as points and lines: the means of all groups, and for the map the distance between
-#'   the means of two, significant points ringed.
-#' @param level Level; the first with a surface where the picture shows shapes, else the first.
+#' @param what Kind of picture. "boxes": boxplots of centroid size and of scores by group, with all
+#'   specimens as points and the means as diamonds (the paper's Fig. 9, upper). "means": the two
+#'   mean shapes, superimposed, of equal size, transparent in two colours (Fig. 9, lower). "map":
+#'   the signed distance between the means along the normal, as colours on the mean surface. It is
+#'   positive where the second mean is outside the first. The significant region is outlined. Levels
+#'   without a surface (landmarks, curves) are drawn as points and lines. "means" then shows the
+#'   means of all groups. "map" shows the distance between the means of two groups, and rings
+#'   significant points.
+#' @param level Level. NULL: the first level with a surface for pictures of shapes, else the first
+#'   level.
 #' @param colour Colours of the groups.
-#' @param components Of "boxes": which components.
-#' @param significance Of "map": level of the outline.
-#' @param adjust Of "map": what is held at that level. "fwe": the family-wise error, by the greatest
-#'   statistic over all points; "fdr": the false discovery rate ([stats::p.adjust()], Benjamini and
-#'   Hochberg 1995), where the alignment has weights the share of the weight, such as the area
-#'   (1997); "none": the error of each point by itself.
-#' @param length_unit Of "map": unit of lengths, for the legend.
-#' @param limits,palette Of "map": range of distances (unit of the meshes) and colours; by default
-#'   symmetric about 0.
-#' @param opacity Of "means": how much of a pixel's colour is that of the nearer surface, 0.5 to 1
-#'   ("picture"), or the surfaces' opacity ("rgl").
-#' @param engine,view,... As in [plot.specimen()] and [draw_surface()] ("map" with more `ambient`
-#'   light, so that shade hides no colour); for "boxes" `...` goes to [graphics::boxplot()].
+#' @param components For "boxes": numbers of the components.
+#' @param significance For "map": significance level of the outline (0 to 1).
+#' @param adjust For "map": error rate that the level controls. "fwe": the family-wise error, by the
+#'   greatest statistic over all points. "fdr": the false discovery rate ([stats::p.adjust()],
+#'   Benjamini and Hochberg 1995). If the alignment has weights, it is the rate by weight, such as
+#'   area (Benjamini and Hochberg 1997). "none": the error of each single point.
+#' @param length_unit For "map": name of the unit of lengths, for the legend.
+#' @param limits,palette For "map": range of the distances (two numbers, unit of the meshes;
+#'   default: symmetric about 0), and colours.
+#' @param opacity For "means": opacity of the nearer surface, 0.5 to 1 ("picture"), or of both
+#'   surfaces ("rgl").
+#' @param engine,view,... As in [plot.specimen()] and [draw_surface()]. "map" has more `ambient`
+#'   light by default, as shade would hide colours. For "boxes" `...` is passed to
+#'   [graphics::boxplot()].
 #' @param legend Whether to draw a legend ("picture" only).
 #' @param main Title; `NULL` for the p-value.
-#' @return "boxes": what [graphics::boxplot()] returns, a list by panel; "means", "map": the scene
-#'   of [draw_surface()]; invisibly.
-#' @section Errors: of class `crestline_error`: no such level; a map, or mean surfaces, of more than
-#'   two groups.
+#' @return Invisibly. "boxes": list with the value of [graphics::boxplot()] for each panel. "means",
+#'   "map": the scene of [draw_surface()].
+#' @section Errors: of class `crestline_error`: there is no such level; a map, or mean surfaces, are
+#'   asked for more than two groups.
 #' @template glossary
 #' @templateVar where Fig. 9
 #' @template paper

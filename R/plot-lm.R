@@ -3,22 +3,26 @@
 #' Plot a linear model of shape
 #'
 #' @param x A `shape_lm`, as [shape_lm()] returns it.
-#' @param what "map": where a term acts, as colours on the mean. For a term of one degree of freedom
-#'   the colours show what one unit of it moves the surface by along its normal, outward positive;
-#'   for others, and for levels without triangles, the root mean square displacement. Points where
-#'   it is significant are outlined, or ringed where there are no triangles. "scores": the
-#'   regression score of every specimen on the term (its shape along the direction in which the term
-#'   moves the mean; Drake and Klingenberg 2008) against the term's variable.
-#' @param term Name of a term; the first.
-#' @param level Level; for "map" the first with triangles, if there is one.
-#' @param unit Of "map": how many units of the term the colours are for, such as 10 for 10 years.
-#' @param significance Of "map": family-wise level of the outline.
-#' @param limits,palette Of "map": range of the colours in the unit of the meshes, and colours.
-#' @param engine,view,legend,main,... As in [plot.group_comparison()]; of "scores" `...` goes to
-#'   [graphics::plot.default()].
-#' @return The scene of [draw_surface()], or a data frame with `variable` and `score` by specimen,
-#'   invisibly.
-#' @section Errors: of class `crestline_error`: no such term or level, points that were not tested.
+#' @param what Kind of picture. "map": the effect of a term, as colours on the mean. For a term with
+#'   one degree of freedom the colours show the effect of one unit along the surface normal, outward
+#'   positive. For other terms, and for levels without triangles, they show the root mean square
+#'   displacement. The significant region is outlined; without triangles significant points are
+#'   ringed. "scores": the regression score of every specimen on the term, against the term's
+#'   variable. It is the component of the shape in the direction of the term's effect (Drake and
+#'   Klingenberg 2008).
+#' @param term Name of a term. NULL: the first.
+#' @param level Level. NULL: the first; for "map" the first with triangles, if there is one.
+#' @param unit For "map": number of units of the term whose effect is shown, such as 10 for 10
+#'   years.
+#' @param significance For "map": family-wise significance level of the outline (0 to 1).
+#' @param limits,palette For "map": range of the effect (two numbers, in the unit of the meshes),
+#'   and colours.
+#' @param engine,view,legend,main,... As in [plot.group_comparison()]. For "scores" `...` is passed
+#'   to [graphics::plot.default()].
+#' @return Invisibly: the scene of [draw_surface()], or for "scores" a data frame with `variable`
+#'   and `score` of each specimen.
+#' @section Errors: of class `crestline_error`: there is no such term or level, or the points were
+#'   not tested.
 #' @template glossary
 #' @references Drake and Klingenberg (2008) The pace of morphological change: historical
 #'   transformation of skull shape in St Bernard dogs, *Proceedings of the Royal Society B* 275,

@@ -2,24 +2,26 @@
 
 #' Write a page with the turning specimen and its curves
 #'
-#' Writes one HTML file that needs no other, or a file and a folder. The page has the surface
-#' coloured by shape index, the curves with their bands, the colour scale and a table; of a shape
-#' also the triangles of its surface. Buttons hide each layer of the scene.
+#' Writes one self-contained HTML file, or a file and a folder. The page has the surface coloured by
+#' shape index, the curves with their bands, the colour scale and a table. For a shape it also has
+#' the triangles of its surface. Buttons hide each layer of the scene.
 #'
-#' @param x A `specimen`.
-#' @param file Where to write, ending in ".html".
-#' @param curves A list of curves as [ridge_curve()] returns them, or one; named, the names are in
-#'   the table. Or a `shape`, as [fit_shape()] returns it.
-#' @param table A data frame to show below, NULL for none.
+#' @param x A [specimen()].
+#' @param file Path of the page, ending in ".html".
+#' @param curves One curve of [ridge_curve()], or a list of curves, whose names are in the table. Or
+#'   a `shape`, as [fit_shape()] returns it.
+#' @param table Data frame that is shown below the picture. NULL: none.
 #' @param title Heading of the page.
 #' @param caption A sentence below the picture.
 #' @param surface,colour,width As in [plot_curves()].
-#' @param selfcontained Whether to put all into one file; else a folder
-#'   named after the file, ending in `_files`, stands beside it.
-#' @param size Width and height of the picture in the browser's pixels.
+#' @param selfcontained TRUE: the page is one file. FALSE: a folder named after the file, ending in
+#'   `_files`, is written beside it.
+#' @param size Width and height of the picture, two numbers, in pixels of the browser.
 #' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`,
 #'   `view`, `band`. `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
+#' @section Errors: of class `crestline_error`: the file has another ending, or its folder does not
+#'   exist; or the curves belong to another mesh.
 #' @template glossary
 #' @examples
 #' \donttest{

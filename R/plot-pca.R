@@ -5,18 +5,19 @@
 #' Draws the scores of the specimens on two components, or the shapes at both ends of one.
 #'
 #' @param x A `shape_pca`.
-#' @param what "scores" or "shapes": the shapes at `-sd` and `sd` standard deviations; surfaces side
-#'   by side ("picture"), landmarks and curves over each other and the mean.
+#' @param what "scores": the scores on two components. "shapes": the shapes at `-sd` and `sd`
+#'   standard deviations; surfaces are drawn side by side, landmarks and curves over each other with
+#'   the mean.
 #' @param component Two components for "scores", one for "shapes".
-#' @param group Factor, one value a specimen, as in [compare_groups()], or `NULL`.
+#' @param group Group of each specimen, as in [compare_groups()], or `NULL`.
 #' @param colour Colours of the groups, or of the surfaces.
-#' @param sd Standard deviations.
-#' @param labels Of "scores": whether to write the names of the specimens.
-#' @param ellipse Of "scores": share of a normal distribution that the ellipse of each group holds,
-#'   such as 0.95; 0 for none. A group of two has none.
-#' @param view,... Of "shapes", as in [draw_surface()]; of "scores", passed to
+#' @param sd For "shapes": distance from the mean, in standard deviations.
+#' @param labels For "scores": whether to write the names of the specimens.
+#' @param ellipse For "scores": share of a normal distribution inside the ellipse of each group,
+#'   such as 0.95. 0: no ellipses. A group of two has no ellipse.
+#' @param view,... For "shapes", as in [draw_surface()]. For "scores", passed to
 #'   [graphics::plot.default()].
-#' @return The scores that are drawn, or the two scenes; invisibly.
+#' @return Invisibly: the scores that are drawn (n x 2 matrix), or a list of the two scenes.
 #' @template glossary
 #' @seealso [shape_pca()], [write_pca_page()]
 #' @examples
@@ -101,22 +102,22 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 
 #' Write a page with a slider for every principal component
 #'
-#' Writes one HTML file that needs no other. For each component it shows the turning mean surface,
-#' and a slider that moves it along the component.
+#' Writes one self-contained HTML file. For each component it shows the turning mean surface, and a
+#' slider that moves it along the component.
 #'
 #' @param x A `shape_pca` of a level with a surface.
-#' @param file Where to write, ending in ".html".
-#' @param component Which components.
-#' @param sd How many standard deviations the sliders reach.
+#' @param file Path of the page, ending in ".html".
+#' @param component Numbers of the components.
+#' @param sd Range of the sliders on either side of the mean, in standard deviations.
 #' @param colour Colour of the surface.
 #' @param title Heading of the page.
-#' @param size Width and height of each picture in the browser's pixels.
-#' @param view Where to look from at first, as in [draw_surface()].
+#' @param size Width and height of each picture, two numbers, in pixels of the browser.
+#' @param view First direction of view, as in [draw_surface()].
 #' @param selfcontained As in [write_page()].
 #' @param ... `pca`, the former name of `x`.
 #' @return The path of the file, invisibly.
-#' @section Errors: of class `crestline_error`: no surface, no such component, no folder to write
-#'   to.
+#' @section Errors: of class `crestline_error`: the level has no surface, there is no such
+#'   component, or the folder of the file does not exist.
 #' @template glossary
 #' @examplesIf requireNamespace("htmltools", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(2)

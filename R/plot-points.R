@@ -53,20 +53,21 @@ plot_configurations <- function(shapes, level, colour, view, legend, title) {
 
 #' Plot an alignment
 #'
-#' Draws all specimens over their mean, the farthest in colours and named.
+#' Draws all specimens over their mean. The farthest are coloured and named.
 #'
 #' @param x An `aligned`, as [align()] returns it, or a `shape_sample`, which is aligned first.
-#' @param level Of a `shape_sample`: the level that is aligned, as in [align()].
-#' @param most How many of the farthest specimens are named.
-#' @param colour Colours of these.
-#' @param view Where to look from, as in [draw_surface()].
+#' @param level Level of a `shape_sample` that is aligned, as in [align()].
+#' @param most Number of the farthest specimens that are named.
+#' @param colour Colours of the farthest specimens.
+#' @param view Direction of view, as in [draw_surface()].
 #' @param legend Whether to draw the legend: ids and Procrustes distances from the mean (without
 #'   unit; with `scale = FALSE` in the unit of the meshes).
-#' @param main Title; `NULL` for the number of specimens and the level.
-#' @param ... Of a `shape_sample`: passed to [align()]; else ignored.
-#' @return Data frame of the specimens named, as of `as.data.frame()`, the farthest first;
-#'   invisibly.
-#' @section Errors: of class `crestline_error`: no `aligned`, a number of specimens that is none.
+#' @param main Title. `NULL`: the number of specimens and the level.
+#' @param ... For a `shape_sample`: arguments of [align()]. Otherwise ignored.
+#' @return Invisibly: data frame of the named specimens, the farthest first, with the columns of
+#'   `as.data.frame()` (see [align()]).
+#' @section Errors: of class `crestline_error`: `x` is not an `aligned`, or `most` is not a number
+#'   of specimens.
 #' @template glossary
 #' @seealso [align()]
 #' @examples

@@ -2,13 +2,14 @@
 
 #' Plot repeatability
 #'
-#' On the left the error of each part, in the unit of the mesh, with the standard deviation between
-#' specimens behind it (grey) and the intra-class correlation beside it; on the right where the
-#' error is: the mean points, coloured by it. Of one specimen there is the error alone.
+#' Draws two panels. The left panel has the error of each part, in the unit of the mesh. The
+#' standard deviation between specimens is behind it (grey), and the intra-class correlation beside
+#' it. The right panel has the mean points, coloured by their error. For one specimen only the error
+#' is drawn.
 #'
 #' @param x A `repeatability`, as [repeatability()] returns it.
-#' @param view Where to look from at the mean points, as in [draw_surface()].
-#' @param most Parts that are shown: those of the greatest error.
+#' @param view Direction of view of the right panel, as in [draw_surface()].
+#' @param most Greatest number of parts in the left panel; those of the greatest error are shown.
 #' @param palette Colours from no error to the greatest.
 #' @param size Diameter of the points, as `cex` of [graphics::par()].
 #' @param ... Passed to [graphics::plot.default()] of the left panel.

@@ -2,11 +2,11 @@
 
 #' Plot the scale of the shape index
 #'
-#' Draws nine little surfaces, one for each of Koenderink and van Doorn's categories, above the
-#' continuous scale of colours with their names: the upper part of Fig. 1 of the paper. The surfaces
-#' are of equal curvedness, seen from outside.
+#' Draws nine small surfaces, one for each of Koenderink and van Doorn's categories, above the
+#' continuous scale of colours with their names. It is the upper part of Fig. 1 of the paper. The
+#' surfaces have equal curvedness and are seen from outside.
 #'
-#' @param curvedness Curvedness of the little surfaces times half their side: how bent they are.
+#' @param curvedness Curvedness of the small surfaces times half their side (no unit).
 #' @param spacing Distance between the surfaces' centres, in halves of their side.
 #' @param turn,tilt How far they are turned about their normal, and the normal tilted to the viewer,
 #'   in radians.

@@ -6,13 +6,14 @@
 #' their points. Or draws the points of its patches as a surface with the edges of its triangles.
 #'
 #' @param x A `shape`, as [fit_shape()] returns it.
-#' @param specimen The `specimen` it was measured on; without it the shape's own surface is drawn.
+#' @param specimen The [specimen()] that the shape was measured on. NULL: the shape's own surface is
+#'   drawn.
 #' @param parts Parts of the surface, as in [shape_mesh()].
 #' @param colour Colours of curves, named "ridge", "valley" and "plane"; by default red, blue and
 #'   black.
-#' @param surface What the colours of the specimen show, as `colour` of [plot.specimen()]; of the
-#'   shape's own surface: its colour, one for each vertex of [shape_mesh()], a number for each, or
-#'   "patch" for a colour a patch.
+#' @param surface With a specimen: quantity that its colours show, as `colour` of [plot.specimen()].
+#'   For the shape's own surface: one colour, a colour or a number for each vertex of
+#'   [shape_mesh()], or "patch" for one colour for each patch.
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
 #' @param points Whether to draw the points of the curves.

@@ -5,46 +5,47 @@
 #' Draws the surface in its natural colours, plain, or coloured by shape index or curvature, with
 #' its landmarks. With `what` it draws other pictures of the same specimen.
 #'
-#' @param x A `specimen`.
-#' @param colour What the colours show: "natural" (the colours of the scan, plain where it has
-#'   none), "shape index" (see [plot_shape_scale()]), "curvature" (the principal curvature greater
-#'   in size: valleys blue, ridges red, in full at the 95 % quantile of its size) or "plain".
-#' @param curvature The `curvature` of the specimen's mesh, for "shape index" and "curvature"; NULL
-#'   to compute it.
-#' @param radius Where curvature is computed: the radius of its neighbourhood, in the mesh's unit.
-#'   The default, 1/25 of the diagonal of the mesh's box, is about 10 mm on a face.
-#' @param engine "rgl" to turn it by hand, "picture" for base graphics on the current device. See
-#'   [draw_surface()].
-#' @param view Where to look from, see [draw_surface()].
+#' @param x A [specimen()].
+#' @param colour Quantity that the colours show. "natural": the colours of the scan; plain if it has
+#'   none. "shape index": see [plot_shape_scale()]. "curvature": the principal curvature with the
+#'   greater absolute value; valleys are blue, ridges red, with full colour at the 95 % quantile of
+#'   its absolute value. "plain": one colour.
+#' @param curvature The [curvature()] of the specimen's mesh, for "shape index" and "curvature".
+#'   NULL: it is computed.
+#' @param radius Radius of the curvature if it is computed, in the unit of the mesh. The default,
+#'   1/25 of the diagonal of the mesh's bounding box, is about 10 mm on a face.
+#' @param engine "rgl" for an interactive scene, "picture" for base graphics on the current device.
+#'   See [draw_surface()].
+#' @param view Direction of view, see [draw_surface()].
 #' @param landmarks Whether to draw the landmarks.
-#' @param labels Whether to write their names too. TRUE by default for "refinement".
+#' @param labels Whether to write the names of the landmarks. TRUE by default for "refinement".
 #' @param legend Whether to draw the scale of colours ("picture" only).
 #' @param main Title.
-#' @param ... Passed to [draw_surface()]. Further arguments of "placing" and "cuts" are given here
-#'   too, see below.
-#' @param what Which picture, see below.
+#' @param ... Arguments of [draw_surface()], and further arguments of "placing" and "cuts", see
+#'   below.
+#' @param what Kind of picture, see below.
 #' @section Pictures:
 #'   * `"surface"`: the surface with its landmarks.
 #'   * `"placing"`: the landmarks of [find_landmarks()], seen from several sides. Found and placed
-#'     ones are green, doubtful ones red, and predicted ones blue, where they lie on the scan.
-#'     Further arguments: `least`, the least confidence of a landmark that is not doubtful (from 0
-#'     to 1, 0.5 by default); `views`, the directions to look from, as angles in radians by which
-#'     the viewer goes round to the subject's left (`c(-0.7, 0, 0.7)` by default). Of the arguments
-#'     above only those of [draw_surface()] have an effect.
+#'     ones are green, doubtful ones red, and predicted ones blue. Predicted landmarks off the scan
+#'     are not drawn. Further arguments: `least`, the least confidence of a landmark that is not
+#'     doubtful (0 to 1, 0.5 by default); `views`, directions of view, as angles in radians towards
+#'     the subject's left (`c(-0.7, 0, 0.7)` by default). Of the arguments above only those of
+#'     [draw_surface()] have an effect.
 #'   * `"refinement"`: the landmarks of [refine_landmarks()]. Given ones are black, their defined
 #'     places orange, with lines between. Of the arguments above `view`, `labels` and `main` have an
 #'     effect.
-#'   * `"cuts"`: the paths that planes through two landmarks cut from the surface, one a plane (Fig.
-#'     2 of the paper). [reference_path()] chooses among such paths. Further arguments: `from` and
-#'     `to`, the names of the two landmarks; `angles`, of the planes about the axis between them, in
-#'     radians, as in [plane_path()] (`c(-pi / 6, 0, pi / 6)` by default); `colours`, one for each
-#'     cut; `width` of the lines. `colour` is "plain" by default.
-#' @return The scene of [draw_surface()], invisibly, for [draw_lines()] and its like. "placing": the
-#'   specimen. "cuts": a list with a `mesh_path` for each angle at which there is a path.
-#' @section Errors: of class `crestline_error`: the landmarks were not found ("placing") or not
-#'   refined ("refinement"); no cut comes from one landmark to the other ("cuts").
-#' @section Warnings: of class `crestline_warning`, if some cuts are left out because they come to a
-#'   border of the mesh.
+#'   * `"cuts"`: paths that planes through two landmarks cut from the surface, one path for each
+#'     plane (Fig. 2 of the paper). [reference_path()] chooses among such paths. Further arguments:
+#'     `from` and `to`, the names of the two landmarks; `angles` of the planes about the axis
+#'     between them, in radians, as in [plane_path()] (`c(-pi / 6, 0, pi / 6)` by default);
+#'     `colours`, one for each cut; `width` of the lines. `colour` is "plain" by default.
+#' @return Invisibly: the scene of [draw_surface()], for [draw_lines()] and similar functions.
+#'   "placing": the specimen. "cuts": a list with a `mesh_path` for each angle that has a path.
+#' @section Errors: of class `crestline_error`: the landmarks were not found by [find_landmarks()]
+#'   ("placing") or not refined ("refinement"); no cut joins the two landmarks ("cuts").
+#' @section Warnings: of class `crestline_warning`: some cuts end at a border of the mesh, and are
+#'   left out.
 #' @template glossary
 #' @templateVar where Fig. 2
 #' @template paper

@@ -2,23 +2,23 @@
 
 #' Write a page with the quality of measured specimens
 #'
-#' Writes one HTML file that needs no other file and no network. The page has
+#' Writes one self-contained HTML file, which needs no network. The page has
 #'
 #' * the numbers of green, amber and red parts of each specimen;
 #' * for several specimens, a matrix of specimens by curves, patches and landmarks;
 #' * pictures of the specimens, with curves and points in the colours of their grades;
-#' * the table of [quality()] with the reasons, to sort and filter.
+#' * the table of [quality()] with the reasons, which can be sorted and filtered.
 #'
 #' @inheritParams quality
-#' @param file Where to write, ending in ".html".
-#' @param specimens The `specimen`s that the shapes were measured on, for the pictures: one, or a
-#'   list in any order (matched by their `id`). Shapes without one are drawn as their own surface.
+#' @param file Path of the page, ending in ".html".
+#' @param specimens Specimens of the shapes, for the pictures: one [specimen()], or a list in any
+#'   order (matched by `id`). A shape without a specimen is drawn as its own surface.
 #' @param title Heading of the page.
-#' @param pictures How many specimens are drawn: the worst first.
+#' @param pictures Number of specimens that are drawn, the worst first.
 #' @param size Width and height of a specimen's picture in pixels.
 #' @return The path of the file, invisibly.
-#' @section Errors: of class `crestline_error`, as [quality()]; when the file has another ending or
-#'   its folder is not there; when a specimen has no shape.
+#' @section Errors: of class `crestline_error`: those of [quality()]; the file has another ending,
+#'   or its folder does not exist; a specimen has no shape.
 #' @template glossary
 #' @examples
 #' \donttest{

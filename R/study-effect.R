@@ -1,12 +1,12 @@
 # Where the groups of simulated faces differ, and by how much.
 
-#' Where the simulated groups of faces differ
+#' Places at which the simulated groups of faces differ
 #'
-#' A table of the places at which the two groups of [simulate_faces()] differ by default. You can
-#' change it and pass it on. One place is the middle of each brow ridge, which stands out in the
-#' second group (`share` 1). The other is the cheek between the curves from nose and mouth to the
-#' ear, which is flatter (`share` -1). No radius (26 and 24 mm) reaches a landmark. The curves get a
-#' third of the cheek's difference at most.
+#' Gives the table of places at which the two groups of [simulate_faces()] differ by default. You
+#' can change it and give it to that function. One place is the middle of each brow ridge, which is
+#' more prominent in the second group (`share` 1). The other is the cheek between the curves from
+#' nose and mouth to the ear, which is flatter (`share` -1). No radius (26 and 24 mm) reaches a
+#' landmark. The curves get at most a third of the cheek's difference.
 #'
 #' @return Data frame `part`, `x, y, z` (in the frame of Rvcg's `humface`, mm), `radius` (mm),
 #'   `share`.

@@ -1,54 +1,55 @@
 # Section 6 on faces whose every point is known: a template under smooth random deformations, and a
 # difference of groups.
 
-#' Simulate faces whose every point is known
+#' Simulate faces with known correspondence
 #'
-#' Each face is the template under a smooth deformation that is a function of space: a random field
-#' of its own, the difference between two groups, and a size. So the true place of every point of
-#' the template is known on every face, see [true_points()], and so is the true difference of the
-#' groups, see [true_effect()]. The faces are then scanned: vertices and triangles of their own,
-#' noise, holes, landmarks placed by an observer ([scan_settings()]).
+#' Each face is the template under a smooth deformation of space. The deformation has a random field
+#' for each face, the difference between two groups, and a size. The true place of every point of
+#' the template is therefore known on every face, see [true_points()]. The true difference of the
+#' groups is known too, see [true_effect()]. The faces are then scanned ([scan_settings()]). Each
+#' gets its own vertices and triangles, noise, holes, and landmarks placed by an observer.
 #'
-#' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, turned and shifted if
-#' `scan` says so. Here v is the random field of the face. Its values have the covariance
-#' \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance r, summed over the rows of `variation`. e is the
-#' effect, and g is -1/2 in the first group and 1/2 in the second. c is the centre of the template's
-#' vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 + size\_effect)} and standard
-#' deviation `size_sd`. The effect e is a sum of bumps, each along one direction, that are 0 beyond
-#' their radius: the default ones, at brow and cheek ([face_effect()]), reach no landmark. With the
-#' same `seed`, faces with another effect, size or scan have the same random fields, and more faces
-#' begin with the same ones.
+#' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, rotated and translated by
+#' the settings `turn` and `shift` of `scan`. Here v is the random field of the face. Its values
+#' have the covariance \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance r, summed over the rows of
+#' `variation`. e is the effect, and g is -1/2 in the first group and 1/2 in the second. c is the
+#' centre of the template's vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 +
+#' size\_effect)} and standard deviation `size_sd`. The effect e is a sum of bumps, each along one
+#' direction and 0 beyond its radius. The default bumps, at brow and cheek ([face_effect()]), reach
+#' no landmark. With the same `seed`, faces with another effect, size or scan have the same random
+#' fields. With a larger `n`, the first faces are the same.
 #'
-#' @param n Number of faces; they are of the first and of the second group by turns.
+#' @param n Number of faces. They belong to the first and the second group in turn.
 #' @param effect Difference of the groups' means in the middle of each place, in the unit of the
-#'   template (mm for the default one), times the place's `share`; one number, or one for each
-#'   `part` by name. 0: no difference of shape.
+#'   template (mm for the default one); it is multiplied by the place's `share`. One number, or a
+#'   named number for each `part`. 0: no difference of shape.
 #' @param size_effect Difference of the groups' sizes as a share: 0.03 makes the second group 3 %
 #'   larger.
-#' @param places Data frame, a row a bump: `part` (name), `x, y, z` (centre, taken to the closest
-#'   place of the template), `radius` (unit of the template), `share` (factor of `effect`, signed),
-#'   and, if wanted, `dx, dy, dz` (direction; else outward along the template's normal).
+#' @param places Data frame with a row for each bump: `part` (name), `x`, `y`, `z` (centre, moved to
+#'   the closest place of the template), `radius` (unit of the template), `share` (factor of
+#'   `effect`, with sign). Optional columns are `dx`, `dy`, `dz` (direction; without them outward
+#'   along the template's normal).
 #' @param template A [specimen()] with landmarks; `NULL`: `humface` of the package Rvcg with the
 #'   landmarks of this package (left is the subject's own left). Another template needs `places` of
 #'   its own.
 #' @param groups Names of the two groups.
-#' @param variation Data frame `range`, `sd` (unit of the template): random fields, summed; without
-#'   a row: no variation of shape.
+#' @param variation Random fields, which are summed: data frame with a row for each, and columns
+#'   `range` and `sd` (unit of the template). Without rows: no variation of shape.
 #' @param size_sd Standard deviation of log size within groups.
-#' @param waves Number of waves that each random field is the sum of.
-#' @param scan [scan_settings()]; `NULL`: no specimens, only the truth, in milliseconds.
-#' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is
-#'   left as it was.
+#' @param waves Number of waves whose sum is a random field.
+#' @param scan [scan_settings()]. `NULL`: no specimens, only the truth, which takes milliseconds.
+#' @param seed A whole number; the random stream of the session is then not changed. `NULL`: the
+#'   session's stream is used.
 #' @param progress Whether to show a progress bar.
 #' @return Object of class `simulated_faces`, a list:
 #'   * `specimens`: the [specimen()]s, named by id, for [fit_shapes()];
-#'   * `covariates`: data frame, a row a face: `id`, `group` (factor), `size` (s);
-#'   * `vertices`: list of n x 3 matrices, the place in the template of each vertex of each
-#'     specimen, so that `true_points()` of it gives the vertex without noise;
+#'   * `covariates`: data frame with a row for each face: `id`, `group` (factor), `size` (s);
+#'   * `vertices`: list with an n x 3 matrix for each specimen: the place of each vertex in the
+#'     template. `true_points()` of it gives the vertices without noise;
 #'   * `template`, `places`, `effect` (by part), `size_effect`, and `deformations`, a function for
 #'     each face (k x 3 places of the template to k x 3 places of the face).
-#' @section Errors: of class `crestline_error`: arguments out of their range, places without a
-#'   column, an effect of a part that is not there.
+#' @section Errors: of class `crestline_error`: an argument is out of its range; `places` lacks a
+#'   column; `effect` names an unknown part.
 #' @template glossary
 #' @template experimental
 #' @templateVar where section 6

@@ -2,41 +2,41 @@
 
 #' Simulate a surface with a known ridge
 #'
-#' The surface \eqn{z = -b (x - a y^3)^2} on \eqn{[-1, 1]^2}: a ridge along \eqn{x = a y^3},
-#' straight for `a = 0`, sharper for larger `b` (curvature `-2 b` across it). Vertices lie on a
-#' square grid, each square is cut along one of its diagonals at random, and independent (or smooth)
-#' normal noise is added to the heights.
+#' Makes the surface \eqn{z = -b (x - a y^3)^2} on \eqn{[-1, 1]^2}. It has a ridge along \eqn{x = a
+#' y^3}, which is straight for `a = 0` and sharper for larger `b` (curvature `-2 b` across it).
+#' Vertices lie on a square grid; each square is cut along one of its diagonals at random.
+#' Independent (or smooth) normal noise is added to the heights.
 #'
 #' The surfaces follow the paper's section 5.2. Its ridge is x = (y / a)^(1/3), as printed on
 #' \eqn{[0, 10]^2}: there the surface is infinitely steep at y = 0, and a = 0 has no value. Here the
 #' ridge is x = a y^3 on \eqn{[-1, 1]^2}. On it the paper's distances between vertices (0.05 to 0.1)
 #' give 41 and 21 lines.
 #'
-#' The ridge is the crest in height. The locus of greatest curvature, which estimates aim at, is
-#' where the principal curvature is least along its own direction. It is the same line for `a = 0`
-#' and lies beside it otherwise, the more so the smaller `b` is: for `a = 0.5` 0.2, 0.8 and up to 7
-#' spacings of 0.05 at `b` = 2, 1, 0.5. Blunt ridges have none towards their ends (`b = 0.25`;
-#' `b = 0.5` with `a = 0.5`).
+#' The ridge is the crest in height. Estimates aim at the locus of greatest curvature, where the
+#' principal curvature is least along its own direction. The two lines are the same for `a = 0`.
+#' Otherwise their distance is larger for smaller `b`. For `a = 0.5` it is 0.2, 0.8 and up to 7
+#' spacings of 0.05 at `b` = 2, 1, 0.5. Blunt ridges have no such locus towards their ends (`b =
+#' 0.25`; `b = 0.5` with `a = 0.5`).
 #'
 #' @param a Bend of the ridge, in 1 / unit^2.
 #' @param b Sharpness of the ridge, in 1 / unit.
 #' @param spacing Side of the grid's squares; the side of the surface is 2.
 #' @param noise Standard deviation of the noise in the heights, in the unit of the mesh. The noise
 #'   is normal; the paper's is uniform.
-#' @param seed `NULL` to go on in the user's random stream; or a whole number, and the stream is
-#'   left as it was.
+#' @param seed A whole number; the random stream of the session is then not changed. `NULL`: the
+#'   session's stream is used.
 #' @param jitter Vertices move by up to this share of the spacing along x and y; 0: a regular grid,
 #'   as in the paper.
-#' @param correlation Standard deviation, in grid steps, of the Gaussian kernel that white noise is
-#'   smoothed with before it is brought back to `noise`; 0: independent noise.
+#' @param correlation Standard deviation of the Gaussian kernel that smooths the noise, in grid
+#'   steps. The smooth noise is scaled to standard deviation `noise`. 0: independent noise.
 #' @param landmark_error Distance in (x, y) by which each landmark is moved off the ridge, in a
-#'   random direction (held to the square).
-#' @param end The landmarks lie on the ridge at `y = -end` and `end`, inside the mesh's border
-#'   (an end exactly on the border has half a neighbourhood).
-#' @return A [specimen()] with landmarks `from` and `to`, whose attribute `truth` is the ridge
-#'   between `y = -end` and `end`: matrix 401 x 3, x, y, z in order along it; and `truth_curvature`
-#'   the locus of greatest curvature beside it, the same, NA from where it ends.
-#' @section Errors: of class `crestline_error`, for an argument out of its range.
+#'   random direction (within the square), in the unit of the mesh.
+#' @param end The landmarks lie on the ridge at `y = -end` and `y = end`, inside the mesh's border.
+#'   A landmark on the border would have half a neighbourhood.
+#' @return A [specimen()] with landmarks `from` and `to`. Attribute `truth`: the ridge between `y =
+#'   -end` and `y = end`, a 401 x 3 matrix of x, y, z in order along it. Attribute
+#'   `truth_curvature`: the locus of greatest curvature, in the same form; NA beyond its ends.
+#' @section Errors: of class `crestline_error`: an argument is out of its range.
 #' @template glossary
 #' @template experimental
 #' @templateVar where section 5.2

@@ -3,56 +3,60 @@
 
 #' Study of ridge estimates on simulated surfaces
 #'
-#' Estimates the ridges of `n` simulated surfaces and measures how far they lie from the true ones.
-#' It does so for each combination of the surface's bend and sharpness, its noise, its mesh and its
-#' landmarks, of radius and of passes.
+#' Estimates the ridges of `n` simulated surfaces, and measures their distances from the true
+#' ridges. It does so for each combination of bend, sharpness, noise, spacing, landmark error,
+#' radius and passes.
 #'
-#' Each curve is compared at `points` points along it, and the truth at as many. The distance is the
-#' mean of those from the first to the true line and of those from the second to the curve. It is
-#' seen along z, since the noise moves points up and down only. There are two truths, the crest in
-#' height and the locus of greatest curvature, see [simulate_ridge()].
+#' Each curve is compared at `points` points along it, and the truth at the same number. The
+#' distance is the mean of those from the curve's points to the true line, and from the truth's
+#' points to the curve. It is taken in the (x, y) plane, since the noise moves points along z only.
+#' There are two truths, the crest in height and the locus of greatest curvature, see
+#' [simulate_ridge()].
 #'
-#' The paper takes the mean Euclidean distance between 21 equally spaced points of both. Its ranges
-#' are 0 to 0.5 for `a` and `b`, 0 to 0.1 for the error of landmarks, 0.05 to 0.1 for the distance
-#' between vertices and 0 to 0.05 for noise, with 500 simulations each.
+#' The paper takes the mean Euclidean distance between 21 equally spaced points of both. It has 500
+#' simulations for each combination. Its ranges are 0 to 0.5 for `a` and `b`, 0 to 0.1 for the error
+#' of landmarks, 0.05 to 0.1 for the distance between vertices and 0 to 0.05 for noise.
 #'
-#' It runs in parallel by the user's plan, as [fit_shapes()] does, where the packages future and
-#' progressr are there. Surfaces depend on their seeds alone, so that results do not depend on the
-#' number of workers, and all methods see the same surfaces. With `dir` a run that was cut short
-#' goes on where it was.
+#' With the packages future and progressr it runs in parallel by the user's plan, as [fit_shapes()]
+#' does. Surfaces depend on their seeds only. Results therefore do not depend on the number of
+#' workers, and all methods get the same surfaces. With `dir` an interrupted run continues where it
+#' stopped.
 #'
-#' @param settings [ridge_settings()]; or a named list of such, and of functions `(specimen, radius,
-#'   width, n)` that return the points of another estimate (matrix k x 3, in order from landmark
-#'   `from` to `to`): several methods on the same surfaces. Parallel workers do not see what a
-#'   function uses of your workspace: put helpers into an environment with it (`local()`).
+#' @param settings [ridge_settings()], or a named list of methods that are compared on the same
+#'   surfaces. A method is a [ridge_settings()] or a function `(specimen, radius, width, n)` that
+#'   returns the points of another estimate (k x 3 matrix, in order from landmark `from` to `to`).
+#'   Parallel workers do not have the objects of your workspace. Define the function together with
+#'   its helpers in `local()`.
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
 #' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
 #' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
-#'   `NULL`: the passes that the settings say.
+#'   `passes = NULL`: the passes of the settings.
 #' @param width As in [ridge_curve()], in the unit of the surface.
 #' @param points Number of points at which each curve is compared; the paper: 21.
-#' @param dir Folder for the results of a long run, made where it is not there. What is in it
-#'   already is not run again if it was made with the same arguments and the same version of the
-#'   package. Two functions are the same if their text is, and all that they use from the
-#'   environments that they were made in, or from your workspace. A file that is damaged or cut
-#'   short is run again. `NULL`: nothing is kept.
-#' @param block Surfaces that a worker takes, and writes to `dir`, at a time.
+#' @param dir Folder for the results of a long run; it is created if it does not exist. Results of
+#'   the same arguments and the same version of the package are not computed again. Two functions
+#'   are the same if their text and the objects that they use are the same. A damaged file is
+#'   computed again. `NULL`: results are not stored.
+#' @param block Number of surfaces that a worker takes, and writes to `dir`, at a time.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2: finer grids, and
-#'   studies of more curves than this, are refused before any work.
+#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2, and greatest
+#'   number of curves of a study. Larger ones are refused before any work.
 #' @param ... Further arguments of [simulate_ridge()]: `jitter`, `end`.
-#' @return Data frame with a row for each curve: `a`, `b`, `noise`, `landmark_error`, `spacing`,
-#'   `radius`, `correlation`, `passes`; `seed`; `method`: the name in `settings`; `distance`: mean
-#'   distance between estimate and crest, **in spacings**; `distance_curvature`: the same from the
-#'   locus of greatest curvature, `NA` where that does not run from end to end; `se`: median
-#'   standard error, in spacings; `covered`, `covered_curvature`: share of the curve's inner points
-#'   that lie within two of their standard errors of crest and locus; `determined`, `converged`
-#'   (logical); `seconds` of processor time; `error`: the message where the estimate failed. What a
-#'   method has not is `NA`.
-#' @section Errors: only for arguments out of their range, before any work; a failed estimate is a
-#'   row with `error`.
-#' @section Warnings: of class `crestline_keeping_warning`, where results could not be written to
-#'   `dir`.
+#' @return Data frame with a row for each curve; a value that a method does not have is `NA`:
+#'   * `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`, `passes`, `seed`;
+#'   * `method`: name in `settings`;
+#'   * `distance`: mean distance between estimate and crest, **in spacings**;
+#'   * `distance_curvature`: the same for the locus of greatest curvature; `NA` if the locus does
+#'     not run from end to end;
+#'   * `se`: median standard error, in spacings;
+#'   * `covered`, `covered_curvature`: share of the curve's inner points that lie within two of
+#'     their standard errors of the crest, and of the locus;
+#'   * `determined`, `converged`: logical;
+#'   * `seconds`: processor time;
+#'   * `error`: the message if the estimate failed.
+#' @section Errors: of class `crestline_error`: an argument is out of its range; this stops the
+#'   study before any work. A failed estimate does not stop it; its row has `error`.
+#' @section Warnings: of class `crestline_keeping_warning`: results could not be written to `dir`.
 #' @template glossary
 #' @template experimental
 #' @templateVar where section 5.2

@@ -4,26 +4,27 @@
 #'
 #' @param noise Standard deviation of the noise of the vertices along the normal, in the unit of the
 #'   template (0.1: a good stereo or laser scanner, in mm).
-#' @param noise_range Distance over which noise goes together; 0: independent from vertex to vertex.
-#' @param remesh Whether every specimen has vertices and triangles of its own, in random order, so
-#'   that no vertex of one corresponds to a vertex of another. If not, all have those of the
-#'   template.
-#' @param edge Length of edge that is aimed at in remeshing; `NULL`: the mean of the template's.
-#' @param edge_sd Standard deviation of its logarithm between specimens.
-#' @param rounds Rounds of remeshing: more make edges more even, and cost more time (a third of a
-#'   second each on a face).
-#' @param crease Angle between triangles, in degrees, from which remeshing keeps the edge between
+#' @param noise_range Range of the correlation of the noise, in the unit of the template. 0:
+#'   independent noise at each vertex.
+#' @param remesh TRUE: every specimen has its own vertices and triangles, in random order, so that
+#'   vertices of two specimens do not correspond. FALSE: all have those of the template.
+#' @param edge Edge length of the new mesh, in the unit of the template. `NULL`: the mean edge
+#'   length of the template.
+#' @param edge_sd Standard deviation of the logarithm of the edge length between specimens.
+#' @param rounds Number of rounds of remeshing. More rounds make edges more even; each takes a third
+#'   of a second on a face.
+#' @param crease Angle between triangles, in degrees, above which remeshing keeps the edge between
 #'   them.
 #' @param holes Number of holes in every specimen.
-#' @param hole_radius Radius of the holes, in the unit of the template. No hole comes nearer to a
-#'   landmark than its radius.
-#' @param landmark_error Standard deviation with which an observer places landmarks, in each
-#'   direction along the surface.
-#' @param turn,shift Standard deviations of the angle (radians, about a random axis) and of the
-#'   shift (in every co-ordinate) of each specimen's pose.
+#' @param hole_radius Radius of the holes, in the unit of the template. The distance between a hole
+#'   and a landmark is at least this radius.
+#' @param landmark_error Standard deviation of the observer's landmarks, in each direction along the
+#'   surface, in the unit of the template.
+#' @param turn,shift Standard deviations of the pose of each specimen: of the angle about a random
+#'   axis, in radians, and of the translation in every co-ordinate, in the unit of the template.
 #' @param ... Nothing: an unknown name is an error.
 #' @return A list of these settings, of class `scan_settings`.
-#' @section Errors: of class `crestline_error`, for a value out of its range.
+#' @section Errors: of class `crestline_error`: a value is out of its range.
 #' @template glossary
 #' @template experimental
 #' @seealso [simulate_faces()]

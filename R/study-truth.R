@@ -1,14 +1,17 @@
 # Where every point of a simulated face truly is.
 
-#' Where points of the template truly are on simulated faces
+#' True places of the template's points on simulated faces
 #'
-#' @param x `simulated_faces`, as [simulate_faces()] returns them.
-#' @param at Places of the template: k x 3 matrix or data frame `x, y, z`, in its unit (such as
-#'   `coords(fit_shape(faces$template, scheme), "curves")`); `NULL`: its landmarks.
+#' @param x A `simulated_faces`, as [simulate_faces()] returns it.
+#' @param at Places of the template: k x 3 matrix or data frame `x`, `y`, `z`, in the unit of the
+#'   template. An example is `coords(fit_shape(faces$template, scheme), "curves")`. `NULL`: its
+#'   landmarks.
 #' @return `true_points()`: k x 3 x n array, with the names of `at` and of the faces, without noise,
-#'   in the frame of each face. `true_effect()`: k x 3 matrix, the step from the mean of the first
-#'   group to that of the second, without size.
-#' @section Errors: of class `crestline_error`: no simulated faces, or no points.
+#'   in the frame of each face. `true_effect()`: k x 3 matrix, the displacement from the mean of the
+#'   first group to the mean of the second, without the effect of size. Both are in the unit of the
+#'   template.
+#' @section Errors: of class `crestline_error`: `x` is not a `simulated_faces`, or `at` has no
+#'   points.
 #' @template glossary
 #' @template experimental
 #' @seealso [simulate_faces()]
