@@ -71,3 +71,6 @@ mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)
 
 # The columns of a point on a mesh.
 mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
+
+# The largest value that is there, NA where none is.
+largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)

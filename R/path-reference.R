@@ -75,14 +75,18 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
 #' @param strength As of [path_strength()]; not used for planes.
 #' @param radius Of the curvature.
 #' @param search As of [path_settings()].
+#' @param weight Function of angles: what the criterion of ridges and valleys is multiplied by.
 #' @return As [reference_path()].
 #' @noRd
-find_reference <- function(ends, type, strength, radius, search) {
+find_reference <- function(ends, type, strength, radius, search, weight = function(angle) 1) {
   if (failed(ends)) return(ends)
   rate <- if (type == "plane") {
     function(found) -found$length
   } else {
-    function(found) cut_strength(ends, found, search$reach, search$spacing * radius, strength)
+    function(found) {
+      weight(found$angle) *
+        cut_strength(ends, found, search$reach, search$spacing * radius, strength)
+    }
   }
   measure <- function(angle, side) measure_cuts(ends, angle, side, search$reach)
   optima <- cut_optima(measure, rate, search)

@@ -127,16 +127,17 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 #' @param source Curvature as of [known_curvature()]; NULL for planes.
 #' @param regions As of [located_regions()]; a failure is handed on.
 #' @param angle_limit Of the planes of the reference path, in radians; NA: none.
+#' @param track Expected track, as in [plane_weight()]; NULL: none.
 #' @noRd
 curve_job <- function(ends, type, n, settings, passes = NULL, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
-                      reach = 0.5) {
+                      reach = 0.5, track = NULL) {
   search <- path_settings()
   search$reach <- reach
   if (type != "plane") search$longest <- settings$longest
   list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius,
        width = width, source = source, regions = regions, trust = trust, angle_limit = angle_limit,
-       search = search)
+       track = track, search = search)
 }
 
 #' One curve, without checks and warnings
@@ -165,14 +166,16 @@ curve_reference <- function(job) {
   strength <- if (job$type != "plane") {
     path_strength(job$source, job$type, job$regions, ends$scan)
   }
+  weight <- plane_weight(job$track, ends)
   if (is.na(job$angle_limit)) {
-    return(find_reference(ends, job$type, strength, job$radius, search))
+    return(find_reference(ends, job$type, strength, job$radius, search, weight))
   }
   if (is.null(strength)) {
     return(limited_cut(ends, job$angle_limit, search$limited, search$reach))
   }
   rate <- function(found) {
-    cut_strength(ends, found, search$reach, search$spacing * job$radius, strength)
+    weight(found$angle) *
+      cut_strength(ends, found, search$reach, search$spacing * job$radius, strength)
   }
   limited_cut(ends, job$angle_limit, search$limited, search$reach, rate, search$longest)
 }

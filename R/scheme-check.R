@@ -185,6 +185,22 @@ check_scheme_definitions <- function(definitions, scheme) {
   )
 }
 
+# An expected track lies in the frame of the scheme's landmarks, and belongs to what is looked for.
+check_scheme_tracks <- function(tracks, scheme) {
+  row <- match(tracks$curve, scheme$curves$curve)
+  known <- rownames(typical_landmarks(scheme))
+  ends <- scheme$curves[row, c("from", "to")]
+  lacking <- !is.na(row) & !(ends$from %in% known & ends$to %in% known)
+  twice <- duplicated(tracks[c("curve", "place")])
+  rbind(
+    unknown_names(tracks$curve, scheme$curves$curve, "curve", "curve"),
+    problem(which(scheme$curves$kind[row] == "plane"), "curve",
+            "is a plane cut, which is not looked for"),
+    problem(which(lacking), "curve", "has an end without x, y, z in the table landmarks"),
+    problem(which(twice), "place", "is there twice")
+  )
+}
+
 check_mirrors <- function(mirror, pairs) {
   left <- pairs$left[pairs$level == "landmarks"]
   each <- lapply(which(!is.na(mirror)), function(row) {

@@ -73,6 +73,14 @@ scheme_columns <- list(
     width = column("number", lower = 0, open = TRUE), across_from = column("text"),
     across_to = column("text"),
     across_type = column("choice", choices = c("ridge", "valley", "plane")), note = column("text")
+  ),
+  tracks = list(
+    curve = column("text", TRUE), place = column("count", TRUE, lower = 1, upper = most_points),
+    s = column("number", TRUE, lower = 0, upper = 1),
+    x = column("number", TRUE), y = column("number", TRUE), z = column("number", TRUE),
+    across_x = column("number", TRUE), across_y = column("number", TRUE),
+    across_z = column("number", TRUE),
+    spread = column("number", TRUE, lower = 0, open = TRUE)
   )
 )
 

@@ -3,7 +3,7 @@
 #' Read a scheme from a folder
 #'
 #' @param dir Folder with `landmarks.csv` and `curves.csv`. It may also have `patches.csv`,
-#'   `pairs.csv`, `strips.csv` and `definitions.csv`. Each file has a header line and the columns of
+#'   `pairs.csv`, `strips.csv`, `definitions.csv` and `tracks.csv`. Each file has a header line and the columns of
 #'   the table in [curve_scheme()]; cells may be empty. Fields are separated by commas, tabs or
 #'   semicolons; with semicolons, decimals may be points or commas. A row with more or fewer cells
 #'   than the header is refused.
@@ -14,6 +14,7 @@
 #' @section Warnings: of class `crestline_unread_table`: a table is missing, and a file has nearly
 #'   its name (`pair.csv`).
 #' @template glossary
+#' @seealso [write_scheme()]
 #' @examples
 #' face <- read_scheme(system.file("extdata", "face_scheme", package = "crestline"))
 #' head(as.data.frame(face, "curves"))

@@ -84,10 +84,17 @@
 #'     `to`;
 #'   * `note`, and any further columns.
 #' @param name Name of the scheme, one string.
+#' @param tracks Data frame of where curves are expected, as [learn_tracks()] makes it (`NULL`: no
+#'   expectation). It has a row for each place along a ridge or valley:
+#'   * `curve`; `place` (1, 2, ...); `s` (share of the curve's length, between 0 and 1);
+#'   * `x`, `y`, `z`: the place relative to the curve's landmark `from`. The unit is the distance
+#'     from there to its landmark `to`. The axes are those of `x`, `y`, `z` of `landmarks`;
+#'   * `across_x`, `across_y`, `across_z`: unit vector along the surface and across the curve;
+#'   * `spread`: standard deviation of the curve's offset across, in the same unit.
 #' @return Object of class `curve_scheme`, a list:
 #'   * `name`;
-#'   * data frames `landmarks`, `curves`, `patches`, `pairs`, `strips` and `definitions` with all
-#'     columns above; empty cells are `NA`;
+#'   * data frames `landmarks`, `curves`, `patches`, `pairs`, `strips`, `definitions` and
+#'     `tracks` with all columns above; empty cells are `NA`;
 #'   * `points`: data frame `level`, `part`, `point`, `place`. Points that coincide by construction
 #'     have the same `place`;
 #'   * `triangles`: data frame `part`, `group`, `v1`, `v2`, `v3` (rows of the surface's points, in
@@ -108,15 +115,14 @@
 #' @export
 curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips = NULL,
                          name = "scheme",
-                         definitions = NULL) {
+                         definitions = NULL, tracks = NULL) {
   check_given()
   tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs,
-                 strips = strips,
-                 definitions = definitions)
+                 strips = strips, definitions = definitions, tracks = tracks)
   build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
 }
 
-#' @param tables The six tables, `NULL` where absent.
+#' @param tables The seven tables, `NULL` where absent.
 #' @param labels What the tables are called in messages.
 #' @noRd
 build_scheme <- function(tables, name, labels) {
@@ -141,7 +147,7 @@ build_scheme <- function(tables, name, labels) {
 
 #' A scheme from its parts: all its fields are declared here
 #'
-#' @param tables List of the six tables, with all their columns.
+#' @param tables List of the seven tables, with all their columns.
 #' @param points,triangles As in the value of [curve_scheme()].
 #' @noRd
 new_curve_scheme <- function(name, tables, points, triangles) {
@@ -163,7 +169,9 @@ validate_curve_scheme <- function(x) {
   if (!is.list(x) || !is.character(x$name) || length(x$name) != 1) refuse("the scheme has no name.")
   derived <- list(points = c("level", "part", "point", "place"),
                   triangles = c("part", "group", "v1", "v2", "v3"))
-  wanted <- c(lapply(scheme_columns[setdiff(names(scheme_columns), "definitions")], names), derived)
+  # Schemes of former versions lack the last two.
+  old <- setdiff(names(scheme_columns), c("definitions", "tracks"))
+  wanted <- c(lapply(scheme_columns[old], names), derived)
   for (table in names(wanted)) {
     lacking <- if (is.data.frame(x[[table]])) setdiff(wanted[[table]], names(x[[table]])) else
       "all its columns"
@@ -187,7 +195,7 @@ scheme_problems <- function(which, table, scheme) {
   check <- switch(which, landmarks = check_scheme_landmarks, curves = check_scheme_curves,
                   patches = check_scheme_patches, pairs = check_scheme_pairs,
                   strips = check_scheme_strips,
-                  definitions = check_scheme_definitions)
+                  definitions = check_scheme_definitions, tracks = check_scheme_tracks)
   check(table, scheme)
 }
 
@@ -198,7 +206,8 @@ scheme_rows <- function(which, table) {
          pairs = table$left,
          patches = ifelse(is.na(table$block), table$patch,
                           paste(table$patch, "block", table$block)),
-         strips = paste(table$strip, "rung", table$rung))
+         strips = paste(table$strip, "rung", table$rung),
+         tracks = paste(table$curve, "place", table$place))
 }
 
 present_table <- function(table, which, label) {
@@ -234,8 +243,8 @@ with_defaults <- function(curves) {
 #' @rdname curve_scheme
 #' @param x A scheme.
 #' @param row.names,optional Ignored.
-#' @param table "landmarks", "curves", "patches", "pairs", "strips", "definitions", "points" or
-#'   "triangles".
+#' @param table "landmarks", "curves", "patches", "pairs", "strips", "definitions", "tracks",
+#'   "points" or "triangles".
 #' @param ... Ignored.
 #' @export
 as.data.frame.curve_scheme <- function(x, row.names = NULL, optional = FALSE, table = "curves",
@@ -266,6 +275,9 @@ print.curve_scheme <- function(x, ...) {
     line("surface: ", surface_line(x))
     if (nrow(x$definitions)) {
       line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
+    }
+    if (NROW(x$tracks)) {
+      line("expected tracks: of ", amount(length(unique(x$tracks$curve)), "curve"))
     }
     line("left-right pairs: ",
          paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
@@ -308,7 +320,9 @@ scheme_in_unit <- function(scheme, unit, specimen) {
 #' @return One string of 32 characters.
 #' @noRd
 scheme_hash <- function(scheme) {
-  rlang::hash(lapply(unclass(scheme)[names(scheme_columns)], function(table) {
+  # A scheme without expected tracks is what it was before there were any.
+  counted <- setdiff(names(scheme_columns), if (!NROW(scheme$tracks)) "tracks")
+  rlang::hash(lapply(unclass(scheme)[counted], function(table) {
     table <- as.list(table)
     lapply(table[order(names(table), method = "radix")], plain_values)
   }))

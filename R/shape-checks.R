@@ -35,6 +35,8 @@ shape_checks <- function(shape, scan, fits, faults, ends = 0.05, crumpled = 30, 
   checks$cut[curves] <- fit_values(fits, "cut")
   checks$guessed[curves] <- fit_values(fits, "guessed") > 0
   checks$bridged[curves] <- vapply(fits, function(fit) bridged_share(fit$path, ncol(mesh$it)), 0)
+  checks$track <- NA_real_
+  checks$track[curves] <- track_departures(shape$scheme, lapply(fits, `[[`, "path"), scan$landmarks)
   patches <- status$level == "surface"
   group <- shape$points$part[shape$points$level == "surface"][faults$v1]
   checks$faults[patches] <- tabulate(match(group, status$part[patches]), sum(patches))

@@ -88,6 +88,7 @@ row_job <- function(row, from, scan, fits) {
   job$source <- scan$sources[[as.character(row$radius)]]
   if (!is.na(row$side_of)) job$source <- on_side(job$source, row, scan, fits[[row$side_of]])
   job$regions <- row_regions(row, scan)
+  if (is.character(from)) job$track <- expected_track(scan$scheme, row, scan$landmarks)
   job
 }
 
@@ -175,7 +176,7 @@ begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
 #' @noRd
 refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n) function() NULL) {
   scheme <- fitting$scheme
-  touched <- touched_curves(scheme$curves, moved, fitting$whole)
+  touched <- touched_curves(scheme$curves, moved, fitting$whole, scheme$tracks$curve)
   scan <- fitting$scan
   scan$specimen <- specimen
   scan$bridged <- with_landmarks_of(scan$bridged, specimen)
@@ -197,19 +198,20 @@ with_landmarks_of <- function(bridged, specimen) {
 
 #' Which curves depend on landmarks that have moved
 #'
-#' By their ends, their regions and sides, and by the curve whose side they keep to. One that is
-#' followed towards a landmark that is not on the mesh depends on all of them: the mirror plane says
+#' By their ends, their regions and sides, and by the curve whose side they keep to. An expected
+#' track is laid on all landmarks. One that is followed towards a landmark that is not on the mesh depends on all of them: the mirror plane says
 #' where that is.
 #' @param whole Fits as they are, before they are cut off.
+#' @param tracked Names of the curves with an expected track.
 #' @return Logical, by row of `curves`.
 #' @noRd
-touched_curves <- function(curves, moved, whole) {
+touched_curves <- function(curves, moved, whole, tracked = NULL) {
   if (is.null(moved)) return(rep(TRUE, nrow(curves)))
   by_name <- c("from", "to", "keep_away_from", "keep_away_to", "keep_side_from", "keep_side_to",
                "keep_side_towards")
   named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved))
   unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.na(fit$followed), NA)
-  touched <- named | unsettled & !is.na(curves$cut_share)
+  touched <- named | unsettled & !is.na(curves$cut_share) | curves$curve %in% tracked & length(moved)
   for (i in fitting_order(curves)) {
     if (curves$side_of[i] %in% curves$curve[touched]) touched[i] <- TRUE
   }

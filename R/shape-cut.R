@@ -250,9 +250,6 @@ cut_curve <- function(mesh, fit, length, n) {
   add_note(fit, if (placed < n) ended)
 }
 
-#' @noRd
-largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
-
 # Where the points of a shape's curves can slide: the whole curve as it was found, before it was cut
 # off.
 

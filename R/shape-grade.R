@@ -79,6 +79,7 @@ judge_parts <- function(parts, limits, scheme) {
        judge("offset", sprintf(
          "it runs beside its homologous points, %.2g radii of the template off", parts$offset
        )),
+       judge("track", sprintf("it leaves its expected track by %.1f spreads", parts$track)),
        judge("cut", NA), judge("faults", NA))
 }
 
@@ -161,5 +162,5 @@ grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
 quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
                      "competing", "z",
                      "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse",
-                     "border", "spike", "offset", "grade",
+                     "border", "spike", "offset", "track", "grade",
                      "why")

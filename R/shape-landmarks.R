@@ -62,15 +62,6 @@ check_scale <- function(specimen, scheme, unit = NULL, call = rlang::caller_env(
   )
 }
 
-#' Where the scheme says that landmarks lie on a typical object, k x 3 with row names
-#' @noRd
-typical_landmarks <- function(scheme) {
-  at <- as.matrix(scheme$landmarks[intersect(c("x", "y", "z"), names(scheme$landmarks))])
-  if (ncol(at) < 3) return(NULL)
-  rownames(at) <- scheme$landmarks$landmark
-  at[stats::complete.cases(at), , drop = FALSE]
-}
-
 #' How many times as far apart landmarks are as those of a reference: the median over their
 #' distances
 #' @param fewest Landmarks without which nothing is said.

@@ -34,6 +34,8 @@
 #'   slid. A large value can mean that the curve runs along another feature than on the other
 #'   specimens. On ten simulated faces of another population it detects 8 of 29 such curves that
 #'   no other limit detects. It also flags 3 of 230 correct curves.
+#' @param track Greatest distance of a curve from its expected track, in spreads. It exists if the
+#'   scheme has tracks, see [learn_tracks()].
 #' @param faults Number of flipped, doubled or crossing triangles of a patch.
 #' @param contrast Mean strength along a curve over the mean strength beside it. Small values are
 #'   bad.
@@ -64,8 +66,9 @@ quality_limits <- function(..., missing = c(0, 0.2), se = c(0.2, 0.4), se_max = 
                            doubtful = c(0.6, Inf), confidence = c(0.5, -Inf),
                            competing = c(0.97, Inf), z = c(5, 8), asymmetry = c(0.1, 0.3),
                            roughness = c(12, 20), coarse = c(0.6, 1), bridged = c(0.02, 0.2),
-                           offset = c(1 / 19, Inf), faults = c(0, Inf), contrast = c(1.2, 0.9),
-                           cut = c(0.98, 0.7), border = c(0.04, 0.005), spike = c(0.07, 0.02),
+                           offset = c(1 / 19, Inf), track = c(4, Inf), faults = c(0, Inf),
+                           contrast = c(1.2, 0.9), cut = c(0.98, 0.7),
+                           border = c(0.04, 0.005), spike = c(0.07, 0.02),
                            undetermined = "amber", guessed = "amber", exchanged = "red",
                            predicted = "amber", others = 10L, spread = 0.01) {
   new_settings("quality_limits", check_limits, list(...), noun = "limit")

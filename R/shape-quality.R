@@ -40,6 +40,8 @@
 #'     [fit_shape()];
 #'   * `offset`: root mean square distance of a curve from its homologous points, across it, in
 #'     radii of the template. NA if the shape was not slid with free curve points;
+#'   * `track`: greatest distance of a curve from its expected track, in spreads. NA if the scheme has
+#'     no tracks, see [learn_tracks()];
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
 #'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
@@ -121,6 +123,7 @@ part_measures <- function(shape, name) {
     checks[c("missing", "cut", "bridged", "faults", "roughness")],
     coarse = checks$edge / radius, border = checks$border / checks$size,
     spike = checks$spike / checks$size, offset = recorded(checks, "offset", NA_real_),
+    track = recorded(checks, "track", NA_real_),
     reason = status$reason, checks[c("determined", "guessed", "size")],
     free = shape$scheme$curves$n[row] > 2,
     radius = radius, se_max = recorded(status, "se_max", NA_real_),

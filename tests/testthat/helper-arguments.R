@@ -74,6 +74,9 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
   write_mesh(one, path("s.ply"))
   write_landmarks(one$landmarks, path("s.csv"))
   line <- coords(shape, "curves")[1:7, ]
+  ridge <- curve_scheme(cbind(landmark = rownames(made$corners), as.data.frame(made$corners) |> stats::setNames(c("x", "y", "z"))),
+                        data.frame(curve = "top", from = "aL", to = "aR", kind = "ridge", n = 5, radius = 20, width = 20))
+  ridged <- suppressWarnings(lapply(made$specimens[1:2], fit_shape, ridge, progress = FALSE))
   faces <- NULL
   fitted <- list(column_angle = pi / 4, column_angles = 5, column_reach = 1)
   fitted_kinds <- c(column_angle = "number", column_angles = "count", column_reach = "number")
@@ -127,9 +130,9 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                            a = "object", b = "object", match = "choice", between = "choice", level = "choice", scale = "flag"),
     curve_scheme = entry(given(landmarks = made$scheme$landmarks,
                                curves = as.data.frame(made$scheme)[, c("curve", "from", "to", "kind", "n")], patches = NULL,
-                               pairs = NULL, strips = NULL, name = "n", definitions = NULL),
+                               pairs = NULL, strips = NULL, name = "n", definitions = NULL, tracks = NULL),
                          landmarks = "object", curves = "object", patches = "object?", pairs = "object?", strips = "object?",
-                         name = "text", definitions = "object?"),
+                         name = "text", definitions = "object?", tracks = "object?"),
     curvedness = entry(given(x = curved, k2 = NULL), x = "any", k2 = "any"),
     draw_band = entry(given(scene = scene, left = line[1:5, ], right = line[2:6, ], colour = "black", opacity = 0.4),
                       scene = "object", left = "object", right = "object", colour = "colour", opacity = "number"),
@@ -169,6 +172,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     keep_side = entry(given(from = "aL", to = "aR", towards = "n"), from = "name", to = "name", towards = "name"),
     landmark_template = entry(given(specimen = one, predicted = character(), unit = 1, mirror = NA),
                               specimen = "object", predicted = "any", unit = "number", mirror = "any"),
+    learn_tracks = entry(given(shapes = ridged, fewest = 2, least = 0.1, places = 5),
+                         shapes = "object", fewest = "count", least = "number", places = "count"),
     lift = entry(given(specimen = one, coordinates = at, path = path_on, s = c(5, 10), alpha = c(0, 0)),
                  specimen = "object", coordinates = "object", path = "object", s = "numbers", alpha = "numbers"),
     patch_mesh = entry(c(given(x = shape, specimen = one, patch = "mid", columns = NULL, rows = NULL, block = NULL), fitted),
@@ -321,6 +326,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     visible_points = entry(given(scene = scene, x = line), scene = "object", x = "object"),
     write_landmarks = entry(given(x = made$corners, file = path("o.csv"), curves = NULL, frame = "LPS", missing = 9999),
                             x = "list", file = "object", curves = "any", frame = "choice", missing = "any"),
+    write_scheme = entry(given(scheme = made$scheme, dir = path("scheme")), scheme = "object", dir = "object"),
     write_mesh = entry(given(x = one$mesh, file = path("o.ply"), colour = NULL, parts = "model", palette = c("red", "blue"),
                              limits = NULL, missing = "#BEBEBE", ascii = FALSE),
                        x = "object", file = "object", colour = "any", parts = "any", palette = "colour", limits = "size?",
