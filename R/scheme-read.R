@@ -3,10 +3,10 @@
 #' Read a scheme from a folder
 #'
 #' @param dir Folder with `landmarks.csv` and `curves.csv`. It may also have `patches.csv`,
-#'   `pairs.csv`, `strips.csv`, `definitions.csv` and `tracks.csv`. Each file has a header line and the columns of
-#'   the table in [curve_scheme()]; cells may be empty. Fields are separated by commas, tabs or
-#'   semicolons; with semicolons, decimals may be points or commas. A row with more or fewer cells
-#'   than the header is refused.
+#'   `pairs.csv`, `strips.csv`, `definitions.csv` and `tracks.csv`. Each file has a header line and
+#'   the columns of the table in [curve_scheme()]; cells may be empty. Fields are separated by
+#'   commas, tabs or semicolons; with semicolons, decimals may be points or commas. A row with more
+#'   or fewer cells than the header is refused.
 #' @param name Name of the scheme, one string. Default: the folder's name.
 #' @return As [curve_scheme()].
 #' @section Errors: of class `crestline_scheme_error`: the folder or a file does not exist or cannot
