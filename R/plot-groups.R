@@ -116,11 +116,15 @@ box_panel <- function(y, group, title, colour, ...) {
     border = colour, xlab = "", ylab = "", las = 1, boxwex = 0.55, ...
   )
   graphics::title(title, font.main = 1, cex.main = 1)
-  shift <- stats::ave(rank(y, ties.method = "first"), group,
-                      FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)
-  graphics::points(as.integer(group) + shift, y, pch = 16, cex = 0.9,
+  graphics::points(as.integer(group) + box_shift(y, group), y, pch = 16, cex = 0.9,
                    col = grDevices::adjustcolor(colour[as.integer(group)], 0.7))
   graphics::points(seq_len(nlevels(group)), tapply(y, group, mean), pch = 23, cex = 1.5,
                    bg = "white", col = colour, lwd = 2)
   drawn
+}
+
+# How far each point of a boxplot stands beside the middle of its box, by rank.
+box_shift <- function(y, group) {
+  stats::ave(rank(y, ties.method = "first"), group,
+             FUN = function(r) ((rank(r) * 0.618) %% 1 - 0.5) * 0.3)
 }

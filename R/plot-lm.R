@@ -49,10 +49,7 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   terms <- attr(x$models[[1]]$terms, "term.labels")
   term <- if (is.null(term)) terms[1] else check_choice(term, terms, "term")
-  levels <- names(x$aligned)
-  surfaces <- levels[!vapply(x$aligned, function(one) is.null(one$triangles), NA)]
-  level <- if (!is.null(level)) check_choice(level, levels, "level") else
-    c(if (what == "map") surfaces, levels)[1]
+  level <- level_of_map(x$aligned, level, what == "map")
   if (what == "scores") return(invisible(plot_lm_scores(x, term, level, main, ...)))
   significance <- check_number(significance, "significance", 0, 1)
   unit <- check_number(unit, "unit")
@@ -62,38 +59,26 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
                     stage = "picture", call = NULL)
   }
   triangles <- x$aligned[[level]]$triangles
-  signed <- !anyNA(points$distance) || any(!is.na(points$distance))
-  value <- if (signed) points$distance * unit else points$displacement
-  if (is.null(limits)) limits <- c(-signed, 1) * max(abs(value), na.rm = TRUE)
-  if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
+  signed <- any(!is.na(points$distance))
   found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
   words <- sprintf("%s, %s; %s: p < %g (%d of %d points)", term,
-                   if (signed) sprintf("along the normal for %g (unit of the meshes)", unit) else
-                     "root mean square displacement (unit of the meshes)",
+                   if (signed) sprintf("along the normal for %g", unit) else
+                     "root mean square displacement",
                    if (is.null(triangles)) "ringed" else "outlined", significance, found,
                    nrow(points))
-  title <- if (is.null(main)) words else main
-  if (is.null(triangles) && engine == "picture") {
-    return(invisible(points_map(points, value, limits, palette, significance, view, legend, title)))
-  }
-  if (is.null(triangles)) triangles <- matrix(integer(), 3, 0)
-  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), triangles)
-  row <- attr(mesh, "row")
-  if (engine == "picture") {
-    old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
-    on.exit(graphics::par(old))
-  }
-  settings <- utils::modifyList(if (engine == "picture") list(ambient = 0.6, gloss = 0.03) else
-    list(), list(...))
-  colours <- surface_colours(mesh, value[row], palette, limits)
-  scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings))
-  outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
-  if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
-  if (engine == "picture") {
-    if (legend) map_legend(palette, limits)
-    graphics::title(title, font.main = 1, cex.main = 0.9)
-  }
-  invisible(scene)
+  draw_map(points, if (signed) points$distance * unit else points$displacement, signed, triangles,
+           significance, limits, palette, engine, view, legend, if (is.null(main)) words else main,
+           "unit of the meshes", ...)
+}
+
+#' The level that is asked for; of a map the first with triangles, if there is one
+#' @param aligned List by level.
+#' @noRd
+level_of_map <- function(aligned, level, map, call = rlang::caller_env()) {
+  levels <- names(aligned)
+  if (!is.null(level)) return(check_choice(level, levels, "level", call))
+  surfaces <- levels[!vapply(aligned, function(one) is.null(one$triangles), NA)]
+  c(if (map) surfaces, levels)[1]
 }
 
 plot_lm_scores <- function(x, term, level, main, ...) {

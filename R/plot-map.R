@@ -1,7 +1,7 @@
 # Where two means differ: signed distance as colours, the significant region outlined.
 
 plot_map <- function(x, level, significance, limits, palette, engine, view, legend, main, adjust,
-                     length_unit, ambient = 0.6, gloss = 0.03, ...) {
+                     length_unit, ...) {
   significance <- check_number(significance, "significance", 0, 1)
   points <- x$points[x$points$level == level, ]
   if (is.null(points) || !nrow(points)) {
@@ -23,28 +23,38 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
     },
     if (surface) "outlined" else "ringed", measure[[adjust]], significance, found, nrow(points)
   )
-  title <- if (is.null(main)) words else main
-  if (!surface) {
-    if (is.null(limits)) limits <- c(0, max(points$displacement, na.rm = TRUE))
-    palette <- utils::tail(palette, ceiling(length(palette) / 2))
-    return(invisible(points_map(
-      points, points$displacement, limits, palette, significance, view, legend, title, length_unit
-    )))
+  draw_map(points, if (surface) points$distance else points$displacement, surface,
+           aligned$triangles, significance, limits, palette, engine, view, legend,
+           if (is.null(main)) words else main, length_unit, ...)
+}
+
+#' Values of points as colours: on the surface, or on the points where there are no triangles
+#'
+#' @param points Data frame `point`, `x`, `y`, `z`, `level`, `p_adjusted`.
+#' @param value A number a point.
+#' @param signed Whether values have a sign: colours are then symmetric about 0, else they begin at
+#'   0 and take the upper half of the palette.
+#' @noRd
+draw_map <- function(points, value, signed, triangles, significance, limits, palette, engine, view,
+                     legend, title, length_unit, ...) {
+  if (is.null(limits)) limits <- c(-signed, 1) * max(abs(value), na.rm = TRUE)
+  if (limits[2] <= limits[1]) limits <- limits[1] + c(0, 1)
+  if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
+  if (is.null(triangles)) {
+    return(invisible(points_map(points, value, limits, palette, significance, view, legend, title,
+                                length_unit)))
   }
-  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), aligned$triangles)
+  mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), triangles)
   row <- attr(mesh, "row")
-  distance <- points$distance[row]
-  if (is.null(limits)) limits <- c(-1, 1) * max(abs(distance), na.rm = TRUE)
-  colours <- surface_colours(mesh, distance, palette, limits)
+  colours <- surface_colours(mesh, value[row], palette, limits)
+  settings <- list(...)
   if (engine == "picture") {
     old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
     on.exit(graphics::par(old))
+    # More light from all sides, so that shade hides no colour.
+    settings <- utils::modifyList(list(ambient = 0.6, gloss = 0.03), settings)
   }
-  scene <- if (engine == "picture") {
-    draw_surface(mesh, colours, view, engine, ambient = ambient, gloss = gloss, ...)
-  } else {
-    draw_surface(mesh, colours, view, engine, ...)
-  }
+  scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings))
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
@@ -87,7 +97,6 @@ points_map <- function(points, value, limits, palette, significance, view, legen
   at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
   rownames(at) <- points$point
   at <- seen_configurations(list(at), view)[[1]]
-  if (limits[2] <= limits[1]) limits <- limits[1] + c(0, 1)
   breaks <- seq(limits[1], limits[2], length.out = length(palette) + 1)
   colour <- palette[findInterval(value, breaks, all.inside = TRUE)]
   order <- if (ncol(at) == 3) order(at[, 3]) else seq_len(nrow(at))

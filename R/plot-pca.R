@@ -46,7 +46,14 @@ plot_scores <- function(pca, component, group, colour, labels, ellipse, ...) {
   colour <- if (length(colour) >= nlevels(group)) colour else
     grDevices::hcl.colors(nlevels(group), "Dark 3")
   names <- sprintf("PC%d (%.1f %%)", component, 100 * pca$share[component])
-  at <- pca$x[, rep_len(component, 2)]
+  draw_scores(pca$x[, rep_len(component, 2)], group, colour, names, labels, ellipse, ...)
+}
+
+#' Scores on two axes, in the colours of the groups
+#' @param at n x 2, with the names of the specimens.
+#' @param names Of the axes.
+#' @noRd
+draw_scores <- function(at, group, colour, names, labels, ellipse, ...) {
   rings <- if (ellipse == 0) list() else {
     lapply(split(seq_len(nrow(at)), group), function(own) normal_ellipse(at[own, ], ellipse))
   }
@@ -60,7 +67,7 @@ plot_scores <- function(pca, component, group, colour, labels, ellipse, ...) {
   )
   do.call(graphics::plot, c(list(at), given))
   for (g in seq_along(rings)) graphics::lines(rings[[g]], col = colour[g])
-  if (labels) graphics::text(at, rownames(pca$x), pos = 3, offset = 0.35, cex = 0.6, xpd = NA)
+  if (labels) graphics::text(at, rownames(at), pos = 3, offset = 0.35, cex = 0.6, xpd = NA)
   graphics::abline(h = 0, v = 0, col = "grey80", lwd = 0.6)
   if (nlevels(group) > 1) {
     graphics::legend("topright", levels(group), pch = 16, col = colour, bty = "n")

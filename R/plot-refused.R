@@ -1,0 +1,65 @@
+# Objects that have no picture of their own: plot() names the picture to draw instead.
+
+#' What to plot instead of an object, by class
+#' @noRd
+plotted_instead <- c(
+  bending_energy = "Plot the shape itself: plot(shape), or draw_surface() for a mesh.",
+  comparison_summary = "Plot the object that it summarises.",
+  crestline_summary = "Plot the object that it summarises.",
+  curvature = "Draw it as colours: draw_surface(mesh, surface_colours(mesh, value)).",
+  curvature_surface = "Plot the curve that it belongs to: plot(curve, \"panel\").",
+  curve_distance = "Plot the shapes: plot(shape).",
+  curve_scheme = "Plot a specimen or a shape of this scheme: plot(specimen), plot(shape).",
+  find_settings = "Plot a specimen with the landmarks found: plot(find_landmarks(specimen)).",
+  keep_away = "Plot the curve that was found with it: plot(curve).",
+  keep_side = "Plot the curve that was found with it: plot(curve).",
+  landmark_template = "Plot a specimen with the landmarks found: plot(find_landmarks(specimen)).",
+  mesh_path = paste("Draw it on its mesh: scene <- draw_surface(mesh);",
+                    "draw_lines(scene, path[c(\"x\", \"y\", \"z\")])."),
+  path_coordinates = "Plot the curve that was found in them: plot(curve, \"panel\").",
+  picture_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
+  quality_limits = "Write a page of shapes with their grades: quality_report(shapes, file).",
+  rgl_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
+  ridge_line = "Plot the curve that it belongs to: plot(curve, \"panel\").",
+  ridge_settings = "Plot a curve that was found with them: plot(curve).",
+  sample_limits = "Plot the sample: plot(sample).",
+  scan_noise = "Plot the specimen: plot(specimen).",
+  shape_batch = "Plot one shape: plot(shapes[[1]]).",
+  shape_quality = "Write a page of shapes with their grades: quality_report(shapes, file).",
+  simulated_faces = "Plot the aligned points: plot(align(true_points(faces, points))).",
+  slide_settings = "Plot the sample that was slid with them: plot(sample).",
+  summary_shape_pca = "Plot the components: plot(pca)."
+)
+
+#' @rawNamespace
+#' S3method(plot,bending_energy,refuse_plot)
+#' S3method(plot,comparison_summary,refuse_plot)
+#' S3method(plot,crestline_summary,refuse_plot)
+#' S3method(plot,curvature,refuse_plot)
+#' S3method(plot,curvature_surface,refuse_plot)
+#' S3method(plot,curve_distance,refuse_plot)
+#' S3method(plot,curve_scheme,refuse_plot)
+#' S3method(plot,find_settings,refuse_plot)
+#' S3method(plot,keep_away,refuse_plot)
+#' S3method(plot,keep_side,refuse_plot)
+#' S3method(plot,landmark_template,refuse_plot)
+#' S3method(plot,mesh_path,refuse_plot)
+#' S3method(plot,path_coordinates,refuse_plot)
+#' S3method(plot,picture_scene,refuse_plot)
+#' S3method(plot,quality_limits,refuse_plot)
+#' S3method(plot,rgl_scene,refuse_plot)
+#' S3method(plot,ridge_line,refuse_plot)
+#' S3method(plot,ridge_settings,refuse_plot)
+#' S3method(plot,sample_limits,refuse_plot)
+#' S3method(plot,scan_noise,refuse_plot)
+#' S3method(plot,shape_batch,refuse_plot)
+#' S3method(plot,shape_quality,refuse_plot)
+#' S3method(plot,simulated_faces,refuse_plot)
+#' S3method(plot,slide_settings,refuse_plot)
+#' S3method(plot,summary_shape_pca,refuse_plot)
+#' @noRd
+refuse_plot <- function(x, ...) {
+  class <- intersect(class(x), names(plotted_instead))[1]
+  crestline_abort(sprintf("a %s has no picture of its own.", class), plotted_instead[[class]],
+                  stage = "picture", call = NULL)
+}
