@@ -1,13 +1,13 @@
 test_that("scores on discriminants are drawn, and who was assigned wrongly is ringed", {
-  data <- grouped_sample(c(8, 7, 6), 0.2, seed = 2)
-  two <- suppressMessages(shape_lda(data$x[, , 1:15], data$group[1:15], 1:3))
-  three <- suppressMessages(shape_lda(data$x, data$group, 3))
+  data <- grouped_sample(c(8, 13), 0.2, seed = 2)
+  two <- suppressMessages(shape_lda(data$x, data$group, 1:3))
+  three <- suppressMessages(shape_lda(data$x, rep(c("a", "b", "c"), c(8, 7, 6)), 3))
   expect_equal(draw_quietly(plot(two, labels = TRUE)), predict(two)$x)
   expect_equal(draw_quietly(plot(three, ellipse = 0.9)), predict(three)$x[, 1:2])
   expect_equal(draw_quietly(plot(three, 2)), predict(three)$x[, 2, drop = FALSE])
   expect_crestline_error(plot(two, 2), "`component`")
-  # The ring is the only black in the picture of one discriminant beside axes: more rings, more of it.
-  black <- function(x) sum(rowSums(drawn_pixels(plot(x), 300, 300), dims = 2) < 0.1)
+  # Rings are black, as axes are: more rings, more dark pixels.
+  black <- function(x) sum(apply(drawn_pixels(plot(x, main = ""), 300, 300), 1:2, max) < 0.5)
   right <- two
   right$specimens$correct[] <- TRUE
   wrong <- two
