@@ -17,6 +17,7 @@ plotted_instead <- c(
   mesh_path = paste("Draw it on its mesh: scene <- draw_surface(mesh);",
                     "draw_lines(scene, path[c(\"x\", \"y\", \"z\")])."),
   path_coordinates = "Plot the curve that was found in them: plot(curve, \"panel\").",
+  path_settings = "Draw a path that was found with them on its mesh: draw_lines().",
   picture_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
   quality_limits = "Write a page of shapes with their grades: quality_report(shapes, file).",
   rgl_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
@@ -45,6 +46,7 @@ plotted_instead <- c(
 #' S3method(plot,landmark_template,refuse_plot)
 #' S3method(plot,mesh_path,refuse_plot)
 #' S3method(plot,path_coordinates,refuse_plot)
+#' S3method(plot,path_settings,refuse_plot)
 #' S3method(plot,picture_scene,refuse_plot)
 #' S3method(plot,quality_limits,refuse_plot)
 #' S3method(plot,rgl_scene,refuse_plot)
