@@ -66,7 +66,7 @@ document: setup  ## writes NAMESPACE, man/ and the Rcpp exports
 site: install  ## the site, by pkgdown, into site/; every page opened in headless Chromium
 	@tools/site.sh
 
-lint: setup  ## lintr over R/ and tools/ by the rules of .lintr; fails on any lint
+lint: setup  ## lintr over R/ and tools/ by the rules of .lintr, lines elsewhere; fails on any lint
 	@tools/lint.sh
 
 clean:  ## removes what builds leave in the tree

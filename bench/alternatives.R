@@ -1,11 +1,14 @@
-# Other ways to a ridge between two landmarks, as functions for ridge_study(): (specimen, radius, width, n) -> points k x 3.
-# Sourced by tools/studies.R.
+# Other ways to a ridge between two landmarks, as functions for ridge_study(): (specimen, radius,
+# width, n) -> points k x 3. Sourced by tools/studies.R.
 
 alternatives <- function() {
   ways <- list(crestline = crestline::ridge_settings(error = FALSE),
-               "one pass" = crestline::ridge_settings("one pass", error = FALSE), "two passes" = twice, "paper's settings" = crestline::ridge_settings("paper", error = FALSE),
-               "forced quadratic" = crestline::ridge_settings(order = "forced", error = FALSE), "reference path" = by_reference,
-               "shortest plane cut" = by_plane, geodesic = by_geodesic, "crest points joined" = by_crest_points)
+               "one pass" = crestline::ridge_settings("one pass", error = FALSE),
+               "two passes" = twice,
+               "paper's settings" = crestline::ridge_settings("paper", error = FALSE),
+               "forced quadratic" = crestline::ridge_settings(order = "forced", error = FALSE),
+               "reference path" = by_reference, "shortest plane cut" = by_plane,
+               geodesic = by_geodesic, "crest points joined" = by_crest_points)
   if (requireNamespace("princurve", quietly = TRUE)) ways$"principal curve" <- by_principal_curve
   ways
 }
@@ -15,7 +18,8 @@ positions <- function(x) as.matrix(as.data.frame(x)[c("x", "y", "z")])
 # Our own ridge with a whole second pass and no kernel.
 twice <- function(specimen, radius, width, n) {
   settings <- crestline::ridge_settings("one pass", error = FALSE)
-  positions(crestline::ridge_curve(specimen, "from", "to", "ridge", radius, width, n, settings = settings, passes = 2)$path)
+  positions(crestline::ridge_curve(specimen, "from", "to", "ridge", radius, width, n,
+                                   settings = settings, passes = 2)$path)
 }
 
 # The cut that the ridge is sought beside, and no ridge.
@@ -28,13 +32,15 @@ by_plane <- function(specimen, radius, width, n) {
   positions(crestline::reference_path(specimen, "from", "to", "plane"))
 }
 
-# --- The shortest path over the surface: steepest descent of the distance from the other landmark -------------------------
+# --- The shortest path over the surface: steepest descent of the distance from the other landmark
+# -------------------------
 
 by_geodesic <- function(specimen, radius, width, n) {
   mesh <- specimen$mesh
   ends <- crestline:::surface_points(mesh, specimen$landmarks)
   distance <- as.vector(crestline:::geodesic_distances(mesh, ends[1, ]))
-  down <- descent(t(mesh$vb[1:3, ]), t(mesh$it), distance, ends$face[2], specimen$landmarks["to", ], ends$face[1])
+  down <- descent(t(mesh$vb[1:3, ]), t(mesh$it), distance, ends$face[2], specimen$landmarks["to", ],
+                  ends$face[1])
   rbind(specimen$landmarks["from", ], down[nrow(down):1, ])
 }
 
@@ -52,7 +58,8 @@ descent <- function(vertex, faces, value, start, at, goal, most = 2000) {
       edge <- corner[out$edge]
       beyond <- which(rowSums(faces == edge[1]) > 0 & rowSums(faces == edge[2]) > 0)
       beyond <- setdiff(beyond, face)
-      back <- length(beyond) == 1 && !is.null(way_out(vertex[faces[beyond, ], ], value[faces[beyond, ]], out$at))
+      back <- length(beyond) == 1 &&
+        !is.null(way_out(vertex[faces[beyond, ], ], value[faces[beyond, ]], out$at))
       move <- if (back) list(at = out$at, face = beyond, through = out$at) else
         from_vertex(vertex, faces, value, edge[which.min(value[edge])])
       if (!back) move$through <- rbind(out$at, move$through)
@@ -65,7 +72,8 @@ descent <- function(vertex, faces, value, start, at, goal, most = 2000) {
   stop("the descent does not arrive")
 }
 
-# Where a descent leaves a triangle: the point and its edge (two corners); NULL where it does not move.
+# Where a descent leaves a triangle: the point and its edge (two corners); NULL where it does not
+# move.
 way_out <- function(corners, value, at, least = 1e-9) {
   sides <- rbind(corners[2, ] - corners[1, ], corners[3, ] - corners[1, ])
   slope <- -drop(solve(tcrossprod(sides), value[-1] - value[1]))
@@ -86,7 +94,8 @@ from_vertex <- function(vertex, faces, value, v) {
   around <- which(rowSums(faces == v) > 0)
   at <- vertex[v, ]
   ring <- setdiff(unique(as.vector(faces[around, ])), v)
-  fall <- (value[v] - value[ring]) / sqrt(rowSums((vertex[ring, , drop = FALSE] - rep(at, each = length(ring)))^2))
+  fall <- (value[v] - value[ring]) /
+    sqrt(rowSums((vertex[ring, , drop = FALSE] - rep(at, each = length(ring)))^2))
   best <- list(fall = max(fall), at = vertex[ring[which.max(fall)], ])
   best$face <- which(rowSums(faces == ring[which.max(fall)]) > 0)[1]
   for (face in around) {
@@ -94,8 +103,10 @@ from_vertex <- function(vertex, faces, value, v) {
     if (is.null(out)) next
     edge <- faces[face, out$edge]
     if (v %in% edge) next
-    share <- sqrt(sum((out$at - vertex[edge[1], ])^2) / sum((vertex[edge[2], ] - vertex[edge[1], ])^2))
-    fell <- (value[v] - ((1 - share) * value[edge[1]] + share * value[edge[2]])) / sqrt(sum((out$at - at)^2))
+    share <- sqrt(sum((out$at - vertex[edge[1], ])^2) /
+                  sum((vertex[edge[2], ] - vertex[edge[1], ])^2))
+    fell <- (value[v] - ((1 - share) * value[edge[1]] + share * value[edge[2]])) /
+      sqrt(sum((out$at - at)^2))
     if (fell > best$fall) {
       beyond <- setdiff(which(rowSums(faces == edge[1]) > 0 & rowSums(faces == edge[2]) > 0), face)
       if (length(beyond) == 1) best <- list(fall = fell, at = out$at, face = beyond)
@@ -105,16 +116,20 @@ from_vertex <- function(vertex, faces, value, v) {
   best
 }
 
-# --- Vertices that are near the straight way, with their curvature ---------------------------------------------------------
+# --- Vertices that are near the straight way, with their curvature
+# ---------------------------------------------------------
 
 window_of <- function(specimen, radius, width, window = 1.5) {
-  path <- suppressWarnings(crestline::reference_path(specimen, "from", "to", "plane"), classes = "crestline_warning")
+  path <- suppressWarnings(crestline::reference_path(specimen, "from", "to", "plane"),
+                           classes = "crestline_warning")
   near <- crestline::path_coordinates(specimen, path, min(width, window * radius))
   vertex <- near$vertex[near$inside]
-  list(vertex = vertex, curved = crestline::curvature(specimen, radius, order = "adaptive cubic", vertices = vertex))
+  list(vertex = vertex,
+       curved = crestline::curvature(specimen, radius, order = "adaptive cubic", vertices = vertex))
 }
 
-# --- Crest points: where k2 is least along its own direction, between the ends of edges, joined to a path -------------------
+# --- Crest points: where k2 is least along its own direction, between the ends of edges, joined to
+# a path -------------------
 
 by_crest_points <- function(specimen, radius, width, n) {
   near <- window_of(specimen, radius, width)
@@ -139,7 +154,8 @@ crest_points <- function(mesh, curved) {
   (place[one, , drop = FALSE] + share * step)[crossing, , drop = FALSE]
 }
 
-# Derivative of a function of the vertices along a direction at each: mean of its triangles' gradients, by area.
+# Derivative of a function of the vertices along a direction at each: mean of its triangles'
+# gradients, by area.
 along_slope <- function(mesh, value, direction) {
   place <- t(mesh$vb[1:3, ])
   corner <- function(i) place[mesh$it[i, ], ]
@@ -148,7 +164,8 @@ along_slope <- function(mesh, value, direction) {
   normal <- crestline:::cross_rows(a, b)
   double <- sqrt(rowSums(normal^2))
   turned <- function(edge) crestline:::cross_rows(normal / double, edge)
-  flow <- (value[mesh$it[2, ]] - value[mesh$it[1, ]]) * turned(-b) + (value[mesh$it[3, ]] - value[mesh$it[1, ]]) * turned(a)
+  flow <- (value[mesh$it[2, ]] - value[mesh$it[1, ]]) * turned(-b) +
+    (value[mesh$it[3, ]] - value[mesh$it[1, ]]) * turned(a)
   flow[is.na(flow)] <- 0
   double[is.na(colSums(matrix(value[mesh$it], 3)))] <- 0
   at <- factor(as.vector(mesh$it), seq_len(nrow(place)))
@@ -157,7 +174,8 @@ along_slope <- function(mesh, value, direction) {
   rowSums(total * direction) / area[, 1]
 }
 
-# The way from the first point to the last whose steps have the least sum of squares (Dijkstra): near neighbours are joined.
+# The way from the first point to the last whose steps have the least sum of squares (Dijkstra):
+# near neighbours are joined.
 join_points <- function(points) {
   n <- nrow(points)
   cost <- c(0, rep(Inf, n - 1))
@@ -176,17 +194,21 @@ join_points <- function(points) {
   points[way, , drop = FALSE]
 }
 
-# --- A principal curve through the places of the window with most ridge curvature -------------------------------------------
+# --- A principal curve through the places of the window with most ridge curvature
+# -------------------------------------------
 
 by_principal_curve <- function(specimen, radius, width, n, share = 0.2) {
   near <- window_of(specimen, radius, width)
   strength <- pmax(-near$curved$k2[near$vertex], 0)
   high <- near$vertex[which(strength >= stats::quantile(strength, 1 - share, na.rm = TRUE))]
   ends <- specimen$landmarks
-  start <- ends[rep("from", n), ] + seq(0, 1, length.out = n) * rep(ends["to", ] - ends["from", ], each = n)
+  start <- ends[rep("from", n), ] + seq(0, 1, length.out = n) *
+    rep(ends["to", ] - ends["from", ], each = n)
   # Its smoother warns where a coordinate is nearly constant along the curve.
-  fit <- suppressWarnings(princurve::principal_curve(t(specimen$mesh$vb[1:3, high]), start = start, stretch = 0))
+  fit <- suppressWarnings(princurve::principal_curve(t(specimen$mesh$vb[1:3, high]), start = start,
+                                                     stretch = 0))
   line <- fit$s[fit$ord, ]
-  if (sum((line[1, ] - ends["from", ])^2) > sum((line[nrow(line), ] - ends["from", ])^2)) line <- line[nrow(line):1, ]
+  if (sum((line[1, ] - ends["from", ])^2) > sum((line[nrow(line), ] - ends["from", ])^2))
+    line <- line[nrow(line):1, ]
   rbind(ends["from", ], line, ends["to", ])
 }

@@ -1,16 +1,17 @@
-# Batches: the 23 simpop faces with one worker and two, on every kind of plan; a run killed in the middle and gone on with;
-# memory.
+# Batches: the 23 simpop faces with one worker and two, on every kind of plan; a run killed in the
+# middle and gone on with; memory.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R speed [pairs = 3]
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R plans
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R killed
 #   CRESTLINE_SHARED=../shared/data Rscript bench/batch.R memory [copies = 250]
 #
-# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in turn; how long the processes
-# waited for a core tells how busy the machine was else (Linux). "plans": the same line with each plan, and whether shapes are
-# identical; Slurm where `sbatch` and future.batchtools are there. "killed": the run is killed (kill -9) once some results are
-# there, and started again: how many were measured twice, how many are missing; three files are damaged first. "memory":
-# resident memory of the process after 25 and after all of many copies of one face.
+# "speed": seconds of all 23 faces by future's multisession, workers started before, one and two in
+# turn; how long the processes waited for a core tells how busy the machine was else (Linux).
+# "plans": the same line with each plan, and whether shapes are identical; Slurm where `sbatch` and
+# future.batchtools are there. "killed": the run is killed (kill -9) once some results are there,
+# and started again: how many were measured twice, how many are missing; three files are damaged
+# first. "memory": resident memory of the process after 25 and after all of many copies of one face.
 
 library(crestline)
 
@@ -26,7 +27,8 @@ laid_out <- function(dir, ids = sub("[.]ply$", "", list.files(shared, "[.]ply$")
   for (id in ids) {
     file.copy(file.path(shared, paste0(id, ".ply")), dir)
     own <- landmarks[landmarks$id %in% c(id, sub("simpop_", "", id)), ]
-    write.csv(own[c("landmark", "x", "y", "z")], file.path(dir, paste0(id, ".csv")), row.names = FALSE)
+    write.csv(own[c("landmark", "x", "y", "z")], file.path(dir, paste0(id, ".csv")),
+              row.names = FALSE)
   }
   list.files(dir, "[.]ply$", full.names = TRUE)
 }
@@ -44,8 +46,8 @@ pids <- function(workers) {
   }, future.chunk.size = 1)))
 }
 
-# What a run takes, and what it would without other work on the machine: of the slowest worker the time that it ran or had nothing
-# to do, but not that in which it waited for a core.
+# What a run takes, and what it would without other work on the machine: of the slowest worker the
+# time that it ran or had nothing to do, but not that in which it waited for a core.
 seconds_with <- function(workers, files) {
   if (workers > 1) future::plan("multisession", workers = workers) else future::plan("sequential")
   invisible(fit_shapes(files[seq_len(workers)], scheme))
@@ -55,13 +57,16 @@ seconds_with <- function(workers, files) {
   took <- vapply(processes, times_of, c(0, 0)) - before
   stopifnot(nrow(failures(shapes)) == 0)
   slowest <- if (workers == 1) 1 else 1 + which.max(seconds - took[2, -1])
-  cat(sprintf("%d: %.2f s, %.2f without waiting for a core; processes ran %s, waited %s\n", workers, seconds,
-              seconds - took[2, slowest], paste(sprintf("%.2f", took[1, ]), collapse = " "),
+  cat(sprintf("%d: %.2f s, %.2f without waiting for a core; processes ran %s, waited %s\n",
+              workers, seconds, seconds - took[2, slowest],
+              paste(sprintf("%.2f", took[1, ]), collapse = " "),
               paste(sprintf("%.2f", took[2, ]), collapse = " ")))
   c(seconds, seconds - took[2, slowest])
 }
 
-resident <- function() as.numeric(gsub("[^0-9]", "", grep("VmRSS", readLines("/proc/self/status"), value = TRUE))) / 1024
+resident <- function() {
+  as.numeric(gsub("[^0-9]", "", grep("VmRSS", readLines("/proc/self/status"), value = TRUE))) / 1024
+}
 
 dir <- tempfile("batch-")
 if (mode == "speed") {
@@ -80,15 +85,17 @@ if (mode == "speed") {
     cluster = function() future::plan("cluster", workers = c("localhost", "localhost")),
     slurm = function() future::plan(future.batchtools::batchtools_slurm, workers = 2,
                                     resources = list(ncpus = 1, memory = 1000, walltime = 600),
-                                    template = system.file("extdata", "slurm.tmpl", package = "crestline"))
+                                    template = system.file("extdata", "slurm.tmpl",
+                                                           package = "crestline"))
   )
-  if (!nzchar(Sys.which("sbatch")) || !requireNamespace("future.batchtools", quietly = TRUE)) plans$slurm <- NULL
+  if (!nzchar(Sys.which("sbatch")) || !requireNamespace("future.batchtools", quietly = TRUE))
+    plans$slurm <- NULL
   found <- lapply(names(plans), function(name) {
     start <- system.time(plans[[name]]())[["elapsed"]]
     seconds <- system.time(shapes <- fit_shapes(files, scheme, file.path(dir, name)))[["elapsed"]]
     again <- system.time(fit_shapes(files, scheme, file.path(dir, name)))[["elapsed"]]
-    cat(sprintf("%s: started in %.1f s, %d shapes in %.1f s; once more in %.2f s\n", name, start, 23 - nrow(failures(shapes)),
-                seconds, again))
+    cat(sprintf("%s: started in %.1f s, %d shapes in %.1f s; once more in %.2f s\n", name, start,
+                23 - nrow(failures(shapes)), seconds, again))
     as.list(shapes)
   })
   future::plan("sequential")
@@ -100,16 +107,20 @@ if (mode == "speed") {
   out <- file.path(dir, "out")
   pid <- file.path(dir, "pid")
   line <- "fit_shapes(list.files('%s', '[.]ply$', full.names = TRUE), face_scheme(), '%s')"
-  code <- sprintf(paste("writeLines(format(Sys.getpid()), '%s'); library(crestline);", line), pid, dir, out)
-  system2(file.path(R.home("bin"), "Rscript"), c("-e", shQuote(code)), stdout = FALSE, stderr = FALSE, wait = FALSE)
+  code <- sprintf(paste("writeLines(format(Sys.getpid()), '%s'); library(crestline);", line),
+                  pid, dir, out)
+  system2(file.path(R.home("bin"), "Rscript"), c("-e", shQuote(code)), stdout = FALSE,
+          stderr = FALSE, wait = FALSE)
   while (length(list.files(out, "[.]shape$")) < 8) Sys.sleep(0.2)
   tools::pskill(as.integer(readLines(pid)), tools::SIGKILL)
   done <- list.files(out, "[.]shape$", full.names = TRUE)
   good <- done[vapply(done, function(file) inner("open_kept")(file)$state == "whole", NA)]
   before <- file.mtime(good)
   shapes <- fit_shapes(files, scheme, out)
-  cat(sprintf("killed after %d results (%d good); then: %d of those measured again, %d shapes, %d failures\n", length(done),
-              length(good), sum(file.mtime(good) != before), sum(!vapply(as.list(shapes), is.null, NA)), nrow(failures(shapes))))
+  cat(sprintf(paste("killed after %d results (%d good); then: %d of those measured again, %d",
+                    "shapes, %d failures\n"), length(done),
+              length(good), sum(file.mtime(good) != before),
+              sum(!vapply(as.list(shapes), is.null, NA)), nrow(failures(shapes))))
   print(failures(shapes), right = FALSE)
 } else {
   copies <- as.integer(c(commandArgs(TRUE)[-1], 250)[1])
@@ -123,6 +134,7 @@ if (mode == "speed") {
   early <- resident()
   invisible(fit_shapes(files, scheme, out))
   invisible(gc())
-  cat(sprintf("resident: %.0f MB after 25, %.0f MB after %d: ratio %.3f\n", early, resident(), copies, resident() / early))
+  cat(sprintf("resident: %.0f MB after 25, %.0f MB after %d: ratio %.3f\n", early, resident(),
+              copies, resident() / early))
 }
 unlink(dir, recursive = TRUE)

@@ -1,12 +1,15 @@
 # Corruptions of a scan: no crash, and no silent nonsense.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/corruption.R [cases, default 200] [folder to keep the shapes in]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/corruption.R [cases, default 200] [folder to keep
+#   the shapes in]
 #
-# Every case spoils scan_a in one way, at random with the case's number as seed: holes, spikes, patches turned inside out,
-# noise, decimation, a cut in two. Landmarks stay where they still lie on the mesh, others are NA. Each is measured by
-# the face's scheme; an error of class crestline_error is a refusal, any other a crash. A point of a curve or patch
-# that lies more than 3 mm from the clean scan's is seen when its part is graded amber or red; needless is the share of
-# parts graded so among those with no point missing or more than 1 mm off. Then the false alarms: grades of good scans.
+# Every case spoils scan_a in one way, at random with the case's number as seed: holes, spikes,
+# patches turned inside out, noise, decimation, a cut in two. Landmarks stay where they still lie on
+# the mesh, others are NA. Each is measured by the face's scheme; an error of class crestline_error
+# is a refusal, any other a crash. A point of a curve or patch that lies more than 3 mm from the
+# clean scan's is seen when its part is graded amber or red; needless is the share of parts graded
+# so among those with no point missing or more than 1 mm off. Then the false alarms: grades of good
+# scans.
 
 library(crestline)
 
@@ -23,7 +26,8 @@ scheme <- face_scheme()
 quiet <- function(code) suppressWarnings(code, classes = "crestline_warning")
 
 face_of <- function(id) {
-  quiet(read_specimen(file.path(shared, id, "surface.ply"), file.path(shared, id, "landmarks.csv"), id = id))
+  quiet(read_specimen(file.path(shared, id, "surface.ply"),
+                      file.path(shared, id, "landmarks.csv"), id = id))
 }
 
 humface_of <- function() {
@@ -37,13 +41,15 @@ simpop_faces <- function() {
   landmarks <- read.csv(file.path(shared, "simpop", "landmarks.csv"))
   lapply(split(landmarks, landmarks$id), function(own) {
     file <- file.path(shared, "simpop", paste0(own$id[1], ".ply"))
-    quiet(read_specimen(file, data.frame(name = own$landmark, own[c("x", "y", "z")]), id = own$id[1]))
+    quiet(read_specimen(file, data.frame(name = own$landmark, own[c("x", "y", "z")]),
+                        id = own$id[1]))
   })
 }
 
 measured <- function(face, ...) fit_shape(face, scheme, ..., progress = FALSE)
 
-# Corruptions: functions of a mesh and of the places (k x 3) where damage would matter --------------------------
+# Corruptions: functions of a mesh and of the places (k x 3) where damage would matter
+# --------------------------
 
 from <- function(mesh, at) sqrt(colSums((mesh$vb[1:3, , drop = FALSE] - at)^2))
 normals_of <- function(mesh) Rvcg::vcgUpdateNormals(mesh, silent = TRUE)$normals[1:3, ]
@@ -60,7 +66,8 @@ corruptions <- list(
   holes = function(mesh, places) {
     radius <- runif(sample(4, 1), 3, 25)
     at <- centres(places, length(radius), 7)
-    without(mesh, Reduce(`|`, lapply(seq_along(radius), function(i) from(mesh, at[i, ]) < radius[i])))
+    without(mesh,
+            Reduce(`|`, lapply(seq_along(radius), function(i) from(mesh, at[i, ]) < radius[i])))
   },
   # Tents 3 to 20 mm high, outwards or inwards, on a disc of 0.5 to 3 mm.
   spikes = function(mesh, places) {
@@ -69,7 +76,8 @@ corruptions <- list(
     for (i in seq_len(nrow(at))) {
       tip <- which.min(from(mesh, at[i, ]))
       share <- pmax(1 - from(mesh, mesh$vb[1:3, tip]) / runif(1, 0.5, 3), 0)
-      mesh$vb[1:3, ] <- mesh$vb[1:3, ] + outer(normal[, tip], runif(1, 3, 20) * sample(c(-1, 1), 1) * share)
+      mesh$vb[1:3, ] <- mesh$vb[1:3, ] +
+        outer(normal[, tip], runif(1, 3, 20) * sample(c(-1, 1), 1) * share)
     }
     mesh
   },
@@ -83,10 +91,12 @@ corruptions <- list(
     mesh
   },
   noise = function(mesh, places) {
-    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normals_of(mesh) * rep(rnorm(ncol(mesh$vb), sd = 0.3), each = 3)
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + normals_of(mesh) *
+      rep(rnorm(ncol(mesh$vb), sd = 0.3), each = 3)
     mesh
   },
-  # A little noise first, so that no two cases are decimated alike; 2.2 faces a vertex, since quadrics keep the border.
+  # A little noise first, so that no two cases are decimated alike; 2.2 faces a vertex, since
+  # quadrics keep the border.
   decimation = function(mesh, places) {
     mesh$vb[1:3, ] <- mesh$vb[1:3, ] + rnorm(3 * ncol(mesh$vb), sd = 0.02)
     Rvcg::vcgQEdecim(mesh, tarface = 5000 * ncol(mesh$it) / ncol(mesh$vb), silent = TRUE)
@@ -105,10 +115,12 @@ landmarks_left <- function(landmarks, mesh, within = 1) {
 spoiled_case <- function(number, face, places) {
   set.seed(number)
   kind <- names(corruptions)[(number - 1) %% length(corruptions) + 1]
-  mesh <- corruptions[[kind]](structure(list(vb = face$mesh$vb, it = face$mesh$it), class = "mesh3d"), places)
+  mesh <- corruptions[[kind]](structure(list(vb = face$mesh$vb, it = face$mesh$it),
+                                        class = "mesh3d"), places)
   mesh <- structure(list(vb = mesh$vb[1:4, ], it = mesh$it), class = "mesh3d")
   list(number = number, kind = kind, shape = tryCatch(
-    measured(quiet(specimen(mesh, landmarks_left(face$landmarks, mesh), id = paste(kind, number)))), error = identity
+    measured(quiet(specimen(mesh, landmarks_left(face$landmarks, mesh), id = paste(kind, number)))),
+    error = identity
   ))
 }
 
@@ -117,8 +129,9 @@ spoiled_case <- function(number, face, places) {
 positions <- function(shape) as.matrix(shape$points[c("x", "y", "z")])
 
 judged_case <- function(case, clean) {
-  row <- data.frame(number = case$number, kind = case$kind, refused = inherits(case$shape, "crestline_error"),
-                    crashed = FALSE, points = 0, off = 0, seen = 0, parts = 0, parts_off = 0, parts_seen = 0,
+  row <- data.frame(number = case$number, kind = case$kind,
+                    refused = inherits(case$shape, "crestline_error"), crashed = FALSE, points = 0,
+                    off = 0, seen = 0, parts = 0, parts_off = 0, parts_seen = 0,
                     amber = NA_real_, red = NA_real_, needless = NA_real_, unseen = "")
   if (!inherits(case$shape, "shape")) {
     row$crashed <- !row$refused
@@ -133,11 +146,14 @@ judged_case <- function(case, clean) {
   far <- there & off > off_limit
   row[c("points", "off", "seen")] <- c(sum(there), sum(far), sum(far & grade > "green"))
   whole <- graded$level != "landmarks" & graded$missing == 0
-  row[c("amber", "red")] <- c(mean(graded$grade[whole] == "amber"), mean(graded$grade[whole] == "red"))
+  row[c("amber", "red")] <- c(mean(graded$grade[whole] == "amber"),
+                              mean(graded$grade[whole] == "red"))
   part <- paste(points$level, points$part)
   counted <- function(chosen) length(unique(part[chosen]))
-  row[c("parts", "parts_off", "parts_seen")] <- c(counted(there), counted(far), counted(far & grade > "green"))
-  still <- tapply(off, part, function(d) !anyNA(d) && max(d) <= still_limit)[paste(graded$level, graded$part)]
+  row[c("parts", "parts_off", "parts_seen")] <- c(counted(there), counted(far),
+                                                  counted(far & grade > "green"))
+  still <- tapply(off, part, function(d) !anyNA(d) &&
+                             max(d) <= still_limit)[paste(graded$level, graded$part)]
   row$needless <- mean(graded$grade[whole & still] > "green")
   silent <- far & grade == "green"
   worst <- tapply(off[silent], points$part[silent], max)
@@ -150,10 +166,11 @@ by_kind <- function(rows) {
     fitted <- own[!own$refused & !own$crashed, ]
     wrong <- fitted[fitted$off > 0, ]
     share <- function(seen, off) sum(fitted[[seen]]) / sum(fitted[[off]])
-    data.frame(kind = kind, cases = nrow(own), refused = sum(own$refused), crashed = sum(own$crashed),
-               points = sum(fitted$points), off = sum(fitted$off), seen = share("seen", "off"),
-               parts_off = sum(fitted$parts_off), parts_seen = share("parts_seen", "parts_off"),
-               cases_off = nrow(wrong), cases_seen = mean(wrong$seen >= 0.9 * wrong$off),
+    data.frame(kind = kind, cases = nrow(own), refused = sum(own$refused),
+               crashed = sum(own$crashed), points = sum(fitted$points), off = sum(fitted$off),
+               seen = share("seen", "off"), parts_off = sum(fitted$parts_off),
+               parts_seen = share("parts_seen", "parts_off"), cases_off = nrow(wrong),
+               cases_seen = mean(wrong$seen >= 0.9 * wrong$off),
                amber = mean(fitted$amber, na.rm = TRUE), red = mean(fitted$red, na.rm = TRUE),
                needless = mean(fitted$needless, na.rm = TRUE))
   }
@@ -161,13 +178,15 @@ by_kind <- function(rows) {
   rbind(do.call(rbind, Map(sums, split(rows, rows$kind), levels(rows$kind))), sums(rows, "all"))
 }
 
-# Shares of the parts that are there; those that want a landmark that the specimen never had are not.
+# Shares of the parts that are there; those that want a landmark that the specimen never had are
+# not.
 false_alarms <- function(shapes, name) {
   graded <- quality(shapes)
   there <- graded$level != "landmarks" & !grepl("there is no landmark|is missing", graded$why)
   own <- graded[there, ]
-  data.frame(scans = name, parts = nrow(own), amber = mean(own$grade == "amber"), red = mean(own$grade == "red"),
-             curves = sum(own$level == "curves"), curves_amber = mean(own$grade[own$level == "curves"] == "amber"),
+  data.frame(scans = name, parts = nrow(own), amber = mean(own$grade == "amber"),
+             red = mean(own$grade == "red"), curves = sum(own$level == "curves"),
+             curves_amber = mean(own$grade[own$level == "curves"] == "amber"),
              curves_red = mean(own$grade[own$level == "curves"] == "red"))
 }
 
@@ -178,14 +197,16 @@ rounded <- function(table) {
   print(table, row.names = FALSE)
 }
 
-good <- list(scan_a = face_of("scan_a"), template_male = face_of("template_male"), humface = humface_of())
+good <- list(scan_a = face_of("scan_a"), template_male = face_of("template_male"),
+             humface = humface_of())
 shapes <- lapply(good, measured)
 clean <- shapes$scan_a
 known <- positions(clean)[!is.na(clean$points$x), ]
 
 rows <- lapply(seq_len(cases), function(number) {
   kept <- if (!is.na(folder)) file.path(folder, sprintf("%03d.rds", number))
-  case <- if (length(kept) && file.exists(kept)) readRDS(kept) else spoiled_case(number, good$scan_a, known)
+  case <- if (length(kept) && file.exists(kept)) readRDS(kept) else
+    spoiled_case(number, good$scan_a, known)
   if (length(kept)) saveRDS(case, kept)
   row <- judged_case(case, clean)
   said <- if (row$crashed) paste("CRASH:", row$unseen) else if (row$refused) "refused" else {
@@ -208,7 +229,8 @@ simpop <- simpop_faces()
 alone <- lapply(simpop, measured)
 shortest <- min(vapply(alone, function(shape) min(shape$checks$cut, na.rm = TRUE), 0))
 simpop_cut <- lapply(simpop, measured, cut_scale = shortest)
-if (!is.na(folder)) saveRDS(c(shapes, alone = alone, cut = simpop_cut), file.path(folder, "good.rds"))
+if (!is.na(folder))
+  saveRDS(c(shapes, alone = alone, cut = simpop_cut), file.path(folder, "good.rds"))
 cat("\nFalse alarms\n")
 rounded(rbind(do.call(rbind, Map(false_alarms, shapes, names(shapes))),
               false_alarms(alone, "simpop, each cut at its own share"),

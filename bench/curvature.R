@@ -12,12 +12,14 @@ errors <- function(order, noise, border) {
     m <- closed_form_mesh(form, noise = noise)
     at <- which(if (border) m$margin < 0.8 else m$margin > 10)
     found <- curvature_errors(curvature(m$mesh, radius, order = order, vertices = at), m$truth, at)
-    unlist(lapply(found, function(e) if (length(e)) quantile(e, c(0.5, 0.95), na.rm = TRUE) else c(NA, NA)))
+    unlist(lapply(found, function(e) if (length(e)) quantile(e, c(0.5, 0.95), na.rm = TRUE) else
+                         c(NA, NA)))
   }, numeric(6))
   rowMeans(each, na.rm = TRUE)
 }
 
-columns <- c("k1 median", "k1 95th", "index median", "index 95th", "direction median", "direction 95th")
+columns <- c("k1 median", "k1 95th", "index median", "index 95th", "direction median",
+             "direction 95th")
 for (case in list(list("clean, interior", 0, FALSE), list("noise 0.1, interior", 0.1, FALSE),
                   list("clean, border", 0, TRUE), list("noise 0.1, border", 0.1, TRUE))) {
   table <- t(vapply(orders, errors, numeric(6), noise = case[[2]], border = case[[3]]))

@@ -10,10 +10,11 @@ packaged <- function(file) read_landmarks(system.file("extdata", file, package =
 # Value and classes of the warnings of some code; those of single curves are left out.
 heard <- function(code) {
   told <- character()
-  value <- withCallingHandlers(tryCatch(code, crestline_error = identity), crestline_warning = function(w) {
-    told <<- c(told, class(w)[1])
-    invokeRestart("muffleWarning")
-  })
+  value <- withCallingHandlers(tryCatch(code, crestline_error = identity),
+                               crestline_warning = function(w) {
+                                 told <<- c(told, class(w)[1])
+                                 invokeRestart("muffleWarning")
+                               })
   list(value = value, told = setdiff(told, c("crestline_undetermined", "crestline_rival_path")))
 }
 
@@ -21,16 +22,19 @@ heard <- function(code) {
 placed <- function(folder) {
   table <- read.csv(file.path(data, folder, "landmarks.csv"))
   if (is.null(table$id)) table$id <- "surface"
-  lapply(split(table, table$id), function(own) structure(as.matrix(own[c("x", "y", "z")]), dimnames = list(own$landmark, c("x", "y", "z"))))
+  lapply(split(table, table$id), function(own)
+    structure(as.matrix(own[c("x", "y", "z")]), dimnames = list(own$landmark, c("x", "y", "z"))))
 }
 
 good_faces <- function() {
   faces <- lapply(c("scan_a", "template_male", "simpop", "ict"), function(folder) {
     own <- placed(folder)
-    Map(function(at, id) read_specimen(file.path(data, folder, paste0(id, ".ply")), at, id = paste(folder, id)), own, names(own))
+    Map(function(at, id) read_specimen(file.path(data, folder, paste0(id, ".ply")), at,
+                                       id = paste(folder, id)), own, names(own))
   })
   humface <- get(data(humface, package = "Rvcg", envir = environment()))
-  c(list(specimen(humface, packaged("humface_landmarks.csv"), id = "humface")), unlist(faces, recursive = FALSE))
+  c(list(specimen(humface, packaged("humface_landmarks.csv"), id = "humface")),
+    unlist(faces, recursive = FALSE))
 }
 
 no_faces <- function() {
@@ -45,20 +49,25 @@ no_faces <- function() {
   face <- packaged("dummyhead_landmarks.csv")
   front <- colMeans(face[c("pn", "sn", "n", "exL", "exR"), ]) - rowMeans(dummyhead.mesh$vb[1:3, ])
   behind <- drop(front %*% (dummyhead.mesh$vb[1:3, ] - rowMeans(dummyhead.mesh$vb[1:3, ]))) < 0
-  back <- structure(list(vb = dummyhead.mesh$vb, it = dummyhead.mesh$it[, colSums(matrix(behind[dummyhead.mesh$it], 3)) == 3]), class = "mesh3d")
+  back <- structure(list(vb = dummyhead.mesh$vb,
+                         it = dummyhead.mesh$it[, colSums(matrix(behind[dummyhead.mesh$it], 3)) ==
+                                                  3]), class = "mesh3d")
   list("ball with bumps" = bumps, skull = skull_0144_ch_fe.mesh, "head from behind" = back)
 }
 
 graded <- function(one, kind, told = character()) {
   fit <- heard(fit_shape(one, scheme, progress = FALSE))
   grade <- quality(fit$value)
-  green <- tapply(grade$grade == "green", factor(grade$level, c("landmarks", "curves", "surface")), sum)
+  green <- tapply(grade$grade == "green",
+                  factor(grade$level, c("landmarks", "curves", "surface")), sum)
   data.frame(id = one$id, kind = kind, t(green), warnings = toString(c(told, fit$told)))
 }
 
 found <- function(mesh, id) {
   finding <- heard(find_landmarks(mesh, id = id))
-  if (inherits(finding$value, "error")) return(data.frame(id = id, kind = "refused", landmarks = 0, curves = 0, surface = 0, warnings = ""))
+  if (inherits(finding$value, "error"))
+    return(data.frame(id = id, kind = "refused", landmarks = 0, curves = 0, surface = 0,
+                      warnings = ""))
   graded(finding$value, "found", finding$told)
 }
 
@@ -69,14 +78,16 @@ exchanged <- function(one) {
   right <- apply(both, 2, function(two) {
     at <- one$landmarks
     rownames(at)[match(two, names)] <- rev(two)
-    slips <- crestline:::exchanged_landmarks(at, NULL, crestline:::side_pairs(names), character(), crestline:::typical_landmarks(scheme))
+    slips <- crestline:::exchanged_landmarks(at, NULL, crestline:::side_pairs(names), character(),
+                                             crestline:::typical_landmarks(scheme))
     setequal(unlist(slips$groups), two)
   })
   data.frame(id = one$id, exchanges = length(right), named = sum(right))
 }
 
 rows <- switch(what,
-  good = unlist(lapply(good_faces(), function(one) list(graded(one, "placed"), found(one, one$id))), recursive = FALSE),
+  good = unlist(lapply(good_faces(), function(one) list(graded(one, "placed"), found(one, one$id))),
+                recursive = FALSE),
   none = Map(found, no_faces(), names(no_faces())),
   exchanged = lapply(good_faces(), exchanged))
 print(do.call(rbind, rows), row.names = FALSE)

@@ -2,10 +2,11 @@
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/faces.R [preset]
 #
-# For every curve that face_scheme() finds by curvature: RMS and largest distance (mm) of the authors' points from
-# our curve, mean strength along ours over that along theirs (principal curvature, the same estimates for both;
-# trapezoid over 200 places), median standard error (mm), whether it counts as determined. For every plane curve: the same
-# distances, and how far the authors' own points lie from the mesh they are compared on.
+# For every curve that face_scheme() finds by curvature: RMS and largest distance (mm) of the
+# authors' points from our curve, mean strength along ours over that along theirs (principal
+# curvature, the same estimates for both; trapezoid over 200 places), median standard error (mm),
+# whether it counts as determined. For every plane curve: the same distances, and how far the
+# authors' own points lie from the mesh they are compared on.
 
 library(crestline)
 
@@ -40,19 +41,24 @@ mean_strength <- function(face, curved, type, points) {
 
 face_of <- function(id) {
   folder <- file.path(shared, id)
-  face <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"), id = id))
+  face <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"),
+                                         file.path(folder, "landmarks.csv"), id = id))
   case <- list(face = face, reference = read.csv(file.path(folder, "reference_curves.csv")),
-               curved = lapply(c("5" = 5, "10" = 10), function(r) curvature(face, r, settings$order)))
+               curved = lapply(c("5" = 5, "10" = 10),
+                               function(r) curvature(face, r, settings$order)))
   case$ears <- "tL" %in% rownames(face$landmarks)
   case$curves <- scheme$curves
   if (!case$ears) case <- with_brow_ends(case)
-  case$shape <- fit_shape(case$face, curve_scheme(scheme$landmarks, case$curves), settings, progress = FALSE)
+  case$shape <- fit_shape(case$face, curve_scheme(scheme$landmarks, case$curves), settings,
+                          progress = FALSE)
   case
 }
 
-# Where there are no ears (the template), the brows start where the authors' do, and no other curve from the ear is found.
+# Where there are no ears (the template), the brows start where the authors' do, and no other curve
+# from the ear is found.
 with_brow_ends <- function(case) {
-  ends <- rbind(tL = authors_points(case, "brow ridge left")[1, ], tR = authors_points(case, "brow ridge right")[1, ])
+  ends <- rbind(tL = authors_points(case, "brow ridge left")[1, ],
+                tR = authors_points(case, "brow ridge right")[1, ])
   ends[] <- as.matrix(crestline:::surface_points(case$face$mesh, ends)[c("x", "y", "z")])
   case$face$landmarks <- rbind(case$face$landmarks, ends)
   case$curves <- case$curves[is.na(case$curves$cut_share) | startsWith(case$curves$curve, "brow"), ]
@@ -71,16 +77,20 @@ by_curvature <- function(case, row) {
   d <- distance_to_path(theirs, path)
   status <- case$shape$status[case$shape$status$part == row$curve, ]
   strength <- function(points) mean_strength(case$face, curved, row$kind, points)
-  data.frame(face = case$face$id, curve = row$curve, authors = row$authors_kind, rms = sqrt(mean(d^2)), max = max(d),
-             strength_ratio = strength(as.matrix(as.data.frame(path)[c("x", "y", "z")])) / strength(theirs), se = status$se,
+  data.frame(face = case$face$id, curve = row$curve, authors = row$authors_kind,
+             rms = sqrt(mean(d^2)), max = max(d),
+             strength_ratio = strength(as.matrix(as.data.frame(path)[c("x", "y", "z")])) /
+               strength(theirs), se = status$se,
              determined = case$shape$checks$determined[case$shape$checks$part == row$curve])
 }
 
 by_plane <- function(case, row) {
   theirs <- authors_points(case, row$curve)
   d <- distance_to_path(theirs, case$shape$paths[[row$curve]])
-  off <- sqrt(rowSums((theirs - as.matrix(crestline:::surface_points(case$face$mesh, theirs)[1:3]))^2))
-  data.frame(face = case$face$id, curve = row$curve, rms = sqrt(mean(d^2)), max = max(d), authors_off_mesh = max(off))
+  off <-
+    sqrt(rowSums((theirs - as.matrix(crestline:::surface_points(case$face$mesh, theirs)[1:3]))^2))
+  data.frame(face = case$face$id, curve = row$curve, rms = sqrt(mean(d^2)), max = max(d),
+             authors_off_mesh = max(off))
 }
 
 each <- function(case, plane, f) {
@@ -101,6 +111,7 @@ both <- found[found$authors != "plane", ]
 lips <- grepl("lip", both$curve)
 cat(sprintf("those that the authors find by curvature: mean RMS %.2f mm, lips at most %.2f mm; ",
             mean(both$rms), max(both$rms[lips])))
-cat(sprintf("strength ratio %.3f in the mean, %.3f at least\n\n", mean(both$strength_ratio), min(both$strength_ratio)))
+cat(sprintf("strength ratio %.3f in the mean, %.3f at least\n\n", mean(both$strength_ratio),
+            min(both$strength_ratio)))
 cat("Plane curves\n")
 show(do.call(rbind, lapply(cases, each, TRUE, by_plane)))

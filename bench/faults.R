@@ -18,8 +18,8 @@ put <- function(name, id, change = identity, scale = 1, from = id) {
   write_landmarks(change(marks(from)) * scale, file.path(dir, paste0(name, ".csv")))
 }
 swap <- function(pairs) function(x) { n <- rownames(x); for (p in pairs) x[p, ] <- x[rev(p), ]; x }
-lr <- grep("L$", rownames(marks(ids[1])),
-           value = TRUE); lr <- lapply(lr, function(l) c(l, sub("L$", "R", l)))
+lr <- grep("L$", rownames(marks(ids[1])), value = TRUE)
+lr <- lapply(lr, function(l) c(l, sub("L$", "R", l)))
 put("all_swapped", ids[1], swap(lr)); put("one_pair", ids[2], swap(list(c("acL", "acR"))))
 put("in_cm", ids[3], scale = 0.1); put("in_m", ids[4], scale = 0.001)
 put("no_file", ids[5]); unlink(file.path(dir, "no_file.csv"))
@@ -27,14 +27,12 @@ put("near_names", ids[6], function(x) {
   rownames(x)[match(c("pn", "chL"), rownames(x))] <- c("prn", "CHL"); x })
 put("nine", ids[7], function(x) x[1:9, ])
 put("others", ids[8], from = ids[9])
-bunny <- Rvcg::vcgSphere(5); bump <- function(at) 12 * exp(-colSums((bunny$vb[1:3, ] - at /
-                                                                     sqrt(sum(at^2)))^2) / 0.05)
-r <- 80 + bump(c(0, 0, 1)) + bump(c(.5, .7, .6)) + bump(c(-.5, .7,
-                                                          .6)) + bump(c(0, -.8, .5)); bunny$vb[1:3,
-                                                                                               ] <- t(t(bunny$vb[1:3, ]) * r)
-write_mesh(bunny, file.path(dir,
-                            "bunny.ply")); write_landmarks(marks(ids[9]),
-                                                           file.path(dir, "bunny.csv"))
+bunny <- Rvcg::vcgSphere(5)
+bump <- function(at) 12 * exp(-colSums((bunny$vb[1:3, ] - at / sqrt(sum(at^2)))^2) / 0.05)
+r <- 80 + bump(c(0, 0, 1)) + bump(c(.5, .7, .6)) + bump(c(-.5, .7, .6)) + bump(c(0, -.8, .5))
+bunny$vb[1:3, ] <- t(t(bunny$vb[1:3, ]) * r)
+write_mesh(bunny, file.path(dir, "bunny.ply"))
+write_landmarks(marks(ids[9]), file.path(dir, "bunny.csv"))
 put("cut", ids[10]); f <- file.path(dir, "cut.ply"); writeBin(readBin(f, "raw", 60000), f)
 for (i in 11:length(ids)) put(sub("simpop", "good", ids[i]), ids[i])
 files <- list.files(dir, "[.]ply$", full.names = TRUE)

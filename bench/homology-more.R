@@ -1,5 +1,5 @@
-# What else homologise() promises of the joint step: ridges stay ridges, a wrong feature is named, a new face is slid alike, time and
-# memory do not grow.
+# What else homologise() promises of the joint step: ridges stay ridges, a wrong feature is named, a
+# new face is slid alike, time and memory do not grow.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/homology-more.R FOLDER [real] [wrong] [new] [many]
 #
@@ -16,8 +16,9 @@ if (!length(wanted)) wanted <- c("real", "wrong", "new", "many")
 
 simpop <- function() readRDS(file.path(folder, "shapes-simpop.rds"))$shapes
 
-settings_of <- function(name) switch(name, held = slide_settings(curves = "held"), free = slide_settings(),
-                                     crests = slide_settings(floor = 0))
+settings_of <- function(name)
+  switch(name, held = slide_settings(curves = "held"), free = slide_settings(),
+         crests = slide_settings(floor = 0))
 
 # Mean strength of a ridge's or valley's points: the curvature of its kind, at its radius.
 strength_at <- function(shape, curve, specimen) {
@@ -27,7 +28,8 @@ strength_at <- function(shape, curve, specimen) {
   vertices <- sort(unique(as.vector(it)))
   found <- curvature(specimen, row$radius, vertices = vertices)
   value <- if (row$kind == "ridge") -found$k2 else found$k1
-  if (length(value) != ncol(specimen$mesh$vb)) value <- replace(rep(NA, ncol(specimen$mesh$vb)), vertices, value)
+  if (length(value) != ncol(specimen$mesh$vb))
+    value <- replace(rep(NA, ncol(specimen$mesh$vb)), vertices, value)
   mean(colSums(matrix(value[it], 3) * t(shape$points[own, c("w1", "w2", "w3")])), na.rm = TRUE)
 }
 
@@ -39,7 +41,8 @@ real <- function() {
   }
   faces <- lapply(c("scan_a", "template_male"), read)
   names(faces) <- c("scan_a", "template_male")
-  shapes <- lapply(faces, function(face) suppressWarnings(fit_shape(face, face_scheme(), progress = FALSE)))
+  shapes <- lapply(faces, function(face)
+    suppressWarnings(fit_shape(face, face_scheme(), progress = FALSE)))
   samples <- lapply(c(held = "held", free = "free", crests = "crests"), function(name) {
     suppressWarnings(homologise(shapes, settings = settings_of(name), progress = FALSE))
   })
@@ -51,9 +54,11 @@ real <- function() {
       strength_at(shape, curve, faces[[id]]) / strength_at(samples$held[[id]], curve, faces[[id]])
     }, 0)
     off <- shape$points$offset[own]
-    cat(sprintf("%s, %s: ridge points off their curve %.2f mm RMS, %.2f at most; strength along them %.3f of the curve's (%.3f to %.3f)\n",
-                id, name, sqrt(mean(off^2, na.rm = TRUE)), max(abs(off), na.rm = TRUE), mean(strength, na.rm = TRUE),
-                min(strength, na.rm = TRUE), max(strength, na.rm = TRUE)))
+    cat(sprintf(paste("%s, %s: ridge points off their curve %.2f mm RMS, %.2f at most; strength",
+                      "along them %.3f of the curve's (%.3f to %.3f)\n"),
+                id, name, sqrt(mean(off^2, na.rm = TRUE)), max(abs(off), na.rm = TRUE),
+                mean(strength, na.rm = TRUE), min(strength, na.rm = TRUE),
+                max(strength, na.rm = TRUE)))
   }
 }
 
@@ -64,7 +69,8 @@ misplaced <- function(shape, curve, by) {
   n <- nrow(path)
   up <- c(0, by, 0)
   aside <- path + outer(pmin(1, 2 * sin(seq(0, pi, length.out = n))), up)
-  drawn <- suppressWarnings(fit_shape(shape$specimen, shape$scheme, cut_scale = 0.82, curves = stats::setNames(list(aside), curve),
+  drawn <- suppressWarnings(fit_shape(shape$specimen, shape$scheme, cut_scale = 0.82,
+                                      curves = stats::setNames(list(aside), curve),
                                       progress = FALSE))
   drawn$provenance$settings$fit$given <- character()
   own <- function(x) x$points$level == "curves" & x$points$part == curve
@@ -77,20 +83,26 @@ wrong <- function() {
   limit <- quality_limits()$offset[1]
   flagged <- function(sample) {
     table <- as.data.frame(quality(sample))
-    table[table$level == "curves" & !is.na(table$offset) & table$offset > limit, c("specimen", "part")]
+    table[table$level == "curves" & !is.na(table$offset) & table$offset > limit,
+          c("specimen", "part")]
   }
   good <- homologise(shapes, progress = FALSE)
   saveRDS(good, file.path(folder, "simpop-sample.rds"), compress = FALSE)
   cat(sprintf("nothing wrong: %d of %d curves flagged\n", nrow(flagged(good)), 23 * 38))
-  for (curve in c("brow ridge left", "lower eye socket right", "upper lip left")) for (by in c(4, 6, 8)) {
+  for (curve in c("brow ridge left", "lower eye socket right", "upper lip left"))
+    for (by in c(4, 6, 8)) {
     named <- vapply(c(3, 9, 17), function(i) {
-      bad <- homologise(list(misplaced(shapes[[i]], curve, by)), template = good, rounds = 0, progress = FALSE)
+      bad <- homologise(list(misplaced(shapes[[i]], curve, by)), template = good, rounds = 0,
+                        progress = FALSE)
       found <- flagged(c(good[-i], bad))
       own <- found$part == curve & found$specimen == names(bad)
-      c(any(own), sum(!own), bad[[1]]$checks$offset[with(bad[[1]]$checks, level == "curves" & part == curve)])
+      c(any(own), sum(!own),
+        bad[[1]]$checks$offset[with(bad[[1]]$checks, level == "curves" & part == curve)])
     }, numeric(3))
-    cat(sprintf("%s %g mm aside on one face: named %d of 3 times, other curves flagged %s of 873; offset, radii: %s\n", curve, by,
-                sum(named[1, ]), paste(named[2, ], collapse = ", "), paste(round(named[3, ], 3), collapse = ", ")))
+    cat(sprintf(paste("%s %g mm aside on one face: named %d of 3 times, other curves flagged %s of",
+                      "873; offset, radii: %s\n"), curve, by,
+                sum(named[1, ]), paste(named[2, ], collapse = ", "),
+                paste(round(named[3, ], 3), collapse = ", ")))
   }
 }
 
@@ -102,10 +114,12 @@ new <- function() {
     file <- tempfile(fileext = ".rds")
     saveRDS(homologise(shapes[-i], progress = FALSE), file)
     alone <- slide(shapes[[i]], readRDS(file))
-    off <- as.matrix(alone$points[c("x", "y", "z")]) - as.matrix(whole[[i]]$points[c("x", "y", "z")])
+    off <- as.matrix(alone$points[c("x", "y", "z")]) -
+      as.matrix(whole[[i]]$points[c("x", "y", "z")])
     sqrt(mean(rowSums(off^2), na.rm = TRUE))
   }, 0)
-  cat(sprintf("a new face against the sample of the other 22: off its place in the whole sample by %s mm RMS\n",
+  cat(sprintf(paste("a new face against the sample of the other 22: off its place in the whole",
+                    "sample by %s mm RMS\n"),
               paste(round(gap, 3), collapse = ", ")))
 }
 
@@ -128,10 +142,13 @@ many <- function() {
     for (how in c("held", "free")) {
       gc(reset = TRUE)
       before <- sum(gc()[, 2])
-      time <- system.time(sample <- suppressWarnings(homologise(light, settings = settings_of(how), specimens = read,
-                                                               progress = FALSE)))
-      cat(sprintf("%d faces, %s: %.2f user s a face; peak %.0f MB above the start, of which the sample %.0f\n", n, how,
-                  time[["user.self"]] / n, sum(gc()[, 6]) - before, as.numeric(utils::object.size(sample)) / 2^20))
+      time <-
+        system.time(sample <- suppressWarnings(homologise(light, settings = settings_of(how),
+                                                          specimens = read, progress = FALSE)))
+      cat(sprintf(paste("%d faces, %s: %.2f user s a face; peak %.0f MB above the start, of which",
+                        "the sample %.0f\n"), n, how,
+                  time[["user.self"]] / n, sum(gc()[, 6]) - before,
+                  as.numeric(utils::object.size(sample)) / 2^20))
     }
   }
 }

@@ -2,18 +2,20 @@
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/homology.R FOLDER [case ...]
 #
-# Cases: simpop simpop-noise simulated simulated-noise ict ict-moved ict-found. Shapes and results are kept in FOLDER, so that a
-# run that was stopped goes on. Every point is carried to the mean face by the dense correspondence of the population; the tables
-# have its RMS distance from its mean over faces, mm. "warp" is the rival as its users run it: the thin-plate spline through the 23
-# landmarks from the same mean template, then the closest point of the mesh (Morpho, Rvcg). "held": curve points stay on
-# their curves, the default before. "free": slide_settings().
+# Cases: simpop simpop-noise simulated simulated-noise ict ict-moved ict-found. Shapes and results
+# are kept in FOLDER, so that a run that was stopped goes on. Every point is carried to the mean
+# face by the dense correspondence of the population; the tables have its RMS distance from its mean
+# over faces, mm. "warp" is the rival as its users run it: the thin-plate spline through the 23
+# landmarks from the same mean template, then the closest point of the mesh (Morpho, Rvcg). "held":
+# curve points stay on their curves, the default before. "free": slide_settings().
 
 library(crestline)
 
 options(rgl.useNULL = TRUE, width = 220)
 inner <- function(name) getFromNamespace(name, "crestline")
 shared <- Sys.getenv("CRESTLINE_SHARED")
-all_cases <- c("simpop", "simpop-noise", "simulated", "simulated-noise", "ict", "ict-moved", "ict-found")
+all_cases <- c("simpop", "simpop-noise", "simulated", "simulated-noise", "ict", "ict-moved",
+               "ict-found")
 folder <- commandArgs(TRUE)[1]
 wanted <- commandArgs(TRUE)[-1]
 if (!length(wanted)) wanted <- all_cases
@@ -26,23 +28,28 @@ kept <- function(name, make) {
 
 landmark_tables <- function(folder) {
   table <- read.csv(file.path(shared, folder, "landmarks.csv"))
-  lapply(split(table, table$id), function(rows) `rownames<-`(as.matrix(rows[c("x", "y", "z")]), rows$landmark))
+  lapply(split(table, table$id),
+         function(rows) `rownames<-`(as.matrix(rows[c("x", "y", "z")]), rows$landmark))
 }
 
 fitted <- function(faces) {
-  lapply(faces, function(face) suppressWarnings(fit_shape(face, face_scheme(), cut_scale = 0.82, progress = FALSE)))
+  lapply(faces, function(face)
+    suppressWarnings(fit_shape(face, face_scheme(), cut_scale = 0.82, progress = FALSE)))
 }
 
 # Noise along the normals, and landmarks moved (RMS distance) and put on the mesh.
 worsened <- function(mesh, landmarks, id, noise, moved) {
   mesh <- Rvcg::vcgUpdateNormals(mesh, silent = TRUE)
-  mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] * rep(rnorm(ncol(mesh$vb), 0, noise), each = 3)
+  mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] *
+    rep(rnorm(ncol(mesh$vb), 0, noise), each = 3)
   mesh$normals <- NULL
-  suppressWarnings(specimen(mesh, landmarks + rnorm(length(landmarks), 0, moved / sqrt(3)), id = id))
+  suppressWarnings(specimen(mesh,
+                            landmarks + rnorm(length(landmarks), 0, moved / sqrt(3)), id = id))
 }
 
 read_mesh <- function(folder, id) {
-  Rvcg::vcgImport(file.path(shared, folder, paste0(id, ".ply")), silent = TRUE, clean = FALSE, readcolor = FALSE)
+  Rvcg::vcgImport(file.path(shared, folder, paste0(id, ".ply")), silent = TRUE, clean = FALSE,
+                  readcolor = FALSE)
 }
 
 population <- function(name) {
@@ -53,11 +60,13 @@ population <- function(name) {
     meshes <- lapply(names(landmarks), read_mesh, folder = "simpop")
     faces <- Map(worsened, meshes, landmarks, names(landmarks), 0.2 * noisy, 1 * noisy)
     dense <- lapply(meshes, function(mesh) t(mesh$vb[1:3, ]))
-    return(list(shapes = fitted(faces), dense = dense, it = lapply(faces, function(face) face$mesh$it)))
+    return(list(shapes = fitted(faces), dense = dense,
+                it = lapply(faces, function(face) face$mesh$it)))
   }
   if (grepl("simulated", name)) {
     scan <- scan_settings(noise = if (noisy) 0.2 else 0.05, landmark_error = if (noisy) 0.6 else 0)
-    made <- suppressWarnings(simulate_faces(12, effect = 0, scan = scan, seed = 7, progress = FALSE))
+    made <- suppressWarnings(simulate_faces(12, effect = 0, scan = scan, seed = 7,
+                                            progress = FALSE))
     return(list(shapes = fitted(made$specimens), places = made$vertices,
                 it = lapply(made$specimens, function(face) face$mesh$it)))
   }
@@ -77,7 +86,8 @@ ict <- function(name) {
     own <- landmarks[[id]]
     if (name == "ict-moved") own[] <- own + rnorm(length(own), 0, 2 / sqrt(3))
     on <- locate(mesh, own)
-    suppressWarnings(specimen(mesh, `rownames<-`(as.matrix(on[c("x", "y", "z")]), rownames(own)), id = id))
+    suppressWarnings(specimen(mesh, `rownames<-`(as.matrix(on[c("x", "y", "z")]), rownames(own)),
+                              id = id))
   })
   dense <- lapply(ids, function(id) readRDS(file.path(shared, "ict", paste0(id, "_dense.rds"))))
   list(shapes = fitted(faces), dense = dense, it = t(top), dense_mesh = TRUE)
@@ -88,7 +98,8 @@ ict <- function(name) {
 # Matrix by place: x, y, z, face, w1, w2, w3.
 store_of <- function(shape) {
   first <- !duplicated(shape$scheme$points$place)
-  `rownames<-`(as.matrix(shape$points[first, c("x", "y", "z", "face", "w1", "w2", "w3")]), shape$scheme$points$place[first])
+  `rownames<-`(as.matrix(shape$points[first, c("x", "y", "z", "face", "w1", "w2", "w3")]),
+               shape$scheme$points$place[first])
 }
 
 warp_store <- function(shape, template) {
@@ -105,7 +116,8 @@ warp_store <- function(shape, template) {
 }
 
 corners_at <- function(it, face, weight, at) {
-  weight[, 1] * at[it[1, face], ] + weight[, 2] * at[it[2, face], ] + weight[, 3] * at[it[3, face], ]
+  weight[, 1] * at[it[1, face], ] + weight[, 2] * at[it[2, face], ] +
+    weight[, 3] * at[it[3, face], ]
 }
 
 carried <- function(case, stores) {
@@ -130,7 +142,8 @@ carried <- function(case, stores) {
 
 curve_points <- function(scheme) {
   curves <- with(scheme$curves, curve[n > 2])
-  lapply(stats::setNames(nm = curves), function(name) with(scheme$points, place[level == "curves" & part == name]))
+  lapply(stats::setNames(nm = curves),
+         function(name) with(scheme$points, place[level == "curves" & part == name]))
 }
 
 curve_spread <- function(at, scheme) {
@@ -159,18 +172,24 @@ spread_row <- function(at, scheme) {
   face_parts <- grepl("lip|philtr|mentolab|socket", by$curve)
   free <- setdiff(unique(scheme$points$place), inner("bound_places")(scheme))
   off <- sweep(at[free, , ], 1:2, apply(at[free, , ], 1:2, mean, na.rm = TRUE))
-  data.frame(along = pooled(by$along, by$points), across = pooled(by$across, by$points), curves = of(TRUE), ridges = of(!plane),
-             cuts = of(plane & !cut), to_ear = of(plane & cut), brow = of(grepl("brow", by$curve)),
-             sockets = of(grepl("socket", by$curve)), lips = of(!plane & grepl("lip|philtr", by$curve)),
-             bridge = of(grepl("nasal bridge", by$curve)), no_mouth = of(!face_parts), no_brow = of(!grepl("brow", by$curve)),
+  data.frame(along = pooled(by$along, by$points), across = pooled(by$across, by$points),
+             curves = of(TRUE), ridges = of(!plane), cuts = of(plane & !cut),
+             to_ear = of(plane & cut), brow = of(grepl("brow", by$curve)),
+             sockets = of(grepl("socket", by$curve)),
+             lips = of(!plane & grepl("lip|philtr", by$curve)),
+             bridge = of(grepl("nasal bridge", by$curve)), no_mouth = of(!face_parts),
+             no_brow = of(!grepl("brow", by$curve)),
              surface = sqrt(mean(apply(off, 3, function(d) rowSums(d^2)), na.rm = TRUE)))
 }
 
-# Least step of neighbours along the template's direction, in the template's steps; steps back; triangles turned over.
+# Least step of neighbours along the template's direction, in the template's steps; steps back;
+# triangles turned over.
 order_of <- function(stores, template, scheme) {
   to <- inner("places_of")(template)
   it <- inner("model_triangles")(scheme, TRUE)
-  normals <- function(x) inner("cross_rows")(x[it[2, ], ] - x[it[1, ], ], x[it[3, ], ] - x[it[1, ], ])
+  normals <- function(x) {
+    inner("cross_rows")(x[it[2, ], ] - x[it[1, ], ], x[it[3, ], ] - x[it[1, ], ])
+  }
   wanted <- normals(to)
   each <- vapply(stores, function(store) {
     x <- inner("laid_onto")(store[, 1:3], to[rownames(store), ], TRUE)
@@ -179,23 +198,27 @@ order_of <- function(stores, template, scheme) {
       rowSums(aim * diff(x[place, ])) / rowSums(aim^2)
     }))
     turned <- rowSums(normals(x[rownames(to), ]) * wanted)
-    c(min(step, na.rm = TRUE), sum(step <= 0, na.rm = TRUE), sum(turned <= 0, na.rm = TRUE), sum(!is.na(turned)))
+    c(min(step, na.rm = TRUE), sum(step <= 0, na.rm = TRUE), sum(turned <= 0, na.rm = TRUE),
+      sum(!is.na(turned)))
   }, numeric(4))
-  data.frame(least_step = min(each[1, ]), back = sum(each[2, ]), folds = sum(each[3, ]), triangles = sum(each[4, ]))
+  data.frame(least_step = min(each[1, ]), back = sum(each[2, ]), folds = sum(each[3, ]),
+             triangles = sum(each[4, ]))
 }
 
 # RMS distance of every curve from its median place, curves x faces.
 off_median <- function(at, scheme) {
   t(vapply(curve_points(scheme), function(place) {
     place <- place[-c(1, length(place))]
-    off <- sweep(at[place, , , drop = FALSE], 1:2, apply(at[place, , , drop = FALSE], 1:2, median, na.rm = TRUE))
+    off <- sweep(at[place, , , drop = FALSE], 1:2,
+                 apply(at[place, , , drop = FALSE], 1:2, median, na.rm = TRUE))
     apply(off, 3, function(d) sqrt(mean(rowSums(matrix(d, ncol = 3)^2), na.rm = TRUE)))
   }, numeric(dim(at)[3])))
 }
 
 procrustes_distances <- function(at, scale) {
   whole <- apply(!is.na(at), 1, all)
-  utils::capture.output(laid <- suppressMessages(Morpho::procSym(at[whole, , ], CSinit = scale, scale = scale, reflect = FALSE)))
+  utils::capture.output(laid <- suppressMessages(Morpho::procSym(at[whole, , ], CSinit = scale,
+                                                                 scale = scale, reflect = FALSE)))
   as.vector(dist(t(apply(laid$rotated, 3, c))))
 }
 
@@ -203,16 +226,19 @@ procrustes_distances <- function(at, scale) {
 distance_rows <- function(case, stores, carried, scheme) {
   if (is.null(case$dense)) return(NULL)
   middle <- apply(carried, 1:2, mean, na.rm = TRUE)
-  near <- which(Rvcg::vcgKDtree(middle[complete.cases(middle), ], case$mean, k = 1, threads = 1)$distance[, 1] < 8)
+  near <- which(Rvcg::vcgKDtree(middle[complete.cases(middle), ], case$mean, k = 1,
+                                threads = 1)$distance[, 1] < 8)
   cell <- apply(round(case$mean[near, ] / 4), 1, paste, collapse = " ")
-  dense <- vapply(case$dense, function(x) x[near[!duplicated(cell)], ], case$mean[near[!duplicated(cell)], ])
+  dense <- vapply(case$dense, function(x) x[near[!duplicated(cell)], ],
+                  case$mean[near[!duplicated(cell)], ])
   places <- list(curves = unique(with(scheme$points, place[level == "curves"])),
                  surface = unique(with(scheme$points, place[level == "surface"])))
   found <- lapply(c(shape = TRUE, form = FALSE), function(scale) {
     truth <- procrustes_distances(dense, scale)
     vapply(places, function(place) {
       vapply(stores, function(store) {
-        cor(procrustes_distances(vapply(store, function(x) x[place, 1:3], store[[1]][place, 1:3]), scale), truth)
+        cor(procrustes_distances(vapply(store, function(x) x[place, 1:3], store[[1]][place, 1:3]),
+                                 scale), truth)
       }, 0)
     }, numeric(length(stores)))
   })
@@ -226,7 +252,9 @@ flag_rows <- function(off, shapes, scheme) {
     other <- as.data.frame(quality(shape, quality_limits(offset = c(Inf, Inf))))
     row <- match(rownames(off), ifelse(table$level == "curves", table$part, NA))
     list(amber = table$grade[row] > "green", else_amber = other$grade[row] > "green",
-         offset = shape$checks$offset[match(rownames(off), ifelse(shape$checks$level == "curves", shape$checks$part, NA))])
+         offset = shape$checks$offset[match(rownames(off),
+                                            ifelse(shape$checks$level == "curves",
+                                                   shape$checks$part, NA))])
   })
   of <- function(name) vapply(graded, `[[`, graded[[1]][[name]], name)
   plane <- scheme$curves$kind[match(rownames(off), scheme$curves$curve)] == "plane"
@@ -238,8 +266,10 @@ flag_rows <- function(off, shapes, scheme) {
     flagged <- offset[k, ] > quality_limits()$offset[1]
     green <- !other[k, ]
     data.frame(off = sum(wrong, na.rm = TRUE), off_flagged = sum(wrong & flagged, na.rm = TRUE),
-               off_green = sum(wrong & green, na.rm = TRUE), off_green_flagged = sum(wrong & green & flagged, na.rm = TRUE),
-               right_green = sum(!wrong & green, na.rm = TRUE), right_green_flagged = sum(!wrong & green & flagged, na.rm = TRUE))
+               off_green = sum(wrong & green, na.rm = TRUE),
+               off_green_flagged = sum(wrong & green & flagged, na.rm = TRUE),
+               right_green = sum(!wrong & green, na.rm = TRUE),
+               right_green_flagged = sum(!wrong & green & flagged, na.rm = TRUE))
   }))
 }
 
@@ -251,8 +281,10 @@ measured_case <- function(name) {
   if (!is.null(case$dense)) case$mean <- inner("procrustes_mean")(case$dense, case$dense[[1]])
   seconds <- numeric()
   run <- function(how) {
-    time <- system.time(sample <- suppressWarnings(homologise(case$shapes, settings = slide_settings(curves = how),
-                                                             progress = FALSE)))
+    time <-
+      system.time(sample <- suppressWarnings(homologise(case$shapes,
+                                                        settings = slide_settings(curves = how),
+                                                        progress = FALSE)))
     seconds[how] <<- time[["user.self"]] / length(case$shapes)
     sample
   }
@@ -270,14 +302,18 @@ measured_case <- function(name) {
     own <- shape$points$level == "curves" & shape$points$part %in% ridge
     shape$points$offset[own]
   }))
-  list(name = name, spread = spread, share = sweep(as.matrix(spread), 2, as.matrix(spread)["warp", ], `/`)[c("held", "free"), ],
+  list(name = name, spread = spread,
+       share = sweep(as.matrix(spread), 2, as.matrix(spread)["warp", ], `/`)[c("held", "free"), ],
        order = do.call(rbind, lapply(stores[-1], order_of, free$template, scheme)),
-       off = vapply(off, function(x) c(all = sum(x > 3, na.rm = TRUE), ridges = sum(x[!plane, ] > 3, na.rm = TRUE)), numeric(2)),
+       off = vapply(off,
+                    function(x)
+                      c(all = sum(x > 3, na.rm = TRUE),
+                        ridges = sum(x[!plane, ] > 3, na.rm = TRUE)), numeric(2)),
        only_free = which(off$free > 3 & off$warp <= 3, arr.ind = TRUE), off_values = off,
        offset_rms = sqrt(mean(offset^2, na.rm = TRUE)),
-       distances = distance_rows(case, stores[-1], at$warp, scheme), flags = flag_rows(off$measured, free$shapes, scheme),
-       by = lapply(at, curve_spread, scheme), seconds = seconds,
-       trace = vapply(free$shapes, function(shape) {
+       distances = distance_rows(case, stores[-1], at$warp, scheme),
+       flags = flag_rows(off$measured, free$shapes, scheme), by = lapply(at, curve_spread, scheme),
+       seconds = seconds, trace = vapply(free$shapes, function(shape) {
          row <- shape$sliding[shape$sliding$part == "joint", ]
          c(row$sweeps, row$converged)
        }, numeric(2)))
@@ -292,9 +328,11 @@ for (name in wanted) {
   print(found$order)
   cat("curves more than 3 mm off their median place\n")
   print(found$off)
-  cat(sprintf("ridge points off their curve %.2f mm RMS; user seconds a face: held %.2f, free %.2f; sweeps %s, %d of %d converged\n",
+  cat(sprintf(paste("ridge points off their curve %.2f mm RMS; user seconds a face: held %.2f,",
+                    "free %.2f; sweeps %s, %d of %d converged\n"),
               found$offset_rms, found$seconds[["held"]], found$seconds[["free"]],
-              paste(range(found$trace[1, ]), collapse = " to "), sum(found$trace[2, ]), ncol(found$trace)))
+              paste(range(found$trace[1, ]), collapse = " to "), sum(found$trace[2, ]),
+              ncol(found$trace)))
   print(found$distances, digits = 3)
   print(found$flags)
 }

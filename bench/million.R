@@ -1,4 +1,5 @@
-# One ridge and one valley curve on a mesh of a million vertices: seconds and peak memory of this process.
+# One ridge and one valley curve on a mesh of a million vertices: seconds and peak memory of this
+# process.
 #
 #   Rscript bench/million.R
 #
@@ -9,8 +10,10 @@ library(crestline)
 data(humface, package = "Rvcg")
 landmarks <- read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
 mesh <- specimen(humface)$mesh # mended: Rvcg's subdivision crashes R on the mesh as it comes
-while (ncol(mesh$vb) < 6e5) mesh <- Rvcg::vcgSubdivide(mesh, type = "Loop", threshold = 0, silent = TRUE)
-if (ncol(mesh$vb) < 1e6) mesh <- Rvcg::vcgSubdivide(mesh, type = "Loop", threshold = 0.4, silent = TRUE)
+while (ncol(mesh$vb) < 6e5)
+  mesh <- Rvcg::vcgSubdivide(mesh, type = "Loop", threshold = 0, silent = TRUE)
+if (ncol(mesh$vb) < 1e6)
+  mesh <- Rvcg::vcgSubdivide(mesh, type = "Loop", threshold = 0.4, silent = TRUE)
 invisible(gc(reset = TRUE))
 
 seconds <- function(code) system.time(code)[c("user.self", "elapsed")]

@@ -2,11 +2,12 @@
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/model.R [picture.png]
 #
-# Curves: RMS distance (mm) of the authors' points from our curve ("rms", "max"); the same after their points are put on
-# the mesh ("on_mesh"); RMS of their distance from the mesh ("off"). Ear-ended curves are compared where both are. Of plane
-# curves above 0.1 mm also "best": "rms" of the cut that fits their points best, of the planes through their ends, up to
-# 30 degrees from the surface's normal. Surface: RMS (mm) of our points from theirs of the same name, by patch: from their own
-# curves, and from ours; the picture shows both.
+# Curves: RMS distance (mm) of the authors' points from our curve ("rms", "max"); the same after
+# their points are put on the mesh ("on_mesh"); RMS of their distance from the mesh ("off").
+# Ear-ended curves are compared where both are. Of plane curves above 0.1 mm also "best": "rms" of
+# the cut that fits their points best, of the planes through their ends, up to 30 degrees from the
+# surface's normal. Surface: RMS (mm) of our points from theirs of the same name, by patch: from
+# their own curves, and from ours; the picture shows both.
 
 library(crestline)
 
@@ -19,7 +20,8 @@ lengths_of <- function(rows) sqrt(rowSums(rows^2))
 
 case_of <- function(id) {
   folder <- file.path(shared, id)
-  list(face = suppressWarnings(read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"), id = id)),
+  list(face = suppressWarnings(read_specimen(file.path(folder, "surface.ply"),
+                                             file.path(folder, "landmarks.csv"), id = id)),
        curves = attr(read_landmarks(file.path(folder, "reference_curves.csv")), "curves"),
        surface = read.csv(file.path(folder, "reference_surface.csv")))
 }
@@ -35,8 +37,8 @@ distance_to_path <- function(points, path) {
   })
 }
 
-# Where a face has no ear landmarks each ear-ended curve gets one of its own, the authors' end, which may lie off the
-# mesh, and is cut a hundredth before it.
+# Where a face has no ear landmarks each ear-ended curve gets one of its own, the authors' end,
+# which may lie off the mesh, and is cut a hundredth before it.
 with_ear_ends <- function(case) {
   scheme <- face_scheme()
   curves <- scheme$curves
@@ -47,7 +49,8 @@ with_ear_ends <- function(case) {
   span <- sqrt(sum((case$face$landmarks["enL", ] - case$face$landmarks["enR", ])^2))
   curves$cut_share[own] <- 0.99 * length / span
   case$face$landmarks <- rbind(case$face$landmarks, ends)
-  landmarks <- rbind(scheme$landmarks[c("landmark", "name")], data.frame(landmark = rownames(ends), name = NA))
+  landmarks <- rbind(scheme$landmarks[c("landmark", "name")],
+                     data.frame(landmark = rownames(ends), name = NA))
   case$scheme <- curve_scheme(landmarks, curves, name = "face with its own ear ends")
   case
 }
@@ -56,7 +59,8 @@ with_ear_ends <- function(case) {
 best_cut <- function(face, row, points) {
   start <- crestline:::surface_points(face$mesh, points[1, , drop = FALSE])
   min(vapply((-30:30) * pi / 180, function(angle) {
-    cut <- tryCatch(plane_path(face, start, row$to, angle, reach = 1), crestline_error = function(e) NULL)
+    cut <- tryCatch(plane_path(face, start, row$to, angle, reach = 1),
+                    crestline_error = function(e) NULL)
     if (is.null(cut)) Inf else rms(distance_to_path(points, cut))
   }, 0))
 }
@@ -74,7 +78,8 @@ compare_curves <- function(case) {
     searched <- row$kind == "plane" && rms(raw) > 0.1
     data.frame(curve, kind = row$kind, ear = !is.na(row$cut_share), rms = rms(raw), max = max(raw),
                on_mesh = rms(distance_to_path(on[inside, ], path)), off = rms(off[inside]),
-               best = if (searched) best_cut(case$face, row, theirs[inside, ]) else NA, points = sum(inside))
+               best = if (searched) best_cut(case$face, row, theirs[inside, ]) else NA,
+               points = sum(inside))
   })
   do.call(rbind, rows)
 }
@@ -100,25 +105,30 @@ for (case in list(scan, with_ear_ends(case_of("template_male")))) {
   cat("\n", case$face$id, "\n", sep = "")
   found <- compare_curves(case)
   show(found)
-  by <- ifelse(found$kind != "plane", "ridges and valleys", ifelse(found$ear, "plane, to the ear", "plane"))
+  by <- ifelse(found$kind != "plane", "ridges and valleys",
+               ifelse(found$ear, "plane, to the ear", "plane"))
   show(do.call(rbind, lapply(split(found, by), function(x) {
-    data.frame(curves = nrow(x), median = median(x$rms), worst = max(x$rms), worst_on_mesh = max(x$on_mesh),
-               which = x$curve[which.max(x$rms)])
+    data.frame(curves = nrow(x), median = median(x$rms), worst = max(x$rms),
+               worst_on_mesh = max(x$on_mesh), which = x$curve[which.max(x$rms)])
   })))
 }
 
 theirs <- compare_surface(scan, scan$curves)
 ours <- compare_surface(scan)
-cat(sprintf("\n922 points of scan_a: from their curves RMS %.4f mm (worst %.3f), from ours %.3f (worst %.2f)\n",
+cat(sprintf(paste("\n922 points of scan_a: from their curves RMS %.4f mm (worst %.3f), from ours",
+                  "%.3f (worst %.2f)\n"),
             theirs$all[1], theirs$all[2], ours$all[1], ours$all[2]))
-show(data.frame(patch = names(ours$patches), from_theirs = theirs$patches, from_ours = ours$patches))
+show(data.frame(patch = names(ours$patches), from_theirs = theirs$patches,
+                from_ours = ours$patches))
 
 # Three views of the model from their curves (above) and from ours.
 if (!is.na(picture)) {
   grDevices::png(picture, 1800, 1300, res = 110)
   graphics::par(mfrow = c(2, 3), mar = c(0, 0, 2, 0))
   for (found in list(theirs, ours)) {
-    for (view in c("front", "left", "right")) plot(found$shape, surface = "patch", engine = "picture", view = view)
+    for (view in c("front", "left", "right")) {
+      plot(found$shape, surface = "patch", engine = "picture", view = view)
+    }
   }
   invisible(grDevices::dev.off())
 }

@@ -1,10 +1,10 @@
-# Linear models, discriminants and scores: level and power of tests and maps with covariates, allometry, leaving one out,
-# new faces, speed. bench/models.md has the tables.
+# Linear models, discriminants and scores: level and power of tests and maps with covariates,
+# allometry, leaving one out, new faces, speed. bench/models.md has the tables.
 #
 #   Rscript bench/models.R [maps] [allometry] [out] [new] [speed] [published] [samples]
 #
-# samples: a number, 500 by default (200 for `out`). Results are kept in CRESTLINE_BENCH (a folder) as they come, where it is
-# set. new: CRESTLINE_SHARED. published: geomorph.
+# samples: a number, 500 by default (200 for `out`). Results are kept in CRESTLINE_BENCH (a folder)
+# as they come, where it is set. new: CRESTLINE_SHARED. published: geomorph.
 
 library(crestline)
 
@@ -33,7 +33,8 @@ coarse_face <- function(points = 300) {
   mesh <- Rvcg::vcgQEdecim(template$mesh, tarface = 2 * points, silent = TRUE)
   face <- list(xyz = t(mesh$vb[1:3, ]), it = mesh$it)
   # The step of brow and cheek by 1 mm.
-  face$field <- true_effect(simulate_faces(2, effect = 1, scan = NULL, seed = 1, progress = FALSE), face$xyz)
+  face$field <- true_effect(simulate_faces(2, effect = 1, scan = NULL, seed = 1, progress = FALSE),
+                            face$xyz)
   face
 }
 
@@ -41,10 +42,11 @@ least <- function(p) min(p, na.rm = TRUE)
 
 # ---- maps: age acts at brow and cheek, sex does not; the sexes differ in age ----
 
-# Faces of simulate_faces(), both groups alike; age (5 to 40) moves brow and cheek by `effect` mm over its range. Age and sex
-# go together: women are older on average.
+# Faces of simulate_faces(), both groups alike; age (5 to 40) moves brow and cheek by `effect` mm
+# over its range. Age and sex go together: women are older on average.
 aged_faces <- function(n, effect, seed, face) {
-  drawn <- simulate_faces(n, effect = 0, size_effect = 0, scan = NULL, seed = seed, progress = FALSE)
+  drawn <- simulate_faces(n, effect = 0, size_effect = 0, scan = NULL, seed = seed,
+                          progress = FALSE)
   set.seed(seed)
   sex <- rep(c("F", "M"), length.out = n)
   age <- 5 + 35 * rbeta(n, ifelse(sex == "F", 2, 1.2), ifelse(sex == "F", 1.2, 2))
@@ -52,32 +54,42 @@ aged_faces <- function(n, effect, seed, face) {
   x <- x + outer(face$field, effect * (age - 22.5) / 35)
   dimnames(x) <- list(seq_len(nrow(face$xyz)), c("x", "y", "z"), drawn$covariates$id)
   list(aligned = align(x, "face", triangles = face$it),
-       data = data.frame(id = drawn$covariates$id, age = age, sex = sex), there = sqrt(rowSums(face$field^2)))
+       data = data.frame(id = drawn$covariates$id, age = age, sex = sex),
+       there = sqrt(rowSums(face$field^2)))
 }
 
 maps <- function() {
   face <- coarse_face()
   one <- function(seed) {
     made <- aged_faces(40, 6, seed, face)
-    model <- shape_lm(made$aligned, ~ age + sex, made$data, ss = "II", n_perm = 199, components = 5, seed = seed)
-    alone <- compare_groups(made$aligned, setNames(made$data$sex, made$data$id), n_perm = 199, components = 5, seed = seed,
-                            tests = c("shape", "points"))
-    of <- function(term, test) model$tests$p_value[model$tests$term == term & model$tests$test == test]
+    model <- shape_lm(made$aligned, ~ age + sex, made$data, ss = "II", n_perm = 199, components = 5,
+                      seed = seed)
+    alone <- compare_groups(made$aligned, setNames(made$data$sex, made$data$id), n_perm = 199,
+                            components = 5, seed = seed, tests = c("shape", "points"))
+    of <- function(term, test) {
+      model$tests$p_value[model$tests$term == term & model$tests$test == test]
+    }
     points <- function(term) model$points[model$points$term == term, ]
     found <- points("age")$p_adjusted <= 0.05
-    c(sex_points = least(points("sex")$p_adjusted), sex_shape = of("sex", "shape"), sex_manova = of("sex", "manova"),
-      sex_size = of("sex", "size"), sex_pc = min(model$tests$p_adjusted[model$tests$term == "sex" & grepl("PC", model$tests$test)]),
-      age_points = least(points("age")$p_adjusted), age_shape = of("age", "shape"), age_manova = of("age", "manova"),
-      without_age_shape = alone$tests$p_value[1], without_age_points = least(alone$points$p_adjusted),
+    c(sex_points = least(points("sex")$p_adjusted), sex_shape = of("sex", "shape"),
+      sex_manova = of("sex", "manova"), sex_size = of("sex", "size"),
+      sex_pc = min(model$tests$p_adjusted[model$tests$term == "sex" &
+                                          grepl("PC", model$tests$test)]),
+      age_points = least(points("age")$p_adjusted), age_shape = of("age", "shape"),
+      age_manova = of("age", "manova"), without_age_shape = alone$tests$p_value[1],
+      without_age_points = least(alone$points$p_adjusted),
       top_there = made$there[which.max(abs(points("age")$statistic))] > 0,
-      found_there = mean(found[made$there > 0.5], na.rm = TRUE), found_elsewhere = mean(found[made$there == 0], na.rm = TRUE))
+      found_there = mean(found[made$there > 0.5], na.rm = TRUE),
+      found_elsewhere = mean(found[made$there == 0], na.rm = TRUE))
   }
   rows <- by_seed("maps", samples, one)
-  cat("\nage moves brow and cheek by 6 mm over its range, sex does nothing; 40 faces,", samples, "samples\n")
+  cat("\nage moves brow and cheek by 6 mm over its range, sex does nothing; 40 faces,", samples,
+      "samples\n")
   cat("share with p <= 0.05:\n")
   shares(rows[, 1:10])
-  cat("greatest statistic of age lies in the effect:", mean(rows[, "top_there"]), "; points found where it is above half:",
-      mean(rows[, "found_there"]), "; where it is 0:", mean(rows[, "found_elsewhere"]), "\n")
+  cat("greatest statistic of age lies in the effect:", mean(rows[, "top_there"]),
+      "; points found where it is above half:", mean(rows[, "found_there"]), "; where it is 0:",
+      mean(rows[, "found_elsewhere"]), "\n")
 }
 
 # ---- allometry: two groups that differ by size only ----
@@ -96,18 +108,22 @@ allometry <- function() {
     dimnames(x) <- list(NULL, NULL, paste0("s", seq_len(n)))
     aligned <- align(x)
     data <- data.frame(id = paste0("s", seq_len(n)), sex = sex)
-    given <- shape_lm(aligned, ~ log(size) + sex, data, n_perm = 199, tests = c("shape", "points"), seed = seed)
+    given <- shape_lm(aligned, ~ log(size) + sex, data, n_perm = 199, tests = c("shape", "points"),
+                      seed = seed)
     alone <- shape_lm(aligned, ~ sex, data, n_perm = 199, tests = "shape", seed = seed)
     # The wrong way: residuals of size as new shapes, tested as if size had never been there.
     y <- t(matrix(aligned$coords, length(aligned$mean)))
-    rest <- array(t(resid(lm(y ~ log(aligned$size)))) + as.vector(aligned$mean), dim(aligned$coords), dimnames(aligned$coords))
-    wrong <- shape_lm(as_aligned(rest), ~ sex, data, n_perm = 199, tests = c("shape", "points"), seed = seed)
+    rest <- array(t(resid(lm(y ~ log(aligned$size)))) + as.vector(aligned$mean),
+                  dim(aligned$coords), dimnames(aligned$coords))
+    wrong <- shape_lm(as_aligned(rest), ~ sex, data, n_perm = 199, tests = c("shape", "points"),
+                      seed = seed)
     c(alone = alone$tests$p_value, given_size = given$tests$p_value[2],
-      given_size_points = min(given$points$p_adjusted[given$points$term == "sex"]), residuals = wrong$tests$p_value,
-      residuals_points = min(wrong$points$p_adjusted))
+      given_size_points = min(given$points$p_adjusted[given$points$term == "sex"]),
+      residuals = wrong$tests$p_value, residuals_points = min(wrong$points$p_adjusted))
   }
   rows <- by_seed("allometry", samples, one)
-  cat("\ntwo groups that differ in size only (10 %),", samples, "samples; share with p <= 0.05 for sex:\n")
+  cat("\ntwo groups that differ in size only (10 %),", samples,
+      "samples; share with p <= 0.05 for sex:\n")
   shares(rows)
 }
 
@@ -116,7 +132,8 @@ allometry <- function() {
 out <- function() {
   face <- coarse_face(150)
   one <- function(effect) function(seed) {
-    drawn <- simulate_faces(30, effect = effect, size_effect = 0, scan = NULL, seed = seed, progress = FALSE)
+    drawn <- simulate_faces(30, effect = effect, size_effect = 0, scan = NULL, seed = seed,
+                            progress = FALSE)
     x <- true_points(drawn, face$xyz)
     group <- setNames(drawn$covariates$group, drawn$covariates$id)
     dimnames(x)[[3]] <- names(group)
@@ -126,7 +143,8 @@ out <- function() {
     seen <- vapply(c(2, 4, 6, 8), function(k) {
       mean(MASS::lda(pca$x[, 1:k, drop = FALSE] / 1e-3, group, CV = TRUE)$class == group)
     }, 0)
-    data.frame(right = 1 - fit$error, best_seen = max(seen), resubstituted = mean(predict(fit)$class == group))
+    data.frame(right = 1 - fit$error, best_seen = max(seen),
+               resubstituted = mean(predict(fit)$class == group))
   }
   n <- min(samples, 200)
   for (effect in c(0, 2)) {
@@ -143,9 +161,11 @@ new <- function() {
   folder <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
   placed <- read.csv(file.path(folder, "landmarks.csv"))
   ids <- unique(placed$id)
-  marks <- simplify2array(lapply(ids, function(id) as.matrix(placed[placed$id == id, c("x", "y", "z")])))
+  marks <- simplify2array(lapply(ids,
+                                 function(id) as.matrix(placed[placed$id == id, c("x", "y", "z")])))
   dimnames(marks) <- list(unique(placed$landmark), c("x", "y", "z"), ids)
-  mesh <- lapply(ids, function(id) Rvcg::vcgImport(file.path(folder, paste0(id, ".ply")), readcolor = FALSE, silent = TRUE))
+  mesh <- lapply(ids, function(id)
+    Rvcg::vcgImport(file.path(folder, paste0(id, ".ply")), readcolor = FALSE, silent = TRUE))
   dense <- simplify2array(lapply(mesh, function(one) t(one$vb[1:3, ])))
   dimnames(dense) <- list(NULL, c("x", "y", "z"), ids)
   for (level in c("landmarks", "vertices")) {
@@ -156,7 +176,8 @@ new <- function() {
       part <- shape_pca(quiet(align(x[, , -i])))
       score <- predict(part, x[, , i])
       turn <- sign(colSums(part$rotation[, 1:5] * whole$rotation[, 1:5]))
-      c(abs(score[1, 1:5] * turn - whole$x[i, 1:5]) / whole$sdev[1:5], outside = unname(attr(score, "outside")))
+      c(abs(score[1, 1:5] * turn - whole$x[i, 1:5]) / whole$sdev[1:5],
+        outside = unname(attr(score, "outside")))
     }, numeric(6)))
     cat("\nnew faces,", length(ids), level, ": own scores differ by", signif(own, 2),
         "; left out, median |difference| in sd of PC1 to PC5, and share outside:\n")
@@ -186,15 +207,20 @@ speed <- function() {
   }
   a <- shapes(250)
   data <- data.frame(id = names(a), age = runif(250), sex = rep(c("F", "M"), 125))
-  fit <- function(aligned, tests, data) shape_lm(aligned, ~ age + sex + log(size), data, tests = tests, seed = 1)
+  fit <- function(aligned, tests, data) {
+    shape_lm(aligned, ~ age + sex + log(size), data, tests = tests, seed = 1)
+  }
   cat("\nshape_lm(~ age + sex + log(size)), 1,000 permutations, processor seconds\n")
   row("250 x 922, whole shape", fit(a, "shape", data))
-  row("250 x 922, whole shape, manova, ten components", fit(a, c("shape", "manova", "components"), data))
+  row("250 x 922, whole shape, manova, ten components",
+      fit(a, c("shape", "manova", "components"), data))
   row("250 x 922, points (all co-ordinates)", fit(a, "points", data))
   if (requireNamespace("RRPP", quietly = TRUE)) {
-    frame <- RRPP::rrpp.data.frame(y = t(matrix(a$coords, 3 * 922)), age = data$age, sex = factor(data$sex), size = a$size)
+    frame <- RRPP::rrpp.data.frame(y = t(matrix(a$coords, 3 * 922)), age = data$age,
+                                   sex = factor(data$sex), size = a$size)
     row("250 x 922, RRPP::lm.rrpp(), whole shape",
-        RRPP::lm.rrpp(y ~ age + sex + log(size), data = frame, iter = 999, print.progress = FALSE), 1)
+        RRPP::lm.rrpp(y ~ age + sex + log(size), data = frame, iter = 999, print.progress = FALSE),
+        1)
   }
   rm(a)
   big <- shapes(2000)
@@ -205,20 +231,29 @@ speed <- function() {
 # ---- published examples of geomorph, with covariates ----
 
 published <- function() {
-  if (!requireNamespace("geomorph", quietly = TRUE)) return(cat("\npublished: geomorph is not installed\n"))
-  utils::data("plethodon", "pupfish", "plethspecies", "scallops", package = "geomorph", envir = environment())
+  if (!requireNamespace("geomorph", quietly = TRUE))
+    return(cat("\npublished: geomorph is not installed\n"))
+  utils::data("plethodon", "pupfish", "plethspecies", "scallops", package = "geomorph",
+              envir = environment())
   compare <- function(what, coords, size, formula, data, ss = "I") {
     aligned <- as_aligned(coords, size)
-    theirs <- geomorph::procD.lm(update(formula, coords ~ .), iter = 999, seed = 1, print.progress = FALSE,
-                                 data = do.call(geomorph::geomorph.data.frame, c(list(coords = coords, size = size), data)), SS.type = ss)
+    theirs <- geomorph::procD.lm(update(formula, coords ~ .), iter = 999, seed = 1,
+                                 print.progress = FALSE,
+                                 data = do.call(geomorph::geomorph.data.frame,
+                                                c(list(coords = coords, size = size), data)),
+                                 SS.type = ss)
     table <- anova(theirs)$table
     orders <- RRPP:::perm.index(dim(coords)[3], 999, seed = 1)
     rows <- data.frame(id = names(aligned), data)
-    ours <- quiet(shape_lm(aligned, formula, rows, tests = "shape", permutations = orders, ss = ss))$tests
+    ours <- quiet(shape_lm(aligned, formula, rows, tests = "shape", permutations = orders,
+                           ss = ss))$tests
     k <- seq_len(nrow(ours))
-    cat(sprintf("%-40s greatest relative difference: SS %.1e, F %.1e; Z %.1e, p %.1e\n", what, max(abs(ours$squares / table$SS[k] - 1)),
-                max(abs(ours$statistic / table$F[k] - 1)), max(abs(ours$z - table$Z[k])), max(abs(ours$p_value - table[k, 7]))))
-    print(data.frame(ours[c("term", "df")], signif(ours[c("squares", "share", "statistic", "z", "p_value")], 4)), row.names = FALSE)
+    cat(sprintf("%-40s greatest relative difference: SS %.1e, F %.1e; Z %.1e, p %.1e\n", what,
+                max(abs(ours$squares / table$SS[k] - 1)), max(abs(ours$statistic / table$F[k] - 1)),
+                max(abs(ours$z - table$Z[k])), max(abs(ours$p_value - table[k, 7]))))
+    print(data.frame(ours[c("term", "df")],
+                     signif(ours[c("squares", "share", "statistic", "z", "p_value")], 4)),
+          row.names = FALSE)
   }
   named <- function(x) {
     if (is.null(dimnames(x)[[3]])) dimnames(x) <- list(NULL, NULL, paste0("s", seq_len(dim(x)[3])))
@@ -227,8 +262,8 @@ published <- function() {
   gpa <- geomorph::gpagen(named(plethodon$land), print.progress = FALSE)
   compare("plethodon: size + species * site", gpa$coords, gpa$Csize, ~ log(size) + species * site,
           list(species = plethodon$species, site = plethodon$site))
-  compare("pupfish: log size + Sex * Pop", named(pupfish$coords), unname(pupfish$CS), ~ log(size) + Sex * Pop,
-          list(Sex = pupfish$Sex, Pop = pupfish$Pop))
+  compare("pupfish: log size + Sex * Pop", named(pupfish$coords), unname(pupfish$CS),
+          ~ log(size) + Sex * Pop, list(Sex = pupfish$Sex, Pop = pupfish$Pop))
   compare("pupfish, type II", named(pupfish$coords), unname(pupfish$CS), ~ log(size) + Sex * Pop,
           list(Sex = pupfish$Sex, Pop = pupfish$Pop), "II")
 }

@@ -1,6 +1,7 @@
 # The review page in a browser, with real clicks: what is clicked, what comes back.
 #   Rscript bench/review.R [folder for screenshots]
-# Needs the packages shiny and chromote and a Chromium or Chrome (CHROMOTE_CHROME names it); no display, no graphics card.
+# Needs the packages shiny and chromote and a Chromium or Chrome (CHROMOTE_CHROME names it); no
+# display, no graphics card.
 suppressMessages(library(crestline))
 folder <- c(commandArgs(TRUE), tempfile("review"))[1]
 dir.create(folder, showWarnings = FALSE, recursive = TRUE)
@@ -12,16 +13,20 @@ chromote::set_chrome_args(c("--no-sandbox", "--disable-dev-shm-usage", "--use-an
 serve <- function(code, port) {
   script <- tempfile(fileext = ".R")
   result <- tempfile(fileext = ".rds")
-  keep <- sprintf("saveRDS(result, '%s.part'); file.rename('%s.part', '%s')", result, result, result)
-  writeLines(c("library(crestline)", "options(rgl.useNULL = TRUE)", "data(humface, package = 'Rvcg')", code, keep), script)
-  system2(file.path(R.home("bin"), "Rscript"), script, stdout = FALSE, stderr = paste0(result, ".log"), wait = FALSE)
+  keep <- sprintf("saveRDS(result, '%s.part'); file.rename('%s.part', '%s')", result,
+                  result, result)
+  writeLines(c("library(crestline)", "options(rgl.useNULL = TRUE)",
+               "data(humface, package = 'Rvcg')", code, keep), script)
+  system2(file.path(R.home("bin"), "Rscript"), script, stdout = FALSE,
+          stderr = paste0(result, ".log"), wait = FALSE)
   list(result = result, port = port, url = sprintf("http://127.0.0.1:%d", port))
 }
 
 until <- function(test, what, seconds = 120) {
   begun <- Sys.time()
   while (!isTRUE(tryCatch(test(), error = function(e) FALSE))) {
-    if (difftime(Sys.time(), begun, units = "secs") > seconds) stop("waited in vain: ", what, call. = FALSE)
+    if (difftime(Sys.time(), begun, units = "secs") > seconds)
+      stop("waited in vain: ", what, call. = FALSE)
     Sys.sleep(0.02)
   }
   as.numeric(difftime(Sys.time(), begun, units = "secs"))
@@ -34,7 +39,8 @@ open_page <- function(served, size = c(1280, 860)) {
     TRUE
   }, "the server")
   page$Page$navigate(served$url)
-  until(function() look(page, "document.querySelectorAll('[data-landmark]').length") > 0, "the page")
+  until(function() look(page, "document.querySelectorAll('[data-landmark]').length") >
+        0, "the page")
   page
 }
 
@@ -42,7 +48,8 @@ look <- function(page, code) page$Runtime$evaluate(code, returnByValue = TRUE)$r
 
 # ---- Real mouse events, as the browser gets them from a hand.
 mouse <- function(page, type, at, button = "none", buttons = 0) {
-  page$Input$dispatchMouseEvent(type = type, x = at[1], y = at[2], button = button, buttons = buttons, clickCount = 1)
+  page$Input$dispatchMouseEvent(type = type, x = at[1], y = at[2], button = button,
+                                buttons = buttons, clickCount = 1)
 }
 
 click <- function(page, at) {
@@ -55,17 +62,21 @@ drag <- function(page, from, to, button = "left", steps = 10) {
   held <- c(left = 1, right = 2)[[button]]
   mouse(page, "mouseMoved", from)
   mouse(page, "mousePressed", from, button, held)
-  for (share in seq_len(steps) / steps) mouse(page, "mouseMoved", from + share * (to - from), button, held)
+  for (share in seq_len(steps) / steps) {
+    mouse(page, "mouseMoved", from + share * (to - from), button, held)
+  }
   mouse(page, "mouseReleased", to, button)
 }
 
 wheel <- function(page, at, delta) {
-  page$Input$dispatchMouseEvent(type = "mouseWheel", x = at[1], y = at[2], deltaX = 0, deltaY = delta)
+  page$Input$dispatchMouseEvent(type = "mouseWheel", x = at[1], y = at[2], deltaX = 0,
+                                deltaY = delta)
 }
 
 middle_of <- function(page, selector) {
   look(page, sprintf("document.querySelector('%s').scrollIntoView({block: 'center'})", selector))
-  unlist(look(page, sprintf("(() => { const b = document.querySelector('%s').getBoundingClientRect();
+  unlist(look(page, sprintf("(() => {
+    const b = document.querySelector('%s').getBoundingClientRect();
     return [b.x + b.width / 2, b.y + b.height / 2]; })()", selector)))
 }
 
@@ -75,14 +86,16 @@ press <- function(page, selector) click(page, middle_of(page, selector))
 pixel_of <- function(page, mesh, xyz) {
   xyz <- crestline:::into_scene(matrix(xyz, 1), crestline:::scene_frame(mesh))
   unlist(look(page, sprintf("(() => { const rgl = document.getElementById('face').rglinstance;
-    const b = rgl.canvas.getBoundingClientRect(), w = rgl.user2window([%s, 1], rgl.scene.rootSubscene);
-    return [b.x + w[0] * b.width, b.y + (1 - w[1]) * b.height]; })()", paste(sprintf("%.9g", xyz), collapse = ", "))))
+    const b = rgl.canvas.getBoundingClientRect();
+    const w = rgl.user2window([%s, 1], rgl.scene.rootSubscene);
+    return [b.x + w[0] * b.width, b.y + (1 - w[1]) * b.height]; })()",
+                            paste(sprintf("%.9g", xyz), collapse = ", "))))
 }
 
 # All lines that the browser shows, each as one text.
 lines_of <- function(page) {
-  unlist(look(page, "Object.values(document.getElementById('face').rglinstance.scene.objects).filter(
-    o => o.type === 'linestrip').map(o => JSON.stringify(o.vertices))"))
+  unlist(look(page, "Object.values(document.getElementById('face').rglinstance.scene.objects)
+    .filter(o => o.type === 'linestrip').map(o => JSON.stringify(o.vertices))"))
 }
 
 state_of <- function(page, name) {
@@ -139,10 +152,12 @@ move_chL <- function(what, code, unit, port) {
   Sys.sleep(0.5)
   stopifnot(identical(lines_of(page), lines), state_of(page, "chL") != "placed")
   press(page, "[data-landmark=chL]")
-  until(function() look(page, "document.querySelector('#chosen b').textContent") == "chL" && !busy(page), "chL chosen")
+  until(function() look(page, "document.querySelector('#chosen b').textContent") == "chL" &&
+        !busy(page), "chL chosen")
   target <- place_beside(before$mesh, before$landmarks["chL", ], 5 / unit)
   click(page, pixel_of(page, before$mesh, target))
-  seconds <- until(function() state_of(page, "chL") == "placed" && !identical(lines_of(page), lines), "chL placed")
+  seconds <- until(function() state_of(page, "chL") == "placed" &&
+                   !identical(lines_of(page), lines), "chL placed")
   until(function() !busy(page), "rest")
   changed <- sum(!lines_of(page) %in% lines)
   shoot(page, paste0(what, "-after.png"))
@@ -162,7 +177,8 @@ move_chL <- function(what, code, unit, port) {
   data.frame(
     session = what, seconds_to_move = seconds, curves_changed = changed,
     moved = unit * sqrt(sum((after$landmarks["chL", ] - before$landmarks["chL", ])^2)),
-    from_target = unit * sqrt(sum((after$landmarks["chL", ] - target)^2)), off_surface = unit * off_surface(after, "chL"),
+    from_target = unit * sqrt(sum((after$landmarks["chL", ] - target)^2)),
+    off_surface = unit * off_surface(after, "chL"),
     others_moved = max(abs(after$landmarks[others, ] - before$landmarks[others, ]), na.rm = TRUE),
     curve_moved = max(curve_distance(curves(before), curves(after))$max, na.rm = TRUE)
   )
@@ -189,10 +205,13 @@ settle_doubtful <- function(port) {
 }
 
 place_three <- function(port) {
-  call <- sprintf("result <- place_landmarks(humface, id = 'humface', port = %d, launch.browser = FALSE)", port)
+  call <-
+    sprintf("result <- place_landmarks(humface, id = 'humface', port = %d, launch.browser = FALSE)",
+            port)
   served <- serve(call, port)
   page <- open_page(served)
-  until(function() look(page, "document.querySelectorAll('.row.missing').length") == 23 && !busy(page), "23 missing")
+  until(function() look(page, "document.querySelectorAll('.row.missing').length") == 23 &&
+        !busy(page), "23 missing")
   until(function() look(page, "Shiny.shinyapp.$inputValues['ready']"), "the face")
   until(function() !busy(page), "rest")
   data(humface, package = "Rvcg", envir = environment())
@@ -212,7 +231,8 @@ place_three <- function(port) {
   placed <- !is.na(after$landmarks[, 1])
   data.frame(asked = asked, in_order = asked == face_scheme()$landmarks$landmark[1:3],
              off = sqrt(rowSums((after$landmarks[asked, ] - goal[asked, ])^2)),
-             off_surface = vapply(asked, off_surface, 0, specimen = after), others = sum(placed) - 3, row.names = NULL)
+             off_surface = vapply(asked, off_surface, 0, specimen = after),
+             others = sum(placed) - 3, row.names = NULL)
 }
 
 given <- "file <- system.file('extdata', 'humface_landmarks.csv', package = 'crestline')

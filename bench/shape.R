@@ -1,19 +1,24 @@
-# The whole facial model on a real scan: seconds and peak memory, one thread and two, and on the same scan refined.
+# The whole facial model on a real scan: seconds and peak memory, one thread and two, and on the
+# same scan refined.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R [times = 5]
-#   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R refined   (a process of its own, for its peak memory)
+#   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R refined (a process of its own, for its
+#   peak memory)
 #
-# scan_a as read; the refined one has every triangle divided into four, twice (1,291,985 vertices). The method's
-# authors' own software takes over 460 s for the 40 curves of scan_a (measured once, see bench/shape.md).
+# scan_a as read; the refined one has every triangle divided into four, twice (1,291,985 vertices).
+# The method's authors' own software takes over 460 s for the 40 curves of scan_a (measured once,
+# see bench/shape.md).
 
 library(crestline)
 
 folder <- file.path(Sys.getenv("CRESTLINE_SHARED"), "scan_a")
 mode <- c(commandArgs(TRUE), "5")[1]
 scheme <- face_scheme()
-scan <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"), id = "scan_a"))
+scan <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"),
+                                       file.path(folder, "landmarks.csv"), id = "scan_a"))
 fit <- function(specimen, error, threads) {
-  fit_shape(specimen, scheme, settings = ridge_settings(error = error), threads = threads, progress = FALSE)
+  fit_shape(specimen, scheme, settings = ridge_settings(error = error), threads = threads,
+            progress = FALSE)
 }
 
 # Every triangle in four, at the middles of its sides.
@@ -24,7 +29,8 @@ divided <- function(mesh) {
   middle <- (mesh$vb[1:3, ends[1, first]] + mesh$vb[1:3, ends[2, first]]) / 2
   m <- t(matrix(match(key, key[first]) + ncol(mesh$vb), ncol = 3))
   it <- mesh$it
-  corners <- cbind(rbind(it[1, ], m[1, ], m[3, ]), rbind(m[1, ], it[2, ], m[2, ]), rbind(m[3, ], m[2, ], it[3, ]), m)
+  corners <- cbind(rbind(it[1, ], m[1, ], m[3, ]), rbind(m[1, ], it[2, ], m[2, ]),
+                   rbind(m[3, ], m[2, ], it[3, ]), m)
   rgl::mesh3d(vertices = rbind(cbind(mesh$vb[1:3, ], middle), 1), triangles = corners)
 }
 
@@ -42,8 +48,11 @@ if (mode == "refined") {
   invisible(fit(scan, TRUE, 1L))
   cases <- data.frame(error = c(FALSE, FALSE, TRUE, TRUE), threads = c(1L, 2L, 1L, 2L))
   seconds <- vapply(seq_len(nrow(cases)), function(i) {
-    times <- replicate(as.integer(mode), system.time(fit(scan, cases$error[i], cases$threads[i]))[c("user.self", "elapsed")])
-    c(user = stats::median(times[1, ]), elapsed = stats::median(times[2, ]), least = min(times[2, ]))
+    times <- replicate(as.integer(mode),
+                       system.time(fit(scan, cases$error[i],
+                                       cases$threads[i]))[c("user.self", "elapsed")])
+    c(user = stats::median(times[1, ]), elapsed = stats::median(times[2, ]),
+      least = min(times[2, ]))
   }, numeric(3))
   print(cbind(cases, t(seconds)))
 }

@@ -1,14 +1,17 @@
-# Curves of the face across 23 simulated faces in dense correspondence: as the scheme has them, and in other ways.
+# Curves of the face across 23 simulated faces in dense correspondence: as the scheme has them, and
+# in other ways.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/simpop.R
 #
-# All faces have the same 7,160 vertices and triangles, so that a point of a face, given by triangle and weights, is a
-# place of the mean mesh (mean of the faces after rotation and shift). The spread of a curve's points: RMS distance (mm)
-# of these places from their mean over the faces, along and across the mean curve, ends left out. Every curve is found
-# as the scheme has it; as the shortest cut, without constraints; and as a ridge and a valley, with those of its row.
-# Curves from the ear are cut at the smallest share that any face allows. Strength: mean along the curve of the
-# principal curvature at the row's radius, the same estimates for all ways. "pays": where curvature is used, the spread
-# across is no larger than that of the shortest cut, or at most 0.6 mm with at least 1.2 times the strength.
+# All faces have the same 7,160 vertices and triangles, so that a point of a face, given by triangle
+# and weights, is a place of the mean mesh (mean of the faces after rotation and shift). The spread
+# of a curve's points: RMS distance (mm) of these places from their mean over the faces, along and
+# across the mean curve, ends left out. Every curve is found as the scheme has it; as the shortest
+# cut, without constraints; and as a ridge and a valley, with those of its row. Curves from the ear
+# are cut at the smallest share that any face allows. Strength: mean along the curve of the
+# principal curvature at the row's radius, the same estimates for all ways. "pays": where curvature
+# is used, the spread across is no larger than that of the shortest cut, or at most 0.6 mm with at
+# least 1.2 times the strength.
 
 library(crestline)
 
@@ -61,7 +64,8 @@ spread <- function(places) {
 strength_along <- function(path, curved, it, type) {
   value <- crestline:::strength_at(curved, type)
   value[is.na(value)] <- 0
-  at <- path$w1 * value[it[1, path$face]] + path$w2 * value[it[2, path$face]] + path$w3 * value[it[3, path$face]]
+  at <- path$w1 * value[it[1, path$face]] + path$w2 * value[it[2, path$face]] +
+    path$w3 * value[it[3, path$face]]
   weighted.mean((at[-1] + at[-length(at)]) / 2, diff(path$s))
 }
 
@@ -73,11 +77,13 @@ in_way <- function(way) {
     curves$kind <- way
     curves$angle_limit[free] <- NA
   }
-  curve_scheme(scheme$landmarks, curves, pairs = scheme$pairs[scheme$pairs$level != "surface", ], name = way)
+  curve_scheme(scheme$landmarks, curves,
+               pairs = scheme$pairs[scheme$pairs$level != "surface", ], name = way)
 }
 
 fit_all <- function(scheme, cut_scale, error = FALSE) {
-  lapply(faces, fit_shape, scheme, ridge_settings(error = error), cut_scale = cut_scale, progress = FALSE)
+  lapply(faces, fit_shape, scheme, ridge_settings(error = error), cut_scale = cut_scale,
+         progress = FALSE)
 }
 
 measured <- function(shapes, way) {
@@ -86,15 +92,19 @@ measured <- function(shapes, way) {
     fitted <- which(vapply(shapes, function(shape) shape$status$ok[shape$status$part == name], NA))
     it <- faces[[1]]$mesh$it
     places <- lapply(shapes[fitted], function(shape) {
-      carried(shape$points[shape$points$level == "curves" & shape$points$part == name, ], centre, it)
+      carried(shape$points[shape$points$level == "curves" & shape$points$part == name, ], centre,
+              it)
     })
     strength <- function(type) {
       radius <- as.character(scheme$curves$radius[i])
-      mean(vapply(fitted, function(k) strength_along(shapes[[k]]$paths[[name]], curved[[k]][[radius]], it, type), 0))
+      mean(vapply(fitted, function(k)
+        strength_along(shapes[[k]]$paths[[name]], curved[[k]][[radius]], it, type), 0))
     }
-    determined <- vapply(shapes[fitted], function(shape) shape$checks$determined[shape$checks$part == name], NA)
-    data.frame(curve = name, way = way, fitted = length(fitted), t(spread(places)), ridge = strength("ridge"),
-               valley = strength("valley"), undetermined = sum(!determined, na.rm = TRUE))
+    determined <- vapply(shapes[fitted],
+                         function(shape) shape$checks$determined[shape$checks$part == name], NA)
+    data.frame(curve = name, way = way, fitted = length(fitted), t(spread(places)),
+               ridge = strength("ridge"), valley = strength("valley"),
+               undetermined = sum(!determined, na.rm = TRUE))
   })
   do.call(rbind, each)
 }
@@ -102,9 +112,11 @@ measured <- function(shapes, way) {
 centre <- mean_vertices(faces)
 whole <- fit_all(scheme, 1, error = TRUE)
 cut_scale <- min(vapply(whole, function(shape) min(shape$checks$cut, na.rm = TRUE), 0))
-cat(sprintf("%d faces; curves from the ear cut at %.3g of the scheme's shares\n", length(faces), cut_scale))
+cat(sprintf("%d faces; curves from the ear cut at %.3g of the scheme's shares\n",
+            length(faces), cut_scale))
 ways <- c("scheme", "plane", "ridge", "valley")
-found <- lapply(stats::setNames(ways, ways), function(way) measured(fit_all(in_way(way), cut_scale, way == "scheme"), way))
+found <- lapply(stats::setNames(ways, ways),
+                function(way) measured(fit_all(in_way(way), cut_scale, way == "scheme"), way))
 
 kind <- scheme$curves$kind
 # Strength of each way over that of the shortest cut, of the given type.
@@ -115,14 +127,18 @@ gain <- function(way, type) {
 used <- ifelse(kind == "plane", NA, gain("scheme", ifelse(kind == "plane", "ridge", kind)))
 across <- found$scheme$across
 table <- data.frame(
-  curve = scheme$curves$curve, kind, fitted = found$scheme$fitted, along = found$scheme$along, across,
-  strength = ifelse(kind == "valley", found$scheme$valley, ifelse(kind == "ridge", found$scheme$ridge, NA)),
-  cut_along = found$plane$along, cut_across = found$plane$across, gain = used, undetermined = found$scheme$undetermined,
-  ridge_across = found$ridge$across, ridge_gain = gain("ridge", rep("ridge", length(kind))),
-  ridge_undetermined = found$ridge$undetermined,
-  valley_across = found$valley$across, valley_gain = gain("valley", rep("valley", length(kind))),
+  curve = scheme$curves$curve, kind, fitted = found$scheme$fitted,
+  along = found$scheme$along, across,
+  strength = ifelse(kind == "valley", found$scheme$valley,
+                    ifelse(kind == "ridge", found$scheme$ridge, NA)),
+  cut_along = found$plane$along, cut_across = found$plane$across, gain = used,
+  undetermined = found$scheme$undetermined, ridge_across = found$ridge$across,
+  ridge_gain = gain("ridge", rep("ridge", length(kind))),
+  ridge_undetermined = found$ridge$undetermined, valley_across = found$valley$across,
+  valley_gain = gain("valley", rep("valley", length(kind))),
   valley_undetermined = found$valley$undetermined,
-  pays = ifelse(kind == "plane", "", across <= found$plane$across | (across <= pays_below & used >= pays_strength))
+  pays = ifelse(kind == "plane", "", across <= found$plane$across |
+                                     (across <= pays_below & used >= pays_strength))
 )
 gains <- grep("gain", names(table))
 table[gains] <- lapply(table[gains], pmin, 99)  # the cut has none of that curvature
@@ -130,4 +146,5 @@ numbers <- vapply(table, is.double, NA)
 table[numbers] <- lapply(table[numbers], round, 2)
 options(width = 250)
 print(table, row.names = FALSE)
-cat(sprintf("fitted on all faces: %d of %d curves\n", sum(table$fitted == length(faces)), nrow(table)))
+cat(sprintf("fitted on all faces: %d of %d curves\n", sum(table$fitted == length(faces)),
+            nrow(table)))

@@ -1,4 +1,5 @@
-# The skull's scheme under landmarks moved by 1 mm at random: how far curves move away from their ends, what fails.
+# The skull's scheme under landmarks moved by 1 mm at random: how far curves move away from their
+# ends, what fails.
 #   Rscript bench/skull.R [times]
 suppressMessages(library(crestline))
 times <- as.integer(c(commandArgs(TRUE), 50)[1])
@@ -25,7 +26,8 @@ moved <- function(marks, by = 1) {
 middle_off <- function(path, other, ends = 0.15, n = 40) {
   share <- path$s / attr(path, "length")
   xyz <- as.matrix(as.data.frame(path)[c("x", "y", "z")])
-  at <- sapply(1:3, function(i) approx(share, xyz[, i], seq(ends, 1 - ends, length.out = n), ties = "ordered")$y)
+  at <- sapply(1:3, function(i)
+    approx(share, xyz[, i], seq(ends, 1 - ends, length.out = n), ties = "ordered")$y)
   line <- as.matrix(as.data.frame(other)[c("x", "y", "z")])
   from <- line[-nrow(line), ]
   step <- diff(line)
@@ -43,9 +45,12 @@ user <- system.time(runs <- replicate(times, fit(moved(marks)), simplify = FALSE
 off <- sapply(runs, function(run) mapply(middle_off, own$paths, run$paths))
 curves <- scheme$curves$curve
 flagged <- sapply(runs, function(run) !is.na(run$status$reason[run$status$level == "curves"]))
-print(data.frame(curve = curves, rms = round(sqrt(rowMeans(off^2)), 2), worst = round(apply(off, 1, max), 2),
-                 flagged = rowSums(flagged)), row.names = FALSE)
+print(data.frame(curve = curves, rms = round(sqrt(rowMeans(off^2)), 2),
+                 worst = round(apply(off, 1, max), 2), flagged = rowSums(flagged)),
+      row.names = FALSE)
 lost <- sapply(runs, function(run) sum(is.na(run$points$x[run$points$level == "surface"])))
-cat(sprintf("%d times, %.1f s user each: curves missing %d, surface points missing %d, faulty triangles %.1f a time\n",
-            times, user / times, sum(!sapply(runs, function(run) all(run$status$ok[run$status$level == "curves"]))), sum(lost),
-            mean(sapply(runs, `[[`, "faults"))))
+cat(sprintf(paste("%d times, %.1f s user each: curves missing %d, surface points missing %d,",
+                  "faulty triangles %.1f a time\n"),
+            times, user / times,
+            sum(!sapply(runs, function(run) all(run$status$ok[run$status$level == "curves"]))),
+            sum(lost), mean(sapply(runs, `[[`, "faults"))))

@@ -1,25 +1,30 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread] [noise] [morpho] [morpho-noise]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread]
+#   [noise] [morpho] [morpho-noise]
 #     [slider3d] [gpagen FILE]
 #
-# random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean() on spheres. The others
-# use the 23 simpop faces, in dense correspondence: every point is carried to the shared topology, and its RMS distance from
-# the mean over faces taken, along its curve and in all; noise: with noise and moved landmarks. morpho (relaxLM) and slider3d need
-# Morpho, and so does the warp. gpagen writes what geomorph is to slide into FILE (with .rds), or measures what it has made of it:
-# bench/sliding-gpagen.R runs between the two, on R 4.5 (tools/chroot.sh). bench/homology.R has more populations.
+# random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean()
+# on spheres. The others use the 23 simpop faces, in dense correspondence: every point is carried to
+# the shared topology, and its RMS distance from the mean over faces taken, along its curve and in
+# all; noise: with noise and moved landmarks. morpho (relaxLM) and slider3d need Morpho, and so does
+# the warp. gpagen writes what geomorph is to slide into FILE (with .rds), or measures what it has
+# made of it: bench/sliding-gpagen.R runs between the two, on R 4.5 (tools/chroot.sh).
+# bench/homology.R has more populations.
 
 library(crestline)
 
 inner <- function(name) getFromNamespace(name, "crestline")
 shared <- Sys.getenv("CRESTLINE_SHARED")
 wanted <- commandArgs(TRUE)
-if (!length(wanted)) wanted <- c("random", "mean", "starts", "spread", "noise", "morpho", "morpho-noise", "slider3d")
+if (!length(wanted))
+  wanted <- c("random", "mean", "starts", "spread", "noise", "morpho", "morpho-noise", "slider3d")
 
 # ---- random curves ----
 
 wiggly_track <- function(nodes) {
-  turn <- apply(matrix(rnorm(3 * nodes), nodes), 2, cumsum) / sqrt(nodes) + outer(seq_len(nodes), c(1, 0, 0)) / 10
+  turn <- apply(matrix(rnorm(3 * nodes), nodes), 2, cumsum) / sqrt(nodes) +
+    outer(seq_len(nodes), c(1, 0, 0)) / 10
   step <- sqrt(rowSums(diff(turn)^2))
   cbind(s = c(0, cumsum(step)), turn, face = 1)
 }
@@ -32,7 +37,8 @@ slide_random <- function(seed, settings) {
   n <- sample(12:40, 1)
   track <- wiggly_track(sample(60:400, 1))
   template <- rbind(at_length(wiggly_track(200), seq(0, 1, length.out = n)), matrix(rnorm(12), 4))
-  template[seq_len(n), ] <- at_length(other <- wiggly_track(200), seq(0, max(other[, 1]), length.out = n))
+  template[seq_len(n), ] <- at_length(other <- wiggly_track(200),
+                                      seq(0, max(other[, 1]), length.out = n))
   length <- max(track[, 1])
   s <- c(0, sort(runif(n - 2, 0, length)), length)
   x <- rbind(at_length(track, s), matrix(rnorm(12), 4))
@@ -48,7 +54,8 @@ slide_random <- function(seed, settings) {
              sweeps = length(total) - 1, converged = slid$trace$converged)
 }
 
-# How much lower the sum gets, relatively, by moving one point over a fine grid between its neighbours.
+# How much lower the sum gets, relatively, by moving one point over a fine grid between its
+# neighbours.
 brute_force <- function(b, x, track, s, strain, rest, settings, grid = 2001) {
   n <- length(s)
   value <- function(x, s) sum(x * (b %*% x)) + strain * sum((diff(s) - rest)^2)
@@ -72,10 +79,11 @@ random <- function(n = 1000) {
   for (preset in c("crestline", "paper")) {
     settings <- slide_settings(preset, tolerance = 1e-7, sweeps = 20000)
     found <- do.call(rbind, lapply(seq_len(n), slide_random, settings))
-    cat(sprintf("%d random curves, \"%s\": in order %d; energy rises by %.1e at most; off the path %.1e; ", n, preset,
+    cat(sprintf(paste("%d random curves, \"%s\": in order %d; energy rises by %.1e at most; off",
+                      "the path %.1e; "), n, preset,
                 sum(found$order), max(found$rise), max(found$off)))
-    cat(sprintf("better by brute force %.1e; sweeps %g (median), %d converged\n", max(found$better), median(found$sweeps),
-                sum(found$converged)))
+    cat(sprintf("better by brute force %.1e; sweeps %g (median), %d converged\n", max(found$better),
+                median(found$sweeps), sum(found$converged)))
   }
 }
 
@@ -89,8 +97,8 @@ distance_errors <- function(ball) {
   arc <- acos(pmin(pmax(crossprod(ball$vb[1:3, ], ball$vb[1:3, from]), -1), 1))
   for (one in list(list("ours", found), list("over edges", edges))) {
     error <- (one[[2]] / arc - 1)[arc > 0.2]
-    cat(sprintf("  distances, %s: %.2f %% on average, %.2f to %.2f %%\n", one[[1]], 100 * mean(error), 100 * min(error),
-                100 * max(error)))
+    cat(sprintf("  distances, %s: %.2f %% on average, %.2f to %.2f %%\n", one[[1]],
+                100 * mean(error), 100 * min(error), 100 * max(error)))
   }
 }
 
@@ -113,39 +121,48 @@ means <- function() {
     cat(sprintf("sphere of %d vertices\n", ncol(ball$vb)))
     distance_errors(ball)
     off <- replicate(60, mean_error(ball))
-    cat(sprintf("  mean of two points: off by %.3f edges (RMS), %.3f at most\n", sqrt(mean(off^2)), max(off)))
+    cat(sprintf("  mean of two points: off by %.3f edges (RMS), %.3f at most\n",
+                sqrt(mean(off^2)), max(off)))
   }
 }
 
 # ---- faces ----
 
-simpop_mesh <- function(id) Rvcg::vcgImport(file.path(shared, "simpop", paste0(id, ".ply")), silent = TRUE, clean = FALSE)
+simpop_mesh <- function(id) {
+  Rvcg::vcgImport(file.path(shared, "simpop", paste0(id, ".ply")), silent = TRUE, clean = FALSE)
+}
 
 simpop_landmarks <- function() {
   table <- read.csv(file.path(shared, "simpop", "landmarks.csv"))
-  lapply(split(table, table$id), function(rows) `rownames<-`(as.matrix(rows[c("x", "y", "z")]), rows$landmark))
+  lapply(split(table, table$id),
+         function(rows) `rownames<-`(as.matrix(rows[c("x", "y", "z")]), rows$landmark))
 }
 
-# The faces, perhaps with noise along the normals and landmarks moved (RMS distance, then put on the surface), mm.
+# The faces, perhaps with noise along the normals and landmarks moved (RMS distance, then put on the
+# surface), mm.
 specimens <- function(noise = 0, moved = 0) {
   set.seed(1)
   Map(function(landmarks, id) {
     mesh <- Rvcg::vcgUpdateNormals(simpop_mesh(id), silent = TRUE)
-    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] * rep(rnorm(ncol(mesh$vb), 0, noise), each = 3)
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] *
+      rep(rnorm(ncol(mesh$vb), 0, noise), each = 3)
     mesh$normals <- NULL
-    suppressWarnings(specimen(mesh, landmarks + rnorm(length(landmarks), 0, moved / sqrt(3)), id = id))
+    suppressWarnings(specimen(mesh,
+                              landmarks + rnorm(length(landmarks), 0, moved / sqrt(3)), id = id))
   }, simpop_landmarks(), names(simpop_landmarks()))
 }
 
 # All curves are cut at the share that every face has.
 fitted <- function(faces, scale = 0.82) {
-  lapply(faces, function(face) suppressWarnings(fit_shape(face, face_scheme(), cut_scale = scale, progress = FALSE)))
+  lapply(faces, function(face)
+    suppressWarnings(fit_shape(face, face_scheme(), cut_scale = scale, progress = FALSE)))
 }
 
 # Matrix by place: x, y, z, face, w1, w2, w3.
 store_of <- function(shape) {
   first <- !duplicated(shape$scheme$points$place)
-  `rownames<-`(as.matrix(shape$points[first, c("x", "y", "z", "face", "w1", "w2", "w3")]), shape$scheme$points$place[first])
+  `rownames<-`(as.matrix(shape$points[first, c("x", "y", "z", "face", "w1", "w2", "w3")]),
+               shape$scheme$points$place[first])
 }
 
 stores <- function(shapes) lapply(shapes, store_of)
@@ -174,7 +191,8 @@ curve_spread <- function(at, scheme) {
     off <- sweep(at[place, , ], 1:2, middle)[2:(n - 1), , , drop = FALSE]
     along <- apply(off, 3, function(d) rowSums(d * tangent[2:(n - 1), , drop = FALSE]))
     total <- apply(off, 3, function(d) rowSums(d^2))
-    data.frame(curve = name, points = n - 2, along = sqrt(mean(along^2)), across = sqrt(mean(total - along^2)))
+    data.frame(curve = name, points = n - 2, along = sqrt(mean(along^2)),
+               across = sqrt(mean(total - along^2)))
   })
   do.call(rbind, rows)
 }
@@ -183,16 +201,17 @@ pooled <- function(x, weight) sqrt(sum(x^2 * weight) / sum(weight))
 
 surface_spread <- function(at, scheme) {
   free <- setdiff(scheme$points$place, inner("bound_places")(scheme))
-  sqrt(mean(apply(sweep(at[free, , ], 1:2, apply(at[free, , ], 1:2, mean)), 3, function(d) rowSums(d^2))))
+  sqrt(mean(apply(sweep(at[free, , ], 1:2, apply(at[free, , ], 1:2, mean)), 3,
+                  function(d) rowSums(d^2))))
 }
 
-# The warp on the landmarks as its users run it: the template's points carried by the thin-plate spline, then the closest point
-# of the mesh.
+# The warp on the landmarks as its users run it: the template's points carried by the thin-plate
+# spline, then the closest point of the mesh.
 warped <- function(shape, template) {
   store <- store_of(shape)
   at <- setdiff(rownames(store)[!is.na(store[, 1])], inner("landmark_keys")(shape$scheme))
-  image <- Morpho::tps3d(inner("places_of")(template)[at, ], coords(template, "landmarks"), coords(shape, "landmarks"),
-                         threads = 1)
+  image <- Morpho::tps3d(inner("places_of")(template)[at, ], coords(template, "landmarks"),
+                         coords(shape, "landmarks"), threads = 1)
   on <- Rvcg::vcgClostKD(image, shape$specimen$mesh, barycentric = TRUE, threads = 1)
   store[at, ] <- cbind(t(on$vb[1:3, ]), on$faceptr, t(on$barycoords))
   store
@@ -210,13 +229,18 @@ spread_table <- function(shapes, label) {
     curves <- curve_spread(at, scheme)
     rest <- curves[!sockets, ]
     ends <- curves[whole, ]
-    data.frame(what = name, along = pooled(curves$along, curves$points), across = pooled(curves$across, curves$points),
+    data.frame(what = name, along = pooled(curves$along, curves$points),
+               across = pooled(curves$across, curves$points),
                total = pooled(sqrt(curves$along^2 + curves$across^2), curves$points),
-               along_without_sockets = pooled(rest$along, rest$points), along_uncut = pooled(ends$along, ends$points),
-               better = sum(curves$along < before$along), surface = surface_spread(at, scheme), seconds = seconds)
+               along_without_sockets = pooled(rest$along, rest$points),
+               along_uncut = pooled(ends$along, ends$points),
+               better = sum(curves$along < before$along), surface = surface_spread(at, scheme),
+               seconds = seconds)
   }
   slid <- function(name, ...) {
-    time <- system.time(sample <- suppressWarnings(homologise(shapes, settings = slide_settings(...), progress = FALSE)))
+    time <-
+      system.time(sample <- suppressWarnings(homologise(shapes, settings = slide_settings(...),
+                                                        progress = FALSE)))
     list(line = line(name, stores(sample$shapes), time[["user.self"]]), sample = sample)
   }
   ours <- slid("default: free curve points")
@@ -234,15 +258,17 @@ spread_table <- function(shapes, label) {
   )
   cat("\n", label, "\n", sep = "")
   print(format(table, digits = 3), row.names = FALSE, width = 200)
-  by_curve <- merge(before, curve_spread(carried(stores(ours$sample$shapes), it, mean), scheme), by = c("curve", "points"),
-                    suffixes = c("", "_slid"), sort = FALSE)
+  by_curve <- merge(before, curve_spread(carried(stores(ours$sample$shapes), it, mean), scheme),
+                    by = c("curve", "points"), suffixes = c("", "_slid"), sort = FALSE)
   print(format(by_curve, digits = 2), row.names = FALSE)
   ours$sample
 }
 
 spread <- function() spread_table(fitted(specimens()), "Spread over 23 faces, mm")
 
-noise <- function() spread_table(fitted(specimens(0.2, 1)), "Spread with 0.2 mm noise and landmarks moved by 1 mm")
+noise <- function() {
+  spread_table(fitted(specimens(0.2, 1)), "Spread with 0.2 mm noise and landmarks moved by 1 mm")
+}
 
 # Convergence, time, and whether the answer depends on the start.
 starts <- function() {
@@ -259,21 +285,24 @@ starts <- function() {
     other <- homologise(shapes[c(first, seq_along(shapes)[-first])], progress = FALSE)
     laid <- inner("laid_onto")(inner("places_of")(other$template), reference, FALSE)
     gap <- sqrt(rowSums((laid - reference)^2))
-    cat(sprintf("begun with face %d: template differs by %.4f mm (RMS), %.4f at most\n", first, sqrt(mean(gap^2)), max(gap)))
+    cat(sprintf("begun with face %d: template differs by %.4f mm (RMS), %.4f at most\n", first,
+                sqrt(mean(gap^2)), max(gap)))
   }
 }
 
-# What both comparisons with Morpho begin with: shapes with curves slid and surface points between them; which of the surface
-# model's places are free.
+# What both comparisons with Morpho begin with: shapes with curves slid and surface points between
+# them; which of the surface model's places are free.
 morpho_start <- function(noise, moved) {
   shapes <- fitted(specimens(noise, moved))
   sample <- homologise(shapes, settings = slide_settings(curves = "held"), progress = FALSE)
   scheme <- sample$template$scheme
   place <- unique(with(scheme$points, place[level == "surface"]))
   settings <- slide_settings(curves = "held", surface = "between")
-  list(shapes = shapes, sample = sample, free_sample = homologise(shapes, progress = FALSE), scheme = scheme, place = place,
+  list(shapes = shapes, sample = sample, free_sample = homologise(shapes, progress = FALSE),
+       scheme = scheme, place = place,
        free = match(setdiff(place, inner("bound_places")(scheme)), place),
-       stores = lapply(shapes, function(shape) stores(list(slide(shape, sample$template, settings)))[[1]]))
+       stores = lapply(shapes,
+                       function(shape) stores(list(slide(shape, sample$template, settings)))[[1]]))
 }
 
 # Our free surface points at Morpho's own criterion: the bending energy of all places, no nugget.
@@ -302,39 +331,49 @@ morpho <- function(noise = 0, moved = 0) {
   if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
   start <- morpho_start(noise, moved)
   template <- inner("places_of")(start$sample$template)[start$place, ]
-  matrix_time <- system.time(b <- inner("energy_matrix")(template, rep(0, nrow(template)), 1e-6))[["user.self"]]
+  matrix_time <- system.time(b <- inner("energy_matrix")(template, rep(0, nrow(template)),
+                                                         1e-6))[["user.self"]]
   energy <- energy_in(b)
   compared <- lapply(seq_along(start$shapes), function(i) {
     time <- system.time(own <- slide_as_morpho(start, i, b))[["user.self"]]
     x <- start$stores[[i]][start$place, 1:3]
-    their_time <- system.time(theirs <- Morpho::relaxLM(x, template, SMvector = start$free, surp = start$free, silent = TRUE,
-                                                        mesh = start$shapes[[i]]$specimen$mesh))[["user.self"]]
+    their_time <- system.time(theirs <- Morpho::relaxLM(x, template, SMvector = start$free,
+                                                        surp = start$free, silent = TRUE,
+                                                        mesh = start$shapes[[i]]$specimen$mesh))[[
+                                                          "user.self"]]
     on <- put_on_mesh(start, i, theirs)
     list(theirs = on$store, ours = own, row = data.frame(
-      energy_ours = energy(own[start$place, 1:3]), energy_morpho = energy(theirs), seconds_ours = time,
-      seconds_morpho = their_time, off_mesh_morpho = on$off))
+      energy_ours = energy(own[start$place, 1:3]), energy_morpho = energy(theirs),
+      seconds_ours = time, seconds_morpho = their_time, off_mesh_morpho = on$off))
   })
   rows <- do.call(rbind, lapply(compared, `[[`, "row"))
   gain <- 1 - rows$energy_ours / rows$energy_morpho
-  cat(sprintf("\nMorpho::relaxLM, noise %g mm, %d free of %d places: our energy is lower on %d faces, by %.2g to %.2g; ",
+  cat(sprintf(paste("\nMorpho::relaxLM, noise %g mm, %d free of %d places: our energy is lower on",
+                    "%d faces, by %.2g to %.2g; "),
               noise, length(start$free), length(start$place), sum(gain >= 0), min(gain), max(gain)))
-  cat(sprintf("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh by %.1e mm\n",
-              mean(rows$seconds_ours), matrix_time, mean(rows$seconds_morpho), max(rows$off_mesh_morpho)))
-  cat(sprintf("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, held %.3f, ours %.3f\n",
-              free_spread(start, lapply(compared, `[[`, "theirs")), free_spread(start, lapply(compared, `[[`, "ours")),
+  cat(sprintf(paste("seconds a face %.3f (matrix once for all: %.2f) and %.2f; theirs off the mesh",
+                    "by %.1e mm\n"),
+              mean(rows$seconds_ours), matrix_time, mean(rows$seconds_morpho),
+              max(rows$off_mesh_morpho)))
+  cat(sprintf(paste("spread of surface points, mm: Morpho %.3f, ours at that criterion %.3f, held",
+                    "%.3f, ours %.3f\n"),
+              free_spread(start, lapply(compared, `[[`, "theirs")),
+              free_spread(start, lapply(compared, `[[`, "ours")),
               free_spread(start, stores(start$sample$shapes)),
               free_spread(start, stores(start$free_sample$shapes))))
 }
 
-# All faces at once, against their own mean: slider3d until it stands still or so many iterations; then ours from the same
-# start against the mean that it has come to.
+# All faces at once, against their own mean: slider3d until it stands still or so many iterations;
+# then ours from the same start against the mean that it has come to.
 against_slider3d <- function(iterations = 10) {
   if (!requireNamespace("Morpho", quietly = TRUE)) return(cat("Morpho is not here\n"))
   start <- morpho_start(0, 0)
   x <- simplify2array(lapply(start$stores, function(store) store[start$place, 1:3]))
   meshes <- lapply(start$shapes, function(shape) shape$specimen$mesh)
-  their_time <- system.time(slid <- Morpho::slider3d(x, SMvector = start$free, surp = start$free, meshlist = meshes, mc.cores = 1,
-                                                     iterations = iterations, silent = TRUE))[["user.self"]]
+  their_time <- system.time(slid <- Morpho::slider3d(x, SMvector = start$free, surp = start$free,
+                                                     meshlist = meshes, mc.cores = 1,
+                                                     iterations = iterations,
+                                                     silent = TRUE))[["user.self"]]
   theirs <- lapply(seq_along(meshes), function(i) slid$dataslide[, , i])
   template <- inner("procrustes_mean")(theirs, theirs[[1]])
   time <- system.time({
@@ -346,17 +385,23 @@ against_slider3d <- function(iterations = 10) {
   after <- vapply(theirs, energy, 0)
   own <- vapply(ours, function(store) energy(store[start$place, 1:3]), 0)
   on <- lapply(seq_along(meshes), function(i) put_on_mesh(start, i, theirs[[i]]))
-  cat(sprintf("\nMorpho::slider3d, %d iterations at most: energy %.2f before, %.3f after, ours %.3f (mean); ", iterations,
+  cat(sprintf(paste("\nMorpho::slider3d, %d iterations at most: energy %.2f before, %.3f after,",
+                    "ours %.3f (mean); "), iterations,
               mean(before), mean(after), mean(own)))
-  cat(sprintf("ours lower on %d faces, by %.2g to %.2g; seconds %.1f and ours %.1f; theirs off the mesh by %.1e mm\n",
-              sum(own <= after), min(1 - own / after), max(1 - own / after), their_time, time, max(vapply(on, `[[`, 0, "off"))))
+  cat(sprintf(paste("ours lower on %d faces, by %.2g to %.2g; seconds %.1f and ours %.1f; theirs",
+                    "off the mesh by %.1e mm\n"),
+              sum(own <= after), min(1 - own / after), max(1 - own / after), their_time, time,
+              max(vapply(on, `[[`, 0, "off"))))
   theirs <- lapply(on, `[[`, "store")
-  cat(sprintf("spread of surface points, mm: slider3d %.3f, ours at that criterion %.3f, held %.3f, ours %.3f\n",
-              free_spread(start, theirs), free_spread(start, ours), free_spread(start, stores(start$sample$shapes)),
+  cat(sprintf(paste("spread of surface points, mm: slider3d %.3f, ours at that criterion %.3f,",
+                    "held %.3f, ours %.3f\n"),
+              free_spread(start, theirs), free_spread(start, ours),
+              free_spread(start, stores(start$sample$shapes)),
               free_spread(start, stores(start$free_sample$shapes))))
 }
 
-# The points of all faces as geomorph takes them: landmarks, curves in threes (before, slider, after), surface points.
+# The points of all faces as geomorph takes them: landmarks, curves in threes (before, slider,
+# after), surface points.
 against_gpagen <- function(file) {
   start <- morpho_start(0, 0)
   places <- unique(start$scheme$points$place)
@@ -376,7 +421,8 @@ against_gpagen <- function(file) {
   theirs <- lapply(seq_along(start$shapes), function(i) {
     shape <- start$shapes[[i]]
     own <- store_of(shape)[places, ]
-    back <- inner("superimposition")(slid$coords[marks, , i], own[marks, 1:3], TRUE)(slid$coords[, , i])
+    back <- inner("superimposition")(slid$coords[marks, , i], own[marks, 1:3],
+                                     TRUE)(slid$coords[, , i])
     free <- setdiff(seq_along(places), marks)
     own[free, ] <- as.matrix(inner("surface_points")(shape$specimen$mesh, back[free, ]))
     list(store = own, off = sqrt(mean(rowSums((back[free, ] - own[free, 1:3])^2))))
@@ -385,13 +431,17 @@ against_gpagen <- function(file) {
     at <- carried(stores, start$shapes[[1]]$specimen$mesh$it, mean_mesh())
     curves <- curve_spread(at, scheme)
     c(along = pooled(curves$along, curves$points), across = pooled(curves$across, curves$points),
-      curves = pooled(sqrt(curves$along^2 + curves$across^2), curves$points), surface = surface_spread(at, scheme))
+      curves = pooled(sqrt(curves$along^2 + curves$across^2), curves$points),
+      surface = surface_spread(at, scheme))
   }
-  cat(sprintf("\ngeomorph::gpagen, %.0f s; off the mesh by %.2f mm RMS before they were put back on it; spread, mm\n", slid$seconds,
+  cat(sprintf(paste("\ngeomorph::gpagen, %.0f s; off the mesh by %.2f mm RMS before they were put",
+                    "back on it; spread, mm\n"), slid$seconds,
               sqrt(mean(vapply(theirs, `[[`, 0, "off")^2))))
-  print(round(rbind(gpagen = spread_of(lapply(theirs, `[[`, "store")), ours = spread_of(stores(start$free_sample$shapes))), 3))
+  print(round(rbind(gpagen = spread_of(lapply(theirs, `[[`, "store")),
+                    ours = spread_of(stores(start$free_sample$shapes))), 3))
 }
 
-sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise, morpho = morpho,
-                 "morpho-noise" = function() morpho(0.2, 1), slider3d = against_slider3d)
+sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise,
+                 morpho = morpho, "morpho-noise" = function() morpho(0.2, 1),
+                 slider3d = against_slider3d)
 if (wanted[1] == "gpagen") against_gpagen(wanted[2]) else for (name in wanted) sections[[name]]()

@@ -8,23 +8,27 @@ library(crestline)
 
 shared <- Sys.getenv("CRESTLINE_SHARED")
 folder <- file.path(shared, "template_male")
-face <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"), id = "template_male"))
+face <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"),
+                                       file.path(folder, "landmarks.csv"), id = "template_male"))
 
 row <- function(what, code, times) {
   code <- substitute(code)
   seconds <- replicate(times, system.time(eval(code, parent.frame(2)))[["elapsed"]])
-  data.frame(what = what, median = round(stats::median(seconds), 4), least = round(min(seconds), 4), runs = times)
+  data.frame(what = what, median = round(stats::median(seconds), 4), least = round(min(seconds), 4),
+             runs = times)
 }
 
 surface <- crestline:::walkable(face)
 ends <- crestline:::located_ends(face, surface, "chL", "chR")
 normals <- crestline:::plane_normal(ends, seq(-pi / 2, pi / 2, length.out = 52)[-1])
 cuts <- function() {
-  crestline:::cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to, normals, rep(0L, 51), Inf, numeric())
+  crestline:::cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to, normals,
+                             rep(0L, 51), Inf, numeric())
 }
 curved <- curvature(face, 5, "adaptive cubic")
 curve <- function(error) {
-  ridge_curve(face, "chL", "st", "valley", 5, 6, 9, settings = ridge_settings(error = error), curvature = curved)
+  ridge_curve(face, "chL", "st", "valley", 5, 6, 9, settings = ridge_settings(error = error),
+              curvature = curved)
 }
 
 table <- rbind(
@@ -34,7 +38,8 @@ table <- rbind(
   row("51 plane cuts", for (i in 1:10) cuts(), 7),
   row("ridge curve, curvature given, no standard error", for (i in 1:10) curve(FALSE), 7),
   row("ridge curve, curvature given, standard error", for (i in 1:10) curve(TRUE), 7),
-  row("ridge curve, curvature of its own region", ridge_curve(face, "chL", "st", "valley", 5, 6, 9), 7)
+  row("ridge curve, curvature of its own region",
+      ridge_curve(face, "chL", "st", "valley", 5, 6, 9), 7)
 )
 tens <- 4:6
 table[tens, c("median", "least")] <- table[tens, c("median", "least")] / 10

@@ -4,13 +4,13 @@ library(crestline)
 
 simulations <- as.integer(c(commandArgs(TRUE), 200)[1])
 
-# Error across: signed distance of the fitted curve from the true ridge, and from the curve fitted to the
-# same surface without noise (which leaves the bias out).
+# Error across: signed distance of the fitted curve from the true ridge, and from the curve fitted
+# to the same surface without noise (which leaves the bias out).
 one <- function(a, b, noise, seed, radius, correlation, settings) {
   fit <- function(noise, settings) {
     surface <- simulate_ridge(a, b, noise = noise, seed = seed, correlation = correlation)
-    curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", radius, width = 0.4, n = 21,
-                                          settings = settings))
+    curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", radius,
+                                          width = 0.4, n = 21, settings = settings))
     list(curve = curve, truth = attr(surface, "truth"))
   }
   noisy <- fit(noise, settings)
@@ -34,13 +34,16 @@ study <- function(cells, settings = ridge_settings()) {
 report <- function(label, results) {
   covered <- function(error, rows) mean(abs(error[rows]) <= 2 * results$se[rows])
   sure <- results$determined
-  cat(sprintf("%-34s %.3f   determined %.3f (%3.0f %%)   error from the noise-free fit %.3f   rms error / rms se %.2f\n", label,
-              covered(results$error, TRUE), covered(results$error, sure), 100 * mean(sure), covered(results$without_bias, TRUE),
-              sqrt(mean(results$error^2) / mean(results$se^2))))
+  cat(
+    sprintf(paste("%-34s %.3f   determined %.3f (%3.0f %%)   error from the noise-free fit %.3f  ",
+                  "rms error / rms se %.2f\n"), label,
+            covered(results$error, TRUE), covered(results$error, sure), 100 * mean(sure),
+            covered(results$without_bias, TRUE), sqrt(mean(results$error^2) / mean(results$se^2))))
 }
 
 a <- c(0, 0.25, 0.5)
-full <- expand.grid(seed = seq_len(simulations), a = a, b = c(1, 2), noise = c(0.01, 0.05), radius = 0.25, correlation = 0)
+full <- expand.grid(seed = seq_len(simulations), a = a, b = c(1, 2), noise = c(0.01, 0.05),
+                    radius = 0.25, correlation = 0)
 results <- study(full)
 cat("Coverage of |error across| <= 2 se (nominal 0.95)\n")
 report("all", results)
@@ -50,7 +53,9 @@ for (noise in c(0.01, 0.05)) for (b in c(1, 2)) {
 for (bend in a) report(sprintf("a = %g", bend), results[results$a == bend, ])
 
 some <- ceiling(simulations / 4)
-wide <- expand.grid(seed = seq_len(some), a = a, b = c(1, 2), noise = 0.01, radius = 0.5, correlation = 0)
+wide <- expand.grid(seed = seq_len(some), a = a, b = c(1, 2), noise = 0.01, radius = 0.5,
+                    correlation = 0)
 report("radius 0.5, noise 0.01", study(wide))
-smooth <- expand.grid(seed = seq_len(some), a = a, b = c(1, 2), noise = 0.01, radius = 0.25, correlation = 3)
+smooth <- expand.grid(seed = seq_len(some), a = a, b = c(1, 2), noise = 0.01, radius = 0.25,
+                      correlation = 3)
 report("noise correlated over 3 steps", study(smooth))

@@ -1,9 +1,11 @@
-# Statistics: speed beside the peers, agreement with them, calibration, what each level sees of the dense mesh.
+# Statistics: speed beside the peers, agreement with them, calibration, what each level sees of the
+# dense mesh.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/statistics.R [speed] [agreement] [calibration] [simpop]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/statistics.R [speed] [agreement] [calibration]
+#   [simpop]
 #
-# speed and agreement take geomorph, RRPP and Morpho where they are installed. simpop: the 23 faces, their dense meshes in
-# correspondence; the sample of their shapes is made first, half a minute.
+# speed and agreement take geomorph, RRPP and Morpho where they are installed. simpop: the 23 faces,
+# their dense meshes in correspondence; the sample of their shapes is made first, half a minute.
 
 library(crestline)
 
@@ -26,7 +28,8 @@ many_shapes <- function(k = 922, n = 250, seed = 1) {
   modes <- replicate(8, base %*% matrix(rnorm(9, sd = 0.03), 3), simplify = FALSE)
   array(unlist(lapply(seq_len(n), function(i) {
     shape <- base + Reduce(`+`, Map(`*`, modes, rnorm(8))) + rnorm(3 * k, sd = 0.02)
-    sweep(runif(1, 0.8, 1.2) * shape %*% qr.Q(qr(matrix(rnorm(9), 3))) * 100, 2, rnorm(3, sd = 50), `+`)
+    sweep(runif(1, 0.8, 1.2) * shape %*% qr.Q(qr(matrix(rnorm(9), 3))) * 100, 2,
+          rnorm(3, sd = 50), `+`)
   })), c(k, 3, n))
 }
 
@@ -48,23 +51,31 @@ speed <- function() {
   aligned <- align(x)
   flat <- t(matrix(aligned$coords, 3 * 922))
   rows <- list(seconds("align()", align(x)), seconds("shape_pca()", shape_pca(aligned)),
-               seconds("compare_groups(), mean shape", compare_groups(aligned, group, tests = "shape", seed = 1, equal_spread = TRUE)),
+               seconds("compare_groups(), mean shape",
+                       compare_groups(aligned, group, tests = "shape", seed = 1,
+                                      equal_spread = TRUE)),
                seconds("compare_groups(), size, T2, ten components",
-                       compare_groups(aligned, group, tests = c("size", "T2", "components"), seed = 1, equal_spread = TRUE)),
+                       compare_groups(aligned, group, tests = c("size", "T2", "components"),
+                                      seed = 1, equal_spread = TRUE)),
                seconds("compare_groups(), 922 points, all co-ordinates",
-                       compare_groups(aligned, group, tests = "points", seed = 1, equal_spread = TRUE), 3))
+                       compare_groups(aligned, group, tests = "points", seed = 1,
+                                      equal_spread = TRUE), 3))
   if (have("Morpho")) {
     rows <- c(rows, list(seconds("Morpho::procSym()", Morpho::procSym(x), 3),
                          seconds("Morpho::ProcGPA()", Morpho::ProcGPA(x, CSinit = TRUE), 3),
-                         seconds("Morpho::permudist()", Morpho::permudist(flat, group, rounds = 1000), 1)))
+                         seconds("Morpho::permudist()",
+                                 Morpho::permudist(flat, group, rounds = 1000), 1)))
   }
   if (have("geomorph") && have("RRPP")) {
     frame <- list(coords = aligned$coords, y = flat, group = group)
-    rows <- c(rows, list(seconds("geomorph::gpagen()", geomorph::gpagen(x, print.progress = FALSE), 3),
-                         seconds("RRPP::lm.rrpp(turbo = TRUE)",
-                                 RRPP::lm.rrpp(y ~ group, data = frame, iter = 999, turbo = TRUE), 3),
-                         seconds("RRPP::lm.rrpp()", RRPP::lm.rrpp(y ~ group, data = frame, iter = 999), 1),
-                         seconds("geomorph::procD.lm()", geomorph::procD.lm(coords ~ group, data = frame, iter = 999), 3)))
+    rows <- c(rows,
+              list(seconds("geomorph::gpagen()", geomorph::gpagen(x, print.progress = FALSE), 3),
+                   seconds("RRPP::lm.rrpp(turbo = TRUE)",
+                           RRPP::lm.rrpp(y ~ group, data = frame, iter = 999, turbo = TRUE), 3),
+                   seconds("RRPP::lm.rrpp()",
+                           RRPP::lm.rrpp(y ~ group, data = frame, iter = 999), 1),
+                   seconds("geomorph::procD.lm()",
+                           geomorph::procD.lm(coords ~ group, data = frame, iter = 999), 3)))
   }
   cat("250 shapes of 922 points, two groups, 1,000 permutations, user and system seconds\n")
   print(format(do.call(rbind, rows), digits = 3), row.names = FALSE)
@@ -90,7 +101,8 @@ agree_on <- function(name, x) {
                          row("size, Morpho, relative", max(abs(ours$size / theirs$size - 1))),
                          row("variances of components, Morpho, relative",
                              max(abs(shape_pca(ours)$sdev[some]^2 / theirs$eigenvalues[some] - 1))),
-                         row("mean, Morpho (default), ours \"full\"", apart(align(x, scale = "full")$mean, full$mshape))))
+                         row("mean, Morpho (default), ours \"full\"",
+                             apart(align(x, scale = "full")$mean, full$mshape))))
   }
   if (have("geomorph")) {
     # PrinAxes = TRUE may mirror the result.
@@ -105,12 +117,14 @@ agree_on <- function(name, x) {
 agree_on_p <- function(name, x, group, iter = 999) {
   ours <- align(x)
   flat <- t(matrix(ours$coords, length(ours$mean)))
-  compared <- compare_groups(ours, group, permutations = RRPP:::perm.index(length(group), iter, seed = 1),
+  compared <- compare_groups(ours, group,
+                             permutations = RRPP:::perm.index(length(group), iter, seed = 1),
                              tests = c("size", "shape"), equal_spread = TRUE)
   frame <- list(y = flat, size = unname(ours$size), group = factor(group))
   shape <- anova(RRPP::lm.rrpp(y ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
   size <- anova(RRPP::lm.rrpp(size ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
-  data.frame(data = name, test = compared$tests$test, ours = compared$tests$p_value, RRPP = c(size, shape))
+  data.frame(data = name, test = compared$tests$test, ours = compared$tests$p_value,
+             RRPP = c(size, shape))
 }
 
 agreement <- function() {
@@ -118,15 +132,20 @@ agreement <- function() {
   data("boneData", package = "Morpho", envir = environment())
   data$boneData <- list(x = boneLM, group = substr(dimnames(boneLM)[[3]], 12, 13))
   if (have("geomorph")) {
-    for (name in c("scallops", "pupfish")) data(list = name, package = "geomorph", envir = environment())
+    for (name in c("scallops", "pupfish")) {
+      data(list = name, package = "geomorph", envir = environment())
+    }
     data$scallops <- list(x = scallops$coorddata, group = scallops$ind)
     data$pupfish <- list(x = sweep(pupfish$coords, 3, pupfish$CS, `*`), group = pupfish$Sex)
   }
-  print(format(do.call(rbind, Map(function(name, one) agree_on(name, one$x), names(data), data)), digits = 2),
+  print(format(do.call(rbind, Map(function(name, one) agree_on(name, one$x), names(data), data)),
+               digits = 2),
         row.names = FALSE)
   if (!have("RRPP")) return(invisible())
   two <- Filter(function(one) length(unique(one$group)) > 1 && min(table(one$group)) > 1, data)
-  print(do.call(rbind, Map(function(name, one) agree_on_p(name, one$x, one$group), names(two), two)), row.names = FALSE)
+  print(do.call(rbind,
+                Map(function(name, one) agree_on_p(name, one$x, one$group), names(two), two)),
+        row.names = FALSE)
 }
 
 # ---- calibration ----
@@ -136,7 +155,8 @@ null_shapes <- function(n, k = 20) {
   base <- matrix(rnorm(3 * k), k)
   modes <- replicate(5, matrix(rnorm(3 * k, sd = 0.05), k), simplify = FALSE)
   array(unlist(lapply(seq_len(n), function(i) {
-    exp(rnorm(1, sd = 0.05)) * (base + Reduce(`+`, Map(`*`, modes, rt(5, 5))) + rnorm(3 * k, sd = 0.03))
+    exp(rnorm(1, sd = 0.05)) *
+      (base + Reduce(`+`, Map(`*`, modes, rt(5, 5))) + rnorm(3 * k, sd = 0.03))
   })), c(k, 3, n))
 }
 
@@ -150,28 +170,35 @@ null_p <- function(seed, sizes, ...) {
   vectors <- compare_groups(x, group, tests = "points", seed = seed, equal_spread = TRUE, ...)
   tests <- compared$tests
   component <- grepl("^PC", tests$test)
-  c(size = tests$p_value[1], "size, parametric" = tests$p_parametric[1], "mean shape" = tests$p_value[2],
-    T2 = tests$p_value[3],
-    "T2, parametric" = tests$p_parametric[3], PC1 = tests$p_value[4], "any component" = min(tests$p_adjusted[component]),
-    "any point, along normals" = min(compared$points$p_adjusted, na.rm = TRUE), "any point" = min(vectors$points$p_adjusted))
+  c(size = tests$p_value[1], "size, parametric" = tests$p_parametric[1],
+    "mean shape" = tests$p_value[2], T2 = tests$p_value[3],
+    "T2, parametric" = tests$p_parametric[3], PC1 = tests$p_value[4],
+    "any component" = min(tests$p_adjusted[component]),
+    "any point, along normals" = min(compared$points$p_adjusted, na.rm = TRUE),
+    "any point" = min(vectors$points$p_adjusted))
 }
 
 calibration <- function(n = 500) {
-  designs <- list("12 v 12" = list(c(12, 12), n_perm = 199), "18 v 5" = list(c(18, 5), n_perm = 199),
+  designs <- list("12 v 12" = list(c(12, 12), n_perm = 199),
+                  "18 v 5" = list(c(18, 5), n_perm = 199),
                   "8, 8, 8" = list(c(8, 8, 8), n_perm = 199),
                   "4 v 5, all 126" = list(c(4, 5), exact = 126))
-  p <- lapply(designs, function(design) sapply(seq_len(n), function(seed) do.call(null_p, c(list(seed), design))))
+  p <- lapply(designs, function(design)
+    sapply(seq_len(n), function(seed) do.call(null_p, c(list(seed), design))))
   # Attainable level of an exact test of 126 regroupings: 6 / 126.
   rate <- sapply(p, function(one) rowSums(one <= 0.05))
   limits <- qbinom(c(0.005, 0.995), n, 0.05)
-  cat(sprintf("rejections at 5 %% of %d samples without a difference; binomial 99 %% limits %d to %d\n", n, limits[1],
+  cat(sprintf(paste("rejections at 5 %% of %d samples without a difference; binomial 99 %% limits",
+                    "%d to %d\n"), n, limits[1],
               limits[2]))
   print(rate)
 }
 
 # ---- simpop ----
 
-simpop_mesh <- function(id) Rvcg::vcgImport(file.path(shared, "simpop", paste0(id, ".ply")), silent = TRUE, clean = FALSE)
+simpop_mesh <- function(id) {
+  Rvcg::vcgImport(file.path(shared, "simpop", paste0(id, ".ply")), silent = TRUE, clean = FALSE)
+}
 
 simpop_sample <- function() {
   table <- read.csv(file.path(shared, "simpop", "landmarks.csv"))
@@ -179,12 +206,14 @@ simpop_sample <- function() {
     marks <- `rownames<-`(as.matrix(rows[c("x", "y", "z")]), rows$landmark)
     suppressWarnings(specimen(simpop_mesh(rows$id[1]), marks, id = rows$id[1]))
   })
-  shapes <- lapply(faces, function(face) suppressWarnings(fit_shape(face, face_scheme(), cut_scale = 0.82, progress = FALSE)))
+  shapes <- lapply(faces, function(face)
+    suppressWarnings(fit_shape(face, face_scheme(), cut_scale = 0.82, progress = FALSE)))
   homologise(shapes, progress = FALSE)
 }
 
 distances <- function(aligned) {
-  flat <- matrix(aligned$coords * rep(sqrt(aligned$weights), length.out = length(aligned$mean)), length(aligned$mean))
+  flat <- matrix(aligned$coords * rep(sqrt(aligned$weights), length.out = length(aligned$mean)),
+                 length(aligned$mean))
   as.vector(dist(t(flat)))
 }
 
@@ -196,7 +225,8 @@ simpop <- function() {
   dimnames(dense) <- list(NULL, c("x", "y", "z"), ids)
   meta <- read.csv(file.path(shared, "simpop", "metadata.csv"))
   sex <- setNames(meta$sex, meta$id)
-  levels <- c(lapply(setNames(nm = c("landmarks", "curves", "surface", "model")), function(level) align(sample, level)),
+  levels <- c(lapply(setNames(nm = c("landmarks", "curves", "surface", "model")),
+                     function(level) align(sample, level)),
               list("surface, by area" = align(sample, "surface", weights = "area"),
                    dense = align(dense, "dense", triangles = it),
                    "dense, by area" = align(dense, "dense", weights = "area", triangles = it)))
@@ -207,15 +237,18 @@ simpop <- function() {
   cat("p-values, sex (", paste(table(sex), collapse = " v "), ")\n", sep = "")
   print(summary(compared), row.names = FALSE, digits = 2)
   print(compared, most = 0)
-  # Where: the surface's points beside the same places of the dense mesh, by the first face's triangles and weights.
+  # Where: the surface's points beside the same places of the dense mesh, by the first face's
+  # triangles and weights.
   surface <- compared$points[compared$points$level == "surface", ]
   all <- compared$points[compared$points$level == "dense", ]
   places <- sample$shapes[[1]]$points[sample$shapes[[1]]$points$level == "surface", ]
-  there <- rowSums(sapply(1:3, function(i) places[[paste0("w", i)]] * all$distance[it[i, places$face]]))
+  there <- rowSums(sapply(1:3,
+                          function(i) places[[paste0("w", i)]] * all$distance[it[i, places$face]]))
   both <- !is.na(surface$distance)
-  cat(sprintf("signed distance between means at %d places, surface v dense: correlation %.3f, RMS %.2f v %.2f, difference %.2f mm\n", sum(both),
-              cor(surface$distance[both], there[both]), sqrt(mean(surface$distance[both]^2)), sqrt(mean(there[both]^2)),
-              sqrt(mean((surface$distance - there)[both]^2))))
+  cat(sprintf(paste("signed distance between means at %d places, surface v dense: correlation",
+                    "%.3f, RMS %.2f v %.2f, difference %.2f mm\n"), sum(both),
+              cor(surface$distance[both], there[both]), sqrt(mean(surface$distance[both]^2)),
+              sqrt(mean(there[both]^2)), sqrt(mean((surface$distance - there)[both]^2))))
 }
 
 for (what in wanted) get(what)()

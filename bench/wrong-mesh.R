@@ -102,8 +102,8 @@ while (anyNA(said)) {
 
 kind <- sub(" .*", "", said)
 for (i in which(kind != "refused")) cat(sprintf("%-9s %s%s\n", kind[i], names[i],
-                                                if (kind[i] == "internal") sub("^internal", ":",
-                                                                               said[i]) else ""))
+                                                if (kind[i] == "internal")
+                                                  sub("^internal", ":", said[i]) else ""))
 cat(sprintf("%d calls: %d refused, %d crashes, %d answers, %d internal errors\n", length(said),
             sum(kind == "refused"),
             sum(kind == "crash"), sum(kind == "answer"), sum(kind == "internal")))

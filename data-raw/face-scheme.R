@@ -1,18 +1,24 @@
-# Builds inst/extdata/face_scheme/*.csv, the tables that face_scheme() reads. Run at the project's root:
+# Builds inst/extdata/face_scheme/*.csv, the tables that face_scheme() reads. Run at the project's
+# root:
 #
 #   Rscript data-raw/face-scheme.R
 #
-# data-raw/face-scheme/ holds the published facial model (Vittert, Bowman and Katina 2019, and the authors' implementation)
-# in its own terms: landmarks.csv, curves.csv, patches.csv, strips_left.csv (the strips of the left side); and choices.csv:
-# where this package finds a curve in another way than the authors do, or might have, and why (spreads are across the curve,
-# measured on 23 simulated faces in dense correspondence); and definitions.csv, this package's own: landmarks by shape.
+# data-raw/face-scheme/ holds the published facial model (Vittert, Bowman and Katina 2019, and the
+# authors' implementation) in its own terms: landmarks.csv, curves.csv, patches.csv, strips_left.csv
+# (the strips of the left side); and choices.csv: where this package finds a curve in another way
+# than the authors do, or might have, and why (spreads are across the curve, measured on 23
+# simulated faces in dense correspondence); and definitions.csv, this package's own: landmarks by
+# shape.
 
 from <- "data-raw/face-scheme"
 to <- "inst/extdata/face_scheme"
 spec <- function(name) read.csv(file.path(from, name), na.strings = "", colClasses = "character")
-write <- function(table, name) write.csv(table, file.path(to, name), row.names = FALSE, na = "", quote = TRUE)
+write <- function(table, name) {
+  write.csv(table, file.path(to, name), row.names = FALSE, na = "", quote = TRUE)
+}
 
-# Right for left: in the names of landmarks (exL), curves and patches (nose left) and the points at the lip's corner (LLL).
+# Right for left: in the names of landmarks (exL), curves and patches (nose left) and the points at
+# the lip's corner (LLL).
 mirrored <- function(text) {
   text <- gsub("left", "RIGHT", gsub("right", "LEFT", text))
   text <- gsub("LEFT", "left", gsub("RIGHT", "right", text))
@@ -22,11 +28,12 @@ mirrored <- function(text) {
   gsub("#", "R", text)
 }
 
-constraints <- c("keep_away_from", "keep_away_to", "keep_away_radius", "keep_away_extension", "keep_side_from", "keep_side_to",
-                 "keep_side_towards", "side_of", "side", "trust_from", "trust_to", "angle_limit")
+constraints <- c("keep_away_from", "keep_away_to", "keep_away_radius", "keep_away_extension",
+                 "keep_side_from", "keep_side_to", "keep_side_towards", "side_of", "side",
+                 "trust_from", "trust_to", "angle_limit")
 
-# The choices of both sides of the face: choices.csv speaks of the left one, and leaves out the side in the names of curves and
-# paired landmarks.
+# The choices of both sides of the face: choices.csv speaks of the left one, and leaves out the side
+# in the names of curves and paired landmarks.
 choices_by_side <- function() {
   choices <- spec("choices.csv")
   landmarks <- spec("landmarks.csv")
@@ -36,7 +43,8 @@ choices_by_side <- function() {
   ends <- grep("_(from|to|towards)$", grep("^keep", constraints, value = TRUE), value = TRUE)
   left[ends] <- lapply(left[ends], function(x) ifelse(x %in% paired, paste0(x, "L"), x))
   left$curve <- paste(left$curve, "left")
-  left$side_of <- ifelse(is.na(left$side_of) | startsWith(left$side_of, "mid-line"), left$side_of, paste(left$side_of, "left"))
+  left$side_of <- ifelse(is.na(left$side_of) | startsWith(left$side_of, "mid-line"), left$side_of,
+                         paste(left$side_of, "left"))
   right <- left
   sided <- c("curve", ends, "side_of", "side")
   right[sided] <- lapply(left[sided], mirrored)
@@ -49,16 +57,20 @@ face_curves <- function() {
   stopifnot(choice$curve %in% curves$curve)
   at <- match(curves$curve, choice$curve)
   cut <- !is.na(curves$ear_cut)
-  chosen <- function(column, authors) ifelse(is.na(choice[[column]][at]), authors, choice[[column]][at])
+  chosen <- function(column, authors) {
+    ifelse(is.na(choice[[column]][at]), authors, choice[[column]][at])
+  }
   data.frame(
-    curves[c("curve", "from", "to")], kind = chosen("kind", curves$kind), radius = chosen("radius", curves$radius_mm),
-    width = chosen("width", curves$half_width_mm), n = curves$n,
-    cut_share = curves$ear_cut, cut_from = ifelse(cut, "enL", NA), cut_to = ifelse(cut, "enR", NA),
-    choice[at, constraints], authors_kind = curves$kind, note = choice$note[at]
+    curves[c("curve", "from", "to")], kind = chosen("kind", curves$kind),
+    radius = chosen("radius", curves$radius_mm), width = chosen("width", curves$half_width_mm),
+    n = curves$n, cut_share = curves$ear_cut, cut_from = ifelse(cut, "enL", NA),
+    cut_to = ifelse(cut, "enR", NA), choice[at, constraints], authors_kind = curves$kind,
+    note = choice$note[at]
   )
 }
 
-# Patches whose first column lies along a curve: a published column is the same cut as the curve, and goes with it where it is no cut.
+# Patches whose first column lies along a curve: a published column is the same cut as the curve,
+# and goes with it where it is no cut.
 first_column <- function(patch) {
   side <- sub("^(philtrum|nose) ", "", patch)
   ifelse(startsWith(patch, "philtrum"), paste0("nasolabial ", side, "[1:6]"),
@@ -71,15 +83,17 @@ face_patches <- function() {
   patches <- spec("patches.csv")
   data.frame(
     patch = patches$patch, block = patches$sub, n = patches$n, columns = patches$columns_used,
-    rows = patches$rows_made, rows_kept = patches$rows_kept, curve_a = patches$curve_a, resample_a = patches$resample_a,
-    curve_b = patches$curve_b, resample_b = patches$resample_b,
-    first_column = first_column(patches$patch), outward = winding[patches$outward], note = patches$left_out
+    rows = patches$rows_made, rows_kept = patches$rows_kept, curve_a = patches$curve_a,
+    resample_a = patches$resample_a, curve_b = patches$curve_b, resample_b = patches$resample_b,
+    first_column = first_column(patches$patch), outward = winding[patches$outward],
+    note = patches$left_out
   )
 }
 
 # Left strips whose outward order is a, b, next b; of the others it is a, next a, next b.
-columns_first <- c("lower face top", "mid-face top", "cheek-eye", "nasal root", "mid-line nose", "upper lip top", "mid-line mouth",
-                   "lips meet", "corner lower a", "corner lower b", "under nose c")
+columns_first <- c("lower face top", "mid-face top", "cheek-eye", "nasal root", "mid-line nose",
+                   "upper lip top", "mid-line mouth", "lips meet", "corner lower a",
+                   "corner lower b", "under nose c")
 
 face_strips <- function() {
   left <- spec("strips_left.csv")
@@ -97,7 +111,8 @@ face_pairs <- function(landmarks, curves, patches) {
     left <- unique(name[grepl("L$| left$", name)])
     data.frame(level = rep(level, length(left)), left = left, right = mirrored(left))
   }
-  rbind(pairs("landmarks", landmarks$landmark), pairs("curves", curves$curve), pairs("surface", patches$patch))
+  rbind(pairs("landmarks", landmarks$landmark), pairs("curves", curves$curve),
+        pairs("surface", patches$patch))
 }
 
 # definitions.csv speaks of the left side and of the middle, too.
@@ -110,10 +125,11 @@ face_definitions <- function() {
   rows[order(match(rows$landmark, landmarks$landmark)), ]
 }
 
-# Where the landmarks lie on the template of find_landmarks(), the mean of each with the mirror image of its partner: unit and names
-# of a specimen's are held against them.
+# Where the landmarks lie on the template of find_landmarks(), the mean of each with the mirror
+# image of its partner: unit and names of a specimen's are held against them.
 typical_places <- function(landmarks) {
-  at <- read.csv(file.path("inst", "extdata", "face_template", "landmarks.csv"), row.names = 1)[c("x", "y", "z")]
+  at <- read.csv(file.path("inst", "extdata", "face_template", "landmarks.csv"),
+                 row.names = 1)[c("x", "y", "z")]
   own <- as.matrix(at[landmarks$landmark, ])
   other <- as.matrix(at[vapply(landmarks$landmark, mirrored, ""), ])
   round((own + other %*% diag(c(-1, 1, 1))) / 2, 1)

@@ -1,9 +1,11 @@
-# The face that landmarks are found by: the mean of Rvcg's dummyhead and humface, symmetric, with 23 landmarks.
+# The face that landmarks are found by: the mean of Rvcg's dummyhead and humface, symmetric, with 23
+# landmarks.
 #
 #   Rscript data-raw/face-template.R      (crestline being installed)
 #
-# Reads inst/extdata/dummyhead_landmarks.csv and humface_landmarks.csv (inst/extdata/README.md says how they were placed), writes
-# inst/extdata/face_template/mesh.ply and landmarks.csv. The head's triangles are kept; each vertex goes half of its way to the face.
+# Reads inst/extdata/dummyhead_landmarks.csv and humface_landmarks.csv (inst/extdata/README.md says
+# how they were placed), writes inst/extdata/face_template/mesh.ply and landmarks.csv. The head's
+# triangles are kept; each vertex goes half of its way to the face.
 
 library(crestline)
 internal <- asNamespace("crestline")
@@ -14,10 +16,12 @@ extdata <- function(file) file.path("inst", "extdata", file)
 scan_of <- function(name, mesh) {
   data <- new.env()
   utils::data(list = mesh[1], package = "Rvcg", envir = data)
-  suppressWarnings(specimen(data[[mesh[2]]], read_landmarks(extdata(paste0(name, "_landmarks.csv"))), id = name))
+  suppressWarnings(specimen(data[[mesh[2]]],
+                            read_landmarks(extdata(paste0(name, "_landmarks.csv"))), id = name))
 }
 
-# The part of the head that face scans have: before the ears, above the throat, below the crown (mm from the nose tip).
+# The part of the head that face scans have: before the ears, above the throat, below the crown (mm
+# from the nose tip).
 face_part <- function(head, depth = 95, low = -85, high = 105) {
   nose <- head$landmarks["pn", ]
   eyes <- colMeans(head$landmarks[c("exL", "exR"), ])
@@ -31,7 +35,8 @@ face_part <- function(head, depth = 95, low = -85, high = 105) {
   internal$keep_vertices(head$mesh, drop(inside))
 }
 
-# Where the points of the head's frame lie on the face: rigid by landmarks, bent to the surface, then what landmarks still say.
+# Where the points of the head's frame lie on the face: rigid by landmarks, bent to the surface,
+# then what landmarks still say.
 onto_face <- function(template, face, points, length = 15, nugget = 0.05) {
   settings <- find_settings(points = 2500, warp_steps = 40)
   prepared <- internal$prepared_template(template, settings, 1)
@@ -42,13 +47,19 @@ onto_face <- function(template, face, points, length = 15, nugget = 0.05) {
   to <- t(crossprod(matrix(pose[1:9], 3), t(face$landmarks[names, ]) - pose[10:12]))
   # The points ride along as landmarks do.
   prepared$landmarks <- rbind(template$landmarks, points)
-  prepared$basis <- internal$warp_basis(rbind(t(prepared$xyz), prepared$landmarks), ncol(prepared$xyz), TRUE, prepared$settings)
-  moved <- internal$fit_warp(prepared, local, prepared$settings, prepared$settings$weight)$moved[-seq_len(ncol(prepared$xyz)), ]
+  prepared$basis <- internal$warp_basis(rbind(t(prepared$xyz), prepared$landmarks),
+                                        ncol(prepared$xyz), TRUE, prepared$settings)
+  moved <- internal$fit_warp(prepared, local, prepared$settings,
+                             prepared$settings$weight)$moved[-seq_len(ncol(prepared$xyz)), ]
   k <- length(names)
-  kernel <- function(a, b) exp(-pmax(outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b), 0) / (2 * length^2))
-  weights <- solve(kernel(template$landmarks, template$landmarks) + diag(nugget, k), to - moved[1:k, ])
+  kernel <- function(a, b) {
+    exp(-pmax(outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b), 0) / (2 * length^2))
+  }
+  weights <- solve(kernel(template$landmarks, template$landmarks) + diag(nugget, k),
+                   to - moved[1:k, ])
   moved <- moved + kernel(prepared$landmarks, template$landmarks) %*% weights
-  ears <- t(crossprod(matrix(pose[1:9], 3), t(face$landmarks[rownames(template$predicted), ]) - pose[10:12]))
+  ears <- t(crossprod(matrix(pose[1:9], 3),
+                      t(face$landmarks[rownames(template$predicted), ]) - pose[10:12]))
   list(landmarks = to, points = moved[-(1:k), ], ears = ears)
 }
 
@@ -69,7 +80,8 @@ symmetric_vertices <- function(mesh) {
 
 symmetric_landmarks <- function(at) {
   side <- substr(rownames(at), nchar(rownames(at)), nchar(rownames(at)))
-  partner <- ifelse(side == "L", sub("L$", "R", rownames(at)), ifelse(side == "R", sub("R$", "L", rownames(at)), rownames(at)))
+  partner <- ifelse(side == "L", sub("L$", "R", rownames(at)),
+                    ifelse(side == "R", sub("R$", "L", rownames(at)), rownames(at)))
   (at + at[partner, ] %*% diag(c(-1, 1, 1))) / 2
 }
 
@@ -100,4 +112,5 @@ dir.create(folder, showWarnings = FALSE)
 mesh <- specimen(mesh, id = "face")$mesh
 write_mesh(mesh, file.path(folder, "mesh.ply"))
 colnames(landmarks) <- c("x", "y", "z")
-utils::write.csv(data.frame(name = rownames(landmarks), round(landmarks, 4)), file.path(folder, "landmarks.csv"), row.names = FALSE, quote = FALSE)
+utils::write.csv(data.frame(name = rownames(landmarks), round(landmarks, 4)),
+                 file.path(folder, "landmarks.csv"), row.names = FALSE, quote = FALSE)

@@ -1,5 +1,5 @@
 # Rscript tools/lint.R R tools: every lint of the files in these folders, then their number by
-# linter.
+# linter; in the other folders of R code, and in the vignettes, the lines that are too long.
 # Status 1 where there is any. Files are shared out among the cores.
 
 lint_file <- function(file) as.data.frame(lintr::lint(file, parse_settings = TRUE))
@@ -20,4 +20,18 @@ if (nrow(found) > 0) {
   cat(sprintf("%6d %s", count, names(count)), sep = "\n")
 }
 cat(length(files), "files,", nrow(found), "lints\n")
-quit(status = as.integer(nrow(found) > 0))
+
+# Of tests, benches and vignettes the lines' length alone: lintr would take minutes. Rows of tables
+# may be longer.
+widest <- 100
+others <- list.files(c("tests", "bench", "data-raw", "vignettes"), "[.](R|Rmd)$", full.names = TRUE,
+                     recursive = TRUE)
+long <- unlist(lapply(others, function(file) {
+  lines <- readLines(file, encoding = "UTF-8", warn = FALSE)
+  at <- which(nchar(lines) > widest & !startsWith(lines, "|"))
+  if (length(at)) sprintf("%s:%d: %d characters", file, at, nchar(lines[at]))
+}))
+if (length(long)) cat(long, sep = "\n")
+cat(sprintf("%d files of tests, benches and vignettes, %d lines over %d characters\n",
+            length(others), length(long), widest))
+quit(status = as.integer(nrow(found) > 0 || length(long) > 0))

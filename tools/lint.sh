@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# lintr over the R sources and the tools by the rules of .lintr; fails on any lint. Folders: LINT="R tools".
+# lintr over the R sources and the tools by the rules of .lintr, and the length of lines in tests,
+# benches and vignettes; fails on any lint. Folders of lintr: LINT="R tools".
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/steps.sh

@@ -1,6 +1,7 @@
 # What the tests of batches share: three balls, each a little wider, as specimens and as files.
 
-# Specimens of the quad's ball, each a little wider; written as PLY with their landmarks beside them.
+# Specimens of the quad's ball, each a little wider; written as PLY with their landmarks beside
+# them.
 batch_specimens <- function(n = 3) {
   lapply(seq_len(n), function(i) {
     wide <- function(mesh) {
@@ -30,11 +31,14 @@ skip_without_futures <- function() {
 }
 
 same_points <- function(a, b, ...) {
-  for (level in c("landmarks", "curves", "surface")) expect_equal(coords(a, level), coords(b, level), ...)
+  for (level in c("landmarks", "curves", "surface")) {
+    expect_equal(coords(a, level), coords(b, level), ...)
+  }
 }
 
 # A scheme of two curves of the ball, quickly measured.
 edge_scheme <- function(n = 5) {
-  curves <- data.frame(curve = c("bottom", "top"), from = c("a", "d"), to = c("b", "c"), kind = "plane", n = n)
+  curves <- data.frame(curve = c("bottom", "top"), from = c("a", "d"), to = c("b", "c"),
+                       kind = "plane", n = n)
   curve_scheme(data.frame(landmark = c("a", "b", "c", "d")), curves, name = "edges")
 }

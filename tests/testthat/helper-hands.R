@@ -5,7 +5,9 @@ humface_scan <- function() {
   data$humface
 }
 
-humface_landmarks <- function() read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
+humface_landmarks <- function() {
+  read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
+}
 
 ear_names <- c("tL", "tR", "oiL", "oiR")
 
@@ -28,7 +30,8 @@ quick_settings <- function() find_settings(points = 1000, warp_steps = 10)
 found_lines <- local({
   found <- NULL
   function() {
-    if (is.null(found)) found <<- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
+    if (is.null(found))
+      found <<- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
     found
   }
 })

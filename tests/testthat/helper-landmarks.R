@@ -11,8 +11,8 @@ xyz <- function(..., name = NULL) {
 
 # Numbers, names and gaps that formats like to lose.
 hard_landmarks <- function() {
-  x <- xyz(1 / 3, -2, 3e-5, NA, NA, NA, pi * 1e6, -1e-300, 99991.5, 0.1 + 0.2, -1, 9999, 1 + 2^-52, 2^60, 1e22, 0, 0, 0,
-           name = c("pn", "sn, left", "ch L", "say \"a\"", "n\u00e9z #1", "9"))
+  x <- xyz(1 / 3, -2, 3e-5, NA, NA, NA, pi * 1e6, -1e-300, 99991.5, 0.1 + 0.2, -1, 9999, 1 + 2^-52,
+           2^60, 1e22, 0, 0, 0, name = c("pn", "sn, left", "ch L", "say \"a\"", "n\u00e9z #1", "9"))
   rbind(x, with_seed(7, xyz(rnorm(300) * 10^runif(300, -8, 8), name = sprintf("p%03d", 1:100))))
 }
 

@@ -8,8 +8,10 @@ sources_of <- function(dir) {
   each <- lapply(files, function(file) {
     parsed <- parse(file.path(dir, file), keep.source = TRUE)
     lines <- vapply(attr(parsed, "srcref"), function(at) at[3] - at[1] + 1, 0)
-    is_definition <- vapply(parsed, function(e) is.call(e) && identical(e[[1]], as.name("<-")) && length(e[[2]]) == 1, NA)
-    found <- Map(function(e, n) list(file = file, value = e[[3]], lines = n), parsed[is_definition], lines[is_definition])
+    is_definition <- vapply(parsed, function(e) is.call(e) && identical(e[[1]], as.name("<-")) &&
+                                    length(e[[2]]) == 1, NA)
+    found <- Map(function(e, n) list(file = file, value = e[[3]], lines = n), parsed[is_definition],
+                 lines[is_definition])
     stats::setNames(found, vapply(parsed[is_definition], function(e) as.character(e[[2]]), ""))
   })
   do.call(c, each)
@@ -22,7 +24,8 @@ calls_between <- function(defined) {
     value <- defined[[name]]$value
     used <- if (is_function(value)) codetools::findGlobals(eval(value, empty)) else all.names(value)
     to <- setdiff(intersect(used, names(defined)), name)
-    data.frame(from = rep(name, length(to)), to = to, from_file = rep(defined[[name]]$file, length(to)),
+    data.frame(from = rep(name, length(to)), to = to,
+               from_file = rep(defined[[name]]$file, length(to)),
                to_file = vapply(defined[to], `[[`, "", "file"), row.names = NULL)
   })
   do.call(rbind, each)

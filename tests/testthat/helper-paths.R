@@ -1,15 +1,20 @@
-# What the tests of paths and ridges share: specimens with a known curve, and what a path on a mesh must be.
+# What the tests of paths and ridges share: specimens with a known curve, and what a path on a mesh
+# must be.
 
-# A specimen of the graph z(u, v) on an irregular mesh, landmarks at given (u, v), a matrix with row names.
-graph_specimen <- function(z, at, half = c(20, 20), spacing = 1, noise = 0, seed = 1, jitter = 0.3) {
-  form <- list(x = quote(u), y = quote(v), z = z, u = c(-half[1], half[1]), v = c(-half[2], half[2]))
+# A specimen of the graph z(u, v) on an irregular mesh, landmarks at given (u, v), a matrix with row
+# names.
+graph_specimen <- function(z, at, half = c(20, 20), spacing = 1, noise = 0, seed = 1, jitter = 0.3)
+  {
+  form <- list(x = quote(u), y = quote(v), z = z, u = c(-half[1], half[1]),
+               v = c(-half[2], half[2]))
   built <- closed_form_mesh(form, spacing, noise, seed, jitter)
   height <- eval(z, list(u = at[, 1], v = at[, 2]))
   specimen(built$mesh, cbind(x = at[, 1], y = at[, 2], z = rep_len(height, nrow(at))), id = "graph",
            outward = "keep", tolerance = 0.2)
 }
 
-two_ends <- function(u = c(-13.3, 13.6), v = c(0.2, -0.1)) cbind(u, v, deparse.level = 0) |> `rownames<-`(c("a", "b"))
+two_ends <- function(u = c(-13.3, 13.6), v = c(0.2, -0.1)) cbind(u, v, deparse.level = 0) |>
+  `rownames<-`(c("a", "b"))
 
 # A ridge 6 high, 5 wide, over the curve v = 1.5 sin(u / 8), and its straight sister.
 bent_ridge <- function(...) {
@@ -18,9 +23,11 @@ bent_ridge <- function(...) {
 }
 straight_ridge <- function(...) graph_specimen(quote(6 * exp(-v^2 / 50)), two_ends(), ...)
 
-# Two ridges that part at landmark a, swing out to v = 5 and v = -5 and meet again at b, of heights `left` and `right`.
+# Two ridges that part at landmark a, swing out to v = 5 and v = -5 and meet again at b, of heights
+# `left` and `right`.
 arched_ridges <- function(left, right, ...) {
-  z <- substitute(v^2 / 10 + left * exp(-(v - 5 * cos(pi * u / 27))^2 / 3) + right * exp(-(v + 5 * cos(pi * u / 27))^2 / 3),
+  z <- substitute(v^2 / 10 + left * exp(-(v - 5 * cos(pi * u / 27))^2 / 3) +
+                  right * exp(-(v + 5 * cos(pi * u / 27))^2 / 3),
                   list(left = left, right = right))
   graph_specimen(z, two_ends(c(-13.5, 13.5), c(0, 0)), half = c(18, 14), ...)
 }
@@ -30,7 +37,8 @@ xyz_of <- function(points) as.matrix(as.data.frame(points)[c("x", "y", "z")])
 # Unit sphere of about 2,500 vertices, its poles at no vertex.
 ball <- function() Rvcg::vcgSphere(4)
 
-# A path is on its mesh: points in their faces, and every segment inside the face of its later point.
+# A path is on its mesh: points in their faces, and every segment inside the face of its later
+# point.
 expect_path_on_mesh <- function(path, mesh, tolerance = 1e-6) {
   expect_on_mesh(path, mesh)
   size <- max(abs(mesh$vb[1:3, ]))

@@ -39,7 +39,8 @@ ball_specimen <- function() {
 ball_curvature <- function(n = ncol(unit_ball()$vb)) {
   one <- rep(-1, n)
   axis <- matrix(1, n, 3)
-  new_curvature(list(k1 = one, k2 = one, direction1 = axis, direction2 = axis, normal = axis, sigma = -one), 0.3, "adaptive",
+  new_curvature(list(k1 = one, k2 = one, direction1 = axis, direction2 = axis, normal = axis,
+                     sigma = -one), 0.3, "adaptive",
                 mesh_of(ball_specimen()))
 }
 
@@ -62,11 +63,13 @@ equator_curve <- function(type = "ridge") {
   window <- expand.grid(s = seq(0, pi / 2, length.out = 40), d = seq(-0.3, 0.3, length.out = 20))
   window$inside <- TRUE
   across <- data.frame(tx = 0, ty = 0, tz = rep(1, nrow(window)))
-  coordinates <- new_path_coordinates(as.list(cbind(vertex = seq_len(nrow(window)), window, across)), pi / 2, 0.3, of)
+  coordinates <- new_path_coordinates(as.list(cbind(vertex = seq_len(nrow(window)), window,
+                                                    across)), pi / 2, 0.3, of)
   surface <- structure(list(), class = "test_surface")
   line <- list(s = seq(0, pi / 2, length.out = 41), alpha = rep(0, 41), se = rep(0.05, 41))
   job <- list(ends = list(scan = of, names = c("east", "front")), type = type)
   new_curve(points, path, path, job, list(se = 0.05, determined = TRUE, reason = NA_character_),
             coordinates = coordinates, surface = surface, line = line, strength = 1)
 }
-registerS3method("predict", "test_surface", function(object, s, d, ...) exp(-d^2), envir = asNamespace("stats"))
+registerS3method("predict", "test_surface", function(object, s, d, ...) exp(-d^2),
+                 envir = asNamespace("stats"))

@@ -2,7 +2,9 @@
 
 # A parametric surface: expressions in u and v (mm), with ranges; normals by r_u x r_v.
 closed_forms <- function() {
-  graph <- function(z, half = 30) list(x = quote(u), y = quote(v), z = z, u = c(-half, half), v = c(-half, half))
+  graph <- function(z, half = 30) {
+    list(x = quote(u), y = quote(v), z = z, u = c(-half, half), v = c(-half, half))
+  }
   list(
     sphere = list(x = quote(40 * sin(u / 40)), y = quote(40 * cos(u / 40) * sin(v / 40)),
                   z = quote(40 * cos(u / 40) * cos(v / 40)), u = c(-30, 30), v = c(-30, 30)),
@@ -24,7 +26,8 @@ closed_form_mesh <- function(form, spacing = 1, noise = 0, seed = 1, jitter = 0.
     v <- seq(form$v[1], form$v[2], by = spacing)
     at <- expand.grid(u = u, v = v)
     at <- at + stats::runif(2 * nrow(at), -jitter, jitter) * spacing
-    it <- grid_triangles(length(u), length(v), flip = stats::runif((length(u) - 1) * (length(v) - 1)) < 0.5)
+    it <- grid_triangles(length(u), length(v),
+                         flip = stats::runif((length(u) - 1) * (length(v) - 1)) < 0.5)
     truth <- exact_curvature(form, at$u, at$v)
     xyz <- truth$xyz + noise * stats::rnorm(nrow(at)) * truth$normal
   })
@@ -46,7 +49,8 @@ exact_curvature <- function(form, u, v) {
     n <- length(u)
     gradient <- matrix(attr(value, "gradient"), ncol = 2)
     hessian <- array(attr(value, "hessian"), c(length(gradient) / 2, 2, 2))
-    list(value = rep_len(as.numeric(value), n), g = gradient[rep_len(seq_len(nrow(gradient)), n), , drop = FALSE],
+    list(value = rep_len(as.numeric(value), n),
+         g = gradient[rep_len(seq_len(nrow(gradient)), n), , drop = FALSE],
          h = hessian[rep_len(seq_len(nrow(gradient)), n), , , drop = FALSE])
   })
   bind <- function(get) sapply(parts, get)
@@ -80,7 +84,8 @@ cross_rows <- function(a, b) {
 
 with_seed <- function(seed, code) {
   old <- if (exists(".Random.seed", globalenv())) get(".Random.seed", globalenv())
-  on.exit(if (is.null(old)) rm(".Random.seed", envir = globalenv()) else assign(".Random.seed", old, globalenv()))
+  on.exit(if (is.null(old)) rm(".Random.seed", envir = globalenv()) else
+          assign(".Random.seed", old, globalenv()))
   set.seed(seed)
   force(code)
 }
@@ -91,7 +96,8 @@ curvature_errors <- function(curved, truth, at) {
   scale <- sqrt(mean((truth$k1[at]^2 + truth$k2[at]^2) / 2))
   index <- function(k1, k2) 2 / pi * atan2(-(k1 + k2), k1 - k2)
   distinct <- at[(truth$k1 - truth$k2)[at] > 0.5 * scale]
-  along <- abs(rowSums(curved$direction1[distinct, , drop = FALSE] * truth$direction1[distinct, , drop = FALSE]))
+  along <- abs(rowSums(curved$direction1[distinct, , drop = FALSE] *
+                       truth$direction1[distinct, , drop = FALSE]))
   bent <- at[sqrt((truth$k1^2 + truth$k2^2) / 2)[at] > 0.2 * scale]
   list(k1 = 100 * abs(curved$k1 - truth$k1)[at] / scale,
        index = abs(index(curved$k1, curved$k2) - index(truth$k1, truth$k2))[bent],

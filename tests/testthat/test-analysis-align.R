@@ -9,13 +9,14 @@ test_that("copies of one shape come back to it, whatever their pose and size", {
   expect_equal(as.data.frame(aligned)$distance, rep(0, 15), tolerance = 1e-10)
 })
 
-test_that("the kernel's rotation is that of the singular value decomposition, also for flat shapes", {
+test_that("the kernel's rotation is that of the singular value decomposition, flat shapes too", {
   for (seed in 1:5) {
     x <- posed_sample(8, 2, 0.3, seed)
     if (seed > 3) x[, 3, ] <- 0
     one <- cpp_align(x, dim(x), rep(1, 8), x[, , 2], 1, 0, 1)
     own <- superimposition(x[, , 1], x[, , 2], TRUE)(x[, , 1])
-    expect_lt(apart(one$coords[1:24] |> matrix(8), own / sqrt(sum(sweep(own, 2, colMeans(own))^2))), 1e-12)
+    expect_lt(apart(one$coords[1:24] |> matrix(8), own / sqrt(sum(sweep(own, 2, colMeans(own))^2))),
+              1e-12)
   }
 })
 
@@ -49,7 +50,8 @@ test_that("mean and size are Morpho's", {
   # Their tangent co-ordinates, up to the pose.
   pca <- shape_pca(aligned)
   expect_equal(pca$sdev[1:14]^2, theirs$eigenvalues[1:14], tolerance = 1e-8)
-  expect_lt(apart(align(x, scale = FALSE)$mean, quiet(x, scale = FALSE, CSinit = FALSE)$mshape), 1e-8)
+  expect_lt(apart(align(x, scale = FALSE)$mean, quiet(x, scale = FALSE, CSinit = FALSE)$mshape),
+            1e-8)
   # Their rounds of full scaling end early.
   expect_lt(apart(align(x, scale = "full")$mean, quiet(x)$mshape), 1e-5)
 })
@@ -71,7 +73,8 @@ test_that("mean and size are geomorph's", {
   aligned <- align(x)
   expect_lt(apart(aligned$mean, theirs$consensus), 1e-8)
   expect_equal(unname(aligned$size), unname(theirs$Csize), tolerance = 1e-12)
-  expect_equal(unclass(dist(t(matrix(aligned$coords, 90)))), unclass(dist(t(matrix(theirs$coords, 90)))), tolerance = 1e-8,
+  expect_equal(unclass(dist(t(matrix(aligned$coords, 90)))),
+               unclass(dist(t(matrix(theirs$coords, 90)))), tolerance = 1e-8,
                ignore_attr = TRUE)
 })
 
@@ -80,7 +83,8 @@ test_that("the answer does not depend on unit, pose and order", {
   aligned <- align(x)
   turned <- posed_sample(sd = 0, seed = 5)
   moved <- x
-  for (i in 1:15) moved[, , i] <- 1000 * sweep(x[, , i] %*% nearest_rotation(diag(3), qr.Q(qr(turned[1:3, , i])))$rotation, 2, i, `+`)
+  for (i in 1:15) moved[, , i] <- 1000 *
+    sweep(x[, , i] %*% nearest_rotation(diag(3), qr.Q(qr(turned[1:3, , i])))$rotation, 2, i, `+`)
   expect_lt(apart(align(moved)$mean, aligned$mean), 1e-10)
   expect_equal(align(moved)$size, 1000 * aligned$size, tolerance = 1e-12)
   back <- align(x[, , 15:1])
@@ -118,10 +122,13 @@ test_that("missing points come back where a sample of affine images has them", {
   gappy[2:4, , 3] <- NA
   gappy[9, 2, 7] <- NA
   aligned <- align(gappy)
-  expect_equal(aligned$missing, data.frame(id = c("3", "3", "3", "7"), point = c("2", "3", "4", "9"), action = "estimated"))
+  expect_equal(aligned$missing,
+               data.frame(id = c("3", "3", "3", "7"), point = c("2", "3", "4", "9"),
+                          action = "estimated"))
   expect_equal(unname(aligned$size), unname(align(x)$size), tolerance = 1e-6)
   expect_lt(apart(aligned$mean, align(x)$mean), 1e-6)
-  expect_match(paste(capture.output(aligned), collapse = "\n"), "missing and estimated: 4 points of 3, 7")
+  expect_match(paste(capture.output(aligned), collapse = "\n"),
+               "missing and estimated: 4 points of 3, 7")
 })
 
 test_that("in the plane too", {
@@ -156,8 +163,10 @@ test_that("a sample gives its levels, in the template's pose", {
   model <- align(sample, "model")
   expect_equal(nrow(model$mean), length(unique(sample$template$scheme$points$place)))
   same <- align(as.array(sample, "landmarks"))
-  expect_lt(apart(align(every_place(sample)[grepl("^landmarks", rownames(model$mean)), , ])$mean, same$mean), 1e-10)
-  expect_equal(unname(every_place(sample)[model$triangles, , ]), unname(as.array(sample, "surface")[aligned$triangles, , ]))
+  expect_lt(apart(align(every_place(sample)[grepl("^landmarks", rownames(model$mean)), , ])$mean,
+                  same$mean), 1e-10)
+  expect_equal(unname(every_place(sample)[model$triangles, , ]),
+               unname(as.array(sample, "surface")[aligned$triangles, , ]))
   mesh <- shape_at(shape_pca(aligned), 1, 0, "mesh")
   expect_equal(ncol(mesh$it), ncol(shape_mesh(sample$template)$it))
 })

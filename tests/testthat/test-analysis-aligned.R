@@ -129,7 +129,7 @@ test_that("components and comparisons of a part are those of the part", {
   expect_equal(ours$tests$p_value, theirs$tests$p_value)
 })
 
-test_that("names are changed everywhere, and fields that do not fit together are refused where they are used", {
+test_that("names are changed everywhere; fields that do not fit together are refused", {
   gap <- x
   gap[8, , 7] <- NA
   aligned <- align(gap)

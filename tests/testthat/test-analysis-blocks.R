@@ -1,4 +1,5 @@
-# n persons seen twice, `effect` at the first points the second time; what persons differ by is ten times as much.
+# n persons seen twice, `effect` at the first points the second time; what persons differ by is ten
+# times as much.
 paired_sample <- function(n = 12, effect = 0.03, seed = 1, k = 8) {
   with_seed(seed, {
     base <- matrix(stats::rnorm(3 * k), k)
@@ -24,7 +25,8 @@ test_that("pairs are compared within persons: the paired t, and what differs is 
   expect_equal(own$statistic, theirs$statistic[["t"]], tolerance = 1e-8)
   expect_equal(own$p_parametric, theirs$p.value, tolerance = 1e-8)
   apart <- blocked(data, n_perm = 9, exact = 0, equal_spread = FALSE, tests = "size")$tests
-  expect_equal(c(apart$statistic, apart$p_parametric), c(own$statistic, own$p_parametric), tolerance = 1e-8)
+  expect_equal(c(apart$statistic, apart$p_parametric), c(own$statistic, own$p_parametric),
+               tolerance = 1e-8)
   shape <- function(x) x$tests$p_value[x$tests$test == "mean shape"]
   expect_lte(shape(compared), 0.01)
   free <- compare_groups(data$x, data$time, n_perm = 199, seed = 1, progress = FALSE)
@@ -54,7 +56,8 @@ test_that("regroupings within blocks keep every block's own specimens", {
   for (exact in c(0, 100)) {
     labels <- design_regroupings(design, 50, exact, NULL, 1)$labels
     expect_equal(labels[, 1], code)
-    each <- apply(labels, 2, function(own) tapply(own, block, function(x) paste(sort(x), collapse = "")))
+    each <- apply(labels, 2,
+                  function(own) tapply(own, block, function(x) paste(sort(x), collapse = "")))
     expect_true(all(each == each[, 1]))
   }
   expect_equal(ncol(labels), 6)
@@ -65,7 +68,8 @@ test_that("repeated scans of persons count once", {
   data <- paired_sample(10, 0)
   sex <- rep(rep(c("F", "M"), each = 5), 2)
   names(sex) <- NULL
-  compared <- compare_groups(data$x, sex, block = data$person, n_perm = 99, exact = 0, seed = 1, progress = FALSE)
+  compared <- compare_groups(data$x, sex, block = data$person, n_perm = 99, exact = 0, seed = 1,
+                             progress = FALSE)
   size <- align(data$x)$size
   mean <- (size[1:10] + size[11:20]) / 2
   theirs <- t.test(mean[1:5], mean[6:10], var.equal = TRUE)

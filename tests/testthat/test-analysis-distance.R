@@ -1,4 +1,6 @@
-line <- function(n, y = 0, slope = 0) cbind(x = seq(0, 1, length.out = n), y = y + slope * seq(0, 1, length.out = n), z = 0)
+line <- function(n, y = 0, slope = 0) {
+  cbind(x = seq(0, 1, length.out = n), y = y + slope * seq(0, 1, length.out = n), z = 0)
+}
 
 test_that("distances of points are those of closed forms", {
   a <- list(shifted = line(5), tilted = line(5))
@@ -25,7 +27,8 @@ test_that("matching undoes rotation and shift, and size if wanted", {
   spread <- sqrt(mean(rowSums(sweep(both, 2, colMeans(both))^2)))
   expect_equal(attr(curve_distance(a, larger, match = "procrustes"), "all")$rms, 2 * spread)
   # A reflection is no rotation.
-  expect_gt(attr(curve_distance(a, lapply(a, function(x) -x), match = "procrustes"), "all")$rms, 0.1)
+  expect_gt(attr(curve_distance(a, lapply(a, function(x) -x), match = "procrustes"), "all")$rms,
+            0.1)
 })
 
 test_that("between curves, numbers of points and their spacing do not count", {
@@ -33,7 +36,8 @@ test_that("between curves, numbers of points and their spacing do not count", {
   expect_equal(curve_distance(a, list(edge = line(17, y = 0.25)), between = "curves")$rms, 0.25)
   expect_equal(curve_distance(a, list(edge = line(2)^2), between = "curves")$max, 0)
   # Past its end the nearest place is the end.
-  beyond <- curve_distance(list(edge = line(2)), list(edge = cbind(c(0, 4), 0, 0)), between = "curves")
+  beyond <- curve_distance(list(edge = line(2)), list(edge = cbind(c(0, 4), 0, 0)),
+                           between = "curves")
   expect_equal(beyond$max, 3)
   expect_equal(beyond$mean, 3 / 4)
 })
@@ -53,13 +57,15 @@ test_that("shapes, matrices and lists say the same; missing parts and points are
 
 test_that("what cannot be compared is said", {
   expect_crestline_error(curve_distance(list(a = line(3)), list(b = line(3))), "in common")
-  expect_crestline_error(curve_distance(list(a = line(3)), list(a = line(4))), c("a has 3 points", "curves"))
+  expect_crestline_error(curve_distance(list(a = line(3)), list(a = line(4))),
+                         c("a has 3 points", "curves"))
   expect_crestline_error(curve_distance(line(3)[, 1:2], list(a = line(4))), "`a`")
   expect_crestline_error(curve_distance(list(a = line(3)), list(line(4))), "`b`")
 })
 
 test_that("print fits a screen", {
-  many <- stats::setNames(lapply(1:40, function(i) line(3, y = i)), paste("a curve with a long name", 1:40))
+  many <- stats::setNames(lapply(1:40, function(i) line(3, y = i)),
+                          paste("a curve with a long name", 1:40))
   shown <- capture.output(print(curve_distance(many, lapply(many, function(x) x + pi))))
   expect_lte(length(shown), 24)
   expect_lte(max(nchar(shown)), 80)

@@ -18,19 +18,20 @@ test_that("a specimen with two points exchanged is named, and it is told that fe
     x[c("c", "g"), , "s12"] <- x[c("g", "c"), , "s12"]
     x
   })
-  expect_warning(align(swapped, "landmarks"), "landmarks: far from the others: s12", class = "crestline_far")
+  expect_warning(align(swapped, "landmarks"), "landmarks: far from the others: s12",
+                 class = "crestline_far")
   expect_warning(align(swapped), class = "crestline_sample_doubt")
   expect_no_warning(align(swapped, limits = sample_limits(far = Inf, point = Inf)))
   expect_no_warning(align(swapped[, , c(1:3, 12)]))
 })
 
-test_that("one point beside its place is named with its specimen, though the shape as a whole is near", {
+test_that("one point beside its place is named, though the shape as a whole is near", {
   moved <- alike(function(x) {
     x["b", 1, "s3"] <- x["b", 1, "s3"] + 0.8
     x
   }, sd = 0.03)
-  expect_warning(align(moved, limits = sample_limits(far = Inf)), "points far from those of the others: b of s3",
-                 class = "crestline_point")
+  expect_warning(align(moved, limits = sample_limits(far = Inf)),
+                 "points far from those of the others: b of s3", class = "crestline_point")
 })
 
 test_that("sizes that differ as units do are told, with the ratio", {
@@ -39,7 +40,8 @@ test_that("sizes that differ as units do are told, with the ratio", {
     x
   })
   expect_warning(align(mixed), "s5 .0.00099 times", class = "crestline_size")
-  expect_warning(compare_groups(mixed, rep(1:2, 10), n_perm = 9, tests = "size", progress = FALSE), class = "crestline_size")
+  expect_warning(compare_groups(mixed, rep(1:2, 10), n_perm = 9, tests = "size", progress = FALSE),
+                 class = "crestline_size")
 })
 
 test_that("points estimated for too many, or too many of one, and far from the rest are told", {
@@ -48,20 +50,24 @@ test_that("points estimated for too many, or too many of one, and far from the r
     x
   })
   limits <- function(...) sample_limits(beyond = Inf, ...)
-  expect_warning(align(lacking, limits = limits()), "more than 33 % of the specimens: a \\(1 point\\)", class = "crestline_estimated")
+  expect_warning(align(lacking, limits = limits()),
+                 "more than 33 % of the specimens: a \\(1 point\\)", class = "crestline_estimated")
   expect_no_warning(align(lacking[, , 6:20], limits = limits()))
   poor <- alike(function(x) {
     x[1:4, , "s2"] <- NA
     x
   })
-  expect_warning(align(poor, limits = limits()), "of the points are estimated of s2", class = "crestline_estimated")
+  expect_warning(align(poor, limits = limits()), "of the points are estimated of s2",
+                 class = "crestline_estimated")
   expect_no_warning(align(poor, limits = limits(estimated = 0.5)))
   expect_equal(reach_beyond(cbind(c(-1, 1), 0, 0), rbind(c(0.5, 0, 0), c(3, 0, 0))), 2)
   # A row of points of which the last is far out.
-  row <- with_seed(2, array(cbind(c(0:8, 14), stats::rnorm(10), stats::rnorm(10)), c(10, 3, 8)) + stats::rnorm(240, sd = 0.05))
+  row <- with_seed(2, array(cbind(c(0:8, 14), stats::rnorm(10), stats::rnorm(10)), c(10, 3, 8)) +
+                      stats::rnorm(240, sd = 0.05))
   dimnames(row) <- list(letters[1:10], NULL, paste0("s", 1:8))
   row["j", , "s4"] <- NA
-  expect_warning(align(row), "points are estimated far from those that are there: of s4", class = "crestline_beyond")
+  expect_warning(align(row), "points are estimated far from those that are there: of s4",
+                 class = "crestline_beyond")
   row["j", , "s4"] <- row["j", , "s3"]
   row["e", , "s4"] <- NA
   expect_no_warning(align(row))
@@ -74,7 +80,8 @@ test_that("an alignment and a comparison print how many points were estimated, a
     x
   })
   aligned <- align(lacking, limits = sample_limits(beyond = Inf))
-  expect_output(print(aligned), "missing and estimated: 4 points of s1, s2, s3; most, 2, of s2", fixed = TRUE)
+  expect_output(print(aligned), "missing and estimated: 4 points of s1, s2, s3; most, 2, of s2",
+                fixed = TRUE)
   compared <- compare_groups(aligned, rep(1:2, 10), n_perm = 9, tests = "size", progress = FALSE)
   expect_output(print(compared), "missing and estimated: 4 points of s1, s2, s3", fixed = TRUE)
 })

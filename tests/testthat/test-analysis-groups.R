@@ -35,7 +35,8 @@ test_that("the distance of means and Goodall's F are those of the aligned shapes
 
 test_that("T2 is its closed form, on the scores of the first components", {
   data <- grouped_sample(c(9, 12), effect = 0.03)
-  compared <- compare_quietly(data$x, data$group, components = 4, seed = 1, n_perm = 50, tests = "T2")
+  compared <- compare_quietly(data$x, data$group, components = 4, seed = 1, n_perm = 50,
+                              tests = "T2")
   x <- prcomp(t(matrix(align(data$x)$coords, 36)))$x[, 1:4]
   a <- x[1:9, ]
   b <- x[10:21, ]
@@ -43,11 +44,14 @@ test_that("T2 is its closed form, on the scores of the first components", {
   off <- colMeans(a) - colMeans(b)
   t2 <- 9 * 12 / 21 * drop(off %*% solve(pooled, off))
   expect_equal(compared$tests$statistic, t2, tolerance = 1e-8)
-  expect_equal(compared$tests$p_parametric, pf(t2 * 16 / (19 * 4), 4, 16, lower.tail = FALSE), tolerance = 1e-8)
+  expect_equal(compared$tests$p_parametric, pf(t2 * 16 / (19 * 4), 4, 16, lower.tail = FALSE),
+               tolerance = 1e-8)
   three <- factor(rep(c("a", "b", "c"), 7))
-  compared <- compare_quietly(data$x, three, components = 4, seed = 1, n_perm = 50, tests = c("T2", "components"))
+  compared <- compare_quietly(data$x, three, components = 4, seed = 1, n_perm = 50,
+                              tests = c("T2", "components"))
   theirs <- summary(manova(x ~ three), test = "Hotelling-Lawley")$stats
-  expect_equal(test_row_of(compared, "T2")$statistic, 18 * theirs[1, "Hotelling-Lawley"], tolerance = 1e-8)
+  expect_equal(test_row_of(compared, "T2")$statistic, 18 * theirs[1, "Hotelling-Lawley"],
+               tolerance = 1e-8)
   expect_equal(test_row_of(compared, "T2")$p_parametric, theirs[1, "Pr(>F)"], tolerance = 1e-8)
   one <- anova(lm(x[, 2] ~ three))
   expect_equal(test_row_of(compared, "PC2")$statistic, one$`F value`[1], tolerance = 1e-8)
@@ -57,8 +61,9 @@ test_that("T2 is its closed form, on the scores of the first components", {
 test_that("components can be a share of the variance, and never too many", {
   data <- grouped_sample(c(5, 5))
   share <- cumsum(shape_pca(align(data$x))$share)
-  counted <- function(components) unname(compare_quietly(data$x, data$group, components = components, n_perm = 9,
-                                                         tests = "T2")$components)
+  counted <- function(components)
+    unname(compare_quietly(data$x, data$group, components = components, n_perm = 9,
+                           tests = "T2")$components)
   expect_equal(counted(share[3]), 3)
   expect_equal(counted(share[3] + 1e-6), 4)
   expect_equal(counted(50), 7)
@@ -119,7 +124,9 @@ test_that("p-values on given permutations are those of the definition, and RRPP'
   compared <- compare_quietly(data$x, data$group, permutations = orders, tests = c("shape", "size"))
   aligned <- align(data$x)
   flat <- t(matrix(aligned$coords, 36))
-  distance <- function(order) sum((colMeans(flat[order, ][1:8, ]) - colMeans(flat[order, ][9:17, ]))^2)
+  distance <- function(order) {
+    sum((colMeans(flat[order, ][1:8, ]) - colMeans(flat[order, ][9:17, ]))^2)
+  }
   all <- c(distance(1:17), apply(orders, 2, distance))
   expect_equal(test_row_of(compared, "mean shape")$p_value, mean(all >= all[1]))
   skip_if_not_installed("RRPP")
@@ -180,7 +187,8 @@ test_that("points: where the groups differ is found, and the family is controlle
   expect_equal(all$points$statistic, each[, 1], tolerance = 1e-8)
   expect_equal(all$points$p_value, rowMeans(each >= each[, 1] * (1 - 1e-8)))
   most <- apply(each, 2, max)
-  expect_equal(all$points$p_adjusted, vapply(each[, 1], function(f) mean(most >= f * (1 - 1e-8)), 0))
+  expect_equal(all$points$p_adjusted,
+               vapply(each[, 1], function(f) mean(most >= f * (1 - 1e-8)), 0))
 })
 
 test_that("on a surface the displacement along the normal is tested", {
@@ -207,9 +215,11 @@ test_that("normals of a ball point outwards", {
 test_that("no difference is found in 5 % of samples without one", {
   p <- vapply(1:120, function(seed) {
     data <- grouped_sample(c(6, 6), seed = seed)
-    tests <- compare_quietly(data$x, data$group, n_perm = 39, exact = 0, components = 3, seed = seed)
-    c(test_row_of(tests, "size t")$p_value, test_row_of(tests, "mean shape")$p_value, test_row_of(tests, "T2")$p_value,
-      min(tests$tests$p_adjusted[grepl("PC", tests$tests$test)]), min(tests$points$p_adjusted))
+    tests <- compare_quietly(data$x, data$group, n_perm = 39, exact = 0, components = 3,
+                             seed = seed)
+    c(test_row_of(tests, "size t")$p_value, test_row_of(tests, "mean shape")$p_value,
+      test_row_of(tests, "T2")$p_value, min(tests$tests$p_adjusted[grepl("PC", tests$tests$test)]),
+      min(tests$points$p_adjusted))
   }, numeric(5))
   limits <- qbinom(c(0.0005, 0.9995), 120, 0.05)
   rejected <- rowSums(p <= 0.05)
@@ -219,7 +229,8 @@ test_that("no difference is found in 5 % of samples without one", {
 test_that("levels stand side by side", {
   data <- grouped_sample(c(6, 6), effect = 0.1)
   few <- data$x[4:12, , ]
-  compared <- compare_quietly(list(all = data$x, few = few), data$group, n_perm = 99, seed = 1, components = 2)
+  compared <- compare_quietly(list(all = data$x, few = few), data$group, n_perm = 99, seed = 1,
+                              components = 2)
   expect_equal(names(summary(compared)), c("test", "all", "few"))
   few_tests <- compared$tests[compared$tests$level == "few", ]
   expect_equal(summary(compared)$few[2], few_tests$p_value[few_tests$test == "mean shape"])
@@ -227,19 +238,23 @@ test_that("levels stand side by side", {
   text <- capture.output(compared)
   expect_lte(max(nchar(text)), 90)
   expect_match(text[1], "a (6) and b (6); 99 random permutations", fixed = TRUE)
-  expect_crestline_error(compare_quietly(list(all = data$x, few = few[, , 12:1][, , -1]), data$group), "different specimens")
+  expect_crestline_error(compare_quietly(list(all = data$x, few = few[, , 12:1][, , -1]),
+                                         data$group), "different specimens")
 })
 
 test_that("what cannot be compared is refused", {
   data <- grouped_sample(c(3, 3))
   expect_crestline_error(compare_quietly(data$x, rep("a", 6)), "one group")
-  expect_crestline_error(compare_quietly(data$x, c("a", "b", "b", "b", "b", "b")), "\"a\" has one specimen")
+  expect_crestline_error(compare_quietly(data$x, c("a", "b", "b", "b", "b", "b")),
+                         "\"a\" has one specimen")
   expect_crestline_error(compare_quietly(data$x, c("a", "b")), "2 values for 6")
   expect_crestline_error(compare_quietly(data$x, c("a", "a", "b", "b", "b", NA)), "missing for 6")
-  expect_crestline_error(compare_quietly(data$x, setNames(data$group, letters[1:6])), "no value for 1, 2")
+  expect_crestline_error(compare_quietly(data$x, setNames(data$group, letters[1:6])),
+                         "no value for 1, 2")
   expect_crestline_error(compare_quietly(data$x, data$group, tests = "t"), "`tests`")
   expect_crestline_error(compare_quietly(data$x, data$group, components = 0), "`components`")
-  expect_crestline_error(compare_quietly(data$x, data$group, permutations = diag(6)), "`permutations`")
+  expect_crestline_error(compare_quietly(data$x, data$group, permutations = diag(6)),
+                         "`permutations`")
 })
 
 test_that("groups go to specimens by name, from a vector or a table, in any order", {

@@ -38,15 +38,17 @@ test_that("geomorph and RRPP take them, and test as we do where both do", {
   one <- covered()
   frame <- as_geomorph(one$x, data = one$data)
   fit <- geomorph::procD.lm(coords ~ sex, data = frame, iter = 199, seed = 2)
-  compared <- compare_groups(one$x, frame$sex, equal_spread = TRUE, permutations = RRPP:::perm.index(16, 199, seed = 2), tests = "shape",
+  compared <- compare_groups(one$x, frame$sex, equal_spread = TRUE,
+                             permutations = RRPP:::perm.index(16, 199, seed = 2), tests = "shape",
                              progress = FALSE)
   expect_equal(summary(fit)$table[1, "Pr(>F)"], compared$tests$p_value)
   expect_equal(summary(fit)$table[1, "Rsq"], compared$tests$share, tolerance = 1e-8)
-  full <- RRPP::lm.rrpp(coords ~ log(size) + sex * age, data = as_rrpp(one$x, data = one$data), iter = 19)
+  full <- RRPP::lm.rrpp(coords ~ log(size) + sex * age,
+                        data = as_rrpp(one$x, data = one$data), iter = 19)
   expect_equal(nrow(anova(full)$table), 6)
   back <- as_aligned(geomorph::gpagen(one$x, print.progress = FALSE, tol = 0, PrinAxes = FALSE))
-  expect_equal(dist(t(matrix(back$coords, 36))), dist(t(matrix(align(one$x)$coords, 36))), tolerance = 1e-6,
-               ignore_attr = TRUE)
+  expect_equal(dist(t(matrix(back$coords, 36))), dist(t(matrix(align(one$x)$coords, 36))),
+               tolerance = 1e-6, ignore_attr = TRUE)
   expect_equal(unname(back$size), unname(align(one$x)$size))
 })
 
@@ -62,7 +64,8 @@ test_that("Morpho takes them", {
   full <- suppressMessages(Morpho::procSym(one$x, proctol = 1e-25, tol = 1e-25))
   expect_equal(as_morpho(one$x, scale = "full")$rho, full$rho, tolerance = 1e-4)
   back <- as_aligned(theirs)
-  expect_equal(shape_pca(back)$sdev^2, theirs$eigenvalues[seq_along(shape_pca(back)$sdev)], tolerance = 1e-8)
+  expect_equal(shape_pca(back)$sdev^2, theirs$eigenvalues[seq_along(shape_pca(back)$sdev)],
+               tolerance = 1e-8)
 })
 
 test_that("and back", {
@@ -74,12 +77,14 @@ test_that("and back", {
   expect_equal(back$size, aligned$size)
   group <- rep(1:2, 8)
   expect_equal(compare_groups(back, group, n_perm = 19, seed = 1, progress = FALSE)$tests$p_value,
-               compare_groups(aligned, group, n_perm = 19, seed = 1, progress = FALSE)$tests$p_value)
+               compare_groups(aligned, group, n_perm = 19, seed = 1,
+                              progress = FALSE)$tests$p_value)
   expect_equal(as_aligned(as_morpho(aligned))$coords, aligned$coords)
   kept <- as_aligned(align(one$x, scale = FALSE)$coords)
   expect_false(kept$scale)
   expect_equal(kept$size, aligned$size, tolerance = 1e-10)
-  expect_false(as_aligned(list(coords = align(one$x, scale = FALSE)$coords, size = aligned$size * (1 + 1e-12)))$scale)
+  expect_false(as_aligned(list(coords = align(one$x, scale = FALSE)$coords,
+                               size = aligned$size * (1 + 1e-12)))$scale)
   expect_true(back$scale)
   expect_crestline_error(as_aligned(list(1)), "`x`")
   expect_crestline_error(as_aligned(aligned$coords, size = 1), "`size`")

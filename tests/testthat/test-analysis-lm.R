@@ -85,7 +85,7 @@ test_that("types II and III are those of nested and of one-term-less models", {
                  class = "crestline_contrasts")
 })
 
-test_that("many specimens of few points take the other way through the algebra to the same values", {
+test_that("many specimens of few points come to the same values by the other algebra", {
   data <- people(40)
   aligned <- modelled_sample(data, k = 4)
   y <- scale(flat_rows(aligned), scale = FALSE)
@@ -131,7 +131,8 @@ test_that("a map's distance is the regression coefficient along the normal, in t
   xyz <- t(ball$vb[1:3, ]) * 50
   data <- people(16)
   balls <- simplify2array(lapply(1:16, function(i) {
-    xyz * (1 + 0.001 * data$age[i] * exp(-((xyz[, 1] - 50) / 10)^2)) + with_seed(i, rnorm(length(xyz), sd = 0.01))
+    xyz * (1 + 0.001 * data$age[i] * exp(-((xyz[, 1] - 50) / 10)^2)) +
+      with_seed(i, rnorm(length(xyz), sd = 0.01))
   }))
   dimnames(balls)[[3]] <- data$id
   aligned <- align(balls, "ball", triangles = ball$it)
@@ -271,14 +272,17 @@ test_that("curves and patches of a sample are tested with the family held", {
   made <- argument_objects()
   sample <- suppressWarnings(homologise(made$shapes, progress = FALSE))
   data <- data.frame(id = names(sample), w = c(1, 3, 2, 5, 4, 7, 6))
-  model <- suppressWarnings(shape_lm(sample, ~ w, data, c("curves", "surface"), tests = "points", n_perm = 19))
+  model <- suppressWarnings(shape_lm(sample, ~ w, data, c("curves", "surface"), tests = "points",
+                                     n_perm = 19))
   expect_setequal(model$parts$part[model$parts$level == "curves"], made$scheme$curves$curve)
   expect_true(all(model$parts$p_adjusted >= model$parts$p_value - 1e-12))
-  expect_equal(sum(model$parts$points[model$parts$level == "curves"]), nrow(coords(sample$template, "curves")))
+  expect_equal(sum(model$parts$points[model$parts$level == "curves"]),
+               nrow(coords(sample$template, "curves")))
   meshes <- predict(model, data.frame(w = c(1, 9)), "surface", as = "mesh")
   expect_s3_class(meshes[[1]], "mesh3d")
   expect_error(predict(model, data.frame(w = 1), "landmarks"), "level", class = "crestline_error")
-  expect_error(predict(model, data.frame(w = 1), "curves", as = "mesh"), "triangles", class = "crestline_error")
+  expect_error(predict(model, data.frame(w = 1), "curves", as = "mesh"), "triangles",
+               class = "crestline_error")
 })
 
 test_that("a damaged model is refused by all its methods", {
@@ -288,6 +292,8 @@ test_that("a damaged model is refused by all its methods", {
   calls <- list(as.data.frame, summary, plot, predict, generics::tidy, generics::glance)
   for (part in c("aligned", "models", "formula")) {
     damaged <- structure(unclass(model)[setdiff(names(model), part)], class = "shape_lm")
-    for (call in calls) expect_error(utils::capture.output(call(damaged)), class = "crestline_error")
+    for (call in calls) {
+      expect_error(utils::capture.output(call(damaged)), class = "crestline_error")
+    }
   }
 })

@@ -74,9 +74,11 @@ test_that("a known direction is found, and shapes along it", {
   base <- sweep(base, 2, colMeans(base))
   base <- base / sqrt(sum(base^2))
   # Orthogonal to moves, turns and scaling, so that alignment changes it in second order only.
-  nuisance <- cbind(as.vector(base), kronecker(diag(3), rep(1, 12)), as.vector(base %*% rbind(c(0, 1, 0), c(-1, 0, 0), 0)),
-                    as.vector(base %*% rbind(c(0, 0, 1), 0, c(-1, 0, 0))), as.vector(base %*% rbind(0, c(0, 0, 1),
-                                                                                                    c(0, -1, 0))))
+  nuisance <- cbind(as.vector(base), kronecker(diag(3), rep(1, 12)),
+                    as.vector(base %*% rbind(c(0, 1, 0), c(-1, 0, 0), 0)),
+                    as.vector(base %*% rbind(c(0, 0, 1), 0, c(-1, 0, 0))),
+                    as.vector(base %*% rbind(0, c(0, 0, 1),
+                                             c(0, -1, 0))))
   direction <- qr.resid(qr(nuisance), with_seed(1, rnorm(36)))
   direction <- direction / sqrt(sum(direction^2))
   at <- seq(-0.01, 0.01, length.out = 9)
@@ -109,7 +111,7 @@ test_that("what cannot be done is refused", {
   expect_equal(as.data.frame(pca)$cumulative, cumsum(pca$share))
 })
 
-test_that("weights of a shape_pca() are brought to mean 1, and points that coincide can count as one", {
+test_that("weights of a shape_pca() have mean 1, and points that coincide can count as one", {
   aligned <- align(posed_sample(sd = 0.1))
   expect_equal(shape_pca(aligned, rep(2, 12))$sdev, shape_pca(aligned)$sdev)
   expect_crestline_error(shape_pca(aligned, c(1, 1)), "weights")

@@ -32,15 +32,17 @@ test_that("gorillas (shapes): mean, components and Hotelling's test", {
   expect_lt(max(abs(both - flat(theirs$mshape))) / sqrt(sum(theirs$mshape^2)), 1e-5)
   expect_equal(unname(aligned$size), theirs$size, tolerance = 1e-10)
   expect_equal(100 * shape_pca(aligned)$share[1:5], theirs$percent[1:5], tolerance = 1e-4)
-  compared <- compare_groups(gorilla$x, gorilla$sex, equal_spread = TRUE, components = 12, n_perm = 199, seed = 1,
-                             tests = c("size", "T2", "shape"), progress = FALSE)
+  compared <- compare_groups(gorilla$x, gorilla$sex, equal_spread = TRUE, components = 12,
+                             n_perm = 199, seed = 1, tests = c("size", "T2", "shape"),
+                             progress = FALSE)
   expect_equal(as.vector(tapply(compared$aligned[[1]]$size, gorilla$sex, mean)),
                c(mean(shapes::centroid.size(gorilla$x[, , 1:30])),
                  mean(shapes::centroid.size(gorilla$x[, , 31:59]))), tolerance = 1e-10)
   # Dryden and Mardia give F = 26.47 on 12 and 46 degrees of freedom.
   t2 <- compared$tests$statistic[compared$tests$test == "T2"]
   expect_equal(t2 * 46 / (12 * 57), 26.47, tolerance = 1e-4)
-  expect_equal(t2 * 46 / (12 * 57), shapes::testmeanshapes(gorilla$x[, , 1:30], gorilla$x[, , 31:59], resamples = 0)$H,
+  expect_equal(t2 * 46 / (12 * 57),
+               shapes::testmeanshapes(gorilla$x[, , 1:30], gorilla$x[, , 31:59], resamples = 0)$H,
                tolerance = 2e-3)
 })
 
@@ -50,12 +52,14 @@ test_that("skulls (Morpho's boneData): mean, sizes and components of their examp
   aligned <- align(bones, scale = "full")
   expect_lt(apart(aligned$mean, theirs$mshape), 1e-5)
   expect_equal(aligned$size, theirs$size, tolerance = 1e-12)
-  expect_equal(100 * shape_pca(aligned)$share[1:10], unname(theirs$Variance[1:10, 2]), tolerance = 1e-4)
+  expect_equal(100 * shape_pca(aligned)$share[1:10], unname(theirs$Variance[1:10, 2]),
+               tolerance = 1e-4)
   exact <- suppressMessages(Morpho::procSym(bones, scale = FALSE, proctol = 1e-25))
   expect_lt(apart(align(bones)$mean, exact$mshape), 1e-8)
   # Its skulls are of two populations, which differ, and two sexes.
   population <- substr(dimnames(bones)[[3]], 12, 13)
-  compared <- compare_groups(bones, population, equal_spread = TRUE, n_perm = 199, seed = 1, tests = c("shape", "T2"), progress = FALSE)
+  compared <- compare_groups(bones, population, equal_spread = TRUE, n_perm = 199, seed = 1,
+                             tests = c("shape", "T2"), progress = FALSE)
   expect_lt(max(compared$tests$p_value), 0.01)
 })
 
@@ -68,7 +72,8 @@ test_that("pupfish (geomorph): the table of variance of their example", {
   ours <- anova(geomorph::procD.lm(coords ~ Pop * Sex, data = frame, iter = 99))$table
   expect_equal(ours, theirs, tolerance = 1e-12)
   expect_equal(round(theirs$SS[1:4], 6), c(0.008993, 0.015917, 0.003453, 0.027970))
-  compared <- compare_groups(aligned, pupfish$Sex, equal_spread = TRUE, n_perm = 9, tests = "shape", progress = FALSE)
+  compared <- compare_groups(aligned, pupfish$Sex, equal_spread = TRUE, n_perm = 9, tests = "shape",
+                             progress = FALSE)
   one <- anova(geomorph::procD.lm(coords ~ Sex, data = pupfish, iter = 9))$table
   expect_equal(compared$tests$share, one$Rsq[1], tolerance = 1e-10)
   # Aligned anew, their aligned shapes stay as they are.
@@ -79,8 +84,9 @@ test_that("scallops (geomorph): the table of object symmetry of their example", 
   skip_if_not_installed("RRPP")
   scallops <- package_data("scallops", "geomorph")$scallops
   frame <- geomorph::geomorph.data.frame(shape = scallops$coorddata, ind = scallops$ind)
-  theirs <- geomorph::bilat.symmetry(A = shape, ind = ind, object.sym = TRUE, land.pairs = scallops$land.pairs, data = frame,
-                                     iter = 9, print.progress = FALSE)
+  theirs <- geomorph::bilat.symmetry(A = shape, ind = ind, object.sym = TRUE,
+                                     land.pairs = scallops$land.pairs, data = frame, iter = 9,
+                                     print.progress = FALSE)
   partner <- seq_len(46)
   partner[scallops$land.pairs] <- scallops$land.pairs[, 2:1]
   # As theirs: aligned, then once more together with the reflections.
@@ -97,6 +103,7 @@ test_that("scallops (geomorph): the table of object symmetry of their example", 
     own <- scallops$coorddata[, , i]
     symmetric <- symmetric_mean(own, partner, "one")
     size <- sqrt(sum(sweep(symmetric, 2, colMeans(symmetric))^2))
-    expect_lt(apart(symmetric / size, theirs$symm.shape[, , i] / sqrt(sum(theirs$symm.shape[, , i]^2))), 1e-3)
+    expect_lt(apart(symmetric / size,
+                    theirs$symm.shape[, , i] / sqrt(sum(theirs$symm.shape[, , i]^2))), 1e-3)
   }
 })

@@ -2,7 +2,8 @@
 as_points <- function(y) array(rbind(y, 0, 0), c(1, 3, length(y)), list("p 1", NULL, NULL))
 
 # Shrout and Fleiss (1979), table 2: six targets, four judges.
-judged <- rbind(c(9, 2, 5, 8), c(6, 1, 3, 2), c(8, 4, 6, 8), c(7, 1, 2, 6), c(10, 5, 6, 9), c(6, 2, 4, 7))
+judged <- rbind(c(9, 2, 5, 8), c(6, 1, 3, 2), c(8, 4, 6, 8), c(7, 1, 2, 6), c(10, 5, 6, 9),
+                c(6, 2, 4, 7))
 
 test_that("published intra-class correlations are found again", {
   target <- row(judged)
@@ -18,7 +19,7 @@ test_that("published intra-class correlations are found again", {
   expect_true(is.na(two$interaction[1]))
 })
 
-test_that("components are those of the balanced analysis of variance, summed over co-ordinates and averaged over points", {
+test_that("components are those of the balanced analysis of variance, a point's mean", {
   set.seed(1)
   design <- expand.grid(again = 1:2, observer = 1:3, specimen = 1:7)
   draw <- function(n) matrix(rnorm(n * 12), n)
@@ -30,7 +31,8 @@ test_that("components are those of the balanced analysis of variance, summed ove
   positive <- function(x) pmax(x, 0)
   expected <- rbind(specimen = positive(squares[1, ] - squares[3, ]) / 6,
                     observer = positive(squares[2, ] - squares[3, ]) / 14,
-                    interaction = positive(squares[3, ] - squares[4, ]) / 2, residual = squares[4, ])
+                    interaction = positive(squares[3, ] - squares[4, ]) / 2,
+                    residual = squares[4, ])
   found <- variance_components(y, factor(design$specimen), factor(design$observer))
   # Where one is below 0 it counts as 0, the others stay.
   expect_equal(found, expected, ignore_attr = TRUE)
@@ -38,9 +40,11 @@ test_that("components are those of the balanced analysis of variance, summed ove
   result <- repeatability(coords, design$specimen, design$observer, match = "none")
   by_point <- t(apply(array(expected, c(4, 4, 3)), c(1, 2), sum))
   expect_equal(result$points$residual, sqrt(by_point[, 4]))
-  expect_equal(result$parts$specimen, sqrt(c(mean(by_point[1:2, 1]), mean(by_point[3:4, 1]), mean(by_point[, 1]))))
+  expect_equal(result$parts$specimen,
+               sqrt(c(mean(by_point[1:2, 1]), mean(by_point[3:4, 1]), mean(by_point[, 1]))))
   expect_equal(result$parts$icc[3], sum(by_point[, 1]) / sum(by_point))
-  expect_equal(result$parts$error, sqrt(result$parts$observer^2 + result$parts$interaction^2 + result$parts$residual^2))
+  expect_equal(result$parts$error,
+               sqrt(result$parts$observer^2 + result$parts$interaction^2 + result$parts$residual^2))
 })
 
 test_that("unequal numbers of repeats give the closed form of one way", {
@@ -65,7 +69,7 @@ test_that("estimates of unbalanced crossed designs are right on average", {
   expect_lt(max(abs(rowMeans(found) - true) / (apply(found, 1, sd) / 20)), 4)
 })
 
-test_that("measurements that repeat exactly have no error; frames do not count, where they are shared", {
+test_that("measurements that repeat exactly have no error; shared frames do not count", {
   set.seed(4)
   own <- replicate(4, matrix(rnorm(30), 10))
   specimen <- rep(1:4, each = 3)
@@ -80,7 +84,8 @@ test_that("measurements that repeat exactly have no error; frames do not count, 
   exact <- repeatability(coords, specimen)
   expect_lt(max(exact$parts$error), 1e-10)
   expect_equal(exact$parts$icc, c(1, 1))
-  # The error is that of a point in its specimen's frame, by whatever pose: 80 degrees of freedom a co-ordinate.
+  # The error is that of a point in its specimen's frame, by whatever pose: 80 degrees of freedom a
+  # co-ordinate.
   noisy <- repeatability(coords + noise, specimen)
   expect_equal(noisy$parts$error[2], 0.01 * sqrt(3), tolerance = 0.15)
   within <- apply(coords + noise, 1:2, function(v) sum(tapply(v, specimen, var)) / 4)
@@ -91,7 +96,7 @@ test_that("measurements that repeat exactly have no error; frames do not count, 
   expect_gt(each$parts$error[2], 0.7 * noisy$parts$error[2])
 })
 
-test_that("of one specimen there is the error alone: that of an analysis of variance among observers", {
+test_that("of one specimen there is the error alone: that among observers", {
   set.seed(6)
   coords <- array(rnorm(120), c(4, 3, 10), list(c("a 1", "a 2", "b 1", "b 2"), NULL, NULL))
   alone <- repeatability(coords, rep("only", 10), match = "none")
@@ -99,14 +104,16 @@ test_that("of one specimen there is the error alone: that of an analysis of vari
   expect_equal(alone$parts$error[3], sqrt(mean(alone$points$error^2)))
   expect_true(all(is.na(alone$parts$icc)) && all(is.na(alone$parts$specimen)))
   expect_output(print(alone), "10 measurements of 1 specimen")
-  expect_gt(sum(drawn_pixels(plot(alone), 600, 400)[, 1:300, 1] - drawn_pixels(plot(alone), 600, 400)[, 1:300, 3] > 0.3), 50)
+  expect_gt(sum(drawn_pixels(plot(alone), 600, 400)[, 1:300, 1] -
+                drawn_pixels(plot(alone), 600, 400)[, 1:300, 3] > 0.3), 50)
   # The frame is the one of the specimen: as they lie.
   expect_equal(repeatability(coords, rep("only", 10))$parts$error, alone$parts$error)
   observer <- rep(1:5, 2)
   found <- repeatability(coords, rep("only", 10), observer, match = "none")
   squares <- apply(coords, 1:2, function(v) anova(lm(v ~ factor(observer)))[["Mean Sq"]])
   expect_equal(found$points$residual, unname(sqrt(rowSums(squares[2, , ]))))
-  expect_equal(found$points$observer, unname(sqrt(rowSums(pmax(squares[1, , ] - squares[2, , ], 0) / 2))))
+  expect_equal(found$points$observer,
+               unname(sqrt(rowSums(pmax(squares[1, , ] - squares[2, , ], 0) / 2))))
 })
 
 test_that("points that some measurement lacks are left out and named", {
@@ -147,34 +154,40 @@ test_that("print and plot fit, and the table is there", {
 test_that("a design whose components cannot be told apart is refused", {
   y <- matrix(rnorm(24), 12)
   nested <- list(factor(rep(1:6, each = 2)), factor(rep(c("A", "B"), each = 6)))
-  expect_crestline_error(variance_components(y, nested[[1]], nested[[2]]), c("told apart", "observer"))
+  expect_crestline_error(variance_components(y, nested[[1]], nested[[2]]),
+                         c("told apart", "observer"))
 })
 
-test_that("measurements that failed are left out, counted and named, with those of the rest as without them", {
+test_that("measurements that failed are left out, counted and named; the rest is as without", {
   skip_if_not_installed("Rvcg")
   shape <- quad_shape()
   moved <- function(i) {
-    shape$points[c("x", "y", "z")] <- shape$points[c("x", "y", "z")] + with_seed(i, rnorm(3 * nrow(shape$points), sd = i))
+    shape$points[c("x", "y", "z")] <- shape$points[c("x", "y", "z")] +
+      with_seed(i, rnorm(3 * nrow(shape$points), sd = i))
     shape
   }
   shapes <- c(lapply(1:4, moved), list(NULL), lapply(5:6, moved))
   names(shapes) <- paste0("scan", 1:7)
   specimen <- c("a", "a", "b", "b", "b", "c", "c")
-  expect_warning(found <- repeatability(shapes, specimen), "1 of 7 measurements failed and is left out: scan5",
+  expect_warning(found <- repeatability(shapes, specimen),
+                 "1 of 7 measurements failed and is left out: scan5",
                  class = "crestline_failed_measurements")
   whole <- repeatability(shapes[-5], specimen[-5])
   expect_identical(found$parts, whole$parts)
   expect_equal(unname(found$counts[c("measurements", "failed")]), c(6, 1))
   expect_identical(found$failed, "scan5")
   expect_output(print(found), "not measured, left out: scan5")
-  expect_warning(short <- repeatability(shapes, specimen[-5]), class = "crestline_failed_measurements")
+  expect_warning(short <- repeatability(shapes, specimen[-5]),
+                 class = "crestline_failed_measurements")
   expect_identical(short$parts, whole$parts)
-  expect_warning(repeatability(unname(shapes), specimen), "left out: 5", class = "crestline_failed_measurements")
+  expect_warning(repeatability(unname(shapes), specimen), "left out: 5",
+                 class = "crestline_failed_measurements")
   expect_length(whole$failed, 0)
   expect_equal(unname(whole$counts["failed"]), 0)
   # A batch, as fit_shapes() returns it.
   batch <- structure(shapes, files = vector("list", 7), class = "shape_batch")
-  expect_warning(of_batch <- repeatability(batch, specimen), "scan5", class = "crestline_failed_measurements")
+  expect_warning(of_batch <- repeatability(batch, specimen), "scan5",
+                 class = "crestline_failed_measurements")
   expect_identical(of_batch$parts, whole$parts)
 })
 

@@ -9,7 +9,7 @@ noisy <- function(n = 20, k = 12, seed = 1) {
   x
 }
 
-test_that("specimens of the sample get their own scores in any pose and unit, however it was aligned", {
+test_that("specimens of the sample get their own scores in any pose, unit and alignment", {
   x <- noisy()
   turn <- with_seed(3, qr.Q(qr(matrix(rnorm(9), 3))))
   turn <- turn * det(turn)

@@ -67,11 +67,12 @@ test_that("with more groups F is that of Brown and Forsythe", {
   expect_equal(own$df, sum(part)^2 / sum(part^2 / (n - 1)))
 })
 
-test_that("where a small group varies most, pooled tests reject equal means and separate ones do not", {
+test_that("if a small group varies most, pooled tests reject equal means, separate ones do not", {
   p <- vapply(1:100, function(seed) {
     data <- spread_sample(c(24, 6), 3, seed)
     of <- function(equal) {
-      found <- suppressWarnings(compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = seed, progress = FALSE,
+      found <- suppressWarnings(compare_groups(data$x, data$group, n_perm = 99, exact = 0,
+                                               seed = seed, progress = FALSE,
                                                tests = c("shape", "points"), equal_spread = equal))
       c(found$tests$p_value[1], min(found$points$p_adjusted))
     }
@@ -94,7 +95,8 @@ test_that("unequal groups of unequal spread are warned of, and only these", {
   expect_no_warning(quietly(spread_sample(c(13, 13), 3, 1)), class = class)
   even <- spread_sample(c(20, 6), 1, 1)
   expect_no_warning(quietly(even), class = class)
-  expect_match(capture.output(quietly(even)), "dispersion: the spreads of the groups differ", all = FALSE)
+  expect_match(capture.output(quietly(even)), "dispersion: the spreads of the groups differ",
+               all = FALSE)
 })
 
 test_that("exact duplicates do not differ", {
@@ -119,7 +121,8 @@ test_that("exact duplicates do not differ", {
 test_that("dispersion is found where there is one, by its ratio", {
   p <- vapply(c(1, 3), function(ratio) {
     data <- spread_sample(c(15, 15), ratio, 4)
-    own <- compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = 1, progress = FALSE)$tests
+    own <- compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = 1,
+                          progress = FALSE)$tests
     own <- own[own$test == "dispersion", ]
     expect_equal(own$statistic, ratio, tolerance = 0.15)
     own$p_value

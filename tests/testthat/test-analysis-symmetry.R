@@ -2,9 +2,11 @@
 
 # Six points: two pairs and two of the mid-line.
 mirrored_sample <- function(n = 12, directional = 0, sd = 0.03, seed = 1) {
-  base <- rbind(aL = c(1, 0, 0), aR = c(-1, 0, 0), bL = c(0.7, 1, 0.4), bR = c(-0.7, 1, 0.4), m = c(0, 2, 0),
-                o = c(0, -1, 0.5))
-  x <- with_seed(seed, array(base, c(6, 3, n), list(rownames(base), c("x", "y", "z"), paste0("s", seq_len(n)))) +
+  base <- rbind(aL = c(1, 0, 0), aR = c(-1, 0, 0), bL = c(0.7, 1, 0.4), bR = c(-0.7, 1, 0.4),
+                m = c(0, 2, 0), o = c(0, -1, 0.5))
+  x <- with_seed(seed,
+                 array(base, c(6, 3, n),
+                       list(rownames(base), c("x", "y", "z"), paste0("s", seq_len(n)))) +
                    stats::rnorm(18 * n, sd = sd))
   x["aL", 2, ] <- x["aL", 2, ] + directional
   x
@@ -25,7 +27,7 @@ test_that("symmetric parts are symmetric, and both parts add up to the shape", {
   for (i in 1:3) expect_lt(apart(whole[, , i] / sqrt(sum(whole[, , i]^2)), raw[[i]]), 0.01)
 })
 
-test_that("sums of squares and F are those of a linear model of all configurations and reflections", {
+test_that("sums of squares and F are those of a linear model of shapes and reflections", {
   x <- mirrored_sample(16, directional = 0.05)
   person <- rep(letters[1:8], each = 2)
   parts <- symmetry_parts(x, pairs = two_pairs, individual = person, n_perm = 99, seed = 1)
@@ -46,7 +48,8 @@ test_that("directional asymmetry is found where it is, at its level where it is 
   found <- symmetry_parts(mirrored_sample(directional = 0.1), pairs = two_pairs, seed = 1)
   expect_lt(found$tests$p_value[2], 0.01)
   p <- vapply(1:40, function(seed) {
-    symmetry_parts(mirrored_sample(seed = seed), pairs = two_pairs, n_perm = 99, seed = 1)$tests$p_value[2]
+    symmetry_parts(mirrored_sample(seed = seed), pairs = two_pairs, n_perm = 99,
+                   seed = 1)$tests$p_value[2]
   }, 0)
   expect_lt(mean(p <= 0.05), 0.2)
   expect_gt(mean(p), 0.35)
@@ -58,9 +61,11 @@ test_that("fluctuating asymmetry is told from error of measurement", {
   people <- people + with_seed(2, rnorm(length(people), sd = 0.01))
   dimnames(people)[[3]] <- paste0("m", 1:20)
   person <- rep(1:10, each = 2)
-  expect_lt(symmetry_parts(people, pairs = two_pairs, individual = person, seed = 1)$tests$p_value[3], 0.01)
+  expect_lt(symmetry_parts(people, pairs = two_pairs, individual = person,
+                           seed = 1)$tests$p_value[3], 0.01)
   noise <- mirrored_sample(20)
-  expect_gt(symmetry_parts(noise, pairs = two_pairs, individual = person, seed = 1)$tests$p_value[3], 0.05)
+  expect_gt(symmetry_parts(noise, pairs = two_pairs, individual = person,
+                           seed = 1)$tests$p_value[3], 0.05)
 })
 
 test_that("answers do not depend on pose and unit; parts go into tests", {
@@ -73,7 +78,8 @@ test_that("answers do not depend on pose and unit; parts go into tests", {
   expect_equal(b$tests, a$tests, tolerance = 1e-6)
   expect_equal(b$specimens$asymmetry, 40 * a$specimens$asymmetry, tolerance = 1e-6)
   group <- stats::setNames(gl(2, 6), names(a$symmetric$points))
-  expect_s3_class(compare_groups(a$asymmetric, group, n_perm = 19, components = 2), "group_comparison")
+  expect_s3_class(compare_groups(a$asymmetric, group, n_perm = 19, components = 2),
+                  "group_comparison")
   expect_s3_class(shape_pca(a$symmetric$points), "shape_pca")
   expect_output(print(a), "directional")
 })
@@ -93,8 +99,9 @@ test_that("sums of squares and F are those of geomorph's bilat.symmetry()", {
   x <- mirrored_sample(16, directional = 0.05)
   first <- geomorph::gpagen(x, Proj = FALSE, print.progress = FALSE)
   person <- rep(letters[1:8], each = 2)
-  theirs <- geomorph::bilat.symmetry(first, ind = person, replicate = rep(1:2, 8), object.sym = TRUE,
-                                     land.pairs = rbind(c(1, 2), c(3, 4)), iter = 19, print.progress = FALSE)
+  theirs <- geomorph::bilat.symmetry(first, ind = person, replicate = rep(1:2, 8),
+                                     object.sym = TRUE, land.pairs = rbind(c(1, 2), c(3, 4)),
+                                     iter = 19, print.progress = FALSE)
   ours <- symmetry_parts(x, pairs = two_pairs, individual = person, n_perm = 19)$tests
   expect_equal(ours$df, theirs$shape.anova$Df[1:4])
   expect_equal(ours$squares, theirs$shape.anova$SS[1:4], tolerance = 1e-5)

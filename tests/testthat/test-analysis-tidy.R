@@ -1,9 +1,11 @@
 test_that("tidy tables have broom's names and the results' values", {
   skip_if_not_installed("generics")
   data <- grouped_sample(c(5, 6))
-  compared <- compare_groups(data$x, data$group, n_perm = 49, seed = 1, components = 2, progress = FALSE)
+  compared <- compare_groups(data$x, data$group, n_perm = 49, seed = 1, components = 2,
+                             progress = FALSE)
   tidied <- generics::tidy(compared)
-  expect_named(tidied, c("level", "term", "statistic", "p.value", "adj.p.value", "p.value.parametric"))
+  expect_named(tidied,
+               c("level", "term", "statistic", "p.value", "adj.p.value", "p.value.parametric"))
   expect_equal(tidied$p.value, compared$tests$p_value)
   points <- generics::tidy(compared, "points")
   expect_equal(points$estimate, compared$points$displacement)

@@ -1,7 +1,9 @@
-# The study of ridges checks its grid once it has the argument `largest`: without, some values end R.
+# The study of ridges checks its grid once it has the argument `largest`: without, some values end
+# R.
 checks_its_grid <- "largest" %in% names(formals(ridge_study))
 
-# The whole table, 13,000 calls: with CRESTLINE_ARGUMENTS=all, or `Rscript tools/arguments.R`. Here some values of each pair.
+# The whole table, 13,000 calls: with CRESTLINE_ARGUMENTS=all, or `Rscript tools/arguments.R`. Here
+# some values of each pair.
 calls <- NULL
 table_of_calls <- function() {
   if (is.null(calls)) calls <<- suppressWarnings(argument_calls())
@@ -18,7 +20,7 @@ test_that("every exported function has an entry for each of its arguments", {
   }
 })
 
-test_that("a wrong value of any argument is refused by the argument's name, never by an error of R's own", {
+test_that("a wrong value of any argument is refused by its name, never by an error of R's", {
   skip_on_cran()
   calls <- table_of_calls()
   all <- identical(Sys.getenv("CRESTLINE_ARGUMENTS"), "all")
@@ -34,7 +36,8 @@ test_that("a wrong value of any argument is refused by the argument's name, neve
   tried <- try_arguments(calls, values = function(...) stats::na.omit(some(...)))
   expect_gt(nrow(tried), 1000)
   bad <- leaks_of(tried)
-  told <- sprintf("%s(%s = %s): %s", bad$fn, bad$argument, bad$value, substr(gsub("\\s+", " ", bad$outcome), 1, 200))
+  told <- sprintf("%s(%s = %s): %s", bad$fn, bad$argument, bad$value,
+                  substr(gsub("\\s+", " ", bad$outcome), 1, 200))
   expect_identical(told, character())
 })
 

@@ -1,6 +1,7 @@
 stop_with <- function(problem, remedy) stop(problem, " ", remedy, call. = FALSE)
-rows <- function(data, ids) suppressMessages(as.integer(rows_of_specimens(data, ids, "data",
-                                                                          stop_with)))
+rows <- function(data, ids) {
+  suppressMessages(as.integer(rows_of_specimens(data, ids, "data", stop_with)))
+}
 values <- function(x, ids) suppressMessages(by_specimen(x, ids, "group", stop_with))
 ids <- c("s1", "s2", "s3", "s4")
 turned <- c("s4", "s2", "s3", "s1")
@@ -83,7 +84,9 @@ test_that("levels that differ by blanks or case only are found", {
 })
 
 test_that("names may have more folders than the ids", {
-  expect_equal(id_places(c("m/a", "n/a", "b"), c("C:\\data\\n\\a.ply", "C:\\data\\b.ply", "C:\\data\\m\\a.ply")), list(3L, 1L, 2L))
+  expect_equal(id_places(c("m/a", "n/a", "b"),
+                         c("C:\\data\\n\\a.ply", "C:\\data\\b.ply", "C:\\data\\m\\a.ply")),
+               list(3L, 1L, 2L))
   expect_equal(lengths(id_places("m/a", c("x/m/a", "y/m/a", "xm/a"))), 2)
 })
 
@@ -101,7 +104,8 @@ test_that("rows of one specimen are compared in all columns, matrices and tables
   }
   expect_equal(rows(cbind(1:3, c(4, 5, 5), c(1, 1, 1))[, 3, drop = FALSE]), c(2, 1))
   expect_crestline_error(rows(cbind(c(1, 2, 2), c(4, 5, 6))), "2 different rows for b")
-  expect_crestline_error(rows(I(data.frame(p = c(1, 2, 2), q = c(4, 5, 6)))), "2 different rows for b")
+  expect_crestline_error(rows(I(data.frame(p = c(1, 2, 2), q = c(4, 5, 6)))),
+                         "2 different rows for b")
   expect_equal(rows(I(list(1, "x", "x"))), c(2, 1))
   expect_equal(rows(as.POSIXlt("2026-01-01", tz = "UTC") + c(0, 1, 1)), c(2, 1))
 })

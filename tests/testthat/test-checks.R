@@ -2,7 +2,8 @@ test_that("check_number() gives the number, or says what it is and what it shoul
   expect_identical(check_number(3L, "k"), 3)
   expect_identical(check_number(0, "k", lower = 0, upper = 1), 0)
   expect_crestline_error(check_number(0, "k", lower = 0, open = TRUE), c("`k` is 0", "above 0"))
-  expect_crestline_error(check_number(2, "k", lower = 0, upper = 1), c("`k` is 2", "at least 0 and of at most 1"))
+  expect_crestline_error(check_number(2, "k", lower = 0, upper = 1),
+                         c("`k` is 2", "at least 0 and of at most 1"))
   expect_crestline_error(check_number(Inf, "k"), "`k` is Inf")
   expect_crestline_error(check_number(NaN, "k"), "`k` is NaN")
   expect_crestline_error(check_number("a", "k"), "`k` is a")
@@ -26,7 +27,8 @@ test_that("check_choice() takes the first of several, and names the choices", {
 
 test_that("check_class() names the maker", {
   expect_invisible(check_class(structure(1, class = "thing"), "thing", "x", "thing()"))
-  expect_crestline_error(check_class(1, "thing", "x", "thing()"), c("not of class \"thing\"", "thing()"))
+  expect_crestline_error(check_class(1, "thing", "x", "thing()"),
+                         c("not of class \"thing\"", "thing()"))
 })
 
 test_that("errors of the checkers blame the caller", {
@@ -37,7 +39,9 @@ test_that("errors of the checkers blame the caller", {
 
 test_that("flags, texts, names and choices are what they are called", {
   expect_true(check_flag(TRUE, "x"))
-  for (wrong in list(NA, NULL, 1, "TRUE", c(TRUE, FALSE))) expect_crestline_error(check_flag(wrong, "x"), "`x` is")
+  for (wrong in list(NA, NULL, 1, "TRUE", c(TRUE, FALSE))) {
+    expect_crestline_error(check_flag(wrong, "x"), "`x` is")
+  }
   both <- function(band, legend) check_flags(band, legend)
   expect_crestline_error(both(TRUE, 1), "`legend` is 1")
   expect_identical(check_text(structure("<b>", class = "html"), "x"), "<b>")
@@ -45,28 +49,37 @@ test_that("flags, texts, names and choices are what they are called", {
   expect_crestline_error(check_text(NA_character_, "x"), "`x` is NA")
   expect_crestline_error(check_names(c("a", NA), "x"), "`x`")
   expect_identical(check_choices(c("b", "b"), c("a", "b"), "x"), "b")
-  expect_crestline_error(check_choices(c("b", "c"), c("a", "b"), "x"), c("`x` is b, c", "\"a\", \"b\""))
+  expect_crestline_error(check_choices(c("b", "c"), c("a", "b"), "x"),
+                         c("`x` is b, c", "\"a\", \"b\""))
 })
 
 test_that("numbers, colours, points and paths are checked as wholes", {
   expect_identical(check_numbers(1:2, "x", 2), c(1, 2))
   expect_identical(check_numbers(c(1, NA), "x", missing = TRUE), c(1, NA))
-  for (wrong in list(c(1, NA), c(1, Inf), "a", numeric(), matrix(1))) expect_crestline_error(check_numbers(wrong, "x"), "`x` is")
+  for (wrong in list(c(1, NA), c(1, Inf), "a", numeric(), matrix(1))) {
+    expect_crestline_error(check_numbers(wrong, "x"), "`x` is")
+  }
   expect_identical(check_colour(c("red", "#16218C"), "x"), c("red", "#16218C"))
   expect_identical(check_colour(NA, "x", none = TRUE), NA)
-  for (wrong in list("zzz", NA, -1, TRUE, NULL, list("red"), 1e10)) expect_crestline_error(check_colour(wrong, "x"), "`x` is")
+  for (wrong in list("zzz", NA, -1, TRUE, NULL, list("red"), 1e10)) {
+    expect_crestline_error(check_colour(wrong, "x"), "`x` is")
+  }
   expect_crestline_error(check_function("mean", "x"), "Give a function")
   expect_crestline_error(check_seed(1e10), "`seed`")
-  expect_identical(check_path_to_write(file.path(tempdir(), "a.HTML"), "x", "html"), file.path(tempdir(), "a.HTML"))
+  expect_identical(check_path_to_write(file.path(tempdir(), "a.HTML"), "x", "html"),
+                   file.path(tempdir(), "a.HTML"))
   expect_crestline_error(check_path_to_write("a.txt", "x", "html"), "ends in .html")
   expect_crestline_error(check_path_to_write(tempdir(), "x"), "a folder")
-  expect_crestline_error(check_path_to_write(file.path(tempdir(), "no", "a.html"), "x"), "does not exist")
+  expect_crestline_error(check_path_to_write(file.path(tempdir(), "no", "a.html"), "x"),
+                         "does not exist")
 })
 
 test_that("an object without its parts is told of", {
-  expect_crestline_error(check_class(structure(list(id = "a"), class = "specimen"), "specimen", "x", "specimen()"),
+  expect_crestline_error(check_class(structure(list(id = "a"), class = "specimen"), "specimen", "x",
+                                     "specimen()"),
                          c("damaged \"specimen\"", "`mesh`", "`landmarks`"))
-  expect_crestline_error(check_list(structure(list(path = data.frame(), points = data.frame()), class = "curve"), "curve", "x",
+  expect_crestline_error(check_list(structure(list(path = data.frame(), points = data.frame()),
+                                              class = "curve"), "curve", "x",
                                     "ridge_curve()"), "the curve lacks its path")
   expect_crestline_error(check_list(data.frame(a = 1), "curve", "x", "ridge_curve()"), "`x`")
 })

@@ -1,5 +1,6 @@
 test_that("an error carries its parts and reads as specimen, stage, problem, remedy", {
-  error <- expect_crestline_error(crestline_abort("it broke.", "Mend it.", stage = "path", id = "scan 7", class = "extra"))
+  error <- expect_crestline_error(crestline_abort("it broke.", "Mend it.", stage = "path",
+                                                  id = "scan 7", class = "extra"))
   expect_s3_class(error, "extra")
   expect_identical(error[c("id", "stage", "problem", "remedy")],
                    list(id = "scan 7", stage = "path", problem = "it broke.", remedy = "Mend it."))
@@ -28,13 +29,18 @@ test_that("problems may hold braces and per cent signs", {
   expect_match(conditionMessage(error), "{x} at 5 %d", fixed = TRUE)
 })
 
-test_that("in_context() adds the specimen and what was being done to an error without them, and keeps the rest", {
-  inner <- function() crestline_abort("`n` is 0.", "Give one.", stage = "arguments", class = "crestline_odd")
+test_that("in_context() adds specimen and doing to an error without them, keeps the rest", {
+  inner <- function() {
+    crestline_abort("`n` is 0.", "Give one.", stage = "arguments", class = "crestline_odd")
+  }
   error <- expect_crestline_error(in_context(inner(), id = "scan 7", doing = "ridge from a to b"),
-                                  c("specimen scan 7, arguments: ridge from a to b: `n` is 0.", "Give one."), id = "scan 7")
+                                  c("specimen scan 7, arguments: ridge from a to b: `n` is 0.",
+                                    "Give one."), id = "scan 7")
   expect_s3_class(error, "crestline_odd")
   known <- function() crestline_abort("it broke.", "Mend it.", stage = "path", id = "own")
-  expect_match(conditionMessage(expect_crestline_error(in_context(known(), "other", "x"), id = "own")), "^specimen own, path: it broke.")
+  expect_match(conditionMessage(expect_crestline_error(in_context(known(), "other", "x"),
+                                                       id = "own")),
+               "^specimen own, path: it broke.")
   expect_identical(in_context(5, "other", "x"), 5)
   expect_error(in_context(stop("not ours"), "other", "x"), "^not ours$")
 })
@@ -44,10 +50,14 @@ test_that("a damaged object is printed as an error of ours, a sound one as befor
   ball <- stretched_ball()
   for (field in c("mesh", "landmarks", "report")) {
     damaged <- do.call(without, c(list(ball), stats::setNames(list("x"), field)))
-    expect_error(capture.output(print(damaged)), "specimen ball, printing: the specimen cannot be printed", class = "crestline_error")
+    expect_error(capture.output(print(damaged)),
+                 "specimen ball, printing: the specimen cannot be printed",
+                 class = "crestline_error")
   }
   shape <- quad_shape()
-  expect_error(capture.output(print(without(shape, status = 1))), "the shape cannot be printed", class = "crestline_error")
-  expect_error(capture.output(print(without(shape$scheme, curves = sum))), "the curve_scheme cannot be printed", class = "crestline_error")
+  expect_error(capture.output(print(without(shape, status = 1))), "the shape cannot be printed",
+               class = "crestline_error")
+  expect_error(capture.output(print(without(shape$scheme, curves = sum))),
+               "the curve_scheme cannot be printed", class = "crestline_error")
   for (sound in list(ball, shape, shape$scheme)) capture.output(expect_invisible(print(sound)))
 })

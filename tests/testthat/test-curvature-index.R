@@ -4,8 +4,8 @@ test_that("the shape index of the nine shapes is what Koenderink and van Doorn s
   k2 <- c(1, quarter, 0, -quarter, -1, -1, -1, -1, -1)
   expect_equal(shape_index(k1, k2), seq(-1, 1, by = 0.25))
   expect_equal(as.character(shape_category(shape_index(k1, k2))),
-               c("spherical cup", "trough", "rut", "saddle rut", "saddle", "saddle ridge", "ridge", "dome",
-                 "spherical cap"))
+               c("spherical cup", "trough", "rut", "saddle rut", "saddle", "saddle ridge",
+                 "ridge", "dome", "spherical cap"))
 })
 
 test_that("it is the formula of the documentation away from umbilics", {
@@ -42,7 +42,8 @@ test_that("categories are a quarter wide, half of that at the ends", {
 })
 
 test_that("colours are the categories' own at their centres", {
-  expect_equal(shape_colours(c(-1, -0.5, 0, 0.5, 1)), c("#00C800", "#3C50FF", "#FFFFFF", "#FFE600", "#E60000"))
+  expect_equal(shape_colours(c(-1, -0.5, 0, 0.5, 1)),
+               c("#00C800", "#3C50FF", "#FFFFFF", "#FFE600", "#E60000"))
   expect_equal(shape_colours(c(NA, 0), missing = "#123456"), c("#123456", "#FFFFFF"))
   expect_equal(shape_colours(0.125), "#FFFBD3")
 })

@@ -1,10 +1,13 @@
 # Closed forms: the truth is exact (helper-surfaces.R).
 
-# Mean over the seven surfaces of the median and 95th percentile of the errors, columns k1, index, direction.
-seven_errors <- function(order = "adaptive", noise = 0, seed = 1, at = function(margin) margin >= 10) {
+# Mean over the seven surfaces of the median and 95th percentile of the errors, columns k1, index,
+# direction.
+seven_errors <- function(order = "adaptive", noise = 0, seed = 1,
+                         at = function(margin) margin >= 10) {
   each <- lapply(closed_forms(), function(form) {
     built <- closed_form_mesh(form, noise = noise, seed = seed)
-    errors <- curvature_errors(curvature(built$mesh, 10, order), built$truth, which(at(built$margin)))
+    errors <- curvature_errors(curvature(built$mesh, 10, order), built$truth,
+                               which(at(built$margin)))
     vapply(errors, stats::quantile, numeric(2), c(0.5, 0.95), na.rm = TRUE, names = FALSE)
   })
   apply(simplify2array(each), 1:2, mean, na.rm = TRUE)
@@ -15,7 +18,8 @@ two_sheets <- function(apart = 1) {
   sheet <- closed_form_mesh(closed_forms()$paraboloid, jitter = 0.2)
   n <- ncol(sheet$mesh$vb)
   second <- sheet$mesh$vb + c(0, 0, apart, 0)
-  list(mesh = rgl::mesh3d(vertices = cbind(sheet$mesh$vb, second), triangles = cbind(sheet$mesh$it, sheet$mesh$it + n)),
+  list(mesh = rgl::mesh3d(vertices = cbind(sheet$mesh$vb, second),
+                          triangles = cbind(sheet$mesh$it, sheet$mesh$it + n)),
        single = sheet$mesh, n = n)
 }
 
@@ -45,8 +49,10 @@ test_that("clean closed forms: the bounds of the adaptive and of every plain ord
   expect_gt(forced, adaptive[1, "k1"])
 })
 
-test_that("noise of 0.1: within the bounds in the interior and on the border, where the forced fit is not", {
-  over_seeds <- function(...) Reduce(`+`, lapply(1:3, function(seed) seven_errors(noise = 0.1, seed = seed, ...))) / 3
+test_that("noise of 0.1: within the bounds inside and at the border, the forced fit is not", {
+  over_seeds <- function(...) {
+    Reduce(`+`, lapply(1:3, function(seed) seven_errors(noise = 0.1, seed = seed, ...))) / 3
+  }
   interior <- over_seeds()
   expect_lte(interior[1, "k1"], 2.4)
   expect_lte(interior[2, "k1"], 7.2)
@@ -60,7 +66,7 @@ test_that("noise of 0.1: within the bounds in the interior and on the border, wh
   expect_gt(seven_errors("forced", noise = 0.1)[1, "k1"], 2 * interior[1, "k1"])
 })
 
-test_that("a sphere seen from outside is a cap with both curvatures -1 / R, turned inside out a cup", {
+test_that("a sphere from outside is a cap with both curvatures -1 / R, inside out a cup", {
   sphere <- ball()
   sphere$vb[1:3, ] <- 40 * sphere$vb[1:3, ]
   curved <- curvature(sphere, 12)
@@ -72,7 +78,8 @@ test_that("a sphere seen from outside is a cap with both curvatures -1 / R, turn
 })
 
 test_that("a valley has k1 > 0 across it, a ridge k2 < 0", {
-  valley <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(v^2 / 50), u = c(-15, 15), v = c(-15, 15)))
+  valley <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(v^2 / 50), u = c(-15, 15),
+                                  v = c(-15, 15)))
   at <- which.min(colSums(valley$mesh$vb[1:2, ]^2))
   curved <- curvature(valley$mesh, 6, vertices = at)
   expect_equal(curved$k1[at], valley$truth$k1[at], tolerance = 1e-3)
@@ -89,7 +96,9 @@ test_that("directions and normal are orthonormal and normals agree with the surf
   built <- closed_form_mesh(closed_forms()$bumpy, noise = 0.05)
   curved <- curvature(built$mesh, 8)
   frame <- list(curved$direction1, curved$direction2, curved$normal)
-  for (i in 1:3) for (j in i:3) expect_lt(max(abs(rowSums(frame[[i]] * frame[[j]]) - (i == j))), 1e-10)
+  for (i in 1:3) for (j in i:3) {
+    expect_lt(max(abs(rowSums(frame[[i]] * frame[[j]]) - (i == j))), 1e-10)
+  }
   expect_gt(min(rowSums(curved$normal * built$truth$normal)), 0.97)
   expect_true(all(curved$k1 >= curved$k2))
 })
@@ -99,8 +108,12 @@ test_that("chosen vertices have what all have, the rest is not asked for", {
   whole <- curvature(mesh, 7)
   chosen <- c(5, 900, 2000, 3721)
   some <- curvature(mesh, 7, vertices = chosen)
-  for (name in c("k1", "k2", "sigma")) expect_equal(some[[name]][chosen], whole[[name]][chosen], tolerance = 1e-9)
-  for (name in c("order", "neighbours")) expect_identical(some[[name]][chosen], whole[[name]][chosen])
+  for (name in c("k1", "k2", "sigma")) {
+    expect_equal(some[[name]][chosen], whole[[name]][chosen], tolerance = 1e-9)
+  }
+  for (name in c("order", "neighbours")) {
+    expect_identical(some[[name]][chosen], whole[[name]][chosen])
+  }
   expect_true(all(is.na(some$k1[-chosen])))
   expect_equal(unique(some$reason[-chosen]), "not asked for")
   expect_true(all(is.na(some$reason[chosen])))
@@ -123,16 +136,19 @@ test_that("sheets that are not joined do not see each other", {
 })
 
 test_that("the ball holds exactly the vertices joined inside it, also where the mesh folds back", {
-  scroll <- list(x = quote((6 + 0.05 * u) * cos(u / 8)), y = quote(v), z = quote((6 + 0.05 * u) * sin(u / 8)),
-                 u = c(0, 100), v = c(-6, 6)) # sheets 2.5 apart
+  scroll <- list(x = quote((6 + 0.05 * u) * cos(u / 8)), y = quote(v),
+                 # sheets 2.5 apart
+                 z = quote((6 + 0.05 * u) * sin(u / 8)), u = c(0, 100), v = c(-6, 6))
   mesh <- closed_form_mesh(scroll, jitter = 0.3)$mesh
   at <- with_seed(3, sort(sample(ncol(mesh$vb), 40)))
   caught <- 0
   for (radius in c(2.5, 5, 9)) {
-    curved <- curvature(mesh, radius, order = "quadratic", vertices = at, points_per_term = 1, widen = 1)
+    curved <- curvature(mesh, radius, order = "quadratic", vertices = at,
+                        points_per_term = 1, widen = 1)
     wanted <- vapply(at, connected_ball, 0L, mesh = mesh, radius = radius)
     expect_identical(curved$neighbours[at], wanted)
-    plain <- vapply(at, function(v) sum(colSums((mesh$vb[1:3, ] - mesh$vb[1:3, v])^2) <= radius^2), 0L)
+    plain <- vapply(at, function(v) sum(colSums((mesh$vb[1:3, ] - mesh$vb[1:3, v])^2) <= radius^2),
+                    0L)
     caught <- caught + sum(plain > wanted)
   }
   expect_gt(caught, 20) # else the folds test nothing
@@ -142,7 +158,8 @@ test_that("every other vertex of a cell's balls is found for targets of every ce
   sheets <- two_sheets(apart = 0.6)
   at <- c(1, 61, sheets$n + 1, sheets$n + 1800, 1800, 2 * sheets$n)
   curved <- curvature(sheets$mesh, 4.5, vertices = at)
-  expect_identical(curved$neighbours[at], vapply(at, connected_ball, 0L, mesh = sheets$mesh, radius = 4.5))
+  expect_identical(curved$neighbours[at],
+                   vapply(at, connected_ball, 0L, mesh = sheets$mesh, radius = 4.5))
 })
 
 test_that("an isolated triangle has no curvature, with the reason, and the rest goes on", {
@@ -160,7 +177,8 @@ test_that("an isolated triangle has no curvature, with the reason, and the rest 
 test_that("points on a line, and a vertex without triangles, have the other reason", {
   strip <- rbind(rep(seq_len(20), 1), 0, 0, 1)
   it <- rbind(1:18, 2:19, 3:20)
-  flat <- rgl::mesh3d(vertices = cbind(strip, ball_mesh(2)$vb + c(90, 0, 0, 0)), triangles = cbind(it, ball_mesh(2)$it + 20))
+  flat <- rgl::mesh3d(vertices = cbind(strip, ball_mesh(2)$vb + c(90, 0, 0, 0)),
+                      triangles = cbind(it, ball_mesh(2)$it + 20))
   curved <- curvature(flat, 30, vertices = 1:40)
   expect_match(curved$reason[1:20], "nearly in a line, or no normal")
   expect_false(anyNA(curved$k1[21:40]))
@@ -169,7 +187,9 @@ test_that("points on a line, and a vertex without triangles, have the other reas
 test_that("the order steps down where points are few, and the ball widens after that", {
   mesh <- closed_form_mesh(closed_forms()$bumpy)$mesh
   middle <- which.min(colSums(mesh$vb[1:2, ]^2))
-  order_at <- function(radius, ...) curvature(mesh, radius, order = "quartic", vertices = middle, ...)$order[middle]
+  order_at <- function(radius, ...) {
+    curvature(mesh, radius, order = "quartic", vertices = middle, ...)$order[middle]
+  }
   expect_identical(order_at(5), 4L)
   expect_identical(order_at(2.4), 3L) # 16-22 points
   expect_identical(order_at(2), 2L)
@@ -249,7 +269,8 @@ test_that("a curvature prints its counts and is a table", {
   table <- as.data.frame(curved)
   expect_identical(nrow(table), 441L)
   expect_equal(table$k1, curved$k1)
-  expect_equal(as.matrix(table[c("normal_x", "normal_y", "normal_z")]), curved$normal, ignore_attr = TRUE)
+  expect_equal(as.matrix(table[c("normal_x", "normal_y", "normal_z")]), curved$normal,
+               ignore_attr = TRUE)
   expect_output(print(curvature(ball(), 0.3, vertices = integer())), "at 0 of")
 })
 
@@ -257,11 +278,11 @@ test_that("a specimen will do for a mesh, numeric triangles too", {
   sphere <- ball()
   through_door <- specimen(sphere)
   sphere$it <- sphere$it + 0.0
-  expect_equal(curvature(through_door, 0.3, vertices = 1:20)$k1[1:20], curvature(sphere, 0.3, vertices = 1:20)$k1[1:20],
-               tolerance = 1e-6)
+  expect_equal(curvature(through_door, 0.3, vertices = 1:20)$k1[1:20],
+               curvature(sphere, 0.3, vertices = 1:20)$k1[1:20], tolerance = 1e-6)
 })
 
-test_that("curvature that is asked for piece by piece is that of the whole mesh, and estimated once", {
+test_that("curvature asked for piece by piece is that of the whole mesh, estimated once", {
   mesh <- bent_ridge(noise = 0.05)$mesh
   whole <- curvature(mesh, 4, "adaptive cubic")
   source <- curvature_source(mesh, kernel_settings(4, "adaptive cubic"), 1L)
@@ -271,5 +292,6 @@ test_that("curvature that is asked for piece by piece is that of the whole mesh,
   expect_equal(all, curvature_rows(whole, seq_along(whole$k1)), tolerance = 1e-12)
   expect_identical(source(some), lapply(all, function(x) if (is.matrix(x)) x[some, ] else x[some]))
   expect_crestline_error(known_curvature(NULL, mesh, 400, 1L, "quadratic"), "as large as the mesh")
-  expect_crestline_error(curvature_source(mesh, kernel_settings(0.1, "quadratic"), 1L)(1:9), "no vertex could be fitted")
+  expect_crestline_error(curvature_source(mesh, kernel_settings(0.1, "quadratic"), 1L)(1:9),
+                         "no vertex could be fitted")
 })

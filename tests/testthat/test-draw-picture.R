@@ -23,7 +23,9 @@ test_that("the depth of a ball is that of a hemisphere, to a pixel and a facet",
 
 test_that("points at the back and behind another sheet are hidden", {
   scene <- draw_quietly(draw_surface(unit_ball(), engine = "picture"))
-  expect_identical(visible_points(scene, rbind(c(0, 0, 1), c(0, 0, -1), c(0, 0, 1.5), c(0, 0, 0.9), c(5, 0, 0), NA)),
+  expect_identical(visible_points(scene,
+                                  rbind(c(0, 0, 1), c(0, 0, -1), c(0, 0, 1.5), c(0, 0, 0.9),
+                                        c(5, 0, 0), NA)),
                    c(TRUE, FALSE, TRUE, FALSE, FALSE, FALSE))
   from_left <- draw_quietly(draw_surface(unit_ball(), view = "left", engine = "picture"))
   expect_identical(visible_points(from_left, rbind(c(1, 0, 0), c(-1, 0, 0))), c(TRUE, FALSE))
@@ -40,7 +42,8 @@ test_that("triangles seen from behind are left out", {
 test_that("colours come through where the light is full, and darken away from it", {
   pixels <- drawn_pixels({
     graphics::par(mar = rep(0, 4))
-    draw_surface(unit_ball(), "#FF0000", engine = "picture", light = c(0, 0, 1), gloss = 0, wrap = 0, ambient = 0.2)
+    draw_surface(unit_ball(), "#FF0000", engine = "picture", light = c(0, 0, 1), gloss = 0,
+                 wrap = 0, ambient = 0.2)
   })
   expect_equal(pixels[100, 100, ], c(1, 0, 0), tolerance = 0.02)
   expect_equal(pixels[100, 165, 1], 0.2 + 0.8 * sqrt(1 - (65.5 / 96)^2), tolerance = 0.05)
@@ -50,7 +53,8 @@ test_that("colours come through where the light is full, and darken away from it
 test_that("one colour a vertex is interpolated", {
   ball <- unit_ball()
   halves <- ifelse(ball$vb[1, ] > 0, "#FF0000", "#0000FF")
-  pixels <- drawn_pixels(draw_surface(ball, halves, engine = "picture", light = c(0, 0, 1), gloss = 0))
+  pixels <- drawn_pixels(draw_surface(ball, halves, engine = "picture",
+                                      light = c(0, 0, 1), gloss = 0))
   row <- pixels[90, , ]
   expect_gt(sum(row[, 1] > row[, 3] + 0.3), 20)
   expect_gt(sum(row[, 3] > row[, 1] + 0.3), 20)
@@ -80,7 +84,8 @@ test_that("the scene is drawn on where it was, whatever the margins have become"
 })
 
 test_that("a part of the surface can be shown from near", {
-  scene <- draw_quietly(draw_surface(unit_ball(), engine = "picture", around = rbind(c(-0.1, -0.1, 1), c(0.1, 0.1, 1)), margin = 0))
+  scene <- draw_quietly(draw_surface(unit_ball(), engine = "picture",
+                                     around = rbind(c(-0.1, -0.1, 1), c(0.1, 0.1, 1)), margin = 0))
   expect_equal(max(scene$usr[2] - scene$usr[1], scene$usr[4] - scene$usr[3]), 0.2, tolerance = 0.2)
   expect_true(all(is.finite(scene$depth)))
 })
@@ -92,11 +97,14 @@ test_that("runs of seen points are found", {
 
 test_that("what cannot be drawn is refused", {
   ball <- unit_ball()
-  expect_error(draw_surface(ball, c("red", "blue"), engine = "picture"), "2 values for", class = "crestline_error")
+  expect_error(draw_surface(ball, c("red", "blue"), engine = "picture"), "2 values for",
+               class = "crestline_error")
   expect_error(draw_surface(ball, view = "inside", engine = "picture"), class = "crestline_error")
   expect_error(draw_surface(ball, view = 1:3, engine = "picture"), class = "crestline_error")
-  expect_error(draw_surface(ball, view = diag(c(1, 1, -1)), engine = "picture"), class = "crestline_error")
-  expect_error(draw_surface(ball, engine = "picture", light = c(0, 0, 0)), class = "crestline_error")
+  expect_error(draw_surface(ball, view = diag(c(1, 1, -1)), engine = "picture"),
+               class = "crestline_error")
+  expect_error(draw_surface(ball, engine = "picture", light = c(0, 0, 0)),
+               class = "crestline_error")
   expect_error(draw_surface(ball, engine = "svg"), class = "crestline_error")
   expect_error(visible_points(list(), cbind(0, 0, 0)), class = "crestline_error")
   scene <- draw_quietly(draw_surface(ball, engine = "picture"))

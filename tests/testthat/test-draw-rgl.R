@@ -7,7 +7,8 @@ test_that("the rgl engine draws into the null device and returns ids", {
     scene <- draw_points(scene, cbind(0, 0, 1), labels = "top")
     scene <- draw_band(scene, cbind(0:1, 0, 1), cbind(0:1, 1, 1))
     expect_equal(rgl::ids3d()$id, scene$ids)
-    expect_equal(as.character(rgl::ids3d()$type), c("triangles", "linestrip", "spheres", "text", "quads"))
+    expect_equal(as.character(rgl::ids3d()$type),
+                 c("triangles", "linestrip", "spheres", "text", "quads"))
     expect_output(print(scene), "5 objects")
   })
 })
@@ -18,6 +19,7 @@ test_that("a specimen and its curve are drawn by rgl", {
     expect_equal(as.character(rgl::ids3d()$type), c("triangles", "spheres", "text"))
     rgl::clear3d()
     scene <- plot(equator_curve(), ball_specimen(), "plain", engine = "rgl")
-    expect_setequal(as.character(rgl::ids3d()$type), c("triangles", "quads", "linestrip", "spheres"))
+    expect_setequal(as.character(rgl::ids3d()$type),
+                    c("triangles", "quads", "linestrip", "spheres"))
   })
 })

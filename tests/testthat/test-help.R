@@ -3,7 +3,8 @@
 help_pages <- function() {
   files <- list.files(testthat::test_path("..", "..", "man"), "[.]Rd$", full.names = TRUE)
   testthat::skip_if(!length(files), "sources not here")
-  pages <- vapply(files, function(file) paste(readLines(file, encoding = "UTF-8"), collapse = "\n"), "")
+  pages <- vapply(files, function(file) paste(readLines(file, encoding = "UTF-8"), collapse = "\n"),
+                  "")
   stats::setNames(pages, basename(files))
 }
 

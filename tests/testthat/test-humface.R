@@ -1,4 +1,5 @@
-# The landmarks of Rvcg's humface, placed by hand (inst/extdata/README.md): do they stand where they say?
+# The landmarks of Rvcg's humface, placed by hand (inst/extdata/README.md): do they stand where they
+# say?
 
 humface_mesh <- function() {
   data <- new.env()
@@ -9,7 +10,8 @@ humface_mesh <- function() {
 humface_points <- function(name = "humface_landmarks.csv") {
   file <- system.file("extdata", name, package = "crestline")
   table <- utils::read.csv(file)
-  matrix(as.matrix(table[c("x", "y", "z")]), ncol = 3, dimnames = list(table$name, c("x", "y", "z")))
+  matrix(as.matrix(table[c("x", "y", "z")]), ncol = 3,
+         dimnames = list(table$name, c("x", "y", "z")))
 }
 
 # The landmarks mirrored left for right, relabelled, and fitted to themselves without scaling.
@@ -79,7 +81,8 @@ test_that("the second marking has the same landmarks, on the surface, and is ano
   expect_setequal(rownames(second), rownames(first))
   closest <- Rvcg::vcgClostKD(second, humface_mesh()$humface, sign = FALSE)
   expect_lt(max(row_distance(second, t(closest$vb[1:3, ]))), 1e-4)
-  # Two markings of a face are 1 to 3 mm apart (RMS); a landmark named for another one would be 10 and more.
+  # Two markings of a face are 1 to 3 mm apart (RMS); a landmark named for another one would be 10
+  # and more.
   apart <- row_distance(first, second[rownames(first), ])
   expect_gt(min(apart), 0.1)
   expect_gt(sqrt(mean(apart^2)), 1)
@@ -90,11 +93,13 @@ test_that("the second marking has the same landmarks, on the surface, and is ano
 test_that("the ridge of a lower lid is the same from either marking, off its ends", {
   ridge <- function(name) {
     face <- specimen(humface_mesh()$humface, humface_points(name), id = "humface")
-    ridge_curve(face, "exL", "enL", "ridge", 5, 15, 9, keep_side("exL", "enL", "acL"), ridge_settings(error = FALSE), trust = c(0, 0.75))
+    ridge_curve(face, "exL", "enL", "ridge", 5, 15, 9, keep_side("exL", "enL", "acL"),
+                ridge_settings(error = FALSE), trust = c(0, 0.75))
   }
   first <- ridge("humface_landmarks.csv")$path
   second <- ridge("humface_landmarks_2.csv")$path
-  inner <- as.matrix(first[first$s > 0.2 * max(first$s) & first$s < 0.8 * max(first$s), c("x", "y", "z")])
+  inner <- as.matrix(first[first$s > 0.2 * max(first$s) & first$s < 0.8 * max(first$s),
+                           c("x", "y", "z")])
   expect_gt(nrow(inner), 5)
   expect_lt(max(nearest_on_polyline(inner, as.matrix(second[c("x", "y", "z")]))$distance), 0.25)
 })

@@ -1,5 +1,5 @@
-# Seconds from an interrupt, sent to another process in the midst of `code`, to the end of that code there; NA where it was at
-# its end before, Inf where it went on.
+# Seconds from an interrupt, sent to another process in the midst of `code`, to the end of that code
+# there; NA where it was at its end before, Inf where it went on.
 seconds_to_end <- function(code, patience = 20) {
   begun <- tempfile()
   ended <- tempfile()
@@ -10,13 +10,17 @@ seconds_to_end <- function(code, patience = 20) {
     library(crestline)
     ball <- Rvcg::vcgSphere(6)
     grDevices::pdf(NULL)
-    say <- function(text, file) { writeLines(text, paste0(file, '.new')); file.rename(paste0(file, '.new'), file) }
+    say <- function(text, file) {
+      writeLines(text, paste0(file, '.new'))
+      file.rename(paste0(file, '.new'), file)
+    }
     prepared <- { %s }
     say(as.character(Sys.getpid()), '%s')
     how <- tryCatch({ prepared(); 'finished' }, interrupt = function(e) 'interrupted',
                     error = function(e) 'failed')
     say(c(how, format(as.numeric(Sys.time()), digits = 16)), '%s')", code, begun, ended), script)
-  system2(file.path(R.home("bin"), "Rscript"), c("--vanilla", script), wait = FALSE, stdout = FALSE, stderr = FALSE)
+  system2(file.path(R.home("bin"), "Rscript"), c("--vanilla", script), wait = FALSE, stdout = FALSE,
+          stderr = FALSE)
   waits_for <- function(file, seconds) {
     end <- Sys.time() + seconds
     while (!file.exists(file) && Sys.time() < end) Sys.sleep(0.05)
@@ -45,12 +49,18 @@ test_that("long work in C++ ends within two seconds of an interrupt", {
     "curvature in huge balls" = "function() curvature(ball, 0.9)",
     "the same by threads" = "function() curvature(ball, 0.9, threads = 2)",
     "alignment without end" =
-      "x <- array(rnorm(3e6), c(1000, 3, 1000)); function() crestline:::fit_alignment(list(coords = x, reference = x[, , 1]), rep(1, 1000), 1L, 0, 1e6L)",
+      "x <- array(rnorm(3e6), c(1000, 3, 1000))
+       start <- list(coords = x, reference = x[, , 1])
+       function() crestline:::fit_alignment(start, rep(1, 1000), 1L, 0, 1e6L)",
     "a picture of triangles across it all" =
-      "n <- 20000; ball$vb <- rbind(matrix(runif(9 * n, -1, 1), 3), 1); ball$it <- matrix(seq_len(3 * n), 3); ball$normals <- NULL
+      "n <- 20000
+       ball$vb <- rbind(matrix(runif(9 * n, -1, 1), 3), 1)
+       ball$it <- matrix(seq_len(3 * n), 3)
+       ball$normals <- NULL
        function() for (i in 1) draw_surface(ball, resolution = 600, samples = 3)",
     "distances over the mesh" =
-      "at <- data.frame(face = rep(1L, 500), w1 = 1, w2 = 0, w3 = 0); function() crestline:::geodesic_distances(ball, at)"
+      "at <- data.frame(face = rep(1L, 500), w1 = 1, w2 = 0, w3 = 0)
+       function() crestline:::geodesic_distances(ball, at)"
   )
   for (name in names(work)) {
     seconds <- seconds_to_end(work[[name]])

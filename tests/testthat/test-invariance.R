@@ -9,7 +9,8 @@ moved_specimen <- function(specimen, move, turn_faces = FALSE) {
 }
 remade <- function(mesh, landmarks) {
   mesh$normals <- NULL
-  suppressWarnings(specimen(mesh, landmarks, id = "moved", outward = "keep"), classes = "crestline_mirrored")
+  suppressWarnings(specimen(mesh, landmarks, id = "moved", outward = "keep"),
+                   classes = "crestline_mirrored")
 }
 
 turned <- function(x) {
@@ -38,14 +39,17 @@ curve_difference <- function(curve, other, specimen, back = identity) {
   max(sqrt(rowSums((xyz_of(curve$points) - back(xyz_of(other$points)))^2))) / size
 }
 
-# curve(specimen, factor) of the specimen changed in every way of the issue against that of the specimen itself.
+# curve(specimen, factor) of the specimen changed in every way of the issue against that of the
+# specimen itself.
 expect_invariant <- function(specimen, curve, factors = c(1e-3, 1e3)) {
   own <- curve(specimen, 1)
   for (factor in factors) {
     scaled <- curve(moved_specimen(specimen, function(x) factor * x), factor)
-    testthat::expect_lt(curve_difference(own, scaled, specimen, function(x) x / factor), tolerances$invariance)
+    testthat::expect_lt(curve_difference(own, scaled, specimen, function(x) x / factor),
+                        tolerances$invariance)
     testthat::expect_equal(scaled$points$se / factor, own$points$se, tolerance = 1e-5)
-    testthat::expect_identical(scaled[c("converged", "determined")], own[c("converged", "determined")])
+    testthat::expect_identical(scaled[c("converged", "determined")],
+                               own[c("converged", "determined")])
   }
   moved <- curve(moved_specimen(specimen, turned), 1)
   there <- structure(list(points = as.data.frame(turned(xyz_of(own$points)))), class = "curve")
@@ -86,23 +90,31 @@ test_that("a ridge on an irregular noisy mesh: unit, turn, shift and numbering",
 })
 
 test_that("the same with the other settings", {
-  expect_invariant(noisy_bent(), function(s, factor) bent_curve(s, factor, passes = 2), factors = 1e3)
-  principal <- ridge_settings(strength = "principal", wrong_sign = "drop", order = "forced", df = 12)
-  expect_invariant(noisy_bent(), function(s, factor) suppressWarnings(bent_curve(s, factor, settings = principal)), factors = 1e-3)
-  expect_invariant(noisy_bent(), function(s, factor) curve_of(s, "a", "b", "plane", n = 9), factors = 1e3)
+  expect_invariant(noisy_bent(), function(s, factor) bent_curve(s, factor, passes = 2),
+                   factors = 1e3)
+  principal <- ridge_settings(strength = "principal", wrong_sign = "drop",
+                              order = "forced", df = 12)
+  expect_invariant(noisy_bent(), function(s, factor)
+    suppressWarnings(bent_curve(s, factor, settings = principal)), factors = 1e-3)
+  expect_invariant(noisy_bent(), function(s, factor) curve_of(s, "a", "b", "plane", n = 9),
+                   factors = 1e3)
 })
 
 test_that("the same with landmarks at vertices and on edges of the mesh", {
   bent <- noisy_bent()
   corner <- which.min(colSums((bent$mesh$vb[1:3, ] - bent$landmarks["a", ])^2))
-  face <- bent$mesh$it[, which(colSums(bent$mesh$it == which.min(colSums((bent$mesh$vb[1:3, ] - bent$landmarks["b", ])^2))) > 0)[1]]
+  face <- bent$mesh$it[,
+                       which(colSums(bent$mesh$it ==
+                                     which.min(colSums((bent$mesh$vb[1:3, ] -
+                                                        bent$landmarks["b", ])^2))) > 0)[1]]
   bent$landmarks["a", ] <- bent$mesh$vb[1:3, corner]
   bent$landmarks["b", ] <- rowMeans(bent$mesh$vb[1:3, face[1:2]])
   expect_invariant(remade(bent$mesh, bent$landmarks), bent_curve, factors = 1e3)
 })
 
 test_that("from b to a is from a to b", {
-  expect_reversible(noisy_bent(), function(s, back) if (back) bent_curve(s, from = "b", to = "a") else bent_curve(s))
+  expect_reversible(noisy_bent(), function(s, back)
+    if (back) bent_curve(s, from = "b", to = "a") else bent_curve(s))
 })
 
 test_that("the mirror image has the mirrored curve", {
@@ -134,15 +146,23 @@ test_that("curves of humface and of real scans: unit, turn, shift, numbering, di
 })
 
 test_that("template_male: lip and eye socket", {
-  face <- read_specimen(shared_data("template_male", "surface.ply"), shared_data("template_male", "landmarks.csv"))
-  lip <- function(s, factor = 1) curve_of(s, "chR", "cphR", "ridge", radius = 5 * factor, width = 10 * factor, n = 8)
+  face <- read_specimen(shared_data("template_male", "surface.ply"),
+                        shared_data("template_male", "landmarks.csv"))
+  lip <- function(s, factor = 1) {
+    curve_of(s, "chR", "cphR", "ridge", radius = 5 * factor, width = 10 * factor, n = 8)
+  }
   expect_invariant(face, lip, factors = 1e3)
-  socket <- function(s, factor = 1) curve_of(s, "exL", "enL", "ridge", radius = 5 * factor, width = 15 * factor, n = 9)
+  socket <- function(s, factor = 1) {
+    curve_of(s, "exL", "enL", "ridge", radius = 5 * factor, width = 15 * factor, n = 9)
+  }
   expect_invariant(face, socket, factors = 1e-3)
 })
 
 test_that("scan_a: the valley between the lips", {
-  face <- read_specimen(shared_data("scan_a", "surface.ply"), shared_data("scan_a", "landmarks.csv"))
-  lip <- function(s, factor = 1) curve_of(s, "chL", "st", "valley", radius = 5 * factor, width = 6 * factor, n = 9)
+  face <- read_specimen(shared_data("scan_a", "surface.ply"),
+                        shared_data("scan_a", "landmarks.csv"))
+  lip <- function(s, factor = 1) {
+    curve_of(s, "chL", "st", "valley", radius = 5 * factor, width = 6 * factor, n = 9)
+  }
   expect_invariant(face, lip, factors = 1e3)
 })

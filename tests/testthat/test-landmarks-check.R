@@ -7,8 +7,8 @@ egg <- function() {
 }
 on_egg <- function(x, y) c(x, y, 60 * sqrt(1 - (x / 70)^2 - (y / 100)^2))
 egg_landmarks <- function() {
-  rbind(n = on_egg(0, 40), pn = on_egg(0, 0), gn = on_egg(0, -60), exL = on_egg(35, 30), exR = on_egg(-35, 30),
-        chL = on_egg(20, -40), chR = on_egg(-20, -40))
+  rbind(n = on_egg(0, 40), pn = on_egg(0, 0), gn = on_egg(0, -60), exL = on_egg(35, 30),
+        exR = on_egg(-35, 30), chL = on_egg(20, -40), chR = on_egg(-20, -40))
 }
 
 test_that("a good set passes and is put on the surface, with the move told", {
@@ -20,7 +20,8 @@ test_that("a good set passes and is put on the surface, with the move told", {
 })
 
 test_that("a data frame serves as well, names in a column or as row names", {
-  table <- data.frame(z = egg_landmarks()[, 3], Landmark = rownames(egg_landmarks()), x = egg_landmarks()[, 1], y = egg_landmarks()[, 2])
+  table <- data.frame(z = egg_landmarks()[, 3], Landmark = rownames(egg_landmarks()),
+                      x = egg_landmarks()[, 1], y = egg_landmarks()[, 2])
   expect_equal(specimen(egg(), table)$landmarks, specimen(egg(), egg_landmarks())$landmarks)
   expect_equal(specimen(egg(), table[-2])$landmarks, specimen(egg(), egg_landmarks())$landmarks)
 })
@@ -28,7 +29,8 @@ test_that("a data frame serves as well, names in a column or as row names", {
 test_that("landmarks named twice, without names or of the wrong shape are refused by name", {
   x <- egg_landmarks()
   rownames(x)[2:3] <- "n"
-  expect_crestline_error(specimen(egg(), x, id = "e1"), c("e1", "named twice: n", "own name"), id = "e1")
+  expect_crestline_error(specimen(egg(), x, id = "e1"),
+                         c("e1", "named twice: n", "own name"), id = "e1")
   rownames(x)[2:3] <- c("", "a")
   expect_crestline_error(specimen(egg(), x, id = "e1"), c("e1", "row 2"))
   expect_crestline_error(specimen(egg(), unname(egg_landmarks())), "without a name")
@@ -50,7 +52,8 @@ test_that("NA, NaN and Inf are missing landmarks", {
 test_that("a landmark 5 mm off a face is refused by name, a nearer one put on it", {
   x <- egg_landmarks()
   x["pn", 3] <- x["pn", 3] + 5
-  expect_crestline_error(specimen(egg(), x, id = "e2"), c("e2", "off the surface", "pn (by 5", "tolerance"), id = "e2")
+  expect_crestline_error(specimen(egg(), x, id = "e2"),
+                         c("e2", "off the surface", "pn (by 5", "tolerance"), id = "e2")
   s <- specimen(egg(), x, tolerance = 0.1)
   expect_equal(unname(s$landmarks["pn", 1:2]), c(0, 0), tolerance = 0.1)
   x["pn", 3] <- 61
@@ -59,20 +62,24 @@ test_that("a landmark 5 mm off a face is refused by name, a nearer one put on it
 
 test_that("another unit or frame is named with the factor that would fit", {
   x <- egg_landmarks()
-  expect_crestline_error(specimen(egg(), x / 10, id = "cm"), c("cm", "multiplied by 10:"), id = "cm")
+  expect_crestline_error(specimen(egg(), x / 10, id = "cm"),
+                         c("cm", "multiplied by 10:"), id = "cm")
   expect_crestline_error(specimen(egg(), x / 1000), "multiplied by 1000:")
   expect_crestline_error(specimen(egg(), x * 10), "divided by 10:")
   expect_crestline_error(specimen(egg(), x / 25.4), "multiplied by 25.4:")
   shifted <- egg()
   shifted$vb[1:2, ] <- shifted$vb[1:2, ] + 300
-  expect_crestline_error(specimen(shifted, (x + rep(c(300, 300, 0), each = 7)) * rep(c(-1, -1, 1), each = 7)), c("negated", "frame = \"RAS\""))
+  expect_crestline_error(specimen(shifted,
+                                  (x + rep(c(300, 300, 0), each = 7)) *
+                                  rep(c(-1, -1, 1), each = 7)), c("negated", "frame = \"RAS\""))
 })
 
 test_that("left for right is warned of, whatever the position of the head", {
   x <- egg_landmarks()
   swapped <- x
   rownames(swapped) <- c("n", "pn", "gn", "exR", "exL", "chR", "chL")
-  expect_warning(s <- specimen(egg(), swapped, id = "mirror"), "specimen mirror.*mirrored", class = "crestline_mirrored")
+  expect_warning(s <- specimen(egg(), swapped, id = "mirror"), "specimen mirror.*mirrored",
+                 class = "crestline_mirrored")
   expect_equal(report_count(s, "landmarks mirrored"), 1)
   turn <- qr.Q(qr(matrix(c(1, 2, 3, -1, 0.5, 2, 0, 1, -2), 3)))
   turn <- turn * sign(det(turn))
@@ -96,7 +103,8 @@ test_that("without pairs or midline nothing is said of left and right", {
 
 test_that("the real faces are not mirrored", {
   for (name in c("scan_a", "template_male")) {
-    s <- expect_no_warning(read_specimen(shared_data(name, "surface.ply"), shared_data(name, "landmarks.csv")))
+    s <- expect_no_warning(read_specimen(shared_data(name, "surface.ply"),
+                                         shared_data(name, "landmarks.csv")))
     x <- s$landmarks
     side <- grepl("[LR]$", rownames(x))
     rownames(x)[side] <- chartr("LR", "RL", rownames(x)[side])

@@ -47,15 +47,17 @@ test_that("names with accents come through, in UTF-8 and in Latin 1", {
 test_that("what cannot be read is refused with file, line and remedy", {
   expect_crestline_error(read_landmarks("none.csv"), "none.csv")
   expect_refused(csv_file("name,x,y", "a,1,2"), c("no column z", "header line"))
-  expect_refused(csv_file("name,x,y,z", "a,1,2,3", "b,1,2;5,3"), c("2;5", "decimal point"), line = 3)
+  expect_refused(csv_file("name,x,y,z", "a,1,2,3", "b,1,2;5,3"),
+                 c("2;5", "decimal point"), line = 3)
   expect_refused(csv_file("name,x,y,z", "a,1,2,3", "b,1,1e999,3"), "not a finite number", line = 3)
   expect_refused(csv_file("x,y,z", "1,2,3"), "no column of names")
   expect_refused(csv_file(""), "cannot be read")
 })
 
-test_that("decimal commas between commas, and thousands' commas between semicolons, are refused, not misread", {
+test_that("decimal commas between commas and thousands' between semicolons are refused", {
   expect_refused(csv_file("name;x;y;z", "a;1,234.5;2;3"), c("1.234.5", "decimal point"), line = 2)
-  expect_refused(csv_file("name,x,y,z", 'a,"1,5",2,3'), c('"1,5" is not a number', "decimal point"), line = 2)
+  expect_refused(csv_file("name,x,y,z", 'a,"1,5",2,3'),
+                 c('"1,5" is not a number', "decimal point"), line = 2)
 })
 
 test_that("blanks at the ends of a name stay when it is quoted", {
@@ -63,7 +65,8 @@ test_that("blanks at the ends of a name stay when it is quoted", {
 })
 
 test_that("semicolons with decimal commas, and tabs, are read as spreadsheets write them", {
-  for (lines in list(c("name;x;y;z", "pn;1,5;-2;3e-5", "\"sn, left\";;;"), c("name\tx\ty\tz", "pn\t1.5\t-2\t3e-5", "\"sn, left\"\t\t\t"))) {
+  for (lines in list(c("name;x;y;z", "pn;1,5;-2;3e-5", "\"sn, left\";;;"),
+                     c("name\tx\ty\tz", "pn\t1.5\t-2\t3e-5", "\"sn, left\"\t\t\t"))) {
     expect_equal(read_landmarks(csv_file(lines)), expected, ignore_attr = TRUE)
   }
 })

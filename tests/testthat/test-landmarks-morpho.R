@@ -30,7 +30,7 @@ test_that("Morpho reads our .pts, .dta, .fcsv and .mrk.json", {
   expect_equal(attr(x, "coordinateSystem"), "LPS")
 })
 
-test_that("we read Morpho's .pts, .fcsv and .mrk.json, missing points and closed curves among them", {
+test_that("we read Morpho's .pts, .fcsv and .mrk.json, missing points, closed curves too", {
   file <- morpho_file("pts")
   missing <- replace(points, cbind(2, 1:3), NA)
   Morpho::write.pts(missing, filename = sub(".pts", "", file, fixed = TRUE))

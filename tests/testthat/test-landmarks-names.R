@@ -50,8 +50,10 @@ test_that("landmarks are renamed on reading, and never onto another's name", {
   at <- rbind(prn = c(1, 0, 0), top = c(0, 0, 1))
   one <- read_specimen(file, at, names = c(prn = "pn", other = "x"))
   expect_identical(rownames(one$landmarks), c("pn", "top"))
-  expect_identical(unname(one$landmarks["pn", ]), unname(read_specimen(file, at)$landmarks["prn", ]))
-  expect_crestline_error(read_specimen(file, at, names = c(prn = "top")), "two landmarks the name top")
+  expect_identical(unname(one$landmarks["pn", ]),
+                   unname(read_specimen(file, at)$landmarks["prn", ]))
+  expect_crestline_error(read_specimen(file, at, names = c(prn = "top")),
+                         "two landmarks the name top")
   expect_crestline_error(read_specimen(file, at, names = "pn"), "`names`")
   expect_crestline_error(read_specimen(file, at, names = c(a = "x", b = "x")), "`names`")
 })

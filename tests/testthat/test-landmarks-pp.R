@@ -33,6 +33,7 @@ test_that("what cannot be read is refused with file and remedy", {
 })
 
 test_that("an entity of no sign stands for one that cannot be shown", {
-  file <- landmark_file("pp", "<PickedPoints>", '<point x="1" y="2" z="3" name="a&#x110000;"/>', "</PickedPoints>")
+  file <- landmark_file("pp", "<PickedPoints>", '<point x="1" y="2" z="3" name="a&#x110000;"/>',
+                        "</PickedPoints>")
   expect_identical(rownames(read_landmarks(file)), "a\ufffd")
 })

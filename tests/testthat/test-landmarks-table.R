@@ -1,7 +1,7 @@
-table_of <- function(...) text_table(c(...), function(problem,
-                                                      line) stop(sprintf("line %s: %s",
-                                                                         c(line,
-                                                                           "none")[1], problem)))
+table_of <- function(...) {
+  stop_at <- function(problem, line) stop(sprintf("line %s: %s", c(line, "none")[1], problem))
+  text_table(c(...), stop_at)
+}
 plain <- function(table) `attributes<-`(as.matrix(table), list(dim = dim(table)))
 two_rows <- rbind(c("n", "1", "2"), c("pn", "4", "5"))
 
@@ -16,12 +16,12 @@ test_that("a row longer or shorter than the header is refused with its line, nev
 
 test_that("what spreadsheets leave is taken off", {
   for (lines in list(
-    c("name,x,y,", "n,1,2,", "pn,4,5,"), c("name,x,y", "n,1,2,,", "pn,4,5,,"), c("name,x,y,,",
-                                                                                 "n,1,2", "pn,4,5"),
-    c("name,x,y", "n,1,2", ",,", "", "pn,4,5", ",,,,", "  "), c("name,x,,y", "n,1,,2", "pn,4,,5"),
-    c("sep=,", "name,x,y", "n,1,2", "pn,4,5"), c('"sep=;"', "name;x;y", "n;1;2",
-                                                 "pn;4;5"), c("sep=|", "name|x|y", "n|1|2",
-                                                              "pn|4|5"),
+    c("name,x,y,", "n,1,2,", "pn,4,5,"), c("name,x,y", "n,1,2,,", "pn,4,5,,"),
+    c("name,x,y,,", "n,1,2", "pn,4,5"), c("name,x,y", "n,1,2", ",,", "", "pn,4,5", ",,,,", "  "),
+    c("name,x,,y", "n,1,,2", "pn,4,,5"), c("sep=,", "name,x,y", "n,1,2", "pn,4,5"),
+    c('"sep=;"', "name;x;y", "n;1;2",
+      "pn;4;5"), c("sep=|", "name|x|y", "n|1|2",
+                   "pn|4|5"),
     c("# mm", "", "#", "name,x,y", "n,1,2", "pn,4,5"), c("name\tx\ty", "n\t1\t2", "pn\t4\t5"),
     c(' name ,"x", y', ' n , "1" ,2', "pn,4,5")
   )) {

@@ -1,10 +1,12 @@
 test_that("the format goes by the extension, in any case; others are refused by name", {
   x <- xyz(1, 2, 3, name = "a")
-  for (extension in c("csv", "PTS", "tps", "nts", "DTA", "landmarkAscii", "landmarkascii", "fcsv", "mrk.json", "json")) {
+  for (extension in c("csv", "PTS", "tps", "nts", "DTA", "landmarkAscii", "landmarkascii", "fcsv",
+                      "mrk.json", "json")) {
     expect_round_trip(x, extension)
     expect_round_trip(x[0, , drop = FALSE], extension)
   }
-  expect_crestline_error(write_landmarks(x, "a.unknown"), c("a.unknown", "Known: .csv, .pts", ".mrk.json"))
+  expect_crestline_error(write_landmarks(x, "a.unknown"),
+                         c("a.unknown", "Known: .csv, .pts", ".mrk.json"))
   expect_crestline_error(write_landmarks(x, 5), "path of one file")
   expect_crestline_error(read_landmarks(c("a.pts", "b.pts")), "path of one file")
   expect_crestline_error(write_landmarks(1:3, "a.csv"), "k x 3")
@@ -24,44 +26,57 @@ test_that("several specimens are a named list where the format holds them", {
   x <- list("face 1" = hard_landmarks(), b = hard_landmarks() * 2)
   for (extension in c("tps", "nts", "dta", "landmarkAscii")) expect_round_trip(x, extension)
   for (extension in c("csv", "pts", "fcsv", "mrk.json")) {
-    expect_crestline_error(write_landmarks(x, paste0("a.", extension)), c("a.", "one specimen, not 2", ".tps"))
+    expect_crestline_error(write_landmarks(x, paste0("a.", extension)),
+                           c("a.", "one specimen, not 2", ".tps"))
   }
-  s <- list(specimen(ball_mesh(), rbind(top = c(0, 0, 1)), id = "s1"), specimen(ball_mesh(), rbind(top = c(0, 1, 0)), id = "s2"))
+  s <- list(specimen(ball_mesh(), rbind(top = c(0, 0, 1)), id = "s1"),
+            specimen(ball_mesh(), rbind(top = c(0, 1, 0)), id = "s2"))
   file <- tempfile(fileext = ".nts")
   write_landmarks(s, file)
   expect_identical(read_landmarks(file), list(s1 = s[[1]]$landmarks, s2 = s[[2]]$landmarks))
   expect_crestline_error(write_landmarks(list(), file), "must be one")
-  expect_crestline_error(write_landmarks(unname(x)[c(1, 1)], file, curves = hard_curves()), "attribute `curves`")
-  expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "a")), file), "two specimens have the same")
-  expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "b ")), file), "no blanks at the ends")
+  expect_crestline_error(write_landmarks(unname(x)[c(1, 1)], file, curves = hard_curves()),
+                         "attribute `curves`")
+  expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "a")), file),
+                         "two specimens have the same")
+  expect_crestline_error(write_landmarks(stats::setNames(x, c("a", "b ")), file),
+                         "no blanks at the ends")
 })
 
-test_that("curves come from the argument or the attribute, and are refused where there is no place for them", {
+test_that("curves come from the argument or attribute; where they have no place: refused", {
   x <- structure(xyz(1, 2, 3, name = "a"), curves = hard_curves())
   for (extension in c("nts", "dta", "landmarkAscii", "fcsv")) {
-    expect_crestline_error(write_landmarks(x, paste0("a.", extension)), c("no curves", ".mrk.json", "curves = list()"))
+    expect_crestline_error(write_landmarks(x, paste0("a.", extension)),
+                           c("no curves", ".mrk.json", "curves = list()"))
     file <- tempfile(fileext = paste0(".", extension))
     write_landmarks(x, file, curves = list())
     expect_identical(read_landmarks(file), xyz(1, 2, 3, name = "a"))
   }
   file <- tempfile(fileext = ".csv")
   write_landmarks(NULL, file, curves = list(line = data.frame(s = 0, x = 1, y = 2, z = 3)))
-  expect_equal(attr(read_landmarks(file), "curves"), list(line = structure(xyz(1, 2, 3), closed = FALSE)))
+  expect_equal(attr(read_landmarks(file), "curves"),
+               list(line = structure(xyz(1, 2, 3), closed = FALSE)))
   expect_crestline_error(write_landmarks(x, file, curves = list(xyz(1, 2, 3))), "a name of its own")
   expect_crestline_error(write_landmarks(x, file, curves = list(a = 1:3)), "curve a is 1, 2, 3")
-  expect_crestline_error(write_landmarks(x, file, curves = list(a = matrix(0, 0, 3))), "a row at least")
-  expect_crestline_error(write_landmarks(x, file, curves = list("a\nb" = xyz(1, 2, 3))), "line break")
+  expect_crestline_error(write_landmarks(x, file, curves = list(a = matrix(0, 0, 3))),
+                         "a row at least")
+  expect_crestline_error(write_landmarks(x, file, curves = list("a\nb" = xyz(1, 2, 3))),
+                         "line break")
 })
 
 test_that("curves of ridge_curve() are written point by point", {
-  curve <- structure(list(points = data.frame(point = 1:2, x = c(1, 2), y = 3:4, z = 5:6)), class = "curve")
+  curve <- structure(list(points = data.frame(point = 1:2, x = c(1, 2), y = 3:4, z = 5:6)),
+                     class = "curve")
   file <- tempfile(fileext = ".tps")
   write_landmarks(NULL, file, curves = list(lip = curve))
-  expect_equal(attr(read_landmarks(file), "curves")$lip, structure(xyz(1, 3, 5, 2, 4, 6), closed = FALSE))
+  expect_equal(attr(read_landmarks(file), "curves")$lip,
+               structure(xyz(1, 3, 5, 2, 4, 6), closed = FALSE))
 })
 
 test_that("random numbers are written with digits that give them back", {
-  x <- with_seed(3, c(rnorm(1e4) * 10^runif(1e4, -300, 300), runif(1e4, -300, 300), .Machine$double.xmin, .Machine$double.xmax))
+  x <- with_seed(3,
+                 c(rnorm(1e4) * 10^runif(1e4, -300, 300), runif(1e4, -300, 300),
+                   .Machine$double.xmin, .Machine$double.xmax))
   expect_identical(as.numeric(number_text(x)), x)
   expect_identical(number_text(c(1.5, -2, NA)), c("1.5", "-2", "NA"))
 })

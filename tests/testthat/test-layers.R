@@ -2,8 +2,9 @@
 
 # The floors, first to last. A file's floor is the first word of its name.
 floors <- c("conditions", "text", "files", "geometry", "checks", "session", "settings",
-            "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme", "shape", "placing",
-            "template", "sample", "analysis", "study", "plot", "report", "crestline")
+            "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme",
+            "shape", "placing", "template", "sample", "analysis", "study", "plot", "report",
+            "crestline")
 
 # Circles of files that stay, each with its reason.
 circles <- list(
@@ -29,7 +30,8 @@ test_that("nothing is defined twice", {
 test_that("a file calls only its own floor and those above", {
   calls <- calls_between(graph())
   floor <- function(file) match(sub("[-.].*$", "", file), floors)
-  unknown <- unique(c(calls$from_file[is.na(floor(calls$from_file))], calls$to_file[is.na(floor(calls$to_file))]))
+  unknown <- unique(c(calls$from_file[is.na(floor(calls$from_file))],
+                      calls$to_file[is.na(floor(calls$to_file))]))
   expect_equal(unknown, character())
   up <- calls[which(floor(calls$from_file) < floor(calls$to_file)), ]
   found <- sprintf("%s:%s -> %s:%s", up$from_file, up$from, up$to_file, up$to)

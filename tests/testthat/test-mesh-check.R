@@ -2,7 +2,8 @@ test_that("what is no mesh is refused with the reason", {
   expect_crestline_error(specimen(1:3, id = "s1"), c("s1", "mesh3d"), id = "s1")
   expect_crestline_error(specimen(structure(list(), class = "mesh3d")), "no vertices")
   few <- structure(list(vb = rbind(diag(3), 1)), class = "mesh3d")
-  expect_crestline_error(specimen(few, id = "few"), c("few", "no triangles", "3 points"), id = "few")
+  expect_crestline_error(specimen(few, id = "few"),
+                         c("few", "no triangles", "3 points"), id = "few")
   line <- structure(list(vb = rbind(0:2, 0:2, 0:2, 1), it = matrix(1:3)), class = "mesh3d")
   expect_crestline_error(specimen(line), "no triangle with an area")
   bad <- ball_mesh()
@@ -28,7 +29,8 @@ test_that("homogeneous co-ordinates are divided out and three rows completed", {
 test_that("quads are cut in two, with the same outline and sense", {
   grid <- grid_mesh(4)
   low <- grid$it[1, 1:9]
-  quad <- structure(list(vb = grid$vb, ib = rbind(low, low + 1, low + 5, low + 4)), class = "mesh3d")
+  quad <- structure(list(vb = grid$vb, ib = rbind(low, low + 1, low + 5, low + 4)),
+                    class = "mesh3d")
   s <- specimen(quad)
   expect_equal(ncol(s$mesh$it), 18)
   expect_equal(report_count(s, "quads"), 9)
@@ -40,8 +42,8 @@ test_that("non-finite vertices go, with their faces", {
   ball$vb[2, 5] <- NaN
   ball$vb[1, 6] <- Inf
   touching <- sum(colSums(matrix(ball$it %in% 5:6, 3)) > 0)
-  expect_warning(s <- specimen(ball), "4 % of the triangles were left out (2 non-finite", fixed = TRUE,
-                      class = "crestline_triangles_dropped")
+  expect_warning(s <- specimen(ball), "4 % of the triangles were left out (2 non-finite",
+                 fixed = TRUE, class = "crestline_triangles_dropped")
   expect_equal(report_count(s, "non-finite co-ordinates"), 2)
   expect_equal(ncol(s$mesh$it), 320 - touching)
   expect_equal(s$mesh$vb, ball$vb[, -(5:6)])
@@ -49,7 +51,8 @@ test_that("non-finite vertices go, with their faces", {
 
 test_that("equal vertices are merged, so that a soup of triangles becomes one piece", {
   ball <- ball_mesh()
-  soup <- structure(list(vb = ball$vb[, ball$it], it = matrix(seq_along(ball$it), 3)), class = "mesh3d")
+  soup <- structure(list(vb = ball$vb[, ball$it], it = matrix(seq_along(ball$it), 3)),
+                    class = "mesh3d")
   s <- specimen(soup)
   expect_equal(ncol(s$mesh$vb), 162)
   expect_equal(report_count(s, "duplicate vertices"), 960 - 162)
@@ -95,7 +98,8 @@ test_that("three faces on one edge are told and act as borders", {
 
 test_that("pieces are counted, and debris goes", {
   ball <- ball_mesh(3)
-  two <- structure(list(vb = cbind(ball$vb, ball$vb + c(5, 0, 0, 0), c(0, 0, 9, 1), c(1, 0, 9, 1), c(0, 1, 9, 1)),
+  two <- structure(list(vb = cbind(ball$vb, ball$vb + c(5, 0, 0, 0), c(0, 0, 9, 1), c(1, 0, 9, 1),
+                                   c(0, 1, 9, 1)),
                         it = cbind(ball$it, ball$it + 642L, 1285:1287)), class = "mesh3d")
   s <- specimen(two)
   expect_equal(report_count(s, "debris"), 1)
@@ -111,7 +115,9 @@ test_that("a mesh whose pieces are all debris is refused with what to do", {
     vb <- rbind(rep(seq_len(n), each = 3) + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1)
     structure(list(vb = vb, it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
   }
-  kept <- function(...) ncol(suppressWarnings(specimen(...), classes = "crestline_loose_triangles")$mesh$it)
+  kept <- function(...) {
+    ncol(suppressWarnings(specimen(...), classes = "crestline_loose_triangles")$mesh$it)
+  }
   expect_equal(kept(loose(1000)), 1000)
   expect_crestline_error(specimen(loose(1001), id = "loose"), c("1001 pieces", "`debris`"), "loose")
   expect_equal(kept(loose(1001), debris = 0), 1001)
@@ -132,7 +138,8 @@ test_that("holes are border loops beyond the outer one", {
 test_that("a point cloud is triangulated and the report says so", {
   cloud <- ball_mesh(4)
   cloud$it <- NULL
-  expect_warning(s <- specimen(cloud, id = "c"), "c, mesh: there are points only", class = "crestline_triangulated")
+  expect_warning(s <- specimen(cloud, id = "c"), "c, mesh: there are points only",
+                 class = "crestline_triangulated")
   expect_equal(report_count(s, "point cloud without triangles"), ncol(cloud$vb))
   expect_gt(ncol(s$mesh$it), 0.9 * ncol(ball_mesh(4)$it))
   outward <- colSums(s$mesh$normals[1:3, ] * s$mesh$vb[1:3, ])
@@ -164,7 +171,8 @@ test_that("a map tells which vertex became which, through merges, losses and deb
   kept <- !is.na(s$vertices)
   expect_identical(s$mesh$vb[1:3, s$vertices[kept]], given$vb[1:3, kept])
   expect_setequal(s$vertices[kept], seq_len(ncol(s$mesh$vb)))
-  soup <- structure(list(vb = ball_mesh()$vb[, ball_mesh()$it], it = matrix(1:960, 3)), class = "mesh3d")
+  soup <- structure(list(vb = ball_mesh()$vb[, ball_mesh()$it], it = matrix(1:960, 3)),
+                    class = "mesh3d")
   s <- specimen(soup)
   expect_identical(s$mesh$vb[, s$vertices], soup$vb)
   cloud <- suppressWarnings(specimen(structure(list(vb = ball_mesh(4)$vb), class = "mesh3d")))
@@ -176,7 +184,8 @@ test_that("far and absurd vertices go with a warning, and do not blind what goes
   for (x in c(60, 1e6, 1e30, 1e300)) {
     far <- ball
     far$vb[1, 5] <- x
-    expect_warning(s <- specimen(far, id = "f"), "f, mesh: 1 vertices", class = "crestline_far_vertices")
+    expect_warning(s <- specimen(far, id = "f"), "f, mesh: 1 vertices",
+                   class = "crestline_far_vertices")
     expect_equal(s$mesh$vb, ball$vb[, -5])
   }
   many <- ball
@@ -204,15 +213,19 @@ test_that("far and absurd vertices go with a warning, and do not blind what goes
 test_that("a mesh that falls apart is refused or told of", {
   pieces <- function(n) {
     x <- rep(seq_len(n), each = 3)
-    structure(list(vb = rbind(x + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1), it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
+    structure(list(vb = rbind(x + c(0, 0.8, 0), rep(c(0, 0, 30), n), 0, 1),
+                   it = matrix(seq_len(3 * n), 3)), class = "mesh3d")
   }
-  expect_crestline_error(specimen(pieces(1001), id = "p"), c("p, mesh", "1001 pieces", "corners do not meet"))
-  expect_warning(s <- specimen(pieces(300)), "100 % of the triangles touch no other", class = "crestline_loose_triangles")
+  expect_crestline_error(specimen(pieces(1001), id = "p"),
+                         c("p, mesh", "1001 pieces", "corners do not meet"))
+  expect_warning(s <- specimen(pieces(300)), "100 % of the triangles touch no other",
+                 class = "crestline_loose_triangles")
 })
 
 test_that("polygons of two corners are counted", {
   file <- tempfile(fileext = ".obj")
   writeLines(c("v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 3", "f 1 2"), file)
-  expect_warning(s <- read_specimen(file), "1 polygons with fewer than three corners", class = "crestline_file_warning")
+  expect_warning(s <- read_specimen(file), "1 polygons with fewer than three corners",
+                 class = "crestline_file_warning")
   expect_equal(report_count(s, "polygons with fewer than three corners"), 1)
 })

@@ -13,7 +13,8 @@ test_that("colours a vertex, a corner and a mesh all become one a vertex", {
 test_that("an image is read from its lower left corner, repeats, and may be grey", {
   image <- array(0, c(2, 2, 3))
   image[1, 2, 1] <- 1
-  expect_equal(sample_image(image, cbind(c(0.9, 0.1, 1.9, -0.1), c(0.9, 0.1, 0.9, -0.1))), c("#FF0000", "#000000", "#FF0000", "#FF0000"))
+  expect_equal(sample_image(image, cbind(c(0.9, 0.1, 1.9, -0.1), c(0.9, 0.1, 0.9, -0.1))),
+               c("#FF0000", "#000000", "#FF0000", "#FF0000"))
   expect_equal(sample_image(image, cbind(1, 1)), "#FF0000")
   expect_equal(sample_image(image[, , 1], cbind(1, 1)), "#FFFFFF")
 })

@@ -1,4 +1,4 @@
-test_that("what specimen() refuses no function takes as a bare mesh, and says so in the same words", {
+test_that("what specimen() refuses no function takes as a bare mesh, in the same words", {
   case <- complete_case()
   meshes <- damaged_meshes(case$specimen$mesh)
   calls <- any_mesh_calls()
@@ -12,14 +12,17 @@ test_that("what specimen() refuses no function takes as a bare mesh, and says so
     expect_false(anyNA(words), info = name)
     own <- said(specimen(meshes[[name]]))
     if (is.na(own) || name == "a list") next
-    expect_true(all(words[c("curvature", "plane_path", "draw_surface", "frechet_mean")] == own), info = name)
+    expect_true(all(words[c("curvature", "plane_path", "draw_surface", "frechet_mean")] == own),
+                info = name)
   }
 })
 
-test_that("specimen() refuses faces in rows, counted from 0, and of corners that are not whole, and says what to do", {
+test_that("specimen() refuses faces in rows, from 0 and not whole, and says what to do", {
   mesh <- ball_mesh()
-  expect_crestline_error(specimen(within_list(mesh, it = t(mesh$it))), c("3 rows but 320 x 3", "t(mesh$it)"))
-  expect_crestline_error(specimen(within_list(mesh, it = mesh$it - 1L)), c("do not exist", "counted from 0", "mesh$it + 1"))
+  expect_crestline_error(specimen(within_list(mesh, it = t(mesh$it))),
+                         c("3 rows but 320 x 3", "t(mesh$it)"))
+  expect_crestline_error(specimen(within_list(mesh, it = mesh$it - 1L)),
+                         c("do not exist", "counted from 0", "mesh$it + 1"))
   half <- mesh
   half$it[2, 3] <- 2.5
   expect_crestline_error(specimen(half), c("1 of 320 faces", "not whole"))
@@ -28,7 +31,7 @@ test_that("specimen() refuses faces in rows, counted from 0, and of corners that
   expect_crestline_error(specimen(coloured), "do not exist")
 })
 
-test_that("a mesh that can be taken is taken: doubles for whole numbers, three rows, integers, a fourth row that is not 1", {
+test_that("a mesh that can be taken is: doubles, three rows, integers, a fourth row not 1", {
   mesh <- ball_mesh(3)
   path <- function(mesh) plane_path(mesh, c(1, 0, 0), c(0, 1, 0))
   whole <- path(mesh)
@@ -42,7 +45,8 @@ test_that("a mesh that can be taken is taken: doubles for whole numbers, three r
 
 test_that("normals that do not fit are left out, quads beside triangles refused", {
   mesh <- within_list(ball_mesh(3), normals = matrix(1, 4, 3))
-  expect_equal(curvature(mesh, 0.4, vertices = 1:5)$k1, curvature(ball_mesh(3), 0.4, vertices = 1:5)$k1)
+  expect_equal(curvature(mesh, 0.4, vertices = 1:5)$k1,
+               curvature(ball_mesh(3), 0.4, vertices = 1:5)$k1)
   expect_crestline_error(curvature(within_list(ball_mesh(), ib = matrix(1:4, 4)), 0.4), "quads")
 })
 

@@ -10,7 +10,7 @@ round_ball <- function(subdivision) {
   ball
 }
 
-test_that("distances on an irregular flat mesh are straight, from vertices and from inside a face", {
+test_that("distances on an irregular flat mesh are straight, from vertices and within faces", {
   sheet <- grid_mesh(15)
   border <- unique(as.vector(sheet$it[, colSums(mesh_topology(sheet)$twin == 0) > 0]))
   moved <- with_seed(1, matrix(stats::runif(2 * ncol(sheet$vb), -0.2, 0.2), 2))
@@ -39,7 +39,8 @@ test_that("distances on a ball are arcs, to 0.3 % on average and 2 % at most", {
 test_that("a path goes round a hole, and there is none to another piece", {
   sheet <- grid_mesh(9)
   slit <- sheet
-  middle <- (sheet$vb[1, sheet$it[1, ]] + sheet$vb[1, sheet$it[2, ]] + sheet$vb[1, sheet$it[3, ]]) / 3
+  middle <- (sheet$vb[1, sheet$it[1, ]] + sheet$vb[1, sheet$it[2, ]] + sheet$vb[1, sheet$it[3, ]]) /
+    3
   row <- (sheet$vb[2, sheet$it[1, ]] + sheet$vb[2, sheet$it[2, ]] + sheet$vb[2, sheet$it[3, ]]) / 3
   slit$it <- sheet$it[, !(row > 3 & row < 4 & middle < 6)]
   vertex <- function(x, y) which(sheet$vb[1, ] == x & sheet$vb[2, ] == y)

@@ -16,7 +16,8 @@ test_that("both sides of a seam that differ by rounding are joined, the surface 
     expect_equal(ncol(s$mesh$it), 800)
     expect_equal(report_count(s, "holes"), 0)
     expect_equal(report_count(s, "vertices apart by rounding"), 21)
-    expect_equal(sum(row_lengths(face_normals(s$mesh))), sum(row_lengths(face_normals(wavy()))), tolerance = 1e-5)
+    expect_equal(sum(row_lengths(face_normals(s$mesh))), sum(row_lengths(face_normals(wavy()))),
+                 tolerance = 1e-5)
   }
 })
 
@@ -32,7 +33,8 @@ test_that("a wider seam is told of, a gap is none", {
 
 test_that("single triangles whose corners differ by rounding become one surface", {
   ball <- ball_mesh(3)
-  soup <- structure(list(vb = ball$vb[, ball$it], it = matrix(seq_along(ball$it), 3)), class = "mesh3d")
+  soup <- structure(list(vb = ball$vb[, ball$it], it = matrix(seq_along(ball$it), 3)),
+                    class = "mesh3d")
   apart <- with_seed(1, matrix(stats::runif(3 * 3840, -1e-7, 1e-7), 3))
   soup$vb[1:3, ] <- soup$vb[1:3, ] + apart
   s <- expect_no_warning(specimen(soup))
@@ -55,7 +57,8 @@ test_that("what is not apart by rounding keeps its numbers bit for bit", {
   expect_identical(specimen(folded, outward = "keep")$mesh$vb, folded$vb)
 })
 
-# Two sheets that meet at y = 10, the second with `times` as many vertices, those between moved by `off`.
+# Two sheets that meet at y = 10, the second with `times` as many vertices, those between moved by
+# `off`.
 t_junctions <- function(times, off = 0) {
   height <- function(x) 0.02 * (x - 10)^2
   strip <- function(nx, first) {
@@ -94,15 +97,17 @@ two_skins <- function(mesh, gap, flip = FALSE) {
   inner <- mesh$vb
   inner[1:3, ] <- inner[1:3, ] - gap * vertex_normals(mesh)[1:3, ]
   it <- mesh$it + ncol(mesh$vb)
-  structure(list(vb = cbind(mesh$vb, inner), it = cbind(mesh$it, if (flip) it[c(1, 3, 2), ] else it)), class = "mesh3d")
+  structure(list(vb = cbind(mesh$vb, inner),
+                 it = cbind(mesh$it, if (flip) it[c(1, 3, 2), ] else it)), class = "mesh3d")
 }
 
 test_that("a second skin is joined where it differs by rounding, else told of", {
   for (flip in c(FALSE, TRUE)) {
     s <- expect_no_warning(specimen(two_skins(ball_mesh(3), 1e-7, flip)))
     expect_equal(c(ncol(s$mesh$vb), ncol(s$mesh$it)), c(642, 1280))
-    suppressWarnings(expect_warning(s <- specimen(two_skins(ball_mesh(3), 0.01, flip), id = "d"), "100 % of the surface is there twice",
-                                         class = "crestline_double_skin"))
+    suppressWarnings(expect_warning(s <- specimen(two_skins(ball_mesh(3), 0.01, flip), id = "d"),
+                                    "100 % of the surface is there twice",
+                                    class = "crestline_double_skin"))
     expect_equal(report_count(s, "per cent of the surface with a second skin"), 100)
   }
   lid <- two_skins(wavy(), 0.05)

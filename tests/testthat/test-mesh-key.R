@@ -52,14 +52,15 @@ test_that("keys of many small changes differ", {
   expect_identical(length(unique(substr(keys, 1, 32))), length(unique(substr(keys, 34, 65))))
 })
 
-test_that("whatever takes a shape, path, curve, curvature or point and a specimen refuses another mesh, and a damaged one", {
+test_that("whatever takes something of a mesh and a specimen refuses another, damaged mesh", {
   case <- complete_case()
   wrong <- wrong_specimens(case)
-  some <- c(grep("^other", names(wrong), value = TRUE), "mesh exchanged", "index far out", "co-ordinate NaN", "twins out of range")
+  some <- c(grep("^other", names(wrong), value = TRUE), "mesh exchanged", "index far out",
+            "co-ordinate NaN", "twins out of range")
   expect_null(not_refused(own_mesh_calls(), case, wrong[some]))
 })
 
-test_that("the right mesh is taken: under another id, with other normals and colours, and from a file", {
+test_that("the right mesh is taken: of another id, other normals and colours, from a file", {
   case <- complete_case()
   dressed <- case$specimen
   dressed$id <- "someone else"
@@ -68,7 +69,9 @@ test_that("the right mesh is taken: under another id, with other normals and col
   kept <- unserialize(serialize(case$specimen, NULL))
   calls <- own_mesh_calls()
   calls <- calls[setdiff(names(calls), "quality_report")]
-  answers <- function(one) vapply(calls, function(call) !is.null(suppressWarnings(draw_quietly(call(case, one)))), NA)
+  answers <- function(one) {
+    vapply(calls, function(call) !is.null(suppressWarnings(draw_quietly(call(case, one)))), NA)
+  }
   expect_true(all(answers(kept)))
   expect_true(all(answers(dressed)))
 })
@@ -82,21 +85,28 @@ test_that("what was damaged itself is refused with the right mesh", {
 test_that("an error names the mesh that was expected and the one that came", {
   case <- own_mesh_case()
   wide <- stretched_ball(c(1.2, 1, 1.1), "wide")
-  expect_crestline_error(slide(case$shape, case$template, specimen = wide), c("the mesh of ball (key", "the mesh of wide (key"), id = "wide")
-  expect_error(path_coordinates(wide$mesh, case$path, 10), "mesh of ball .* here is a mesh without an id", class = "crestline_wrong_mesh")
-  expect_error(surface_faults(case$template, case$specimen), "on no mesh", class = "crestline_wrong_mesh")
+  expect_crestline_error(slide(case$shape, case$template, specimen = wide),
+                         c("the mesh of ball (key", "the mesh of wide (key"), id = "wide")
+  expect_error(path_coordinates(wide$mesh, case$path, 10),
+               "mesh of ball .* here is a mesh without an id", class = "crestline_wrong_mesh")
+  expect_error(surface_faults(case$template, case$specimen), "on no mesh",
+               class = "crestline_wrong_mesh")
 })
 
-test_that("a shape that an older version kept knows its mesh by its specimen; without one it is refused where a mesh is needed", {
+test_that("a shape of an older version knows its mesh by its specimen, else it is refused", {
   case <- own_mesh_case()
   old <- tampered(case$shape, function(x) {
-    x$specimen <- tampered(x$specimen, function(y) y[c("id", "mesh", "landmarks", "report", "geometry")])
+    x$specimen <- tampered(x$specimen,
+                           function(y) y[c("id", "mesh", "landmarks", "report", "geometry")])
     x$paths <- lapply(x$paths, function(path) structure(path, key = NULL, id = NULL))
-    x$tracks <- lapply(x$tracks, function(track) within_list(track, path = structure(track$path, key = NULL, id = NULL)))
+    x$tracks <- lapply(x$tracks, function(track)
+      within_list(track, path = structure(track$path, key = NULL, id = NULL)))
     x[c("id", "points", "status", "paths", "scheme", "tracks", "column", "specimen", "checks")]
   })
-  expect_equal(coords(slide(old, case$template), "surface"), coords(slide(case$shape, case$template), "surface"))
-  expect_equal(nrow(surface_faults(old, case$specimen)), nrow(surface_faults(case$shape, case$specimen)))
+  expect_equal(coords(slide(old, case$template), "surface"),
+               coords(slide(case$shape, case$template), "surface"))
+  expect_equal(nrow(surface_faults(old, case$specimen)),
+               nrow(surface_faults(case$shape, case$specimen)))
   expect_crestline_error(surface_faults(old, stretched_ball(c(1.2, 1, 1.1))), "the mesh of ball")
   old$specimen <- NULL
   expect_s3_class(quality(old), "shape_quality")
@@ -109,19 +119,22 @@ test_that("`shape$specimen <- NULL` and `specimens` stay possible", {
   small$specimen <- NULL
   whole <- slide(case$shape, case$template)
   expect_equal(slide(small, case$template, specimen = case$specimen)$points, whole$points)
-  found <- homologise(list(small), case$template, specimens = list(ball = case$specimen), rounds = 0, progress = FALSE)
+  found <- homologise(list(small), case$template, specimens = list(ball = case$specimen),
+                      rounds = 0, progress = FALSE)
   expect_equal(found$shapes$ball$points, whole$points)
 })
 
-test_that("every exported function that takes a mesh or something of one is in the tables of calls", {
+test_that("every exported function that takes a mesh or a part of it is in the tables", {
   takes <- function(name) {
     arguments <- names(formals(get(name, asNamespace("crestline"))))
     any(c("mesh", "specimen", "specimens", "curvature", "path", "coordinates") %in% arguments)
   }
-  exports <- Filter(function(name) is.function(get(name, asNamespace("crestline"))), getNamespaceExports("crestline"))
+  exports <- Filter(function(name) is.function(get(name, asNamespace("crestline"))),
+                    getNamespaceExports("crestline"))
   called <- c(names(own_mesh_calls()), names(any_mesh_calls()), names(specimen_calls()))
   called <- sub(",.*", "", called)
-  # specimen() is the door itself; keep_*() and the readers take no mesh; in repeatability() specimens are names.
+  # specimen() is the door itself; keep_*() and the readers take no mesh; in repeatability()
+  # specimens are names.
   elsewhere <- c("specimen", "repeatability", "curvature_surface")
   expect_setequal(setdiff(Filter(takes, exports), c(called, elsewhere)), character())
 })

@@ -38,7 +38,7 @@ test_that("closest points on one triangle are right in all seven regions", {
   expect_equal(found$w1[1:4], c(0.5, 1, 0, 0))
 })
 
-test_that("points are the exactly closest ones, near, far and beside the mesh, with a tree of boxes and without", {
+test_that("points are exactly closest, near, far, beside the mesh, with boxes and without", {
   set.seed(2)
   mesh <- grid_mesh(12, function(x, y) sin(x) + cos(2 * y))
   p <- cbind(runif(60, -3, 15), runif(60, -3, 15), rnorm(60, 0, rep(c(0.01, 1, 30, 300), 15)))

@@ -2,7 +2,8 @@ test_that("normals of faces are twice the area long and square to their sides", 
   mesh <- Rvcg::vcgSphere(2)
   normal <- face_normals(mesh)
   corner <- face_corners(mesh)
-  expect_equal(rowSums(normal * (corner[[2]] - corner[[1]])), rep(0, ncol(mesh$it)), tolerance = 1e-15)
+  expect_equal(rowSums(normal * (corner[[2]] - corner[[1]])), rep(0, ncol(mesh$it)),
+               tolerance = 1e-15)
   expect_equal(sum(row_lengths(normal)) / 2, Rvcg::vcgArea(mesh), tolerance = 1e-6)
 })
 

@@ -12,7 +12,8 @@ test_that("faces are read in all their spellings", {
   normal <- "vn 0 0 1"
   spelled <- list(
     c(corners, "f 1 2 3", "f 1 3 4"), c(corners, "f 1 2 3 4"), c(corners, "f -4 -3 -2 -1"),
-    c("# a comment", "o thing", corners, normal, "g one", "f 1//1 2//1 3//1", "s off", "f 1//1 3//1 4//1"),
+    c("# a comment", "o thing", corners, normal, "g one", "f 1//1 2//1 3//1", "s off",
+      "f 1//1 3//1 4//1"),
     c(corners, texture, "f 1/1 2/2 3/3", "f 1/1 3/3 4/4"),
     c(corners, texture, normal, "f 1/1/1 2/2/1 3/3/1 4/4/1"),
     c(corners, texture, "f -4/-4 -3/-3 -2/-2 -1/-1"),
@@ -36,17 +37,21 @@ test_that("colours behind the co-ordinates are kept", {
   s <- read_specimen(obj_file(lines, "f 1 2 3 4"))
   expect_equal(s$mesh$material$color, c("#FF0000", "#00FF00", "#0000FF", "#FFFFFF"))
   bytes <- paste(corners, c("255 0 0", "0 255 0", "0 0 255", "255 255 255"))
-  expect_equal(read_specimen(obj_file(bytes, "f 1 2 3 4"))$mesh$material$color, s$mesh$material$color)
+  expect_equal(read_specimen(obj_file(bytes, "f 1 2 3 4"))$mesh$material$color,
+               s$mesh$material$color)
 })
 
 # A picture of 2 x 2 blocks of 4 pixels: red green above, blue white below.
 block_picture <- function() {
-  block <- function(a, b, c, d) rbind(cbind(matrix(a, 4, 4), matrix(b, 4, 4)), cbind(matrix(c, 4, 4), matrix(d, 4, 4)))
+  block <- function(a, b, c, d) {
+    rbind(cbind(matrix(a, 4, 4), matrix(b, 4, 4)), cbind(matrix(c, 4, 4), matrix(d, 4, 4)))
+  }
   array(c(block(1, 0, 0, 1), block(0, 1, 0, 1), block(0, 0, 1, 1)), c(8, 8, 3))
 }
-textured <- function(picture, material = c("newmtl skin", "Kd 1 1 1", paste("map_Kd", picture)), library = "a b.mtl") {
-  file <- obj_file(paste("mtllib", library), corners, "vt 0.1 0.1", "vt 0.9 0.1", "vt 0.9 0.9", "vt 0.1 0.9",
-                   "usemtl skin", "f 1/1 2/2 3/3 4/4")
+textured <- function(picture, material = c("newmtl skin", "Kd 1 1 1", paste("map_Kd", picture)),
+                     library = "a b.mtl") {
+  file <- obj_file(paste("mtllib", library), corners, "vt 0.1 0.1", "vt 0.9 0.1", "vt 0.9 0.9",
+                   "vt 0.1 0.9", "usemtl skin", "f 1/1 2/2 3/3 4/4")
   writeLines(material, file.path(dirname(file), "a b.mtl"))
   file
 }
@@ -72,8 +77,10 @@ test_that("a jpg texture is sampled at the vertices", {
 
 test_that("several materials each colour their own faces, seams do not split vertices", {
   skip_if_not_installed("png")
-  file <- obj_file("mtllib two.mtl", corners, "vt 0.1 0.9", "vt 0.9 0.9", "usemtl a", "f 1/1 2/1 3/1", "usemtl b", "f 1/2 3/2 4/2")
-  writeLines(c("newmtl a", "map_Kd p.png", "newmtl b", "map_Kd p.png"), file.path(dirname(file), "two.mtl"))
+  file <- obj_file("mtllib two.mtl", corners, "vt 0.1 0.9", "vt 0.9 0.9", "usemtl a",
+                   "f 1/1 2/1 3/1", "usemtl b", "f 1/2 3/2 4/2")
+  writeLines(c("newmtl a", "map_Kd p.png", "newmtl b", "map_Kd p.png"),
+             file.path(dirname(file), "two.mtl"))
   png::writePNG(block_picture(), file.path(dirname(file), "p.png"))
   s <- read_specimen(file)
   expect_equal(ncol(s$mesh$vb), 4)
@@ -81,7 +88,8 @@ test_that("several materials each colour their own faces, seams do not split ver
 })
 
 test_that("a missing, unreadable or unknown texture is a warning, not an error", {
-  expect_warning(s <- read_specimen(textured("gone.png"), id = "s9"), "s9.*gone.png is not there", class = "crestline_warning")
+  expect_warning(s <- read_specimen(textured("gone.png"), id = "s9"), "s9.*gone.png is not there",
+                 class = "crestline_warning")
   expect_null(s$mesh$material$color)
   file <- textured("skin.tga")
   writeLines("x", file.path(dirname(file), "skin.tga"))
@@ -90,11 +98,14 @@ test_that("a missing, unreadable or unknown texture is a warning, not an error",
   file <- textured("skin.png")
   writeLines("x", file.path(dirname(file), "skin.png"))
   expect_warning(read_specimen(file), "cannot be read")
-  expect_null(expect_no_warning(read_specimen(textured("gone.png", library = "none.mtl")))$mesh$material$color)
+  expect_null(
+    expect_no_warning(read_specimen(textured("gone.png",
+                                             library = "none.mtl")))$mesh$material$color)
 })
 
 test_that("damaged files are refused", {
-  expect_crestline_error(read_specimen(obj_file("hello")), c("square", "no vertices"), id = "square")
+  expect_crestline_error(read_specimen(obj_file("hello")), c("square", "no vertices"),
+                         id = "square")
   expect_crestline_error(read_specimen(obj_file(corners, "f 1 2 9")), "do not exist")
   expect_crestline_error(read_specimen(obj_file(corners, "f 0 1 2")), "do not exist")
   expect_crestline_error(read_specimen(obj_file(corners, "f a b c")), "do not exist")
@@ -112,25 +123,30 @@ test_that("lines go on behind a backslash, comments end them, weights are no col
   weighed <- read_mesh(obj_file(paste(corners, "1.0"), "f 1 2 3 4"), "square")
   expect_equal(weighed$it, two)
   expect_null(weighed$material)
-  expect_null(read_mesh(obj_file(paste(corners[1], "1 0 0"), corners[-1], "f 1 2 3 4"), "square")$material)
-  others <- c("mtllib none.mtl", "o a", "g b c", "s 1", corners, "vn 0 0 1", "vp 0.1", "l 1 2 3", "p 1 2", "f 1 2 3 4", "g")
+  expect_null(read_mesh(obj_file(paste(corners[1], "1 0 0"), corners[-1], "f 1 2 3 4"),
+                        "square")$material)
+  others <- c("mtllib none.mtl", "o a", "g b c", "s 1", corners, "vn 0 0 1", "vp 0.1", "l 1 2 3",
+              "p 1 2", "f 1 2 3 4", "g")
   expect_equal(read_mesh(obj_file(others), "square")$it, two)
 })
 
 test_that("corners that are no whole numbers, or beyond all vertices, are refused", {
-  for (face in c("f 1 2 3.9", "f 1 2 0", "f -1 -2 -5", "f 1 2 99999999999", "f 1 2 1e400", "f 1 2 nan")) {
-    expect_crestline_error(read_specimen(obj_file(corners, "f 1 2 3", face), id = "o"), c("o, mesh", "1 of 2 faces", "do not exist"))
+  for (face in c("f 1 2 3.9", "f 1 2 0", "f -1 -2 -5", "f 1 2 99999999999", "f 1 2 1e400",
+                 "f 1 2 nan")) {
+    expect_crestline_error(read_specimen(obj_file(corners, "f 1 2 3", face), id = "o"),
+                           c("o, mesh", "1 of 2 faces", "do not exist"))
   }
   expect_equal(read_mesh(obj_file(corners, "f 1 2 3.0"), "o")$it, cbind(1:3))
 })
 
-test_that("a material file of another name's encoding, a pipe or a device keeps no mesh from being read", {
+test_that("a material file of another encoding, a pipe or a device keeps no mesh from reading", {
   folder <- tempfile("obj")
   dir.create(folder)
   body <- c("v 0 0 0", "v 1 0 0", "v 0 1 0", "vt 0 0", "usemtl a", "f 1/1 2/1 3/1", "")
   read <- function(library) {
     file <- file.path(folder, "a.obj")
-    writeBin(c(charToRaw("mtllib "), library, charToRaw(paste0("\n", paste(body, collapse = "\n")))), file)
+    writeBin(c(charToRaw("mtllib "), library,
+               charToRaw(paste0("\n", paste(body, collapse = "\n")))), file)
     ncol(read_mesh(file, "a")$it)
   }
   expect_equal(read(c(charToRaw("Gr"), as.raw(0xfc), charToRaw("n.mtl"))), 1)

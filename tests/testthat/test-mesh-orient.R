@@ -21,14 +21,16 @@ test_that("inside-out meshes are turned round with a warning, open ones too", {
     right <- suppressWarnings(specimen(mesh), classes = "crestline_seam")
     expect_no_warning(specimen(mesh), class = "crestline_warning", message = "looked inwards")
     expect_equal(report_count(right, "faces looking inwards"), 0)
-    expect_warning(mended <- specimen(turned(mesh), id = "io"), "specimen io.*looked inwards", class = "crestline_warning")
+    expect_warning(mended <- specimen(turned(mesh), id = "io"), "specimen io.*looked inwards",
+                   class = "crestline_warning")
     expect_equal(report_count(mended, "faces looking inwards"), ncol(right$mesh$it))
     expect_equal(mended$mesh$normals, right$mesh$normals)
   }
 })
 
 test_that("inside-out is seen on real scans", {
-  for (file in c(shared_data("scan_a", "surface.ply"), shared_data("template_male", "surface.ply"))) {
+  for (file in c(shared_data("scan_a", "surface.ply"), shared_data("template_male", "surface.ply")))
+    {
     mesh <- read_mesh(file, "scan")
     expect_equal(report_count(specimen(mesh), "faces looking inwards"), 0)
     expect_warning(s <- specimen(turned(mesh)), class = "crestline_warning")
@@ -46,5 +48,6 @@ test_that("outward = keep and flip do as they say, and a plane is left alone", {
 
 test_that("normals are the area-weighted mean of the faces'", {
   s <- specimen(ball_mesh())
-  expect_equal(s$mesh$normals[1:3, ], Rvcg::vcgUpdateNormals(ball_mesh())$normals[1:3, ], tolerance = tolerances$single)
+  expect_equal(s$mesh$normals[1:3, ], Rvcg::vcgUpdateNormals(ball_mesh())$normals[1:3, ],
+               tolerance = tolerances$single)
 })

@@ -16,7 +16,7 @@ platform <- function(half, below, cells = 1) {
   grid
 }
 
-test_that("half of a ball's surface lies within its radius of the middle, of a disc within 1 / sqrt(2) of it", {
+test_that("half of a ball's surface lies within its radius, of a disc within 1 / sqrt(2)", {
   radius <- function(mesh) cpp_half_area_radius(mesh$vb, mesh$it, rep(TRUE, ncol(mesh$it)), 1e9, 6)
   expect_equal(radius(big_ball()), 50, tolerance = 0.01)
   disc <- grid_mesh(81)
@@ -37,7 +37,7 @@ test_that("the size follows unit, place and turn, and does not hang on the order
   expect_equal(1000 * mesh_size(changed), size, tolerance = tolerances$invariance)
 })
 
-test_that("a stray vertex, a platform and a stand leave the size of what carries the landmarks alone", {
+test_that("a stray vertex, a platform, a stand leave the size of the landmarks' part alone", {
   size <- mesh_size(big_ball())
   needle <- big_ball()
   needle$vb <- cbind(needle$vb, c(0, 0, 1e5, 1))
@@ -45,7 +45,8 @@ test_that("a stray vertex, a platform and a stand leave the size of what carries
   # Four radii of a ball, where its box no longer bounds it: 200 for 173.
   expect_equal(mesh_size(needle), size, tolerance = 0.16)
   expect_equal(mesh_size(joined(big_ball(), platform(2000, -60))), size, tolerance = 0.16)
-  # As dense as the ball, and forty times its area: a piece of its own, on which there is no landmark.
+  # As dense as the ball, and forty times its area: a piece of its own, on which there is no
+  # landmark.
   busy <- joined(big_ball(3), platform(500, -60, 60))
   at <- 50 * rbind(a = c(0, 0, 1), b = c(1, 0, 0), c = c(0, 1, 0))
   whole <- specimen(busy, at, id = "busy", outward = "keep")
@@ -53,24 +54,26 @@ test_that("a stray vertex, a platform and a stand leave the size of what carries
   expect_gt(mesh_size(busy), 4 * size)
 })
 
-test_that("a stand that is one piece with the object does not make it endless where there are landmarks", {
+test_that("a stand of one piece with the object does not make it endless if it has landmarks", {
   busy <- joined(big_ball(3), platform(500, -60, 60))
   at <- 50 * rbind(c(0, 0, 1), c(1, 0, 0), c(0, 1, 0), c(-1, 0, 0))
   expect_lte(mesh_size(busy, at = at), 12 * 50)
   expect_gt(mesh_size(busy, at = at[1:3, ]), 12 * 50)
 })
 
-test_that("a landmark beside the surface is refused, platform or not, and so is a ball as large as the object", {
+test_that("a landmark beside the surface is refused, platform or not; so is a large ball", {
   at <- 50 * rbind(a = c(0, 0, 1), b = c(1, 0, 0), c = c(0, 1, 0))
   at["a", 3] <- 60
   expect_crestline_error(specimen(big_ball(), at), "off the surface")
-  expect_crestline_error(specimen(joined(big_ball(), platform(2000, -60)), at, outward = "keep"), c("off the surface", "a (by 1"))
+  expect_crestline_error(specimen(joined(big_ball(), platform(2000, -60)), at, outward = "keep"),
+                         c("off the surface", "a (by 1"))
   whole <- specimen(joined(big_ball(), platform(2000, -60)), outward = "keep")
   expect_crestline_error(curvature(whole, 200), "as large as the mesh")
 })
 
 test_that("on faces the size is the diagonal of the bounding box, within some per cent", {
-  expect_equal(specimen_size(specimen(humface_scan())), mesh_diagonal(specimen(humface_scan())$mesh), tolerance = 0.12)
+  expect_equal(specimen_size(specimen(humface_scan())),
+               mesh_diagonal(specimen(humface_scan())$mesh), tolerance = 0.12)
   scan <- read_specimen(shared_data("scan_a", "surface.ply"))
   expect_equal(specimen_size(scan), mesh_diagonal(scan$mesh), tolerance = 0.12)
 })

@@ -1,4 +1,4 @@
-test_that("ascii and binary are read, equal vertices merged, also where a binary header says solid", {
+test_that("ascii and binary are read, equal vertices merged, though a header says solid", {
   ball <- ball_mesh()
   for (binary in c(TRUE, FALSE)) {
     file <- tempfile(fileext = ".STL")
@@ -36,7 +36,8 @@ stl_raw <- function(faces = 320, head = "solid ball") {
     c(writeBin(c(0, 0, 0, t(corner[3 * i - 2:0, ])), raw(), size = 4, endian = "little"), raw(2))
   }, raw(50))
   head <- charToRaw(head)
-  c(head, raw(80 - length(head)), writeBin(as.integer(faces), raw(), endian = "little"), as.vector(body))
+  c(head, raw(80 - length(head)), writeBin(as.integer(faces), raw(), endian = "little"),
+    as.vector(body))
 }
 read_raw <- function(bytes) {
   file <- tempfile(fileext = ".stl")
@@ -45,14 +46,22 @@ read_raw <- function(bytes) {
 }
 
 test_that("a binary header that disagrees with the content is told of or refused", {
-  for (head in c("solid ball", strrep("solid vertex ", 6))) expect_equal(ncol(expect_no_warning(read_raw(stl_raw(head = head)))$mesh$it), 320)
+  for (head in c("solid ball", strrep("solid vertex ", 6))) {
+    expect_equal(ncol(expect_no_warning(read_raw(stl_raw(head = head)))$mesh$it), 320)
+  }
   for (faces in c(0, 100)) {
-    expect_warning(s <- read_raw(stl_raw(faces)), sprintf("promises %d triangles and holds 320", faces), class = "crestline_file_warning")
+    expect_warning(s <- read_raw(stl_raw(faces)),
+                   sprintf("promises %d triangles and holds 320", faces),
+                   class = "crestline_file_warning")
     expect_equal(ncol(s$mesh$it), 320)
   }
-  for (faces in c(321, -1)) expect_crestline_error(read_raw(stl_raw(faces)), c("s, reading", "and holds 320"), id = "s")
-  expect_crestline_error(read_raw(utils::head(stl_raw(), -20)), "promises 320 triangles and holds 319")
-  expect_warning(read_raw(c(stl_raw(), as.raw(1:20))), "20 bytes more", class = "crestline_file_warning")
+  for (faces in c(321, -1)) {
+    expect_crestline_error(read_raw(stl_raw(faces)), c("s, reading", "and holds 320"), id = "s")
+  }
+  expect_crestline_error(read_raw(utils::head(stl_raw(), -20)),
+                         "promises 320 triangles and holds 319")
+  expect_warning(read_raw(c(stl_raw(), as.raw(1:20))), "20 bytes more",
+                 class = "crestline_file_warning")
   expect_no_warning(read_raw(c(stl_raw(), raw(20))))
 })
 

@@ -97,8 +97,9 @@ test_that("errors and warnings keep their words", {
   lines <- unlist(lapply(names(calls), function(family) {
     c(paste("#", family), "", unlist(lapply(calls[[family]], function(call) {
       words <- words_of(call, new.env(parent = frame))
-      for (name in c(files, tools::file_path_sans_ext(files))) words <- gsub(name, "<file>", words,
-                                                                             fixed = TRUE)
+      for (name in c(files, tools::file_path_sans_ext(files))) {
+        words <- gsub(name, "<file>", words, fixed = TRUE)
+      }
       # Lists that grow with every new setting or field, and keys of meshes, are not words.
       words <- sub("((Settings|Its fields) are).*", "\\1 ...",
                    gsub("key [0-9a-f]{8}", "key <key>", words))

@@ -1,4 +1,7 @@
-flat <- function(...) closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12), v = c(-8, 8)), ...)$mesh
+flat <- function(...) {
+  closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12), v = c(-8, 8)),
+                   ...)$mesh
+}
 
 test_that("on a plane s and d are the plane's own, d positive on the left seen from outside", {
   mesh <- flat()
@@ -8,7 +11,8 @@ test_that("on a plane s and d are the plane's own, d positive on the left seen f
   # Ends are moved into their triangles by 1e-6 of them.
   expect_equal(window$s, at[1, ] + 7.3, tolerance = 1e-5)
   expect_equal(window$d, at[2, ] - 0.4, tolerance = 1e-5)
-  expect_lt(max(abs(cbind(window$tx, window$ty, window$tz) - rep(c(1, 0, 0), each = nrow(window)))), 1e-5)
+  expect_lt(max(abs(cbind(window$tx, window$ty, window$tz) - rep(c(1, 0, 0), each = nrow(window)))),
+            1e-5)
   expected <- abs(mesh$vb[2, ] - 0.4) <= 5 & mesh$vb[1, ] >= -9.3 & mesh$vb[1, ] <= 8.9
   expect_identical(window$vertex, which(expected))
   expect_identical(window$inside, at[1, ] >= -7.3 & at[1, ] <= 6.9 & abs(at[2, ] - 0.4) <= 3)
@@ -43,8 +47,8 @@ test_that("round a cylinder s is the arc and d the chord across it", {
 
 test_that("beyond the middle of a bend the nearest place decides", {
   corner <- data.frame(s = c(0, 5, 10), x = c(0, 5, 5), y = c(0, 0, 5), z = 0)
-  found <- cpp_path_coordinates(rbind(c(2, 4.5, 6, -1, 5), c(1, 3, -1, 0.5, 7), 0), t(as.matrix(corner[c("x", "y", "z")])),
-                                matrix(c(0, 0, 1), 3, 3))
+  found <- cpp_path_coordinates(rbind(c(2, 4.5, 6, -1, 5), c(1, 3, -1, 0.5, 7), 0),
+                                t(as.matrix(corner[c("x", "y", "z")])), matrix(c(0, 0, 1), 3, 3))
   expect_equal(found$s, c(2, 8, 5, -1, 12))
   expect_equal(found$d, c(1, 0.5, -sqrt(2), 0.5, 0))
   expect_equal(found$tangent[3, ], c(1, 1, 0) / sqrt(2)) # at the corner the mean of both
@@ -63,7 +67,8 @@ test_that("ends at corners or on edges of the mesh change nothing", {
 test_that("what is not joined to the path inside the window stays out", {
   sheet <- flat()
   n <- ncol(sheet$vb)
-  both <- rgl::mesh3d(vertices = cbind(sheet$vb, sheet$vb + c(0, 0, 0.5, 0)), triangles = cbind(sheet$it, sheet$it + n))
+  both <- rgl::mesh3d(vertices = cbind(sheet$vb, sheet$vb + c(0, 0, 0.5, 0)),
+                      triangles = cbind(sheet$it, sheet$it + n))
   path <- plane_path(both, c(-7.3, 0.4, 0), c(6.9, 0.4, 0))
   window <- path_coordinates(both, path, width = 3)
   alone <- path_coordinates(sheet, plane_path(sheet, c(-7.3, 0.4, 0), c(6.9, 0.4, 0)), width = 3)

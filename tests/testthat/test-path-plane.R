@@ -5,13 +5,15 @@ ring <- function(k = 60) {
   number <- function(i, j) (j %% 24) * k + i %% k + 1
   a <- number(cell$i, cell$j); b <- number(cell$i + 1, cell$j)
   c <- number(cell$i + 1, cell$j + 1); d <- number(cell$i, cell$j + 1)
-  rgl::mesh3d(vertices = rbind((3 + cos(at$v)) * cos(at$u), (3 + cos(at$v)) * sin(at$u), sin(at$v), 1),
+  rgl::mesh3d(vertices = rbind((3 + cos(at$v)) * cos(at$u), (3 + cos(at$v)) * sin(at$u),
+                               sin(at$v), 1),
               triangles = cbind(rbind(a, b, c), rbind(a, c, d)))
 }
 
 # The mesh without the triangles whose centres lie in a disc about (x, y).
 with_hole <- function(mesh, x, y, radius) {
-  centre <- (mesh$vb[1:2, mesh$it[1, ]] + mesh$vb[1:2, mesh$it[2, ]] + mesh$vb[1:2, mesh$it[3, ]]) / 3
+  centre <- (mesh$vb[1:2, mesh$it[1, ]] + mesh$vb[1:2, mesh$it[2, ]] + mesh$vb[1:2, mesh$it[3, ]]) /
+    3
   mesh$it <- mesh$it[, colSums((centre - c(x, y))^2) > radius^2]
   mesh
 }
@@ -46,17 +48,21 @@ test_that("every angle gives the circle of its plane, turned right-handed about 
     expect_path_on_mesh(path, sphere)
   }
   across <- plane_path(sphere, from, to, 1)
-  expect_lt(across$z[nrow(across) %/% 2], -0.2) # right-handed about (-1, 1, 0): outwards turns to -z
+  # right-handed about (-1, 1, 0): outwards turns to -z
+  expect_lt(across$z[nrow(across) %/% 2], -0.2)
 })
 
 test_that("ends are exact, whether in a face, on an edge, at a corner or on the border", {
   mesh <- grid_mesh(11)
-  start <- list(face = c(2.3, 5.2), edge = c(2.5, 5), diagonal = c(2.5, 4.5), corner = c(2, 5), border = c(0, 4.4), outer = c(0, 5))
-  end <- list(face = c(8.1, 4.6), edge = c(8, 5.5), diagonal = c(8.25, 5.75), corner = c(8, 3), border = c(10, 6.1), outer = c(10, 5))
+  start <- list(face = c(2.3, 5.2), edge = c(2.5, 5), diagonal = c(2.5, 4.5), corner = c(2, 5),
+                border = c(0, 4.4), outer = c(0, 5))
+  end <- list(face = c(8.1, 4.6), edge = c(8, 5.5), diagonal = c(8.25, 5.75), corner = c(8, 3),
+              border = c(10, 6.1), outer = c(10, 5))
   for (a in start) for (b in end) {
     path <- plane_path(mesh, c(a, 0), c(b, 0))
     expect_equal(unlist(path[1, c("x", "y", "z")]), c(a, 0), tolerance = 1e-12, ignore_attr = TRUE)
-    expect_equal(unlist(path[nrow(path), c("x", "y", "z")]), c(b, 0), tolerance = 1e-12, ignore_attr = TRUE)
+    expect_equal(unlist(path[nrow(path), c("x", "y", "z")]), c(b, 0), tolerance = 1e-12,
+                 ignore_attr = TRUE)
     expect_equal(attr(path, "length"), sqrt(sum((b - a)^2)), tolerance = 1e-5)
     expect_path_on_mesh(path, mesh, tolerance = 2e-6)
   }
@@ -79,20 +85,24 @@ test_that("both ends in one triangle: a single straight step", {
   expect_identical(nrow(path), 2L)
   expect_equal(attr(path, "length"), sqrt(0.05))
   expect_path_on_mesh(path, mesh)
-  expect_error(plane_path(mesh, c(1.1, 1.1, 0), c(1.3, 1.2, 0), side = 1), class = "crestline_path_error")
+  expect_error(plane_path(mesh, c(1.1, 1.1, 0), c(1.3, 1.2, 0), side = 1),
+               class = "crestline_path_error")
 })
 
 test_that("a hole between the points is an error that names landmarks and specimen", {
   torn <- with_hole(grid_mesh(11), 5, 5, 1.5)
   expect_error(plane_path(torn, c(1, 5.1, 0), c(9, 5.1, 0)), class = "crestline_path_error")
-  scan <- specimen(torn, rbind(left = c(1, 5.1, 0), right = c(9, 5.1, 0)), id = "torn", outward = "keep")
-  error <- expect_crestline_error(plane_path(scan, "left", "right"), c("left", "right", "border", "torn", "hole"), id = "torn")
+  scan <- specimen(torn, rbind(left = c(1, 5.1, 0), right = c(9, 5.1, 0)), id = "torn",
+                   outward = "keep")
+  error <- expect_crestline_error(plane_path(scan, "left", "right"),
+                                  c("left", "right", "border", "torn", "hole"), id = "torn")
   expect_s3_class(error, "crestline_path_error")
 })
 
 test_that("the way round a border is an error, the way past it is not", {
   mesh <- grid_mesh(11)
-  expect_error(plane_path(mesh, c(4, 5.1, 0), c(6, 5.1, 0), side = 1), "border", class = "crestline_path_error")
+  expect_error(plane_path(mesh, c(4, 5.1, 0), c(6, 5.1, 0), side = 1), "border",
+               class = "crestline_path_error")
 })
 
 test_that("a cut that comes round without the second point is an error", {
@@ -102,8 +112,10 @@ test_that("a cut that comes round without the second point is an error", {
 
 test_that("a cut beyond `reach` is given up", {
   sphere <- ball()
-  expect_error(plane_path(sphere, c(1, 0, 0), c(0, 1, 0), side = 1, reach = 0.5), "strays too far", class = "crestline_path_error")
-  expect_equal(attr(plane_path(sphere, c(1, 0, 0), c(0, 1, 0), reach = 0.5), "length"), pi / 2, tolerance = 2e-3)
+  expect_error(plane_path(sphere, c(1, 0, 0), c(0, 1, 0), side = 1, reach = 0.5), "strays too far",
+               class = "crestline_path_error")
+  expect_equal(attr(plane_path(sphere, c(1, 0, 0), c(0, 1, 0), reach = 0.5), "length"), pi / 2,
+               tolerance = 2e-3)
 })
 
 test_that("the same point twice, and points on two pieces, are refused", {
@@ -111,18 +123,21 @@ test_that("the same point twice, and points on two pieces, are refused", {
   error <- expect_crestline_error(plane_path(sphere, c(1, 0, 0), c(1, 0, 0)), "same point")
   expect_s3_class(error, "crestline_path_error")
   second <- sphere$vb + c(5, 0, 0, 0)
-  two <- rgl::mesh3d(vertices = cbind(sphere$vb, second), triangles = cbind(sphere$it, sphere$it + ncol(sphere$vb)))
+  two <- rgl::mesh3d(vertices = cbind(sphere$vb, second),
+                     triangles = cbind(sphere$it, sphere$it + ncol(sphere$vb)))
   error <- expect_crestline_error(plane_path(two, c(1, 0, 0), c(5, 1, 0)), "different pieces")
   expect_s3_class(error, "crestline_path_error")
 })
 
 test_that("an end that is no place is refused in words", {
   sphere <- ball()
-  expect_crestline_error(plane_path(sphere, "pn", c(1, 0, 0)), c("`from`", "pn", "three finite co-ordinates"))
+  expect_crestline_error(plane_path(sphere, "pn", c(1, 0, 0)),
+                         c("`from`", "pn", "three finite co-ordinates"))
   expect_crestline_error(plane_path(sphere, c(1, 0, 0), c(1, NA, 0)), "`to`")
   expect_crestline_error(plane_path(sphere, c(1, 0, 0), c(1, 0)), "`to`")
   expect_crestline_error(plane_path(sphere, c(1, 0, 0), c(0, 1, 0), angle = "steep"), "`angle`")
-  expect_crestline_error(plane_path(specimen(sphere, id = "round"), "pn", c(1, 0, 0)), "pn", id = "round")
+  expect_crestline_error(plane_path(specimen(sphere, id = "round"), "pn", c(1, 0, 0)), "pn",
+                         id = "round")
 })
 
 test_that("ends may be points of the surface, as a row of a path", {
@@ -140,7 +155,8 @@ test_that("ends along the axis of their own normals still have a plane", {
 })
 
 test_that("a path prints its length and angle", {
-  expect_output(print(plane_path(grid_mesh(11), c(1, 5.1, 0), c(9, 5.1, 0), angle = pi / 6)), "length 8, angle 30.0 degrees")
+  expect_output(print(plane_path(grid_mesh(11), c(1, 5.1, 0), c(9, 5.1, 0), angle = pi / 6)),
+                "length 8, angle 30.0 degrees")
 })
 
 test_that("ends that are one point to the precision of their triangle are refused", {
@@ -155,11 +171,13 @@ test_that("side is 0 or 1", {
   expect_crestline_error(plane_path(ball(), c(1, 0, 0), c(0, 1, 0), side = 2), "`side`")
 })
 
-test_that("at an end on a corner the normal is of all the faces there, whichever of them it was put in", {
+test_that("at an end on a corner the normal is of all faces there, whichever it was put in", {
   mesh <- bent_ridge(noise = 0.2)$mesh
   surface <- walkable(mesh)
   corner <- function(i, face) t(mesh$vb[1:3, mesh$it[i, face], drop = FALSE])
-  area_normal <- function(face) cross_rows(corner(2, face) - corner(1, face), corner(3, face) - corner(1, face))
+  area_normal <- function(face) {
+    cross_rows(corner(2, face) - corner(1, face), corner(3, face) - corner(1, face))
+  }
   unit <- function(x) x / sqrt(sum(x^2))
   other <- 1000L
   for (vertex in c(1, 20, 700)) {
@@ -168,7 +186,8 @@ test_that("at an end on a corner the normal is of all the faces there, whichever
     normal_of <- function(v) unit(colSums(area_normal(which(colSums(mesh$it == v) > 0))))
     far <- unit(rowMeans(vapply(mesh$it[, other], normal_of, numeric(3))))
     for (face in about) {
-      axis <- cpp_cut_axis(surface$vb, surface$it, surface$twin, as.double(c(face, mesh$it[, face] == vertex)),
+      axis <- cpp_cut_axis(surface$vb, surface$it, surface$twin,
+                           as.double(c(face, mesh$it[, face] == vertex)),
                            c(other, 1 / 3, 1 / 3, 1 / 3))
       wanted <- cross_product(axis$axis, own + far)
       expect_equal(axis$across, unit(wanted), tolerance = 1e-10)
@@ -184,7 +203,9 @@ grid_without <- function(n, gone) {
   specimen(mesh, id = "grid", outward = "keep")
 }
 
-loops_of <- function(specimen) lapply(cpp_border_loops(specimen$geometry$twin), function(loop) specimen$mesh$it[loop])
+loops_of <- function(specimen) {
+  lapply(cpp_border_loops(specimen$geometry$twin), function(loop) specimen$mesh$it[loop])
+}
 
 test_that("the loops of the border follow it round, outside and inside", {
   loops <- loops_of(grid_without(6, function(x, y) x > 2 & x < 3 & y > 2 & y < 3))
@@ -194,9 +215,11 @@ test_that("the loops of the border follow it round, outside and inside", {
 })
 
 test_that("holes that meet in one vertex are bridged each", {
-  scan <- grid_without(6, function(x, y) (x > 1 & x < 2 & y > 1 & y < 2) | (x > 2 & x < 3 & y > 2 & y < 3))
+  scan <- grid_without(6, function(x, y) (x > 1 & x < 2 & y > 1 & y < 2) |
+                          (x > 2 & x < 3 & y > 2 & y < 3))
   bridged <- bridge_holes(scan, 0.3)
-  expect_equal(bridged$mesh$vb[1:2, 37:38][, order(bridged$mesh$vb[1, 37:38])], cbind(c(1.5, 1.5), c(2.5, 2.5)))
+  expect_equal(bridged$mesh$vb[1:2, 37:38][, order(bridged$mesh$vb[1, 37:38])],
+               cbind(c(1.5, 1.5), c(2.5, 2.5)))
   expect_equal(sum(bridged$geometry$twin == 0), 20)
   expect_equal(simple_loops(c(1, 2, 3, 2, 4, 5, 4)), list(c(2, 3), c(4, 5), c(1, 2, 4)))
 })

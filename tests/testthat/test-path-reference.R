@@ -1,6 +1,6 @@
 quietly <- function(code) suppressWarnings(code, classes = "crestline_rival_path")
 
-test_that("the shortest cut of a sphere is the great circle, of a cylinder it is between line and circle", {
+test_that("a sphere's shortest cut is the great circle, a cylinder's between line and circle", {
   path <- quietly(reference_path(ball(), c(1, 0, 0), c(0, 1, 0), "plane"))
   expect_equal(attr(path, "length"), pi / 2, tolerance = 2e-3)
   expect_equal(attr(path, "criterion"), attr(path, "length"), tolerance = 1e-6)
@@ -22,20 +22,23 @@ test_that("no angle of a fine grid does better", {
   expect_lte(attr(path, "length"), min(lengths) + 1e-9)
 })
 
-test_that("the ridge's cut gathers most strength: it goes out to the ridge beside the straight line", {
+test_that("the ridge's cut gathers most strength: it goes out to the ridge beside the line", {
   aside <- arched_ridges(4, 2)
   curved <- curvature(aside, 3)
   shortest <- quietly(reference_path(aside, "a", "b", "plane"))
-  path <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, settings = path_settings(longest = 1.5))
+  path <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved,
+                         settings = path_settings(longest = 1.5))
   expect_gt(max(path$y), 2)
   expect_identical(attr(path, "type"), "ridge")
   expect_path_on_mesh(path, aside$mesh)
   strength <- pmax(-curved$k2, 0) * (curved$k1 + curved$k2 < 0)
   mean_along <- function(p) {
-    at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) * matrix(strength[t(aside$mesh$it[, p$face])], ncol = 3))
+    at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) *
+                  matrix(strength[t(aside$mesh$it[, p$face])], ncol = 3))
     sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / attr(p, "length")
   }
-  fine <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved, settings = path_settings(longest = 1.5, spacing = 1e-3))
+  fine <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved,
+                         settings = path_settings(longest = 1.5, spacing = 1e-3))
   expect_equal(attr(fine, "criterion"), mean_along(fine), tolerance = 1e-4)
   expect_equal(attr(path, "criterion"), mean_along(path), tolerance = 0.03)
   expect_gt(mean_along(path), 1.05 * mean_along(shortest))
@@ -46,7 +49,8 @@ test_that("`longest` holds a cut to the length of the shortest", {
   curved <- curvature(aside, 3)
   shortest <- attr(quietly(reference_path(aside, "a", "b", "plane")), "length")
   for (limit in c(1.01, 1.05)) {
-    path <- quietly(reference_path(aside, "a", "b", "ridge", 3, curvature = curved, settings = path_settings(longest = limit)))
+    path <- quietly(reference_path(aside, "a", "b", "ridge", 3, curvature = curved,
+                                   settings = path_settings(longest = limit)))
     expect_lte(attr(path, "length"), limit * shortest * 1.001)
   }
 })
@@ -54,8 +58,10 @@ test_that("`longest` holds a cut to the length of the shortest", {
 test_that("the radius is that of the curvature that is given, else it is asked for", {
   bent <- bent_ridge()
   curved <- curvature(bent, 4)
-  expect_equal(reference_path(bent, "a", "b", "ridge", curvature = curved), reference_path(bent, "a", "b", "ridge", 4, curvature = curved))
-  expect_crestline_error(reference_path(bent, "a", "b", "ridge"), c("`radius` is NULL", "finite number"))
+  expect_equal(reference_path(bent, "a", "b", "ridge", curvature = curved),
+               reference_path(bent, "a", "b", "ridge", 4, curvature = curved))
+  expect_crestline_error(reference_path(bent, "a", "b", "ridge"),
+                         c("`radius` is NULL", "finite number"))
 })
 
 test_that("curvature that is given is used, and the same as estimated on the way", {
@@ -67,16 +73,19 @@ test_that("curvature that is given is used, and the same as estimated on the way
 test_that("keep_away() turns the path from one ridge to the other", {
   twin <- arched_ridges(3.4, 3)
   curved <- curvature(twin, 2.5)
-  left <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, settings = path_settings(longest = 2)))
+  left <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved,
+                                 settings = path_settings(longest = 2)))
   expect_gt(max(left$y), 2)
   region <- keep_away(c(-13, 4, 3), c(13, 4, 3), radius = 0.13)
-  right <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved, keep_away = region, settings = path_settings(longest = 2)))
+  right <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved,
+                                  keep_away = region, settings = path_settings(longest = 2)))
   expect_lt(min(right$y), -2)
 })
 
 test_that("optima hold every local optimum, best first, with angles in (-pi/2, pi/2]", {
   twin <- arched_ridges(3.2, 2)
-  path <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2)))
+  path <- quietly(reference_path(twin, "a", "b", "ridge", 2.5,
+                                 settings = path_settings(longest = 2)))
   optima <- attr(path, "optima")
   expect_named(optima, c("angle", "side", "criterion", "length"))
   expect_true(all(optima$angle > -pi / 2 & optima$angle <= pi / 2))
@@ -94,13 +103,18 @@ test_that("optima hold every local optimum, best first, with angles in (-pi/2, p
 
 test_that("two ridges nearly alike are warned of, with both angles", {
   twin <- arched_ridges(3, 3)
-  warning <- expect_warning(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2, rival = 0.3)),
+  warning <- expect_warning(reference_path(twin, "a", "b", "ridge", 2.5,
+                                           settings = path_settings(longest = 2, rival = 0.3)),
                             class = "crestline_rival_path")
   expect_match(conditionMessage(warning), "nearly as good: at -?[0-9]+ and -?[0-9]+ degrees")
   expect_match(conditionMessage(warning), "a to b")
   expect_identical(warning$id, "graph")
-  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2, rival = 0.15)), class = "crestline_rival_path")
-  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5, settings = path_settings(longest = 2, rival = 0.3, distinct = 1.2)),
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5,
+                                   settings = path_settings(longest = 2, rival = 0.15)),
+                    class = "crestline_rival_path")
+  expect_no_warning(reference_path(twin, "a", "b", "ridge", 2.5,
+                                   settings = path_settings(longest = 2, rival = 0.3,
+                                                            distinct = 1.2)),
                     class = "crestline_rival_path")
 })
 
@@ -122,18 +136,22 @@ test_that("errors name the landmarks, the specimen and what to do", {
   torn <- graph_specimen(quote(0 * u), two_ends())
   middle <- which(torn$mesh$vb[1, ] > -1.5 & torn$mesh$vb[1, ] < 1.5 & abs(torn$mesh$vb[2, ]) < 17)
   it <- torn$mesh$it
-  gap <- specimen(rgl::mesh3d(vertices = torn$mesh$vb, triangles = it[, colSums(matrix(it %in% middle, 3)) == 0]),
+  gap <- specimen(rgl::mesh3d(vertices = torn$mesh$vb,
+                              triangles = it[, colSums(matrix(it %in% middle, 3)) == 0]),
                   torn$landmarks, id = "gap", outward = "keep")
-  error <- expect_crestline_error(reference_path(gap, "a", "b", "plane"), c("no plane cut joins a and b", "hole"), id = "gap")
+  error <- expect_crestline_error(reference_path(gap, "a", "b", "plane"),
+                                  c("no plane cut joins a and b", "hole"), id = "gap")
   expect_s3_class(error, "crestline_path_error")
   expect_crestline_error(reference_path(torn, "a", "b", "crest"), "crest")
   expect_crestline_error(reference_path(torn, "a", "c", "plane"), "no landmark c", id = "graph")
-  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = list()), "`curvature`")
+  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = list()),
+                         "`curvature`")
   other <- curvature(ball(), 0.5)
-  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = other), c("vertices", "own mesh"), id = "graph")
+  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = other),
+                         c("vertices", "own mesh"), id = "graph")
 })
 
-test_that("strength is taken no further apart than asked, and the mean comes to that along every edge crossed", {
+test_that("strength is taken no further apart than asked; the mean is that of every edge", {
   aside <- arched_ridges(4, 2)
   surface <- walkable(aside)
   ends <- located_ends(aside, surface, "a", "b")
@@ -150,16 +168,19 @@ test_that("strength is taken no further apart than asked, and the mean comes to 
 })
 
 test_that("angles wrap into the half turn", {
-  expect_equal(wrap_angle(c(-pi / 2, pi / 2, pi, 0.1, 3 * pi / 4)), c(pi / 2, pi / 2, 0, 0.1, -pi / 4))
+  expect_equal(wrap_angle(c(-pi / 2, pi / 2, pi, 0.1, 3 * pi / 4)),
+               c(pi / 2, pi / 2, 0, 0.1, -pi / 4))
 })
 
-test_that("of planes that gather the same the shortest cut is taken, not one that nearly touches the surface", {
-  straight <- simulate_ridge(0, 2, jitter = 0.2, seed = 46) # every plane through it cuts along the ridge
+test_that("of planes that gather the same the shortest is taken, not one that nearly touches", {
+  # every plane through it cuts along the ridge
+  straight <- simulate_ridge(0, 2, jitter = 0.2, seed = 46)
   path <- reference_path(straight, "from", "to", "ridge", radius = 0.25)
   optima <- attr(path, "optima")
   expect_gt(nrow(optima), 1)
   expect_lt(optima$length[1], min(optima$length[-1]))
-  best <- reference_path(straight, "from", "to", "ridge", radius = 0.25, settings = path_settings(tie = 0))
+  best <- reference_path(straight, "from", "to", "ridge", radius = 0.25,
+                         settings = path_settings(tie = 0))
   expect_gt(attr(best, "criterion"), attr(path, "criterion"))
   expect_gt(attr(path, "criterion"), (1 - 0.002) * attr(best, "criterion"))
 })
@@ -179,10 +200,12 @@ test_that("outside its trusted part the path is the shortest cut", {
 
 test_that("ridge_curve() believes the part that it is told, as a scheme does", {
   face <- straight_ridge()
-  scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25, trust_to = 0.75)
+  scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25,
+                        trust_to = 0.75)
   shape <- fit_shape(face, scheme, progress = FALSE)
   curve <- curve_of(face, "a", "b", "ridge", radius = 6, width = 6, n = 9, trust = c(0.25, 0.75))
-  expect_equal(unname(coords(shape, "curves")), unname(as.matrix(curve$points[c("x", "y", "z")])), tolerance = 1e-9)
+  expect_equal(unname(coords(shape, "curves")), unname(as.matrix(curve$points[c("x", "y", "z")])),
+               tolerance = 1e-9)
   whole <- curve_of(face, "a", "b", "ridge", radius = 6, width = 6, n = 9)
   expect_null(attr(whole$reference, "trusted"))
   expect_length(attr(curve$reference, "trusted"), 2)
@@ -193,20 +216,25 @@ test_that("ridge_curve() believes the part that it is told, as a scheme does", {
 
 test_that("the demo's eye sockets keep to the lower lid, as those of the face's scheme do", {
   face <- specimen(humface_scan(), humface_landmarks(), id = "humface")
-  rows <- read.csv(system.file("extdata", "demo_curves.csv", package = "crestline"), na.strings = "")
+  rows <- read.csv(system.file("extdata", "demo_curves.csv", package = "crestline"),
+                   na.strings = "")
   scheme <- face_scheme()
   for (name in c("lower eye socket left", "lower eye socket right")) {
     row <- rows[rows$curve == name, ]
     side <- keep_side(row$keep_from, row$keep_to, row$keep_towards)
-    curve <- ridge_curve(face, row$from, row$to, row$kind, row$radius, row$half_width, row$n, side, trust = c(0, row$trust_to))
+    curve <- ridge_curve(face, row$from, row$to, row$kind, row$radius, row$half_width, row$n, side,
+                         trust = c(0, row$trust_to))
     own <- scheme$curves[scheme$curves$curve == name, ]
-    expect_equal(c(row$radius, row$half_width, row$n, row$trust_to), c(own$radius, own$width, own$n, own$trust_to))
-    # The line between the corners bulges down by a quarter of its length at most; a curl at the corner goes up.
+    expect_equal(c(row$radius, row$half_width, row$n, row$trust_to),
+                 c(own$radius, own$width, own$n, own$trust_to))
+    # The line between the corners bulges down by a quarter of its length at most; a curl at the
+    # corner goes up.
     corners <- face$landmarks[c(row$from, row$to), ]
     up <- corners[1, ] - face$landmarks[row$keep_towards, ]
     along <- corners[2, ] - corners[1, ]
     up <- up - sum(up * along) / sum(along^2) * along
-    height <- sweep(as.matrix(curve$path[c("x", "y", "z")]), 2, corners[1, ]) %*% up / sqrt(sum(up^2))
+    height <- sweep(as.matrix(curve$path[c("x", "y", "z")]), 2, corners[1, ]) %*% up /
+      sqrt(sum(up^2))
     expect_lt(max(height), 0.5)
   }
 })

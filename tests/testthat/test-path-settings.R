@@ -17,7 +17,8 @@ test_that("search constants as arguments of their own still work, with a message
                  "path_settings(longest = )", fixed = TRUE, class = "crestline_deprecated")
   today <- reference_path(bent, "a", "b", "ridge", 4, settings = path_settings(longest = 1.1))
   expect_identical(former, today)
-  expect_crestline_error(reference_path(bent, "a", "b", "plane", longst = 1), c("`longst`", "longest"))
+  expect_crestline_error(reference_path(bent, "a", "b", "plane", longst = 1),
+                         c("`longst`", "longest"))
   expect_crestline_error(reference_path(bent, "a", "b", "plane", longest = 0), "`longest`")
   expect_crestline_error(reference_path(bent, "a", "b", "plane", settings = list()),
                          c("`settings`", "path_settings()"))

@@ -2,7 +2,7 @@ quarter <- function() plane_path(Rvcg::vcgSphere(4), c(1, 0, 0), c(0, 1, 0))
 
 steps <- function(path) sqrt(rowSums(diff(as.matrix(as.data.frame(path)[c("x", "y", "z")]))^2))
 
-test_that("a part of a path has its own length, arc lengths from 0, and nothing that was true of the whole", {
+test_that("a part of a path has its own length, arc lengths from 0, nothing of the whole", {
   path <- quarter()
   part <- path[5:20, ]
   expect_s3_class(part, "mesh_path")
@@ -42,7 +42,7 @@ test_that("straight steps count where points are left out; one point and none ha
   expect_crestline_error(path[nrow(path) + 1, ], "no such rows")
 })
 
-test_that("the whole path stays what it is, and a path without one of its columns is a plain data frame", {
+test_that("the whole path stays; without one of its columns it is a plain data frame", {
   path <- quarter()
   expect_identical(attributes(path[]), attributes(path))
   expect_identical(path[seq_len(nrow(path)), ], path)
@@ -130,7 +130,8 @@ test_that("points have equal chords, the ends exactly, all on the path and the m
     expect_identical(nrow(points), as.integer(n))
     expect_true(attr(points, "converged"))
     expect_lt(max(chords(points)) / min(chords(points)) - 1, 1e-8)
-    expect_identical(xyz_of(points)[c(1, n), ], xyz_of(b$path)[c(1, nrow(b$path)), ], ignore_attr = TRUE)
+    expect_identical(xyz_of(points)[c(1, n), ], xyz_of(b$path)[c(1, nrow(b$path)), ],
+                     ignore_attr = TRUE)
     expect_identical(points$s[c(1, n)], c(0, attr(b$path, "length")))
     expect_on_mesh(points, b$mesh)
     expect_lt(max(distance_from_line(xyz_of(points), xyz_of(b$path))), 1e-9)
@@ -142,7 +143,8 @@ test_that("a straight path gives equal steps, a half circle the polygon's corner
   points <- resample_path(mesh, plane_path(mesh, c(1, 5.2, 0), c(9, 5.2, 0)), 5)
   expect_equal(points$x, c(1, 3, 5, 7, 9), tolerance = 1e-9)
   angle <- seq(0, pi, length.out = 2001)
-  circle <- structure(data.frame(s = c(0, cumsum(rep(2 * sin(pi / 4000), 2000))), x = cos(angle), y = sin(angle), z = 0),
+  circle <- structure(data.frame(s = c(0, cumsum(rep(2 * sin(pi / 4000), 2000))), x = cos(angle),
+                                 y = sin(angle), z = 0),
                       length = 2000 * 2 * sin(pi / 4000))
   at <- points_along(circle, attr(circle, "length") * (0:4) / 4)
   expect_equal(at[, 1], cos(pi * (0:4) / 4), tolerance = 1e-6, ignore_attr = TRUE)
@@ -165,6 +167,7 @@ test_that("places between two points lie in the face of their segment", {
 test_that("weights in a face are barycentric, and clamped outside", {
   mesh <- grid_mesh(3)
   corners <- t(mesh$vb[1:3, mesh$it[, 1]])
-  expect_equal(weights_in_faces(mesh, 1, rbind(c(0.2, 0.3, 0.5) %*% corners)), rbind(c(0.2, 0.3, 0.5)), ignore_attr = TRUE)
+  expect_equal(weights_in_faces(mesh, 1, rbind(c(0.2, 0.3, 0.5) %*% corners)),
+               rbind(c(0.2, 0.3, 0.5)), ignore_attr = TRUE)
   expect_true(all(weights_in_faces(mesh, 1, rbind(c(-5, -5, 0))) >= 0))
 })

@@ -3,7 +3,8 @@ test_that("doubtful landmarks are refused by the specimen's name, with a picture
   expect_identical(check_placing(face), face)
   picture <- tempfile(fileext = ".png")
   face$placing$confidence[face$placing$landmark %in% c("pn", "exL")] <- 0.2
-  expect_crestline_error(check_placing(face, picture = picture), c("2 of 19", "pn (0.2)", "exL (0.2)", picture), id = "humface")
+  expect_crestline_error(check_placing(face, picture = picture),
+                         c("2 of 19", "pn (0.2)", "exL (0.2)", picture), id = "humface")
   expect_gt(file.size(picture), 1e4)
   unlink(picture)
   expect_s3_class(check_placing(face, doubtful = 0.2), "specimen")
@@ -36,7 +37,7 @@ test_that("meshes without landmarks go through a batch; those that fail say so",
   unlink(folder, recursive = TRUE)
 })
 
-test_that("in a batch a landmark with little confidence costs what hangs on it, and most of them the specimen", {
+test_that("in a batch a doubtful landmark costs what hangs on it, most of them the specimen", {
   finder <- function(doubtful = 0) list(doubtful = doubtful, picture = tempfile(fileext = ".png"))
   given <- found_lines()
   doubted <- function(names) {
@@ -49,6 +50,7 @@ test_that("in a batch a landmark with little confidence costs what hangs on it, 
   expect_false(anyNA(one$landmarks[c("chR", "n"), ]))
   expect_false(anyNA(without_doubted(doubted("pn"), finder(0.2))$landmarks["pn", ]))
   used <- finder()
-  expect_crestline_error(without_doubted(doubted(given$placing$landmark[1:13]), used), c("13 of 19", used$picture))
+  expect_crestline_error(without_doubted(doubted(given$placing$landmark[1:13]), used),
+                         c("13 of 19", used$picture))
   unlink(used$picture)
 })

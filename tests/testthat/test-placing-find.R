@@ -2,7 +2,8 @@
 found_humface <- local({
   found <- NULL
   function() {
-    if (is.null(found)) found <<- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
+    if (is.null(found))
+      found <<- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
     found
   }
 })
@@ -21,8 +22,10 @@ test_that("the landmarks of a face are found near those placed by hand, with the
   expect_lt(face$match$score, 0.5)
   expect_equal(face$match$unit, 1)
   # On the surface, located once.
-  expect_equal(as.matrix(surface_points(face$mesh, face$landmarks[inner, ])[1:3]), face$landmarks[inner, ], ignore_attr = TRUE)
-  expect_equal(landmark_point(face, "pn")[c("x", "y", "z")], as.data.frame(face$landmarks["pn", , drop = FALSE]), ignore_attr = TRUE)
+  expect_equal(as.matrix(surface_points(face$mesh, face$landmarks[inner, ])[1:3]),
+               face$landmarks[inner, ], ignore_attr = TRUE)
+  expect_equal(landmark_point(face, "pn")[c("x", "y", "z")],
+               as.data.frame(face$landmarks["pn", , drop = FALSE]), ignore_attr = TRUE)
 })
 
 test_that("neither pose, unit nor the sense of the triangles changes what is found", {
@@ -55,7 +58,8 @@ test_that("where the scan has no surface landmarks are absent, the others stay",
 test_that("what is no face is refused, with name and remedy", {
   ball <- ball_mesh(5)
   ball$vb[1:3, ] <- 100 * ball$vb[1:3, ]
-  expect_crestline_error(find_landmarks(ball, id = "ball"), c("nothing on it is like the template face", "by hand"), id = "ball")
+  expect_crestline_error(find_landmarks(ball, id = "ball"),
+                         c("nothing on it is like the template face", "by hand"), id = "ball")
 })
 
 test_that("similarities are found exactly", {
@@ -68,7 +72,7 @@ test_that("similarities are found exactly", {
   expect_equal(apply_similarity(from, by), to)
 })
 
-test_that("where most landmarks have little confidence there is a warning, and the match is doubtful", {
+test_that("if most landmarks have little confidence, a warning; the match is doubtful", {
   face <- found_humface()
   expect_false(face$match$doubtful)
   expect_equal(placing_doubt(face$placing)$of, 19)
@@ -79,14 +83,17 @@ test_that("where most landmarks have little confidence there is a warning, and t
   head <- dummyhead.mesh
   middle <- rowMeans(head$vb[1:3, ])
   front <- unit_vector(colMeans(at[c("pn", "sn", "n", "exL", "exR"), ]) - middle)
-  head <- keep_vertices(list(vb = head$vb, it = head$it), drop(front %*% (head$vb[1:3, ] - middle)) < -10)
+  head <- keep_vertices(list(vb = head$vb, it = head$it),
+                        drop(front %*% (head$vb[1:3, ] - middle)) < -10)
   head <- structure(head, class = "mesh3d")
-  expect_warning(behind <- find_landmarks(head, id = "behind", settings = lenient), "specimen behind.*little confidence",
-                 class = "crestline_doubtful_placing")
+  expect_warning(behind <- find_landmarks(head, id = "behind", settings = lenient),
+                 "specimen behind.*little confidence", class = "crestline_doubtful_placing")
   expect_true(behind$match$doubtful)
   expect_gt(placing_doubt(behind$placing)$share, 0.6)
   expect_output(print(behind), "the template lies badly on it", fixed = TRUE)
-  expect_warning(find_landmarks(humface_scan(), settings = find_settings(points = 1000, warp_steps = 10, low = 0.99)),
+  expect_warning(find_landmarks(humface_scan(),
+                                settings = find_settings(points = 1000, warp_steps = 10,
+                                                         low = 0.99)),
                  class = "crestline_doubtful_placing")
 })
 

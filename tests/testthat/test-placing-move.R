@@ -21,7 +21,7 @@ test_that("one is added to a specimen that has none, and taken away", {
   expect_crestline_error(landmark_point(none, "top"), "missing")
 })
 
-test_that("the placing says what became of it, and checks have no doubts about what a person placed", {
+test_that("the placing says what became of it; checks do not doubt what a person placed", {
   face <- find_landmarks(humface_scan(), id = "humface", settings = quick_settings())
   face$placing$confidence <- ifelse(face$placing$landmark %in% c("pn", "exL"), 0.2, 1)
   expect_crestline_error(check_placing(face), c("2 of 19", "pn (0.2)"))
@@ -35,6 +35,7 @@ test_that("the placing says what became of it, and checks have no doubts about w
   expect_equal(gone$placing$state[gone$placing$landmark == "exL"], "absent")
   expect_identical(check_placing(gone), gone)
   added <- move_landmark(gone, "mole", landmark_point(face, "sn"))
-  expect_equal(unlist(utils::tail(added$placing[c("landmark", "state")], 1)), c(landmark = "mole", state = "placed"))
+  expect_equal(unlist(utils::tail(added$placing[c("landmark", "state")], 1)),
+               c(landmark = "mole", state = "placed"))
   expect_equal(nrow(move_landmark(added, "mole", NULL)$placing), nrow(face$placing) + 1)
 })

@@ -3,9 +3,11 @@ lump <- function(n = 4) {
   mesh <- Rvcg::vcgSphere(n)
   at <- mesh$vb[1:3, ]
   bump <- function(place, height, width) height * exp(-colSums((at - place)^2) / (2 * width^2))
-  r <- 60 + bump(c(0, 0, 1), 25, 0.15) + bump(c(0, 0.8, 0.6), 12, 0.2) + bump(c(0.7, -0.2, 0.68), 15, 0.12)
+  r <- 60 + bump(c(0, 0, 1), 25, 0.15) + bump(c(0, 0.8, 0.6), 12, 0.2) +
+    bump(c(0.7, -0.2, 0.68), 15, 0.12)
   mesh$vb[1:3, ] <- rep(r, each = 3) * at * c(0.75, 1.25, 1)
-  specimen(mesh, rbind(a = c(0, 0, 85), b = c(0, 72, 43), c = c(40, -18, 51), d = c(0, -75, 0)), id = "lump", tolerance = 0.2)
+  specimen(mesh, rbind(a = c(0, 0, 85), b = c(0, 72, 43), c = c(40, -18, 51), d = c(0, -75, 0)),
+           id = "lump", tolerance = 0.2)
 }
 
 test_that("a known pose is found again, scale and all", {
@@ -48,8 +50,10 @@ test_that("the best pose of trimmed matches is Horn's", {
   normal <- with_seed(5, apply(matrix(stats::rnorm(300), 3), 2, function(x) x / sqrt(sum(x^2))))
   angle <- 0.05
   turn <- rbind(c(cos(angle), -sin(angle), 0), c(sin(angle), cos(angle), 0), c(0, 0, 1))
-  settings <- list(reach = c(20, 5), steps = 10L, cosine = 0.5, kept = 0.9, scale = c(0.9, 1.1), saturation = 5, spacing = 1)
-  found <- cpp_fit_poses(own, normal, 1.03 * turn %*% own + c(1, 2, 3), turn %*% normal, matrix(c(diag(3), 0, 0, 0, 1)), settings)
+  settings <- list(reach = c(20, 5), steps = 10L, cosine = 0.5, kept = 0.9, scale = c(0.9, 1.1),
+                   saturation = 5, spacing = 1)
+  found <- cpp_fit_poses(own, normal, 1.03 * turn %*% own + c(1, 2, 3), turn %*% normal,
+                         matrix(c(diag(3), 0, 0, 0, 1)), settings)
   expect_equal(found$poses[, 1], c(turn, 1, 2, 3, 1.03), tolerance = 1e-8)
   expect_lt(found$score, 1e-8)
 })

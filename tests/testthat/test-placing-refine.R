@@ -13,13 +13,16 @@ test_that("a face is reported, not moved, unless asked; moved landmarks stay whe
   expect_on_mesh(table, face$mesh)
   given <- face$landmarks[table$landmark, ]
   expect_equal(as.matrix(table[given_columns]), given, ignore_attr = TRUE)
-  expect_equal(table$distance, row_lengths(as.matrix(table[c("x", "y", "z")]) - given), ignore_attr = TRUE)
+  expect_equal(table$distance, row_lengths(as.matrix(table[c("x", "y", "z")]) - given),
+               ignore_attr = TRUE)
   moved <- refine_landmarks(face, face_scheme(), move = TRUE)
-  expect_equal(moved$landmarks[table$landmark, ], as.matrix(table[c("x", "y", "z")]), ignore_attr = TRUE)
+  expect_equal(moved$landmarks[table$landmark, ], as.matrix(table[c("x", "y", "z")]),
+               ignore_attr = TRUE)
   others <- setdiff(rownames(face$landmarks), table$landmark)
   expect_identical(moved$landmarks[others, ], face$landmarks[others, ])
   expect_lt(max(refine_landmarks(moved, face_scheme())$refinement$distance), 1e-3)
-  expect_equal(landmark_point(moved, "st")[mesh_columns], table[table$landmark == "st", mesh_columns], ignore_attr = TRUE)
+  expect_equal(landmark_point(moved, "st")[mesh_columns],
+               table[table$landmark == "st", mesh_columns], ignore_attr = TRUE)
 })
 
 test_that("landmarks that are put elsewhere come to the same places", {
@@ -33,22 +36,25 @@ test_that("landmarks that are put elsewhere come to the same places", {
   }
   one <- to(1)
   two <- to(2)
-  expect_gt(min(row_lengths(as.matrix(one$refinement[given_columns] - two$refinement[given_columns]))), 0.2)
+  expect_gt(
+    min(row_lengths(as.matrix(one$refinement[given_columns] - two$refinement[given_columns]))), 0.2)
   expect_lt(max(row_lengths(one$landmarks[names, ] - two$landmarks[names, ])), 0.01)
 })
 
 test_that("neither pose, unit nor the order of the vertices changes the places", {
-  at <- rbind(top = c(4, 1), west = c(-22, 1), east = c(22, 1), sideL = c(3, 10), sideR = c(3, -10), mid = c(5, 2))
+  at <- rbind(top = c(4, 1), west = c(-22, 1), east = c(22, 1), sideL = c(3, 10), sideR = c(3, -10),
+              mid = c(5, 2))
   # Symmetric about v = 0, with a knob on a ridge.
   z <- quote(2 * exp(-v^2 / 20) + 3 * exp(-((u - 3)^2 + v^2) / 50))
   tables <- function(unit) {
-    data.frame(landmark = c("top", "mid"), kind = c("cap", "profile"), radius = 5 * unit, reach = 7 * unit,
-               bend = c(NA, "out"), mirror = c(NA, "sideL"))
+    data.frame(landmark = c("top", "mid"), kind = c("cap", "profile"), radius = 5 * unit,
+               reach = 7 * unit, bend = c(NA, "out"), mirror = c(NA, "sideL"))
   }
   scheme <- function(unit) {
     curve_scheme(data.frame(landmark = rownames(at)),
                  data.frame(curve = "line", from = "west", to = "east", kind = "plane", n = 2),
-                 pairs = data.frame(level = "landmarks", left = "sideL", right = "sideR"), definitions = tables(unit))
+                 pairs = data.frame(level = "landmarks", left = "sideL", right = "sideR"),
+                 definitions = tables(unit))
   }
   face <- graph_specimen(z, at)
   before <- refine_landmarks(face, scheme(1))$refinement
@@ -59,7 +65,8 @@ test_that("neither pose, unit nor the order of the vertices changes the places",
   mesh$it[] <- new[mesh$it]
   mesh$vb[, new] <- mesh$vb
   mesh$it <- mesh$it[, rev(seq_len(ncol(mesh$it)))]
-  moved <- specimen(mesh, 0.001 * face$landmarks %*% t(turn) + rep(c(1, 2, 3), each = nrow(at)), outward = "keep")
+  moved <- specimen(mesh, 0.001 * face$landmarks %*% t(turn) + rep(c(1, 2, 3), each = nrow(at)),
+                    outward = "keep")
   after <- refine_landmarks(moved, scheme(0.001))$refinement
   back <- (as.matrix(after[c("x", "y", "z")]) - rep(c(1, 2, 3), each = 2)) %*% turn * 1000
   expect_lt(max(abs(back - as.matrix(before[c("x", "y", "z")]))), 1e-4)
@@ -73,7 +80,8 @@ test_that("a landmark that is missing is said to be; what builds on it, too", {
   state <- stats::setNames(table$state, table$landmark)
   expect_equal(unname(state[c("chL", "st", "pn")]), rep("missing", 3))
   expect_equal(unname(state[c("cphR", "chR", "cphL")]), rep("found", 3))
-  expect_true(all(is.na(table$x[table$state == "missing"])) && !any(table$moved[table$state == "missing"]))
+  expect_true(all(is.na(table$x[table$state == "missing"])) &&
+              !any(table$moved[table$state == "missing"]))
 })
 
 test_that("some may be moved, and mistakes are told", {
@@ -85,7 +93,8 @@ test_that("some may be moved, and mistakes are told", {
   expect_crestline_error(refine_landmarks(face, face_scheme(), move = 1), "`move`")
   expect_crestline_error(refine_landmarks(face, leaf_scheme()), c("leaf", "definitions"))
   none <- specimen(face$mesh, face$landmarks[c("tL", "tR"), ], id = "ears")
-  expect_crestline_error(refine_landmarks(none, face_scheme()), "none of the landmarks", id = "ears")
+  expect_crestline_error(refine_landmarks(none, face_scheme()), "none of the landmarks",
+                         id = "ears")
   expect_crestline_error(plot(face, what = "refinement"), "not refined", id = "humface")
 })
 
@@ -107,7 +116,8 @@ test_that("the places of found landmarks follow the moves, their confidence stay
   expect_equal(unlist(after[c("x", "y", "z")]), moved$landmarks["chL", ], ignore_attr = TRUE)
   expect_gt(max(abs(unlist(after[c("x", "y", "z")]) - unlist(before[c("x", "y", "z")]))), 0)
   expect_identical(after[c("state", "confidence")], before[c("state", "confidence")])
-  expect_identical(moved$placing[moved$placing$landmark == "pn", ], face$placing[face$placing$landmark == "pn", ])
+  expect_identical(moved$placing[moved$placing$landmark == "pn", ],
+                   face$placing[face$placing$landmark == "pn", ])
   expect_identical(current_placing(moved), moved$placing)
   expect_null(refine_landmarks(humface_specimen(), face_scheme(), move = "chL")$placing)
 })

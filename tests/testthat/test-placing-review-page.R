@@ -8,7 +8,8 @@ ray_to <- function(mesh, at, eye) {
 serve_review <- function(review) {
   returned <- new.env()
   shown <- shown_surface(review$specimen, "plain", 10, 60000)
-  list(server = review_server(review, shown, "front", function(specimen) returned$specimen <- specimen), returned = returned)
+  list(server = review_server(review, shown, "front", function(specimen)
+    returned$specimen <- specimen), returned = returned)
 }
 
 test_that("clicks choose and move a landmark, its curves follow, and the specimen comes back", {
@@ -30,7 +31,8 @@ test_that("clicks choose and move a landmark, its curves follow, and the specime
     session$setInputs(ray = ray(target))
     expect_equal(review()$specimen$landmarks["chL", ], target, tolerance = 1e-8)
     changed <- !mapply(identical, lapply(review()$fitting$fits, `[[`, "path"), paths)
-    expect_setequal(names(which(changed)), scheme$curves$curve[scheme$curves$from == "chL" | scheme$curves$to == "chL"])
+    expect_setequal(names(which(changed)),
+                    scheme$curves$curve[scheme$curves$from == "chL" | scheme$curves$to == "chL"])
     expect_match(as.character(output$chosen$html), "corner of the mouth")
     expect_match(as.character(output$list$html), "placed")
     session$setInputs(undo = 1)
@@ -44,7 +46,7 @@ test_that("clicks choose and move a landmark, its curves follow, and the specime
   expect_identical(served$returned$specimen$landmarks[others, ], face$landmarks[others, ])
 })
 
-test_that("placing names the next one; cancel gives back what there was, a closed page what there is", {
+test_that("placing names the next; cancel gives back what there was, closing what there is", {
   skip_if_not_installed("shiny")
   bare <- without_landmarks(quad_specimen(), quad_scheme())
   review <- begin_review(bare, quad_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
@@ -60,7 +62,8 @@ test_that("placing names the next one; cancel gives back what there was, a close
       expect_equal(review()$selected, name)
       place(session, name)
     }
-    expect_setequal(names(Filter(function(fit) !is.null(fit$path), review()$fitting$fits)), c("bottom", "right"))
+    expect_setequal(names(Filter(function(fit) !is.null(fit$path), review()$fitting$fits)),
+                    c("bottom", "right"))
   })
   expect_lt(max(abs(served$returned$specimen$landmarks[1:3, ] - quad_corners()[1:3, ])), 0.1)
   expect_true(all(is.na(served$returned$specimen$landmarks["d", ])))
@@ -81,14 +84,15 @@ test_that("the page has what its script and its server look for", {
   expect_match(html, "sceneChange")
 })
 
-test_that("the page says who is chosen and where it belongs, what waits, and that sides look exchanged", {
+test_that("the page says who is chosen, where it belongs, what waits, sides exchanged", {
   skip_if_not_installed("shiny")
   face <- specimen(humface_scan(), humface_landmarks(), id = "humface")
   review <- begin_review(face, face_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
   expect_match(as.character(chosen_html(review)), "Choose a landmark")
   review <- select_landmark(review, "enR")
   said <- as.character(chosen_html(review))
-  for (words in c("endocanthion", "inner corner of the eye fissure", "3 curves", "No landmark is missing")) expect_match(said, words)
+  for (words in c("endocanthion", "inner corner of the eye fissure", "3 curves",
+                  "No landmark is missing")) expect_match(said, words)
   expect_no_match(said, "mirrored")
   rownames(face$landmarks) <- chartr("LR", "RL", rownames(face$landmarks))
   swapped <- begin_review(face, face_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)

@@ -1,6 +1,7 @@
-test_that("the surface that is shown is thinned out, in the colours of the scan, alike in every unit and place", {
+test_that("the surface shown is thinned, in the scan's colours, alike in every unit and place", {
   face <- specimen(humface_scan())
-  face$mesh$material$color <- ifelse(face$mesh$vb[2, ] > mean(face$mesh$vb[2, ]), "#FF0000", "#0000FF")
+  face$mesh$material$color <- ifelse(face$mesh$vb[2, ] > mean(face$mesh$vb[2, ]),
+                                     "#FF0000", "#0000FF")
   whole <- shown_surface(face, "natural", 10, 60000)
   expect_identical(whole$mesh$it, face$mesh$it)
   expect_identical(whole$colour, face$mesh$material$color)
@@ -26,9 +27,12 @@ test_that("only what has changed is drawn again", {
   expect_equal(sum(rgl::ids3d()$type == "linestrip"), 4)
   same <- redraw(scene, first$drawn, review_items(review))
   expect_length(c(same$delete, same$add), 0)
-  moved <- place_selected(select_landmark(review, "b"), surface_points(review$specimen$mesh, matrix(c(30, 0, 40), 1)))
+  moved <- place_selected(select_landmark(review, "b"),
+                          surface_points(review$specimen$mesh, matrix(c(30, 0, 40), 1)))
   second <- redraw(scene, first$drawn, review_items(moved))
-  expect_setequal(second$delete, unlist(lapply(first$drawn[c("landmark b", "curve bottom", "curve right")], `[[`, "ids")))
+  expect_setequal(second$delete,
+                  unlist(lapply(first$drawn[c("landmark b", "curve bottom", "curve right")],
+                                `[[`, "ids")))
   expect_false(any(second$delete %in% rgl::ids3d()$id))
   gone <- redraw(scene, second$drawn, review_items(place_selected(moved, NULL)))
   expect_length(gone$drawn, 5)

@@ -1,15 +1,19 @@
-begun <- function(specimen, scheme = NULL) begin_review(specimen, scheme, 0.5, ridge_settings(error = FALSE), 0.2, 1)
+begun <- function(specimen, scheme = NULL) {
+  begin_review(specimen, scheme, 0.5, ridge_settings(error = FALSE), 0.2, 1)
+}
 on_ball <- function(specimen, at) surface_points(specimen$mesh, matrix(at, 1))
 
-test_that("landmarks are listed in the scheme's order, with its words, then those of the specimen", {
-  face <- specimen(humface_scan(), rbind(humface_landmarks()[c("st", "pn"), ], mole = humface_landmarks()["chL", ]))
+test_that("landmarks are listed in the scheme's order and words, then the specimen's", {
+  face <- specimen(humface_scan(),
+                   rbind(humface_landmarks()[c("st", "pn"), ], mole = humface_landmarks()["chL", ]))
   about <- begun(face, face_scheme())$about
   expect_equal(about$landmark, c(face_scheme()$landmarks$landmark, "mole"))
   expect_equal(about$where[about$landmark == "chL"], "corner of the mouth")
   expect_equal(about$where[about$landmark == "chR"], "corner of the mouth")
   expect_equal(about$where[24], "")
   expect_equal(begun(face)$about$landmark, c("st", "pn", "mole"))
-  expect_equal(unname(begun(face, face_scheme())$state[c("pn", "sn", "mole")]), c("given", "missing", "given"))
+  expect_equal(unname(begun(face, face_scheme())$state[c("pn", "sn", "mole")]),
+               c("given", "missing", "given"))
 })
 
 test_that("placing goes through those that are missing, in order, round the list", {
@@ -44,7 +48,8 @@ test_that("every step can be taken back, to the very same", {
   expect_identical(third$specimen$landmarks["c", ], review$specimen$landmarks["c", ])
   parts <- c("specimen", "fitting", "state")
   expect_identical(undo_review(fourth)[parts], third[parts])
-  expect_identical(undo_review(undo_review(undo_review(fourth)))[c(parts, "selected")], first[c(parts, "selected")])
+  expect_identical(undo_review(undo_review(undo_review(fourth)))[c(parts, "selected")],
+                   first[c(parts, "selected")])
   expect_identical(undo_review(undo_review(second))$specimen, review$specimen)
 })
 
@@ -60,17 +65,19 @@ test_that("doubtful landmarks wait, and are settled by a word", {
   expect_false(any(is_open(review)))
   ear <- select_landmark(review, "tL")  # predicted, beside the scan
   expect_identical(keep_selected(ear), ear)
-  expect_equal(review$specimen$placing$state[review$specimen$placing$landmark %in% c("sn", "gn")], c("placed", "placed"))
+  expect_equal(review$specimen$placing$state[review$specimen$placing$landmark %in% c("sn", "gn")],
+               c("placed", "placed"))
 })
 
-test_that("a click on a ball chooses, one on the surface is a place, one beside is nothing; nothing hidden is chosen", {
+test_that("a click on a ball chooses, on the surface is a place, beside nothing; none hidden", {
   review <- begun(quad_specimen())
   eye <- c(0, 0, 200)
   b <- quad_corners()["b", ]
   expect_equal(aimed_at(review, eye, b, 1), list(landmark = "b"))
   expect_equal(aimed_at(review, eye, b + c(0, 0.5, 0), 1), list(landmark = "b"))
   expect_named(aimed_at(select_landmark(review, "b"), eye, b, 1), "point")
-  expect_lt(sqrt(sum((unlist(aimed_at(review, eye, c(0, 0, 50), 1)$point[1:3]) - c(0, 0, 50))^2)), 0.1)
+  expect_lt(sqrt(sum((unlist(aimed_at(review, eye, c(0, 0, 50), 1)$point[1:3]) - c(0, 0, 50))^2)),
+            0.1)
   expect_equal(aimed_at(review, eye, c(100, 0, 0), 1), list())
   expect_named(aimed_at(review, -eye, b, 1), "point")
 })

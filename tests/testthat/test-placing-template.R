@@ -9,7 +9,8 @@ test_that("the face's template is symmetric, with the facial model's landmarks",
   mirrored <- t(face$specimen$mesh$vb[1:3, ]) %*% diag(c(-1, 1, 1))
   gap <- row_lengths(as.matrix(surface_points(face$specimen$mesh, mirrored)[1:3]) - mirrored)
   expect_lt(stats::quantile(gap, 0.95), 0.2)
-  expect_lt(file.size(system.file("extdata", "face_template", "mesh.ply", package = "crestline")), 5e5)
+  expect_lt(file.size(system.file("extdata", "face_template", "mesh.ply", package = "crestline")),
+            5e5)
   expect_output(print(face), "23|19 landmarks")
 })
 
@@ -19,7 +20,8 @@ test_that("a template stands in its own mirror's frame, and says what it lacks",
   own <- landmark_template(face, ear_names)
   expect_true(own$mirror)
   expect_equal(unname(own$landmarks["exL", 1] + own$landmarks["exR", 1]), 0, tolerance = 1)
-  expect_equal(as.vector(stats::dist(own$landmarks)), as.vector(stats::dist(face$landmarks[rownames(own$landmarks), ])))
+  expect_equal(as.vector(stats::dist(own$landmarks)),
+               as.vector(stats::dist(face$landmarks[rownames(own$landmarks), ])))
   expect_equal(own$unit, mesh_diagonal(own$specimen$mesh) / 280, tolerance = 0.2)
   expect_crestline_error(landmark_template(face, "nose"), c("nose", "Near names"))
   face$landmarks <- face$landmarks[1:3, ]
@@ -50,5 +52,6 @@ test_that("a landmark whose partner is missing does not move the mirror; sides n
   own <- landmark_template(specimen(humface_scan(), one_sided), ear_names)
   expect_lt(max(abs(own$landmarks[, "x"] - whole$landmarks[rownames(own$landmarks), "x"])), 1)
   four <- at[c("pn", "sn", "se", "gn"), ]
-  expect_crestline_error(landmark_template(specimen(humface_scan(), four), mirror = TRUE), c("L and R", "mirror = FALSE"))
+  expect_crestline_error(landmark_template(specimen(humface_scan(), four), mirror = TRUE),
+                         c("L and R", "mirror = FALSE"))
 })

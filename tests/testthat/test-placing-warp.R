@@ -28,14 +28,17 @@ test_that("a basis has the kernel's variance, and symmetric displacements are sy
   moved <- displaced(basis, coefficients)
   expect_equal(moved[partner, ], moved %*% diag(c(-1, 1, 1)), tolerance = 1e-6, ignore_attr = TRUE)
   own <- warp_basis(xyz, nrow(xyz), FALSE, settings)
-  expect_equal(rowSums(own[[1]]^2), rep(sum(settings$length_scale_sd^2), nrow(xyz)), tolerance = 1e-3)
+  expect_equal(rowSums(own[[1]]^2), rep(sum(settings$length_scale_sd^2), nrow(xyz)),
+               tolerance = 1e-3)
 })
 
 test_that("a template bent by a known displacement is bent back to it", {
   own <- landmark_template(specimen(humface_scan(), humface_landmarks()), ear_names, unit = 1)
   settings <- find_settings()
   prepared <- prepared_template(own, settings, 1)
-  bend <- function(xyz) xyz + cbind(3 * sin(xyz[, 2] / 40), 2 * cos(xyz[, 1] / 50), 2 * sin(xyz[, 1] / 45 + 1))
+  bend <- function(xyz) {
+    xyz + cbind(3 * sin(xyz[, 2] / 40), 2 * cos(xyz[, 1] / 50), 2 * sin(xyz[, 1] / 45 + 1))
+  }
   scan <- own$specimen$mesh
   scan$vb[1:3, ] <- t(bend(t(scan$vb[1:3, ])))
   cloud <- scan_cloud(specimen(scan), 1, prepared$settings, 1)

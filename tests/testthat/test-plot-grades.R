@@ -19,12 +19,13 @@ test_that("a shape is seen from its front, upright, its left on the viewer's rig
   }
 })
 
-test_that("without pairs the longest direction is up, without a surface the plane's normal faces the viewer", {
+test_that("without pairs the longest way is up, without surface the plane faces the viewer", {
   shape <- quad_shape(quad_scheme(function(tables) tables[1:2]))
   view <- shape_view(shape)
   expect_equal(tcrossprod(view), diag(3))
   expect_equal(det(view), 1)
-  spread <- apply(as.matrix(shape$points[c("x", "y", "z")]) %*% t(view), 2, function(v) diff(range(v)))
+  spread <- apply(as.matrix(shape$points[c("x", "y", "z")]) %*% t(view), 2,
+                  function(v) diff(range(v)))
   expect_true(spread[2] > spread[1] && spread[1] > spread[3])
   expect_gt(view[3, 3], 0)
 })

@@ -4,8 +4,9 @@ bumped_balls <- function(n = 8, bump = 0.1) {
   xyz <- t(ball$vb[1:3, ])
   front <- exp(-8 * rowSums(sweep(xyz, 2, c(0, 0, 1))^2))
   balls <- with_seed(1, lapply(seq_len(2 * n), function(i) {
-    xyz * (1 + 0.02 * rnorm(1) * xyz[, 1]^2 + 0.02 * rnorm(1) * xyz[, 2] + (i > n) * bump * front + rnorm(nrow(xyz),
-                                                                                                          sd = 0.003))
+    xyz * (1 + 0.02 * rnorm(1) * xyz[, 1]^2 + 0.02 * rnorm(1) * xyz[, 2] + (i > n) * bump * front +
+           rnorm(nrow(xyz),
+                 sd = 0.003))
   }))
   aligned <- align(simplify2array(balls), "ball", triangles = ball$it)
   compare_groups(aligned, rep(c("A", "B"), each = n), n_perm = 199, seed = 1, progress = FALSE)
@@ -22,13 +23,15 @@ test_that("boxes show the groups' quartiles", {
 
 test_that("the map's colours and outline are where the bump is", {
   compared <- bumped_balls()
-  pixels <- drawn_pixels(plot(compared, "map", engine = "picture", legend = FALSE, main = "", gloss = 0))
+  pixels <- drawn_pixels(plot(compared, "map", engine = "picture", legend = FALSE,
+                              main = "", gloss = 0))
   red <- pixels[, , 1] - pixels[, , 3]
   expect_gt(red[108, 100], 0.2)
   expect_lt(red[108, 40], 0.1)
   points <- compared$points
   found <- points$p_adjusted <= 0.05
-  expect_lt(max(acos(pmin(1, points$z[found] / sqrt(rowSums(points[found, c("x", "y", "z")]^2))))), 0.9)
+  expect_lt(max(acos(pmin(1, points$z[found] / sqrt(rowSums(points[found, c("x", "y", "z")]^2))))),
+            0.9)
   mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), compared$aligned$ball$triangles)
   lines <- level_lines(mesh, log(points$p_adjusted), log(0.05))
   expect_gt(nrow(lines), 3)
@@ -40,7 +43,8 @@ test_that("level lines are where a linear function has the value, on the mesh", 
   ends <- lines[!is.na(lines[, 1]), ]
   expect_equal(ends[, 1] + 2 * ends[, 2], rep(3.3, nrow(ends)), tolerance = 1e-12)
   # From x = 3.3 to y = 1.65: as long as all segments together.
-  length <- sum(sqrt(rowSums((lines[seq(1, nrow(lines), 3), ] - lines[seq(2, nrow(lines), 3), ])^2)))
+  length <-
+    sum(sqrt(rowSums((lines[seq(1, nrow(lines), 3), ] - lines[seq(2, nrow(lines), 3), ])^2)))
   expect_equal(length, sqrt(3.3^2 + 1.65^2), tolerance = 1e-12)
   expect_equal(nrow(level_lines(mesh, mesh$vb[1, ], 99)), 0)
   expect_equal(nrow(level_lines(mesh, rep(NA_real_, 36), 1)), 0)
@@ -49,7 +53,8 @@ test_that("level lines are where a linear function has the value, on the mesh", 
 test_that("of two surfaces the nearer one has the greater share of the colour", {
   compared <- bumped_balls(bump = 0.3)
   colour <- c("#0000FF", "#FF0000")
-  pixels <- drawn_pixels(plot(compared, "means", engine = "picture", legend = FALSE, main = "", colour = colour, gloss = 0))
+  pixels <- drawn_pixels(plot(compared, "means", engine = "picture", legend = FALSE, main = "",
+                              colour = colour, gloss = 0))
   middle <- pixels[108, 100, ]
   expect_equal(middle[1] / sum(middle), 0.8, tolerance = 0.05)
   side <- pixels[108, 45, ]
@@ -87,7 +92,8 @@ test_that("boxes without a test of size have no p-value in their title", {
 test_that("boxes of whole blocks show the means of the blocks", {
   data <- grouped_sample(c(6, 6))
   person <- rep(1:6, each = 2)
-  compared <- compare_groups(data$x, data$group, n_perm = 9, components = 2, block = person, progress = FALSE)
+  compared <- compare_groups(data$x, data$group, n_perm = 9, components = 2, block = person,
+                             progress = FALSE)
   drawn <- plot(compared, components = 1)
   expect_equal(drawn[["centroid size"]]$n, c(3, 3))
 })

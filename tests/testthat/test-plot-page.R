@@ -6,7 +6,8 @@ write_ball_page <- function(..., file = tempfile(fileext = ".html")) {
 }
 
 test_that("a page is one file with the scene, the curves' table and the caption", {
-  file <- write_ball_page(list(equator = equator_curve()), caption = "A quarter < a half", title = "One ball")
+  file <- write_ball_page(list(equator = equator_curve()), caption = "A quarter < a half",
+                          title = "One ball")
   html <- paste(readLines(file, warn = FALSE), collapse = "\n")
   for (text in c("equator", "A quarter &lt; a half", "One ball", "saddle ridge", "rglWebGL")) {
     expect_match(html, text, fixed = TRUE)
@@ -47,17 +48,19 @@ test_that("text of a script cannot end it", {
   folder <- tempfile()
   dir.create(folder)
   writeLines("x = '</script>' + \"\\\\1\";", file.path(folder, "a.js"))
-  html <- inline_files("<p></p><script src=\"a.js\"></script><p></p>", folder, '<script src="([^"]+)"></script>', "script", "</script")
+  html <- inline_files("<p></p><script src=\"a.js\"></script><p></p>", folder,
+                       '<script src="([^"]+)"></script>', "script", "</script")
   expect_equal(html, "<p></p><script>\nx = '<\\/script>' + \"\\\\1\";\n</script><p></p>")
   unlink(folder, recursive = TRUE)
 })
 
 test_that("a page needs a name that ends in .html and a folder", {
   expect_error(write_page(ball_specimen(), "page.txt"), class = "crestline_error")
-  expect_error(write_page(ball_specimen(), file.path(tempdir(), "nowhere", "page.html")), class = "crestline_error")
+  expect_error(write_page(ball_specimen(), file.path(tempdir(), "nowhere", "page.html")),
+               class = "crestline_error")
 })
 
-test_that("the page of a shape has a button for its surface and a row for each of its curves, nothing for what is missing", {
+test_that("a shape's page has a button for its surface, a row a curve, none for the missing", {
   testthat::skip_if_not_installed("htmltools")
   old <- options(rgl.useNULL = TRUE)
   on.exit(options(old))
@@ -67,7 +70,9 @@ test_that("the page of a shape has a button for its surface and a row for each o
   html <- paste(readLines(file, warn = FALSE), collapse = "\n")
   unlink(file)
   expect_true(grepl('"buttonLabels":"surface model"', html, fixed = TRUE))
-  for (curve in c("bottom", "top", "left", "right")) expect_true(grepl(paste0(">", curve, "</td>"), html, fixed = TRUE))
+  for (curve in c("bottom", "top", "left", "right")) {
+    expect_true(grepl(paste0(">", curve, "</td>"), html, fixed = TRUE))
+  }
   expect_false(grepl(">NA</td>", html, fixed = TRUE))
   layers <- with_null_rgl(page_layers(shape, quad_specimen(), "plain", NULL, 4))
   expect_named(layers, c("plain", "curves", "surface model"))
@@ -81,7 +86,8 @@ save_small_page <- function(folder, name = "scan.html", selfcontained = FALSE, t
   dir.create(script, showWarnings = FALSE)
   writeLines("var one = 1;", file.path(script, "one.js"))
   needed <- htmltools::htmlDependency("small", "1.0", script, script = "one.js")
-  save_page(htmltools::attachDependencies(htmltools::tags$p(text), needed), file.path(folder, name), selfcontained)
+  save_page(htmltools::attachDependencies(htmltools::tags$p(text), needed), file.path(folder, name),
+            selfcontained)
 }
 
 new_folder <- function(...) {
@@ -115,14 +121,16 @@ test_that("odd names of files are no hindrance", {
     html <- paste(readLines(file.path(folder, name), encoding = "UTF-8"), collapse = "")
     source <- sub('.*<script src="([^"]+one[.]js)".*', "\\1", html)
     expect_no_match(source, "[ #&]")
-    expect_true(file.exists(file.path(folder, enc2native(`Encoding<-`(utils::URLdecode(source), "UTF-8")))))
+    expect_true(file.exists(file.path(folder,
+                                      enc2native(`Encoding<-`(utils::URLdecode(source), "UTF-8")))))
   }
   unlink(folder, recursive = TRUE)
 })
 
 test_that("what cannot be written is an error of ours", {
   folder <- new_folder("page.html")
-  expect_crestline_error(save_small_page(folder, "page.html", TRUE), c("page.html", "cannot be written"))
+  expect_crestline_error(save_small_page(folder, "page.html", TRUE),
+                         c("page.html", "cannot be written"))
   writeLines("no folder", file.path(folder, "scan_files"))
   expect_crestline_error(save_small_page(folder), c("scan_files", "cannot be written"))
   expect_equal(readLines(file.path(folder, "scan_files")), "no folder")
@@ -134,10 +142,14 @@ test_that("text in the data of a page neither opens nor ends a script", {
   json <- script_json(jsonlite::toJSON(bad))
   expect_false(grepl("[<\u2028]", json))
   expect_equal(jsonlite::fromJSON(json), bad)
-  page <- paste0("<p>&lt;</p><script type=\"application/json\" data-for=\"a\">[\"<!--<script>\"]</script><b>1</b>",
-                 "<script type=\"application/json\" data-for=\"b\">[\"<b\"]</script><script>if (1 < 2) {}</script>")
-  expect_equal(safe_scripts(page), gsub("<b\"", "\\u003cb\"", gsub("<!--<script>", "\\u003c!--\\u003cscript>", page, fixed = TRUE),
-                                        fixed = TRUE))
+  page <- paste0("<p>&lt;</p><script type=\"application/json\" data-for=\"a\">",
+                 "[\"<!--<script>\"]</script><b>1</b>",
+                 "<script type=\"application/json\" data-for=\"b\">[\"<b\"]</script>",
+                 "<script>if (1 < 2) {}</script>")
+  expect_equal(safe_scripts(page),
+               gsub("<b\"", "\\u003cb\"",
+                    gsub("<!--<script>", "\\u003c!--\\u003cscript>", page, fixed = TRUE),
+                    fixed = TRUE))
   expect_equal(safe_scripts("<p>no script</p>"), "<p>no script</p>")
 })
 
@@ -146,7 +158,8 @@ test_that("a large scene stays whole", {
   html <- paste(readLines(file, encoding = "UTF-8"), collapse = "\n")
   count <- function(text) lengths(regmatches(html, gregexpr(text, html, fixed = TRUE)))
   expect_equal(count("</script>"), count("<script"))
-  big <- paste0("<script type=\"application/json\">[\"", strrep("a<", 1e6), "\"]</script><p>end</p>")
+  big <- paste0("<script type=\"application/json\">[\"", strrep("a<", 1e6),
+                "\"]</script><p>end</p>")
   expect_match(safe_scripts(big), "</script><p>end</p>$")
   unlink(c(file, sub(".html", "_files", file, fixed = TRUE)), recursive = TRUE)
 })

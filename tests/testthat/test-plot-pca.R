@@ -1,6 +1,7 @@
 stretched_balls <- function() {
   ball <- ball_mesh(2)
-  balls <- lapply(1:7, function(i) t(ball$vb[1:3, ]) %*% diag(c(0.8 + i / 20, 1 + (i %% 3) / 20, 1)))
+  balls <- lapply(1:7,
+                  function(i) t(ball$vb[1:3, ]) %*% diag(c(0.8 + i / 20, 1 + (i %% 3) / 20, 1)))
   shape_pca(align(simplify2array(balls), "ball", triangles = ball$it))
 }
 

@@ -1,6 +1,7 @@
 test_that("a shape is drawn on its specimen and as a surface", {
   shape <- quad_shape()
-  scene <- draw_quietly(plot(shape, quad_specimen(), "model", surface = "plain", engine = "picture"))
+  scene <- draw_quietly(plot(shape, quad_specimen(), "model", surface = "plain",
+                             engine = "picture"))
   expect_s3_class(scene, "picture_scene")
   expect_s3_class(draw_quietly(plot(shape, engine = "picture")), "picture_scene")
 })
@@ -11,7 +12,8 @@ test_that("curves have the colour of their kind, edges their own", {
     sum(rowSums(abs(matrix(pixels, ncol = 3) - rep(rgb, each = length(pixels) / 3))) < 0.1)
   }
   shape <- quad_shape()
-  with_curves <- drawn_pixels(plot(shape, quad_specimen(), surface = "plain", colour = c(ridge = "red", valley = "blue", plane = "#00FF00"),
+  with_curves <- drawn_pixels(plot(shape, quad_specimen(), surface = "plain",
+                                   colour = c(ridge = "red", valley = "blue", plane = "#00FF00"),
                                    width = 6, points = FALSE, engine = "picture"))
   expect_gt(count(with_curves, "#00FF00"), 50)
   expect_lt(count(with_curves, "red"), count(with_curves, "#00FF00"))

@@ -1,7 +1,8 @@
 test_that("a specimen is drawn in each kind of colour", {
   bent <- ball_curvature()
   for (colour in c("natural", "shape index", "curvature", "plain")) {
-    scene <- draw_quietly(plot(ball_specimen(), colour, bent, engine = "picture", labels = TRUE, main = "a ball"))
+    scene <- draw_quietly(plot(ball_specimen(), colour, bent, engine = "picture", labels = TRUE,
+                               main = "a ball"))
     expect_s3_class(scene, "picture_scene")
   }
 })
@@ -15,9 +16,10 @@ test_that("the colours are those of the shape index, the scan, or none", {
   expect_length(specimen_scale(ball, "plain", NULL)$colours, 1)
 })
 
-test_that("the scale of curvature is signed: valleys at one end, ridges at the other, missing grey", {
+test_that("the scale of curvature is signed: valleys to ridges, missing grey", {
   bent <- structure(list(k1 = c(1, 0, 0, 0.1, NA), k2 = c(0, -1, 0, -0.2, NA)), class = "curvature")
-  colours <- curvature_legend(bent, quantile = 1, palette = c("#0000FF", "#FFFFFF", "#FF0000"))$colours
+  colours <- curvature_legend(bent, quantile = 1,
+                              palette = c("#0000FF", "#FFFFFF", "#FF0000"))$colours
   expect_equal(colours[c(1:3, 5)], c("#0000FF", "#FF0000", "#FFFFFF", "#BEBEBE"))
   expect_equal(colours[4], "#FFCCCC")
 })
@@ -25,13 +27,16 @@ test_that("the scale of curvature is signed: valleys at one end, ridges at the o
 test_that("curvature is computed at the radius asked for when none is given", {
   scene <- draw_quietly(plot(ball_specimen(), "shape index", radius = 0.4, engine = "picture"))
   expect_s3_class(scene, "picture_scene")
-  expect_error(draw_quietly(plot(ball_specimen(), "shape index", radius = -1, engine = "picture")), class = "crestline_error")
+  expect_error(draw_quietly(plot(ball_specimen(), "shape index", radius = -1, engine = "picture")),
+               class = "crestline_error")
 })
 
 test_that("the curvature of another mesh is refused, with the specimen's name", {
-  expect_error(draw_quietly(plot(ball_specimen(), "shape index", ball_curvature(10), engine = "picture")),
+  expect_error(draw_quietly(plot(ball_specimen(), "shape index", ball_curvature(10),
+                                 engine = "picture")),
                "specimen ball", class = "crestline_error")
-  expect_error(draw_quietly(plot(ball_specimen(), "rainbow", engine = "picture")), class = "crestline_error")
+  expect_error(draw_quietly(plot(ball_specimen(), "rainbow", engine = "picture")),
+               class = "crestline_error")
 })
 
 test_that("margins are put back", {
@@ -46,7 +51,8 @@ test_that("margins are put back", {
 test_that("a real scan is drawn within seconds", {
   mesh <- Rvcg::vcgImport(shared_data("scan_a", "surface.ply"), readcolor = FALSE, silent = TRUE)
   scan <- specimen(mesh, id = "scan_a")
-  seconds <- system.time(scene <- draw_quietly(plot(scan, "plain", engine = "picture")))[["elapsed"]]
+  seconds <-
+    system.time(scene <- draw_quietly(plot(scan, "plain", engine = "picture")))[["elapsed"]]
   expect_lt(seconds, 15)
   expect_gt(mean(is.finite(scene$depth)), 0.3)
 })

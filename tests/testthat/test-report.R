@@ -9,7 +9,9 @@ report_of <- function(x, ...) {
 
 # The columns that the page's script reads.
 data_of <- function(html) {
-  text <- regmatches(html, regexpr('(?s)<script id="data" type="application/json">.*?</script>', html, perl = TRUE))
+  text <- regmatches(html,
+                     regexpr('(?s)<script id="data" type="application/json">.*?</script>', html,
+                             perl = TRUE))
   jsonlite::fromJSON(gsub("<\\/", "</", gsub("^<script[^>]*>|</script>$", "", text), fixed = TRUE))
 }
 
@@ -18,7 +20,7 @@ pictures_of <- function(html) {
   lapply(sub("^[^,]*,", "", data), jsonlite::base64_dec)
 }
 
-test_that("a page is one file with the table, the pictures and the limits, and asks for nothing else", {
+test_that("a page is one file with table, pictures and limits, and asks for nothing else", {
   shape <- quad_shape(landmarks = quad_corners()[c("a", "b", "d"), ])
   html <- report_of(shape, specimens = quad_specimen(), title = "Four < five")
   expect_match(html, "<title>Four &lt; five</title>", fixed = TRUE)
@@ -31,8 +33,11 @@ test_that("a page is one file with the table, the pictures and the limits, and a
   expect_equal(data$grade, as.character(graded$grade))
   expect_equal(data$why, graded$why)
   expect_equal(data$length, signif(graded$length, 3))
-  expect_equal(data$missing == 1, is.na(match(data$part, shape$points$part[!is.na(shape$points$x)])))
-  for (name in names(Filter(function(limit) length(limit) == 2, quality_limits()))) expect_match(html, sprintf("<td>%s</td>", name), fixed = TRUE)
+  expect_equal(data$missing == 1,
+               is.na(match(data$part, shape$points$part[!is.na(shape$points$x)])))
+  for (name in names(Filter(function(limit) length(limit) == 2, quality_limits()))) {
+    expect_match(html, sprintf("<td>%s</td>", name), fixed = TRUE)
+  }
 })
 
 test_that("several specimens have counts and a matrix, also one that was lost", {
@@ -92,7 +97,8 @@ test_that("specimens are told by id, file and pictures are checked", {
   expect_crestline_error(quality_report(shape, html, pictures = -1), "pictures")
   renamed <- shape
   renamed$id <- "other"
-  expect_length(specimens_of(list(other, quad_specimen()), list(a = shape, b = NULL, c = renamed)), 3)
+  expect_length(specimens_of(list(other, quad_specimen()), list(a = shape, b = NULL, c = renamed)),
+                3)
   expect_equal(specimens_of(list(other), list(a = NULL, c = renamed))$c$id, "other")
 })
 
@@ -105,7 +111,8 @@ test_that("ids that look like scripts leave the page's table whole", {
     quality_report(shape, file, pictures = 0, title = id)
     html <- paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
     unlink(file)
-    data <- sub('(?s).*<script id="data" type="application/json">(.*?)</script>.*', "\\1", html, perl = TRUE)
+    data <- sub('(?s).*<script id="data" type="application/json">(.*?)</script>.*', "\\1", html,
+                perl = TRUE)
     expect_equal(unique(jsonlite::fromJSON(data)$specimen), id)
     expect_no_match(html, "<!--<script>", fixed = TRUE)
   }

@@ -31,7 +31,8 @@ test_that("the valley between humface's lips: a curve on the mesh from corner to
   expect_true(all(lip$points$se[2:8] > 0))
   expect_lte(max(abs(lip$points$d)), 6)
   expect_identical(lip[c("id", "from", "to", "type", "radius", "width", "passes")],
-                   list(id = "humface", from = "chL", to = "st", type = "valley", radius = 5, width = 6, passes = NULL))
+                   list(id = "humface", from = "chL", to = "st", type = "valley", radius = 5,
+                        width = 6, passes = NULL))
 })
 
 test_that("every stage is kept, each of its class", {
@@ -92,16 +93,22 @@ test_that("vertices of the wrong sign count as 0, or are left out", {
   expect_length(left, sum(kept > 0))
 })
 
-test_that("nu0 is the mean strength near the reference path, places without curvature counting as 0", {
+test_that("nu0 is the mean strength near the reference path, no curvature counting as 0", {
   window <- data.frame(d = c(0, 0.5, -1, 1.1, 0), inside = c(TRUE, TRUE, TRUE, TRUE, FALSE))
-  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100, 100), rows = which(window$inside)), 1), 3)
+  expect_equal(core_strength(window,
+                             list(value = c(3, NA, 6, 100, 100), rows = which(window$inside)), 1),
+               3)
   expect_true(is.na(core_strength(window[4:5, ], list(value = c(1, 1)), 1)))
   window$s <- 1:5
-  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100), rows = 1:4), 1, trusted = c(2, 3)), 3)
-  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100), rows = 1:4), 1, trusted = c(3, 5)), 6)
+  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100), rows = 1:4), 1,
+                             trusted = c(2, 3)), 3)
+  expect_equal(core_strength(window, list(value = c(3, NA, 6, 100), rows = 1:4), 1,
+                             trusted = c(3, 5)), 6)
   curve <- of_bent()
   near <- curve$coordinates$vertex[abs(curve$coordinates$d) <= 0.3 * 4 & curve$coordinates$inside]
-  expect_equal(curve$scale, mean(-curvature(bent_ridge(), 4, order = curve$settings$order)$k2[near]), tolerance = 0.05)
+  expect_equal(curve$scale,
+               mean(-curvature(bent_ridge(), 4, order = curve$settings$order)$k2[near]),
+               tolerance = 0.05)
 })
 
 test_that("n points, from 2 on", {
@@ -113,7 +120,8 @@ test_that("n points, from 2 on", {
 test_that("d of the points is their distance from the reference path", {
   bent <- bent_ridge()
   curve <- of_bent(bent)
-  found <- cpp_path_coordinates(t(xyz_of(curve$points)), t(xyz_of(curve$reference)), path_normals(bent$mesh, curve$reference))
+  found <- cpp_path_coordinates(t(xyz_of(curve$points)), t(xyz_of(curve$reference)),
+                                path_normals(bent$mesh, curve$reference))
   expect_lt(max(abs(curve$points$d - found$d)), 0.1)
 })
 
@@ -128,7 +136,8 @@ test_that("curvature that is given makes the same curve", {
   bent <- bent_ridge(noise = 0.02)
   known <- curvature(bent, 4, order = ridge_settings()$order)
   expect_equal(of_bent(bent, curvature = known)$points, of_bent(bent)$points, tolerance = 1e-6)
-  expect_crestline_error(of_bent(bent, curvature = curvature(ball(), 0.5)), "own mesh", id = "graph")
+  expect_crestline_error(of_bent(bent, curvature = curvature(ball(), 0.5)), "own mesh",
+                         id = "graph")
 })
 
 test_that("mean strength is that along the curve", {
@@ -137,8 +146,10 @@ test_that("mean strength is that along the curve", {
   known <- curvature(bent, 4, order = ridge_settings()$order)
   strength <- pmax(-known$k2, 0) * (known$k1 + known$k2 < 0)
   p <- curve$path
-  at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) * matrix(strength[t(bent$mesh$it[, p$face])], ncol = 3))
-  expect_equal(curve$strength, sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / curve$length, tolerance = 1e-4)
+  at <- rowSums(as.matrix(p[c("w1", "w2", "w3")]) *
+                matrix(strength[t(bent$mesh$it[, p$face])], ncol = 3))
+  expect_equal(curve$strength, sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / curve$length,
+               tolerance = 1e-4)
 })
 
 test_that("a plane curve is the shortest cut, with nothing to determine", {
@@ -159,15 +170,18 @@ test_that("keep_away() counts strength as 0 in the window too", {
   region <- keep_away(c(-4, crest(-0.5), 6), c(4, crest(0.5), 6), radius = 0.5)
   curve <- suppressWarnings(of_bent(bent, keep_away = region))
   at <- curve$coordinates$vertex[curve$surface$rows]
-  inside <- is_kept_away(located_regions(region, region_locator(bent), NULL), t(bent$mesh$vb[1:3, at]))
+  inside <- is_kept_away(located_regions(region, region_locator(bent), NULL),
+                         t(bent$mesh$vb[1:3, at]))
   expect_gt(sum(inside), 10)
   expect_true(all(curve$surface$strength[inside] == 0))
-  expect_gt(min(curve$surface$strength[!inside & abs(curve$coordinates$d[curve$surface$rows]) < 1]), 0)
+  expect_gt(min(curve$surface$strength[!inside & abs(curve$coordinates$d[curve$surface$rows]) < 1]),
+            0)
 })
 
 test_that("noise on a plane is not taken for a ridge: warned of, flagged, with the reason", {
   noisy <- graph_specimen(quote(0 * u), two_ends(), noise = 0.3)
-  warning <- expect_warning(curve <- curve_of(noisy, "a", "b", "ridge", radius = 4, width = 5, n = 9), class = "crestline_undetermined")
+  warning <- expect_warning(curve <- curve_of(noisy, "a", "b", "ridge", radius = 4, width = 5,
+                                              n = 9), class = "crestline_undetermined")
   expect_match(conditionMessage(warning), "ridge from a to b is not determined")
   expect_match(conditionMessage(warning), "plane")
   expect_identical(warning$id, "graph")
@@ -179,8 +193,8 @@ test_that("noise on a plane is not taken for a ridge: warned of, flagged, with t
 
 test_that("no curvature of the sought sign: the reference path, flagged", {
   sphere <- specimen(ball(), rbind(a = c(1, 0, 0), b = c(0, 1, 0)), id = "ball")
-  expect_warning(curve <- curve_of(sphere, "a", "b", "valley", radius = 0.3, width = 0.4, n = 5), "no valley curvature",
-                 class = "crestline_undetermined")
+  expect_warning(curve <- curve_of(sphere, "a", "b", "valley", radius = 0.3, width = 0.4, n = 5),
+                 "no valley curvature", class = "crestline_undetermined")
   expect_false(curve$determined)
   expect_equal(curve$length, pi / 2, tolerance = 2e-3)
   expect_true(all(is.na(curve$points$d)))
@@ -189,7 +203,8 @@ test_that("no curvature of the sought sign: the reference path, flagged", {
 
 test_that("a mesh without landmarks will do with positions", {
   bent <- bent_ridge()
-  curve <- curve_of(bent$mesh, bent$landmarks["a", ], bent$landmarks["b", ], "ridge", radius = 4, width = 5, n = 9)
+  curve <- curve_of(bent$mesh, bent$landmarks["a", ], bent$landmarks["b", ], "ridge", radius = 4,
+                    width = 5, n = 9)
   expect_equal(curve$points, of_bent(bent)$points, tolerance = 1e-6)
   expect_null(curve$id)
   expect_output(print(curve), "<curve> ridge from \\(-13.3, .*\\) to \\(13.6, ")
@@ -197,7 +212,8 @@ test_that("a mesh without landmarks will do with positions", {
 
 test_that("errors name the specimen, the landmark and the remedy", {
   bent <- bent_ridge()
-  call <- function(specimen = bent, from = "a", to = "b", type = "ridge", radius = 4, width = 5, n = 9, ...) {
+  call <- function(specimen = bent, from = "a", to = "b", type = "ridge", radius = 4, width = 5,
+                   n = 9, ...) {
     ridge_curve(specimen, from, to, type, radius = radius, width = width, n = n, ...)
   }
   expect_crestline_error(call(to = "c"), c("graph", "no landmark c", "Near names"), id = "graph")
@@ -232,8 +248,10 @@ test_that("a curve prints its length, strength, error and outcome", {
 
 test_that("a ridge along the edge of the window is flagged", {
   u <- c(-13.3, 13.6)
-  winding <- graph_specimen(quote(6 * exp(-(v - 3 * sin(u / 4))^2 / 50)), two_ends(u, 3 * sin(u / 4)))
-  expect_warning(curve <- curve_of(winding, "a", "b", "ridge", radius = 4, width = 1, n = 9, settings = ridge_settings(lambda = 1e-7)),
+  winding <- graph_specimen(quote(6 * exp(-(v - 3 * sin(u / 4))^2 / 50)),
+                            two_ends(u, 3 * sin(u / 4)))
+  expect_warning(curve <- curve_of(winding, "a", "b", "ridge", radius = 4, width = 1, n = 9,
+                                   settings = ridge_settings(lambda = 1e-7)),
                  "edge of the window", class = "crestline_undetermined")
   expect_true(curve$line$at_bound)
   expect_false(curve$determined)
@@ -256,15 +274,17 @@ test_that("a ridge line that cannot be lifted leaves the reference path, with th
 test_that("errors of any stage name the curve", {
   bent <- bent_ridge()
   expect_crestline_error(ridge_curve(bent, "a", "b", "ridge", radius = 400, width = 5, n = 9),
-                         c("specimen graph", "ridge from a to b", "as large as the mesh"), id = "graph")
+                         c("specimen graph", "ridge from a to b", "as large as the mesh"),
+                         id = "graph")
 })
 
-test_that("points on the reference path for want of a lifted ridge carry no offset and no error of one", {
+test_that("points on the reference path for want of a ridge carry no offset, no error of it", {
   u <- straight_ridge()
   path <- reference_path(u, "a", "b", "plane")
   job <- curve_job(located_ends(u, walkable(u), "a", "b"), "ridge", 5, ridge_settings(), radius = 4)
-  fit <- list(found = FALSE, reason = "not lifted", line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)),
-              scale = 1, coordinates = path_coordinates(u, path, 4))
+  fit <- list(found = FALSE, reason = "not lifted",
+              line = list(s = c(0, 1), alpha = c(1, 1), se = c(1, 1)), scale = 1,
+              coordinates = path_coordinates(u, path, 4))
   every <- seq_len(nrow(fit$coordinates))
   fit$strengths <- list(value = rep(1, length(every)), rows = every, cell = every)
   curve <- assembled_curve(path, path, job, fit)
@@ -281,7 +301,8 @@ test_that("no strength is NaN where no direction is across the path", {
   along <- which(window$inside)[1]
   normal <- source(window$vertex[along])$normal
   window[along, c("tx", "ty", "tz")] <- as.list(normal)
-  job <- curve_job(located_ends(face, walkable(face), "a", "b"), "ridge", 9, ridge_settings(), source = source)
+  job <- curve_job(located_ends(face, walkable(face), "a", "b"), "ridge", 9, ridge_settings(),
+                   source = source)
   strength <- window_strength(walkable(face), window, job)
   expect_true(is.na(strength$value[along]) && !any(is.nan(strength$value)))
   expect_gt(sum(!is.na(strength$value)), 10)
@@ -291,8 +312,10 @@ test_that("no strength is NaN where no direction is across the path", {
 striped_curve <- function(beside, offset = 0) {
   window <- expand.grid(s = seq(0, 10, by = 0.5), d = seq(-3, 3, by = 0.25))
   structure(
-    list(line = list(s = c(0, 10), alpha = c(offset, offset)), points = data.frame(d = rep(offset, 3)), coordinates = window,
-         surface = list(rows = seq_len(nrow(window)), strength = ifelse(abs(window$d - offset) <= 0.5, 2, beside)),
+    list(line = list(s = c(0, 10), alpha = c(offset, offset)),
+         points = data.frame(d = rep(offset, 3)), coordinates = window,
+         surface = list(rows = seq_len(nrow(window)),
+                        strength = ifelse(abs(window$d - offset) <= 0.5, 2, beside)),
          settings = ridge_settings(core = 0.5), radius = 1, strength = 2, type = "ridge"),
     class = "curve"
   )
@@ -315,7 +338,8 @@ test_that("plane curves, and those that stayed on the reference path, have none"
 
 test_that("a sharp ridge stands out more than a blunt one", {
   contrast <- function(b) {
-    curve_contrast(suppressWarnings(ridge_curve(simulate_ridge(a = 0, b = b, seed = 1), "from", "to", "ridge", 0.25, 0.4, 9)))
+    curve_contrast(suppressWarnings(ridge_curve(simulate_ridge(a = 0, b = b, seed = 1), "from",
+                                                "to", "ridge", 0.25, 0.4, 9)))
   }
   expect_gt(contrast(2), contrast(0.5))
 })

@@ -1,35 +1,42 @@
 # A small window on a bent ridge with everything that ridge_curve() works out.
 fitted_window <- function(settings = ridge_settings(), radius = 4) {
   bent <- bent_ridge(noise = 0.05, half = c(17, 12), spacing = 1.25)
-  curve <- suppressWarnings(ridge_curve(bent, "a", "b", "ridge", radius = radius, width = 5, n = 9, settings = settings))
+  curve <- suppressWarnings(ridge_curve(bent, "a", "b", "ridge", radius = radius, width = 5, n = 9,
+                                        settings = settings))
   list(specimen = bent, curve = curve, settings = settings, radius = radius,
        curvature = curvature(bent, radius, order = settings$order),
        problem = ridge_problem(curve$surface, curve$scale, radius, settings))
 }
 
 # Variance of linear functions of normal curvatures, a row of `jacobian` each.
-curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings, smooth = 0, range = 0) {
-  diag(cpp_curvature_covariance(vb, it, targets, directions, t(jacobian), sigma, smooth, range, settings)$matrix)
+curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings, smooth = 0,
+                               range = 0) {
+  diag(cpp_curvature_covariance(vb, it, targets, directions, t(jacobian), sigma, smooth, range,
+                                settings)$matrix)
 }
 
-# Normal curvature along `direction` at vertex `at` when vertex `moved` is lifted by h along the fit's normal there.
+# Normal curvature along `direction` at vertex `at` when vertex `moved` is lifted by h along the
+# fit's normal there.
 curvature_when <- function(mesh, at, direction, moved, h, normal, ...) {
   mesh$vb[1:3, moved] <- mesh$vb[1:3, moved] + h * normal
   curved <- curvature(mesh, vertices = at, ...)
-  shape <- curved$k1[at] * tcrossprod(curved$direction1[at, ]) + curved$k2[at] * tcrossprod(curved$direction2[at, ])
+  shape <- curved$k1[at] * tcrossprod(curved$direction1[at, ]) + curved$k2[at] *
+    tcrossprod(curved$direction2[at, ])
   sum(direction * (shape %*% direction))
 }
 
-test_that("the variance of a normal curvature is that of its derivatives by the vertices' heights", {
+test_that("a normal curvature's variance is that of its derivatives by vertices' heights", {
   # Nearly level, so that the frame that the derivative holds fixed stays where it is.
-  form <- list(x = quote(u), y = quote(v), z = quote((u^2 + 0.5 * v^2) / 200), u = c(-6, 6), v = c(-6, 6))
+  form <- list(x = quote(u), y = quote(v), z = quote((u^2 + 0.5 * v^2) / 200), u = c(-6, 6),
+               v = c(-6, 6))
   mesh <- closed_form_mesh(form, spacing = 1)$mesh
   at <- which.min(colSums(mesh$vb[1:2, ]^2))
   radius <- 4.3
   for (order in c("quadratic", "cubic", "quartic")) {
     curved <- curvature(mesh, radius, order, vertices = at)
     normal <- curved$normal[at, ]
-    for (direction in list(curved$direction1[at, ], (curved$direction1[at, ] + curved$direction2[at, ]) / sqrt(2))) {
+    for (direction in list(curved$direction1[at, ],
+                           (curved$direction1[at, ] + curved$direction2[at, ]) / sqrt(2))) {
       near <- which(colSums((mesh$vb[1:3, ] - mesh$vb[1:3, at])^2) <= radius^2)
       h <- 1e-4
       slope <- vapply(near, function(v) {
@@ -38,27 +45,29 @@ test_that("the variance of a normal curvature is that of its derivatives by the 
         (up - down) / (2 * h)
       }, 0)
       sigma <- with_seed(4, stats::runif(ncol(mesh$vb), 0.1, 1))
-      variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(direction), matrix(1), sigma,
-                                         kernel_settings(radius, order))
+      variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(direction),
+                                     matrix(1), sigma, kernel_settings(radius, order))
       expect_equal(sqrt(variance), sqrt(sum((slope * sigma[near])^2)), tolerance = 0.02)
     }
   }
 })
 
 test_that("a quadratic fit's variance is the one that least squares gives", {
-  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6), v = c(-6, 6)))$mesh
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6),
+                                v = c(-6, 6)))$mesh
   at <- which.min(colSums(mesh$vb[1:2, ]^2))
   near <- which(colSums((mesh$vb[1:2, ] - mesh$vb[1:2, at])^2) <= 4.3^2)
   x <- mesh$vb[1, near] - mesh$vb[1, at]
   y <- mesh$vb[2, near] - mesh$vb[2, at]
   covariance <- solve(crossprod(cbind(1, x, y, x^2, x * y, y^2)))
-  variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(0.3, ncol(mesh$vb)),
-                                     kernel_settings(4.3, "quadratic"))
+  variance <- curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1),
+                                 rep(0.3, ncol(mesh$vb)), kernel_settings(4.3, "quadratic"))
   expect_equal(variance, 0.3^2 * 4 * covariance[4, 4], tolerance = 1e-8)
 })
 
-test_that("under smooth noise it is the quadratic form of least squares' weights in the noise's covariance", {
-  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6), v = c(-6, 6)))$mesh
+test_that("under smooth noise it is the quadratic form of the weights in its covariance", {
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6),
+                                v = c(-6, 6)))$mesh
   at <- which.min(colSums(mesh$vb[1:2, ]^2))
   near <- which(colSums((mesh$vb[1:2, ] - mesh$vb[1:2, at])^2) <= 4.3^2)
   x <- mesh$vb[1, near] - mesh$vb[1, at]
@@ -67,19 +76,20 @@ test_that("under smooth noise it is the quadratic form of least squares' weights
   weight <- 2 * solve(crossprod(design), t(design))[4, ]
   squares <- outer(x, x, `-`)^2 + outer(y, y, `-`)^2
   variance <- function(sigma, smooth, range) {
-    curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1), rep(sigma, ncol(mesh$vb)),
-                       kernel_settings(4.3, "quadratic"), smooth, range)
+    curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1),
+                       rep(sigma, ncol(mesh$vb)), kernel_settings(4.3, "quadratic"), smooth, range)
   }
   for (range in c(0.7, 1.5, 3)) {
     smooth <- sum(weight * (0.2^2 * exp(-squares / (2 * range^2)) %*% weight))
-    expect_equal(variance(0, 0.2, range), smooth, tolerance = 1e-3) # correlations beyond four ranges are left out
+    # correlations beyond four ranges are left out
+    expect_equal(variance(0, 0.2, range), smooth, tolerance = 1e-3)
     expect_equal(variance(0.1, 0.2, range), smooth + 0.1^2 * sum(weight^2), tolerance = 1e-3)
   }
   expect_equal(variance(0, 0.2, 1e-3), 0.2^2 * sum(weight^2))
   expect_lt(variance(0, 0.2, 1e4), 1e-6 * variance(0.2, 0, 0)) # all heights moved alike
 })
 
-test_that("the noise factor compares with the expectation that the whole covariance of the strengths gives", {
+test_that("the noise factor compares with what the strengths' whole covariance gives", {
   curve <- fitted_window(ridge_settings("one pass"))$curve
   bent <- bent_ridge(noise = 0.05, half = c(17, 12), spacing = 1.25)
   scan <- walkable(bent)
@@ -94,8 +104,8 @@ test_that("the noise factor compares with the expectation that the whole covaria
   known <- !is.na(window$strengths$sigma)
   sigma[window$coordinates$vertex[known]] <- window$strengths$sigma[known]
   all <- cpp_curvature_covariance(scan$vb, scan$it, window$coordinates$vertex[rows],
-                                  t(window$strengths$direction[rows, ]), diag(length(rows)), sigma, 0, 0,
-                                  kernel_settings(4, "adaptive cubic"))$matrix
+                                  t(window$strengths$direction[rows, ]), diag(length(rows)),
+                                  sigma, 0, 0, kernel_settings(4, "adaptive cubic"))$matrix
   design <- mgcv::tensor.prod.model.matrix(surface$design)[live, ]
   rest <- diag(length(live)) - design %*% chol2inv(surface$factor) %*% t(design)
   residual <- surface$strength[live] - design %*% as.vector(surface$coefficients)
@@ -106,7 +116,8 @@ test_that("the noise factor compares with the expectation that the whole covaria
 test_that("the noise factor sees noise that is smooth along the mesh, and known noise needs none", {
   factor_of <- function(correlation, ...) {
     surface <- simulate_ridge(0.25, 1, noise = 0.02, seed = 3, correlation = correlation)
-    curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 9, settings = ridge_settings(...)))
+    curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 9,
+                                          settings = ridge_settings(...)))
     curve$noise_factor
   }
   expect_gt(factor_of(2), 10 * factor_of(0))
@@ -114,17 +125,19 @@ test_that("the noise factor sees noise that is smooth along the mesh, and known 
   expect_identical(factor_of(2, noise = c(0, 0.02, 0.14)), 1)
 })
 
-test_that("shared vertices are counted as shared: the difference of one curvature with itself has no variance", {
+test_that("shared vertices count as shared: a curvature less itself has no variance", {
   mesh <- closed_form_mesh(closed_forms()$bumpy)$mesh
   at <- 1800:1801
   direction <- rbind(c(1, 1), c(0, 0), c(0, 0))
   sigma <- rep(1, ncol(mesh$vb))
   variance <- function(targets, jacobian) {
-    curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma, kernel_settings(5, "quadratic"))
+    curvature_variance(mesh$vb[1:3, ], mesh$it, targets, direction, jacobian, sigma,
+                       kernel_settings(5, "quadratic"))
   }
   expect_lt(variance(c(1800L, 1800L), matrix(c(1, -1), 1)), 1e-20)
   single <- variance(at, rbind(c(1, 0), c(0, 1)))
-  expect_lt(variance(at, matrix(c(1, -1), 1)), 0.5 * sum(single)) # neighbours: most points in common
+  # neighbours: most points in common
+  expect_lt(variance(at, matrix(c(1, -1), 1)), 0.5 * sum(single))
   expect_gt(variance(at, matrix(c(1, 1), 1)), 1.5 * sum(single))
   expect_equal(variance(at, rbind(c(2, 0))), 4 * single[1], tolerance = 1e-12)
 })
@@ -136,7 +149,8 @@ check_slope <- function(kernel) {
   line <- ridge_line(curve$surface, curve$scale, window$radius, tight, kernel)
   alpha <- line$alpha[2:40]
   problem <- ridge_problem(curve$surface, curve$scale, window$radius, window$settings, kernel)
-  slope <- tcrossprod(offset_slope(problem, curve$surface, alpha), mgcv::tensor.prod.model.matrix(curve$surface$design))
+  slope <- tcrossprod(offset_slope(problem, curve$surface, alpha),
+                      mgcv::tensor.prod.model.matrix(curve$surface$design))
   expect_identical(dim(slope), c(39L, length(curve$surface$rows)))
   refit <- function(strength) {
     surface <- curve$surface
@@ -173,7 +187,8 @@ test_that("the standard error is about the spread over meshes scanned again", {
 test_that("the error grows in proportion to the noise, ends have none, and inflation multiplies", {
   at_noise <- function(sd, ...) {
     bent <- straight_ridge(noise = sd, half = c(17, 12), spacing = 1.25)
-    ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9, settings = ridge_settings(...))
+    ridge_curve(bent, "a", "b", "ridge", radius = 4, width = 5, n = 9,
+                settings = ridge_settings(...))
   }
   known <- at_noise(0.02, noise = c(0.02, 0, 0))
   expect_gt(at_noise(0.1, noise = c(0.1, 0, 0))$se, 2 * known$se)
@@ -190,7 +205,8 @@ test_that("the error grows in proportion to the noise, ends have none, and infla
 test_that("loosen() divides lambda only", {
   settings <- ridge_settings()
   expect_equal(loosen(settings)$lambda, settings$lambda / 10)
-  expect_identical(loosen(settings)[names(settings) != "lambda"], settings[names(settings) != "lambda"])
+  expect_identical(loosen(settings)[names(settings) != "lambda"],
+                   settings[names(settings) != "lambda"])
 })
 
 test_that("near an end, which is fixed, the error is no larger than the way from there", {

@@ -1,18 +1,21 @@
 unrolled <- function(mesh, from, to, width) {
   path <- plane_path(mesh, from, to)
-  list(path = path, window = path_coordinates(mesh, path, width), s = seq(0, attr(path, "length"), length.out = 41))
+  list(path = path, window = path_coordinates(mesh, path, width),
+       s = seq(0, attr(path, "length"), length.out = 41))
 }
 wave <- function(s) 1.2 * sin(pi * s / max(s)) + 0.5 * sin(3 * pi * s / max(s))
 
 test_that("a curve of the plane comes to lie where it is in the plane", {
-  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12), v = c(-8, 8)), spacing = 0.5)$mesh
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12),
+                                v = c(-8, 8)), spacing = 0.5)$mesh
   u <- unrolled(mesh, c(-9.3, 0.2, 0), c(9.1, 0.2, 0), 4)
   lifted <- lift(mesh, u$window, u$path, u$s, wave(u$s))
   expect_true(attr(lifted, "lifted"))
   expect_path_on_mesh(lifted, mesh)
   wanted <- stats::splinefun(u$s, wave(u$s), method = "natural")(lifted$x + 9.3) + 0.2
   expect_lt(max(abs(lifted$y - wanted)), 0.05)
-  expect_identical(xyz_of(lifted)[c(1, nrow(lifted)), ], xyz_of(u$path)[c(1, nrow(u$path)), ], ignore_attr = TRUE)
+  expect_identical(xyz_of(lifted)[c(1, nrow(lifted)), ], xyz_of(u$path)[c(1, nrow(u$path)), ],
+                   ignore_attr = TRUE)
 })
 
 test_that("(s, d) of the lifted curve is the curve", {
@@ -20,7 +23,8 @@ test_that("(s, d) of the lifted curve is the curve", {
   u <- unrolled(bent, "a", "b", 5)
   lifted <- lift(bent, u$window, u$path, u$s, wave(u$s))
   expect_path_on_mesh(lifted, bent$mesh)
-  found <- cpp_path_coordinates(t(xyz_of(lifted)), t(xyz_of(u$path)), path_normals(bent$mesh, u$path))
+  found <- cpp_path_coordinates(t(xyz_of(lifted)), t(xyz_of(u$path)),
+                                path_normals(bent$mesh, u$path))
   inside <- found$s > 0 & found$s < max(u$s)
   wanted <- stats::splinefun(u$s, wave(u$s), method = "natural")(found$s)
   expect_lt(max(abs(found$d - wanted)[inside]), 0.1)
@@ -45,20 +49,24 @@ test_that("ends at corners of the mesh are lifted like any other", {
 })
 
 test_that("where the walk is cut off the curve is pieced together, still on the mesh", {
-  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12), v = c(-8, 8)), spacing = 0.5)$mesh
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12),
+                                v = c(-8, 8)), spacing = 0.5)$mesh
   u <- unrolled(mesh, c(-9.3, 0.2, 0), c(9.1, 0.2, 0), 4)
-  torn <- u$window[abs(u$window$s - 9) > 0.4 | abs(u$window$d) < 0.7, ] # a gap in the window on the curve's way
+  # a gap in the window on the curve's way
+  torn <- u$window[abs(u$window$s - 9) > 0.4 | abs(u$window$d) < 0.7, ]
   lifted <- suppressWarnings(lift(mesh, torn, u$path, u$s, wave(u$s)))
   expect_false(attr(lifted, "lifted"))
   expect_on_mesh(lifted, mesh)
-  expect_identical(xyz_of(lifted)[c(1, nrow(lifted)), ], xyz_of(u$path)[c(1, nrow(u$path)), ], ignore_attr = TRUE)
+  expect_identical(xyz_of(lifted)[c(1, nrow(lifted)), ], xyz_of(u$path)[c(1, nrow(u$path)), ],
+                   ignore_attr = TRUE)
   wanted <- stats::splinefun(u$s, wave(u$s), method = "natural")(lifted$x + 9.3) + 0.2
   expect_lt(max(abs(lifted$y - wanted)), 0.1)
   expect_path_on_mesh(lifted, mesh)
 })
 
 test_that("piecing a curve together warns of no rivals", {
-  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12), v = c(-8, 8)), spacing = 0.5)$mesh
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-12, 12),
+                                v = c(-8, 8)), spacing = 0.5)$mesh
   u <- unrolled(mesh, c(-9.3, 0.2, 0), c(9.1, 0.2, 0), 4)
   torn <- u$window[abs(u$window$s - 9) > 0.4 | abs(u$window$d) < 0.7, ]
   expect_no_warning(lift(mesh, torn, u$path, u$s, wave(u$s)), class = "crestline_rival_path")
@@ -75,9 +83,11 @@ test_that("triangles_about() finds the triangles that hold a point, with its wei
 test_that("of two sheets that hold a place the one by the reference path is taken", {
   sheet <- grid_mesh(11)
   n <- ncol(sheet$vb)
-  both <- rgl::mesh3d(vertices = cbind(sheet$vb, sheet$vb + c(0, 0, 3, 0)), triangles = cbind(sheet$it + n, sheet$it))
+  both <- rgl::mesh3d(vertices = cbind(sheet$vb, sheet$vb + c(0, 0, 3, 0)),
+                      triangles = cbind(sheet$it + n, sheet$it))
   path <- plane_path(sheet, c(1, 5.2, 0), c(9, 5.2, 0))
-  window <- structure(data.frame(vertex = seq_len(2 * n), s = both$vb[1, ] - 1, d = both$vb[2, ] - 5.2),
+  window <- structure(data.frame(vertex = seq_len(2 * n), s = both$vb[1, ] - 1,
+                                 d = both$vb[2, ] - 5.2),
                       class = c("path_coordinates", "data.frame"))
   places <- places_in_plane(walkable(both), window, path, c(0, 4, 8), c(0, 1, 0))
   expect_equal(unlist(places[1:3]), c(x = 5, y = 6.2, z = 0))
@@ -97,6 +107,7 @@ test_that("ends in one triangle are joined straight", {
 test_that("a window without triangles by the curve is an error of the path", {
   mesh <- grid_mesh(15)
   u <- unrolled(mesh, c(2.2, 7.3, 0), c(12.1, 7.2, 0), 3)
-  error <- expect_crestline_error(lift(mesh, u$window[1:3, ], u$path, u$s, 0 * u$s), "no triangle near the reference path")
+  error <- expect_crestline_error(lift(mesh, u$window[1:3, ], u$path, u$s, 0 * u$s),
+                                  "no triangle near the reference path")
   expect_s3_class(error, "crestline_path_error")
 })

@@ -1,8 +1,10 @@
 # A surface of strength over (s, d), fitted on a dense grid with df to spare.
 surface_of <- function(nu, length = 10, width = 3, df = 60, scale = 1) {
   at <- expand.grid(s = seq(0, length, length.out = 61), d = seq(-width, width, length.out = 61))
-  window <- structure(data.frame(vertex = seq_len(nrow(at)), s = scale * at$s, d = scale * at$d, inside = TRUE),
-                      length = scale * length, width = scale * width, class = c("path_coordinates", "data.frame"))
+  window <- structure(data.frame(vertex = seq_len(nrow(at)), s = scale * at$s, d = scale * at$d,
+                                 inside = TRUE),
+                      length = scale * length, width = scale * width,
+                      class = c("path_coordinates", "data.frame"))
   curvature_surface(window, nu(at$s, at$d) / scale, ridge_settings(df = df, anisotropy = 1))
 }
 bow <- function(s) 0.8 * sin(pi * s / 10)
@@ -19,7 +21,9 @@ test_that("the ridge of a strength whose ridge is known comes back", {
 })
 
 test_that("a heavy penalty gives the straight path, lambda in between in between", {
-  reach <- function(lambda) max(ridge_line(surface_of(bowed), 1, 2, ridge_settings(lambda = lambda))$alpha)
+  reach <- function(lambda) {
+    max(ridge_line(surface_of(bowed), 1, 2, ridge_settings(lambda = lambda))$alpha)
+  }
   expect_lt(reach(1e6), 1e-3)
   expect_gt(reach(1e-8), 0.75)
   expect_lt(reach(1e-2), reach(1e-4))
@@ -43,7 +47,7 @@ test_that("gradient and Hessian are those of finite differences", {
   expect_lt(max(abs(hessian - numeric_hessian)), 1e-6 * max(abs(hessian)))
 })
 
-test_that("under a kernel the splines are their integrals, and derivatives those of finite differences", {
+test_that("under a kernel splines are their integrals, derivatives those of differences", {
   surface <- surface_of(wavy)
   width <- 3
   alpha <- c(-2.9, -1.2, 0, 0.31, 2.2)
@@ -56,15 +60,18 @@ test_that("under a kernel the splines are their integrals, and derivatives those
       knots <- knots[abs(knots) <= 1.01 * width]
       for (j in c(1, 4, 10)) {
         spline <- function(d) margin_design(problem$across, d / width)[, j] * biweight(d, alpha[i])
-        pieces <- vapply(seq_along(knots[-1]), function(k) stats::integrate(spline, knots[k], knots[k + 1], rel.tol = 1e-10)$value, 0)
+        pieces <- vapply(seq_along(knots[-1]), function(k)
+          stats::integrate(spline, knots[k], knots[k + 1], rel.tol = 1e-10)$value, 0)
         expect_equal(exact[i, j], sum(pieces), tolerance = 1e-7)
       }
     }
     h <- 1e-5
     expect_equal(across_design(problem, alpha, 1),
-                 (across_design(problem, alpha + h, 0) - across_design(problem, alpha - h, 0)) / (2 * h), tolerance = 1e-6)
+                 (across_design(problem, alpha + h, 0) - across_design(problem, alpha - h, 0)) /
+                 (2 * h), tolerance = 1e-6)
     expect_equal(across_design(problem, alpha, 2),
-                 (across_design(problem, alpha + h, 1) - across_design(problem, alpha - h, 1)) / (2 * h), tolerance = 1e-5)
+                 (across_design(problem, alpha + h, 1) - across_design(problem, alpha - h, 1)) /
+                 (2 * h), tolerance = 1e-5)
   }
 })
 
@@ -82,7 +89,8 @@ test_that("a narrow kernel changes nothing, a wide one leads from the mode to th
   expect_equal(middle(0), mode, tolerance = 0.01)
   expect_equal(middle(1e-3), middle(0), tolerance = 1e-5)
   under <- function(kernel) {
-    stats::optimize(function(at) -stats::integrate(function(d) nu(d) * pmax(1 - ((d - at) / kernel)^2, 0)^2, -3, 3)$value,
+    stats::optimize(function(at)
+      -stats::integrate(function(d) nu(d) * pmax(1 - ((d - at) / kernel)^2, 0)^2, -3, 3)$value,
                     c(-1, 1))$minimum
   }
   expect_equal(middle(2), under(2), tolerance = 0.01)
@@ -105,15 +113,19 @@ test_that("the paper's lambda is its own sum over second differences", {
   problem <- ridge_problem(surface, 0.8, 2, ridge_settings("paper"))
   alpha <- 0.3 * sin(2 * pi * problem$u)
   plain <- ridge_problem(surface, 0.8, 2, ridge_settings("paper", lambda = 1e-12))
-  difference <- ridge_criterion(plain, alpha[-c(1, 41)]) - ridge_criterion(problem, alpha[-c(1, 41)])
+  difference <- ridge_criterion(plain, alpha[-c(1, 41)]) -
+    ridge_criterion(problem, alpha[-c(1, 41)])
   # Times nu0 and the number of steps: sum of strengths - 0.5 sum of squared second differences.
-  expect_equal(difference * 0.8 * 40, 0.5 * sum(diff(alpha, differences = 2)^2) * 40, tolerance = 1e-6)
+  expect_equal(difference * 0.8 * 40, 0.5 * sum(diff(alpha, differences = 2)^2) * 40,
+               tolerance = 1e-6)
 })
 
 test_that("steps never lower the criterion, also where whole Newton steps would", {
   narrow <- function(s, d) exp(-16 * (d - 0.3 * sin(pi * s / 10))^2)
   surface <- surface_of(narrow, df = 90)
-  criterion <- function(k) ridge_line(surface, 1, 2, ridge_settings(lambda = 1e-7, iterations = k))$criterion
+  criterion <- function(k) {
+    ridge_line(surface, 1, 2, ridge_settings(lambda = 1e-7, iterations = k))$criterion
+  }
   start <- ridge_criterion(ridge_problem(surface, 1, 2, ridge_settings()), numeric(39))
   expect_false(is.unsorted(c(start, vapply(1:12, criterion, 0))))
 })
@@ -166,7 +178,8 @@ test_that("the ridge by the path is taken, not the higher one far off", {
 test_that("no unit: lengths times a factor give the line times that factor", {
   once <- ridge_line(surface_of(wavy), scale = 0.8, radius = 2)
   for (factor in c(1e-3, 1e3)) {
-    scaled <- ridge_line(surface_of(wavy, scale = factor), scale = 0.8 / factor, radius = 2 * factor)
+    scaled <- ridge_line(surface_of(wavy, scale = factor), scale = 0.8 / factor,
+                         radius = 2 * factor)
     expect_equal(scaled$alpha / factor, once$alpha, tolerance = 1e-6)
     expect_equal(scaled$criterion, once$criterion, tolerance = 1e-9)
     expect_equal(scaled$iterations, once$iterations)

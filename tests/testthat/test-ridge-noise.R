@@ -5,13 +5,15 @@ moved_scan <- function(scan, turn, shift) {
 }
 
 repeated <- function(noise, correlation, seed, spacing = 0.05, b = 1) {
-  lapply(seed + c(0, 1000), function(s) simulate_ridge(0.25, b, spacing, noise, s, jitter = 0.3, correlation = correlation))
+  lapply(seed + c(0, 1000), function(s)
+    simulate_ridge(0.25, b, spacing, noise, s, jitter = 0.3, correlation = correlation))
 }
 
 test_that("the noise of two simulated scans comes back: its size, and how far it is correlated", {
   measured <- function(correlation, spacing = 0.05, seeds = 1:4) {
     found <- vapply(seeds, function(seed) {
-      scans <- repeated(0.01, correlation, seed, spacing, b = 0.05) # nearly level: the noise is along z
+      # nearly level: the noise is along z
+      scans <- repeated(0.01, correlation, seed, spacing, b = 0.05)
       unlist(scan_noise(scans[[1]], scans[[2]])[c("independent", "smooth", "range", "sd")])
     }, numeric(4))
     rowMeans(found)
@@ -44,8 +46,11 @@ test_that("registration finds the second scan where it was moved to", {
     specimen(scan$mesh, rbind(scan$landmarks, corner), "marked", outward = "keep")
   })
   far <- moved_scan(marked[[2]], rotation_about(c(1, 2, 0.5)), c(10, 5, 3))
-  expect_equal(scan_noise(marked[[1]], far, near = marked[[1]]$landmarks[1:2, ])$sd, there$sd, tolerance = 0.01)
-  expect_crestline_error(scan_noise(scans[[1]], moved_scan(scans[[2]], rotation_about(c(1, 2, 0.5)), c(10, 5, 3))), "not registered")
+  expect_equal(scan_noise(marked[[1]], far, near = marked[[1]]$landmarks[1:2, ])$sd, there$sd,
+               tolerance = 0.01)
+  expect_crestline_error(scan_noise(scans[[1]],
+                                    moved_scan(scans[[2]], rotation_about(c(1, 2, 0.5)),
+                                               c(10, 5, 3))), "not registered")
 })
 
 test_that("the unit and the numbering do not matter", {
@@ -60,27 +65,31 @@ test_that("the unit and the numbering do not matter", {
   expect_equal(times$range / 1000, own$range, tolerance = 1e-3)
   order <- with_seed(1, sample(ncol(scans[[1]]$mesh$vb)))
   mesh <- scans[[1]]$mesh
-  mixed <- structure(list(vb = mesh$vb[, order], it = matrix(match(mesh$it, order), 3)), class = "mesh3d")
+  mixed <- structure(list(vb = mesh$vb[, order], it = matrix(match(mesh$it, order), 3)),
+                     class = "mesh3d")
   expect_equal(scan_noise(mixed, scans[[2]]$mesh)$sd, own$sd, tolerance = 1e-4)
 })
 
-test_that("known noise takes the place of the noise factor, and widens the kernel where noise is smooth", {
+test_that("known noise takes the noise factor's place, and widens the kernel if smooth", {
   scans <- repeated(0.01, 2, 5)
   noise <- scan_noise(scans[[1]], scans[[2]])
   fit <- function(settings) {
-    suppressWarnings(ridge_curve(scans[[1]], "from", "to", "ridge", 0.25, 0.4, 21, settings = settings))
+    suppressWarnings(ridge_curve(scans[[1]], "from", "to", "ridge", 0.25, 0.4, 21,
+                                 settings = settings))
   }
   known <- fit(ridge_settings(noise = noise))
   blind <- fit(ridge_settings())
   expect_identical(known$noise_factor, 1)
   expect_gt(blind$noise_factor, 10)
   expect_gt(known$line$kernel, blind$line$kernel)
-  expect_identical(known$settings$noise, c(independent = noise$independent, smooth = noise$smooth, range = noise$range))
+  expect_identical(known$settings$noise,
+                   c(independent = noise$independent, smooth = noise$smooth, range = noise$range))
 })
 
 test_that("scans that cannot be compared are refused", {
   scans <- repeated(0.01, 0, 1, spacing = 0.1)
-  expect_crestline_error(scan_noise(scans[[1]], scans[[2]], near = rbind(c(0, 0, 0)), reach = 0.1), "can be compared")
+  expect_crestline_error(scan_noise(scans[[1]], scans[[2]], near = rbind(c(0, 0, 0)), reach = 0.1),
+                         "can be compared")
   expect_crestline_error(scan_noise(scans[[1]], 3), "`second`")
   expect_crestline_error(ridge_settings(noise = c(1, 2)), "`noise`")
   expect_crestline_error(ridge_settings(noise = c(1, -2, 0)), "scan_noise()")
@@ -88,5 +97,6 @@ test_that("scans that cannot be compared are refused", {
 
 test_that("noise prints its parts", {
   scans <- repeated(0.01, 2, 5)
-  expect_output(print(scan_noise(scans[[1]], scans[[2]])), "standard deviation .*independent .*correlated over .*converged")
+  expect_output(print(scan_noise(scans[[1]], scans[[2]])),
+                "standard deviation .*independent .*correlated over .*converged")
 })

@@ -1,6 +1,6 @@
 fit_of <- function(settings = ridge_settings(), passes = NULL, noise = 0) {
-  suppressWarnings(ridge_curve(bent_ridge(noise = noise), "a", "b", "ridge", radius = 4, width = 5, n = 9,
-                               settings = settings, passes = passes))
+  suppressWarnings(ridge_curve(bent_ridge(noise = noise), "a", "b", "ridge", radius = 4,
+                               width = 5, n = 9, settings = settings, passes = passes))
 }
 
 test_that("one pass is the setting of that name, and is what `passes = 1` gives without a kernel", {
@@ -11,7 +11,7 @@ test_that("one pass is the setting of that name, and is what `passes = 1` gives 
   expect_identical(once$line$kernel, 0)
 })
 
-test_that("a share of the second pass is taken: its offsets times the share, about the first curve", {
+test_that("a share of the second pass is taken: its offsets times it, about the first", {
   settings <- ridge_settings(kernel = 0, lambda = 1e-3)
   whole <- fit_of(settings, passes = 2)
   part <- fit_of(settings)
@@ -24,7 +24,7 @@ test_that("a share of the second pass is taken: its offsets times the share, abo
   expect_gt(part$share, 0.5) # the second curve is stronger
 })
 
-test_that("the kernel is a dozen standard errors wide, between its limits, and none on a clean mesh", {
+test_that("the kernel is a dozen standard errors wide, within limits, none on a clean mesh", {
   expect_identical(fit_of()$line$kernel, 0)
   noisy <- fit_of(ridge_settings(kernel = 12), noise = 0.2)
   expect_gt(noisy$line$kernel, 0.15 * 4)
@@ -36,8 +36,8 @@ test_that("the kernel is a dozen standard errors wide, between its limits, and n
 })
 
 job_of <- function(bent, settings) {
-  curve_job(located_ends(bent, walkable(bent), "a", "b"), "ridge", 9, settings, radius = 4, width = 5,
-            source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
+  curve_job(located_ends(bent, walkable(bent), "a", "b"), "ridge", 9, settings,
+            radius = 4, width = 5, source = known_curvature(NULL, bent, 4, 1L, "adaptive cubic"))
 }
 
 test_that("the standard error of a first line alone sets the kernel", {
@@ -47,7 +47,9 @@ test_that("the standard error of a first line alone sets the kernel", {
   window <- ridge_window(walkable(bent), path, job_of(bent, settings))
   window$line <- ridge_line(window$surface, window$scale, 4, settings)
   scan <- walkable(bent)
-  se <- function(...) sqrt(offset_variance(window, moment_noise(scan, window, 4, settings, ...), 4, settings))
+  se <- function(...) {
+    sqrt(offset_variance(window, moment_noise(scan, window, 4, settings, ...), 4, settings))
+  }
   all <- ridge_settings(kernel_most = 1e9, kernel_vertices = Inf)
   expect_equal(kernel_width(scan, window, 4, all), 12 * stats::median(se()))
   # Of 170 vertices one stands for each of 80 cells.

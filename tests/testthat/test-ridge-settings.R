@@ -2,14 +2,17 @@ test_that("the presets are those of the measurements and of the paper", {
   ours <- ridge_settings()
   expect_s3_class(ours, "ridge_settings")
   expect_identical(attr(ours, "preset"), "crestline")
-  expect_equal(unlist(ours[c("df", "lambda", "window", "anisotropy", "grid", "cap", "longest", "inflation")]),
-               c(df = 20, lambda = 1e-4, window = 1.5, anisotropy = 10, grid = 41, cap = 2, longest = 1.25, inflation = 1.5))
+  expect_equal(
+    unlist(ours[c("df", "lambda", "window", "anisotropy", "grid", "cap", "longest", "inflation")]),
+               c(df = 20, lambda = 1e-4, window = 1.5, anisotropy = 10, grid = 41, cap = 2,
+                 longest = 1.25, inflation = 1.5))
   expect_identical(ours$strength, "across")
   paper <- ridge_settings("paper")
   expect_equal(paper$df, 12)
   expect_equal(paper$lambda, 0.5)
   expect_identical(paper[c("strength", "wrong_sign", "order", "lambda_scale")],
-                   list(strength = "principal", wrong_sign = "drop", order = "forced", lambda_scale = "grid"))
+                   list(strength = "principal", wrong_sign = "drop", order = "forced",
+                        lambda_scale = "grid"))
   expect_setequal(names(paper), names(ours))
 })
 

@@ -1,7 +1,8 @@
 # Coordinates of n places in a window 10 long and 2 x 3 wide, with a strength and noise.
 window_of <- function(n = 400, length = 10, width = 3, seed = 1) {
   with_seed(seed, structure(
-    data.frame(vertex = seq_len(n), s = stats::runif(n, 0, length), d = stats::runif(n, -width, width), inside = TRUE),
+    data.frame(vertex = seq_len(n), s = stats::runif(n, 0, length),
+               d = stats::runif(n, -width, width), inside = TRUE),
     length = length, width = width, class = c("path_coordinates", "data.frame")))
 }
 bumps <- function(window, noise = 0.1) {
@@ -14,7 +15,8 @@ test_that("the fit is mgcv's own with the same basis, penalties and smoothing pa
   settings <- ridge_settings(anisotropy = 7)
   smooth <- curvature_surface(window, data$y, settings)
   terms <- mgcv::te(u, v, bs = "ps", k = c(10, 10), m = c(2, 2), np = FALSE)
-  theirs <- mgcv::smoothCon(terms, data, knots = list(u = c(0, 1), v = c(-1, 1)), scale.penalty = FALSE)[[1]]
+  theirs <- mgcv::smoothCon(terms, data, knots = list(u = c(0, 1), v = c(-1, 1)),
+                            scale.penalty = FALSE)[[1]]
   # mgcv scales each margin's penalty by its largest eigenvalue.
   largest <- max(eigen(spline_margin(10, 0, 1)$S[[1]], symmetric = TRUE)$values)
   S <- largest * (theirs$S[[1]] + 7 * theirs$S[[2]])
@@ -22,13 +24,14 @@ test_that("the fit is mgcv's own with the same basis, penalties and smoothing pa
   expect_equal(predict(smooth, window$s, window$d), as.vector(theirs$X %*% beta), tolerance = 1e-6)
 })
 
-test_that("mgcv::gam at the same smoothing parameters has the same fitted values and degrees of freedom", {
+test_that("mgcv::gam at the same smoothing has the same fitted values and degrees of freedom", {
   window <- window_of(900)
   data <- data.frame(y = bumps(window), u = window$s / 10, v = window$d / 3)
   smooth <- curvature_surface(window, data$y)
   X <- mgcv::tensor.prod.model.matrix(smooth$design)
   S <- tensor_penalty(smooth$margins, 10)
-  fit <- mgcv::gam(y ~ X - 1, data = list(y = data$y, X = X), paraPen = list(X = list(S, sp = smooth$penalty)))
+  fit <- mgcv::gam(y ~ X - 1, data = list(y = data$y, X = X),
+                   paraPen = list(X = list(S, sp = smooth$penalty)))
   expect_equal(predict(smooth, window$s, window$d), unname(stats::fitted(fit)), tolerance = 1e-6)
   expect_equal(sum(fit$edf), smooth$df, tolerance = 1e-6)
 })
@@ -37,11 +40,13 @@ test_that("the degrees of freedom are the trace of the hat matrix", {
   window <- window_of()
   for (df in c(6, 12, 20, 45)) {
     smooth <- curvature_surface(window, bumps(window), ridge_settings(df = df))
-    hat <- crossprod(backsolve(smooth$factor, t(mgcv::tensor.prod.model.matrix(smooth$design)), transpose = TRUE))
+    hat <- crossprod(backsolve(smooth$factor, t(mgcv::tensor.prod.model.matrix(smooth$design)),
+                               transpose = TRUE))
     expect_equal(sum(diag(hat)), df, tolerance = 1e-6)
     expect_equal(smooth$df, df, tolerance = 1e-6)
     expect_true(smooth$converged)
-    expect_equal(as.vector(hat %*% smooth$strength), predict(smooth, window$s, window$d), tolerance = 1e-8)
+    expect_equal(as.vector(hat %*% smooth$strength), predict(smooth, window$s, window$d),
+                 tolerance = 1e-8)
   }
 })
 
@@ -77,7 +82,8 @@ test_that("derivatives by d are those of finite differences", {
 
 test_that("predict() recycles s and d", {
   smooth <- curvature_surface(window_of(), bumps(window_of()))
-  expect_equal(predict(smooth, 3, c(-1, 0, 1)), c(predict(smooth, 3, -1), predict(smooth, 3, 0), predict(smooth, 3, 1)))
+  expect_equal(predict(smooth, 3, c(-1, 0, 1)),
+               c(predict(smooth, 3, -1), predict(smooth, 3, 0), predict(smooth, 3, 1)))
   expect_equal(predict(smooth, c(1, 2, 3), 0), vapply(1:3, function(s) predict(smooth, s, 0), 0))
 })
 
@@ -94,7 +100,8 @@ test_that("places past the ends and left-out vertices take no part", {
 
 test_that("too few vertices are an error, more df than there is room for are told", {
   window <- window_of(40)
-  expect_crestline_error(curvature_surface(window, replace(bumps(window), 1:25, NA)), c("only 15 vertices", "20", "`width`"))
+  expect_crestline_error(curvature_surface(window, replace(bumps(window), 1:25, NA)),
+                         c("only 15 vertices", "20", "`width`"))
   expect_crestline_error(curvature_surface(data.frame(), 1), "path_coordinates")
   crowded <- window_of(30)
   crowded$s <- rep(c(2, 8), 15)
@@ -105,7 +112,8 @@ test_that("too few vertices are an error, more df than there is room for are tol
 })
 
 test_that("a surface prints its size and df", {
-  expect_output(print(curvature_surface(window_of(), bumps(window_of()))), "10 x 6 .*400 vertices, 20.0 df")
+  expect_output(print(curvature_surface(window_of(), bumps(window_of()))),
+                "10 x 6 .*400 vertices, 20.0 df")
 })
 
 test_that("vertices on a line determine no surface: an error, not a crash", {
@@ -120,7 +128,8 @@ test_that("moments of the tensor product are those of mgcv's own design", {
     v <- runif(200, -1, 1)
     y <- rnorm(200)
   })
-  design <- list(along = margin_design(spline_margin(7, 0, 1), u), across = margin_design(spline_margin(5, -1, 1), v))
+  design <- list(along = margin_design(spline_margin(7, 0, 1), u),
+                 across = margin_design(spline_margin(5, -1, 1), v))
   found <- cpp_tensor_moments(design$along, design$across, y)
   dense <- mgcv::tensor.prod.model.matrix(design)
   expect_equal(found$matrix, crossprod(dense), tolerance = 1e-12)

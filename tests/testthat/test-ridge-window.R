@@ -2,8 +2,9 @@ of_bent <- function(specimen, settings) {
   curve_of(specimen, "a", "b", "ridge", radius = 4, width = 5, n = 9, settings = settings)
 }
 
-test_that("of a dense window one vertex a cell stands for the others, the nearest to the centre, and the curve hardly moves", {
-  window <- structure(data.frame(s = c(0.1, 0.5, 0.9, 1.6, 1.5, 9), d = c(0.1, 0.6, 0.4, -0.9, -0.5, 0),
+test_that("of a dense window the vertex nearest a cell's centre stands for it; curves stay", {
+  window <- structure(data.frame(s = c(0.1, 0.5, 0.9, 1.6, 1.5, 9),
+                                 d = c(0.1, 0.6, 0.4, -0.9, -0.5, 0),
                                  inside = c(rep(TRUE, 5), FALSE)), length = 2, width = 1)
   thinned <- thinned_rows(window, 4)
   expect_setequal(thinned$rows, c(2, 5))

@@ -21,7 +21,7 @@ test_that("arguments of fit_shape() reach it", {
   same_points(finer[[1]], fit_shape(two[[1]], quad_scheme(), column_angle = 0.01, progress = FALSE))
 })
 
-test_that("files are read with the landmarks beside them; what goes wrong costs one specimen and is told", {
+test_that("files are read with the landmarks beside them; what goes wrong costs one specimen", {
   skip_without_futures()
   dir <- batch_folder()
   on.exit(unlink(dir, recursive = TRUE))
@@ -53,7 +53,8 @@ test_that("results are kept as they come, and measured again only when something
   expect_identical(lengths(unclass(first), use.names = FALSE), c(0L, 0L, 0L))
   same_points(first[[3]], fit_shape(batch_specimens()[[3]], quad_scheme(), progress = FALSE),
               tolerance = 1e-6)
-  # A killed run: one result is missing, of another only a part was written. What another run has left is not deleted.
+  # A killed run: one result is missing, of another only a part was written. What another run has
+  # left is not deleted.
   unlink(kept()[2])
   writeLines("half", file.path(out, "part-1.tmp"))
   Sys.setFileTime(kept()[c(1, 3)], "2001-01-01")
@@ -120,7 +121,7 @@ test_that("arguments that serve no specimen are refused", {
   expect_crestline_error(failures(list()), "fit_shapes()")
 })
 
-test_that("a scan that was renamed is not measured again, and two of one name never answer for each other", {
+test_that("a renamed scan is not measured again; two of one name never answer for each other", {
   skip_without_futures()
   dir <- batch_folder()
   out <- file.path(dir, "out")
@@ -268,11 +269,14 @@ test_that("reading takes other names and another unit", {
   })
   dir <- batch_folder(three)
   on.exit(unlink(dir, recursive = TRUE))
-  renamed <- stats::setNames(rownames(batch_specimens()[[1]]$landmarks), rownames(three[[1]]$landmarks))
+  renamed <- stats::setNames(rownames(batch_specimens()[[1]]$landmarks),
+                             rownames(three[[1]]$landmarks))
   shapes <- fit_shapes(meshes_in(dir), edge_scheme(), reading = list(names = renamed, unit = 2))
   expect_identical(nrow(failures(shapes)), 0L)
   expect_true(all(shapes[[1]]$status$ok))
   expect_identical(shapes[[1]]$provenance$scheme$unit, 2)
-  expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), unit = 1, reading = list(unit = 2)), "differ")
-  expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), reading = list(unit = -1)), "unit")
+  expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), unit = 1,
+                                    reading = list(unit = 2)), "differ")
+  expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), reading = list(unit = -1)),
+                         "unit")
 })

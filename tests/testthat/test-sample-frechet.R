@@ -34,7 +34,8 @@ test_that("on a plane it is the weighted mean, exactly", {
   sheet <- grid_mesh(12)
   points <- rbind(c(2.3, 3.1, 0), c(8.2, 4.4, 0), c(5.5, 8.9, 0))
   found <- frechet_mean(sheet, points, c(1, 2, 3))
-  expect_equal(unlist(found[c("x", "y", "z")], use.names = FALSE), as.vector(c(1, 2, 3) %*% points) / 6, tolerance = 1e-8)
+  expect_equal(unlist(found[c("x", "y", "z")], use.names = FALSE),
+               as.vector(c(1, 2, 3) %*% points) / 6, tolerance = 1e-8)
 })
 
 test_that("unit and number of the same point change nothing; one point is its own mean", {

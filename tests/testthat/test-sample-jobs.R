@@ -50,8 +50,9 @@ test_that("landmarks are told by id, in whatever they come", {
   lost <- fit_shapes(meshes, edge_scheme(), landmarks = sets[c(1, 3)])
   expect_identical(failures(lost)$id, "ball 2")
   expect_match(failures(lost)$message, "no landmarks of ball 2")
-  expect_identical(failures(fit_shapes(meshes, edge_scheme(), landmarks = c(list.files(other,
-                                                                                       "pts$", full.names = TRUE)[1:2], NA)))$id,
+  expect_identical(failures(fit_shapes(meshes, edge_scheme(),
+                                       landmarks = c(list.files(other, "pts$",
+                                                                full.names = TRUE)[1:2], NA)))$id,
                    "ball 3")
 })
 
@@ -65,13 +66,14 @@ test_that("two landmark files beside a mesh that differ cost that specimen", {
   expect_match(failed$message, "ball 2.csv and ball 2.pts")
 })
 
-test_that("a key is of content, scheme, settings and reading, not of names, threads or the progress bar", {
+test_that("a key is of content, scheme, settings, reading, not of names, threads, progress", {
   three <- batch_specimens()
   dir <- batch_folder(three)
   on.exit(unlink(dir, recursive = TRUE))
   mesh <- meshes_in(dir)[1]
-  key <- function(job, scheme = edge_scheme(), settings = list()) job_content(job, scheme,
-                                                                              settings)$key
+  key <- function(job, scheme = edge_scheme(), settings = list()) {
+    job_content(job, scheme, settings)$key
+  }
   job <- list(id = "a", mesh = mesh, landmarks = sub("ply$", "csv", mesh))
   copy <- file.path(dir, c("copy.ply", "copy.csv"))
   file.copy(c(job$mesh, job$landmarks), copy)
@@ -79,8 +81,8 @@ test_that("a key is of content, scheme, settings and reading, not of names, thre
   expect_identical(key(job, settings = list(threads = 2, progress = TRUE)), key(job))
   others <- list(key(job, edge_scheme(7)), key(job, settings = list(passes = 2)),
                  key(c(job, list(reading = list(1)))),
-                 key(c(job, list(finder = list(key = "x")))), key(list(mesh = meshes_in(dir)[2],
-                                                                       landmarks = job$landmarks)),
+                 key(c(job, list(finder = list(key = "x")))),
+                 key(list(mesh = meshes_in(dir)[2], landmarks = job$landmarks)),
                  key(list(mesh = mesh, landmarks = three[[1]]$landmarks)))
   expect_identical(anyDuplicated(c(list(key(job)), others)), 0L)
   moved <- three[[1]]

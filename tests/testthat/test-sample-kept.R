@@ -106,7 +106,8 @@ test_that("results that are absent, folders or cannot be written cost no connect
     expect_true(is.na(peek_kept(tempfile())$key))
     expect_false(peek_kept(folder)$own)
     expect_equal(open_kept(folder)$state, "damaged")
-    expect_crestline_error(keep(1, list(key = "a", mesh = "b"), file.path(tempfile(), "a.shape")), "cannot be written")
+    expect_crestline_error(keep(1, list(key = "a", mesh = "b"), file.path(tempfile(), "a.shape")),
+                           "cannot be written")
   }
   expect_equal(nrow(showConnections()), before)
 })

@@ -19,8 +19,9 @@ test_that("near names come first in what is there, and one member is one", {
   error <- expect_crestline_error(one_member("C", c("b", "a", "c"), "the sample"))
   expect_match(error$remedy, "There are 3: c, ")
   expect_identical(one_member("a", c("b", "a"), "the sample"), 2L)
-  for (i in list(NULL, 1:2, 0, -1, TRUE, NA, "", list("a"))) expect_crestline_error(one_member(i,
-                                                                                               c("b", "a"), "the sample"))
+  for (i in list(NULL, 1:2, 0, -1, TRUE, NA, "", list("a"))) {
+    expect_crestline_error(one_member(i, c("b", "a"), "the sample"))
+  }
   expect_match(expect_crestline_error(one_member(1, character(), "the sample"))$remedy,
                "There is none")
 })

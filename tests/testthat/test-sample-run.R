@@ -1,12 +1,15 @@
 # Tasks that cost their worker, and others that it held.
 
-numbered_tasks <- function(n) lapply(seq_len(n), function(i) list(name = as.character(i), value = i))
+numbered_tasks <- function(n) {
+  lapply(seq_len(n), function(i) list(name = as.character(i), value = i))
+}
 
 test_that("tasks give what they give, however many go together", {
   skip_without_futures()
   for (chunk in c(1, 2, 7)) {
     for (alone in c(FALSE, TRUE)) {
-      expect_identical(run_tasks(numbered_tasks(5), function(task, by) task$value * by, list(by = 2), chunk, alone),
+      expect_identical(run_tasks(numbered_tasks(5), function(task, by) task$value * by,
+                                 list(by = 2), chunk, alone),
                        as.list(2 * 1:5))
     }
   }

@@ -1,7 +1,8 @@
 # A batch behaves as a list does, in memory and in files.
 
-small_batch <- function(dir = NULL, specimens = batch_specimens(), ...) fit_shapes(specimens,
-                                                                                   edge_scheme(...), dir)
+small_batch <- function(dir = NULL, specimens = batch_specimens(), ...) {
+  fit_shapes(specimens, edge_scheme(...), dir)
+}
 
 test_that("elements are had by id and number; one that is not there is an error", {
   skip_without_futures()
@@ -10,16 +11,18 @@ test_that("elements are had by id and number; one that is not there is an error"
     expect_length(batch, 3)
     expect_identical(batch$`ball 3`, batch[[3]])
     expect_crestline_error(batch[["bal 2"]], c("bal 2", "Near ids: ball 2"))
-    for (i in list(4, 0, -1, NA, 1.5, 1:2, "", NULL)) expect_crestline_error(batch[[i]],
-                                                                             "no specimen")
+    for (i in list(4, 0, -1, NA, 1.5, 1:2, "", NULL)) {
+      expect_crestline_error(batch[[i]], "no specimen")
+    }
     expect_crestline_error(batch$anna, "anna")
     expect_named(batch[-2], c("ball 1", "ball 3"))
     expect_named(batch[c(TRUE, FALSE, FALSE)], "ball 1")
     expect_named(rev(batch), paste("ball", 3:1))
     expect_named(utils::head(batch, 2), paste("ball", 1:2))
     expect_length(batch[0], 0)
-    for (i in list(5, "anna", NA, list(1), c(1, NA))) expect_crestline_error(batch[i],
-                                                                             "no specimen")
+    for (i in list(5, "anna", NA, list(1), c(1, NA))) {
+      expect_crestline_error(batch[i], "no specimen")
+    }
     expect_crestline_error(batch[c(1, 1)], "twice")
     unlink(dir, recursive = TRUE)
   }

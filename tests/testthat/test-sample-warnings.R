@@ -24,8 +24,8 @@ test_that("warnings are told in one line a kind, with the ids", {
                                                  problem = problem, remedy = "Mend it.")
   warnings <- rbind(odd("a", "mirrored.", "crestline_mirrored"),
                     odd("b", "mirrored.", "crestline_mirrored"),
-                    odd("a", "3 of 4 are off.", "crestline_warning"), odd("c", "2 of 4 are off.",
-                                                                          "crestline_warning"),
+                    odd("a", "3 of 4 are off.", "crestline_warning"),
+                    odd("c", "2 of 4 are off.", "crestline_warning"),
                     odd("c", "a hole.", "crestline_warning"))
   expect_identical(warning_lines(warnings), c("2 specimens: mirrored. Mend it. In: a, b.",
                                               "2 specimens: 3 of 4 are off. (a) Mend it. In: a, c.",

@@ -1,6 +1,7 @@
 # Every mistake is named by table, row and column.
 expect_mistake <- function(change, table, row, column, words = character()) {
-  where <- if (is.na(row)) sprintf("- column %s:", column) else c(sprintf("- row %d (", row), sprintf("), column %s:", column))
+  where <- if (is.na(row)) sprintf("- column %s:", column) else
+    c(sprintf("- row %d (", row), sprintf("), column %s:", column))
   error <- expect_crestline_error(leaf_scheme(change), c(paste("table", table), where, words))
   expect_s3_class(error, "crestline_scheme_error")
 }
@@ -57,22 +58,30 @@ test_that("names in curves that mean nothing", {
   expect_wrong("curves", 3, "curve", "edge[1]", "may not hold")
   expect_wrong("curves", 3, "side_of", "mid rib", c("no curve \"mid rib\"", "midrib"))
   expect_wrong("curves", 2, "side_of", "edge left", "leads back")
-  expect_mistake(set_cell("curves", 1, c("side_of", "side"), list("edge left", "left")), "curves", 1, "side_of",
-                 c("leads back", "row 2 (edge left)"))
+  expect_mistake(set_cell("curves", 1, c("side_of", "side"), list("edge left", "left")), "curves",
+                 1, "side_of", c("leads back", "row 2 (edge left)"))
 })
 
 test_that("columns that go together", {
-  expect_mistake(set_cell("curves", 1, "cut_share", 2), "curves", 1, "cut_from", c("go together", "column cut_to"))
-  expect_mistake(set_cell("curves", 1, c("cut_share", "cut_from", "cut_to"), list(2, "base", "base")),
+  expect_mistake(set_cell("curves", 1, "cut_share", 2), "curves", 1, "cut_from",
+                 c("go together", "column cut_to"))
+  expect_mistake(set_cell("curves", 1, c("cut_share", "cut_from", "cut_to"),
+                          list(2, "base", "base")),
                  "curves", 1, "cut_to", "same")
-  expect_mistake(set_cell("curves", 1, "keep_away_from", "wideL"), "curves", 1, "keep_away_to", "go together")
-  expect_mistake(set_cell("curves", 1, "keep_away_radius", 1), "curves", 1, "keep_away_radius", "keep_away_from is not")
+  expect_mistake(set_cell("curves", 1, "keep_away_from", "wideL"), "curves", 1, "keep_away_to",
+                 "go together")
+  expect_mistake(set_cell("curves", 1, "keep_away_radius", 1), "curves", 1, "keep_away_radius",
+                 "keep_away_from is not")
   expect_mistake(set_cell("curves", 2, "side", NA), "curves", 2, "side", "go together")
   beside <- c("keep_side_from", "keep_side_to", "keep_side_towards")
-  expect_mistake(set_cell("curves", 1, beside[1:2], list("wideL", "tip")), "curves", 1, "keep_side_towards", "go together")
-  expect_mistake(set_cell("curves", 1, beside, list("wideL", "tip", "tip")), "curves", 1, "keep_side_towards", "same landmark")
-  expect_mistake(set_cell("curves", 1, beside, list("wideL", "tip", "wide")), "curves", 1, "keep_side_towards", "no landmark \"wide\"")
-  expect_mistake(set_cell("curves", 1, c("trust_from", "trust_to"), list(0.5, 0.5)), "curves", 1, "trust_to", "not above")
+  expect_mistake(set_cell("curves", 1, beside[1:2], list("wideL", "tip")), "curves", 1,
+                 "keep_side_towards", "go together")
+  expect_mistake(set_cell("curves", 1, beside, list("wideL", "tip", "tip")), "curves", 1,
+                 "keep_side_towards", "same landmark")
+  expect_mistake(set_cell("curves", 1, beside, list("wideL", "tip", "wide")), "curves", 1,
+                 "keep_side_towards", "no landmark \"wide\"")
+  expect_mistake(set_cell("curves", 1, c("trust_from", "trust_to"), list(0.5, 0.5)), "curves", 1,
+                 "trust_to", "not above")
 })
 
 test_that("mistakes in patches", {
@@ -93,7 +102,8 @@ test_that("mistakes in patches", {
   expect_wrong("patches", 3, "first_column", "midrib[1:4]", "curve_b is not")
   expect_wrong("patches", 3, "resample_b", 4, "curve_b is not")
   expect_wrong("patches", 2, "patch", "blade left", "twice")
-  expect_mistake(set_cell("patches", 1:2, c("patch", "block"), list("blade", c(NA, 1))), "patches", 2, "block", "not in another")
+  expect_mistake(set_cell("patches", 1:2, c("patch", "block"), list("blade", c(NA, 1))), "patches",
+                 2, "block", "not in another")
   expect_wrong("patches", 1, "outward", "up", "columns, rows")
 })
 
@@ -107,9 +117,11 @@ test_that("mistakes in strips", {
 test_that("mistakes in definitions", {
   with_definitions <- function(...) {
     function(tables) {
-      rows <- data.frame(landmark = c("wideL", "tip", "wideR"), kind = c("cap", "profile", "crossing"), radius = 2, reach = 3,
-                         bend = c(NA, "out", NA), mirror = c(NA, "wideL", NA), from = c(NA, NA, "base"), to = c(NA, NA, "tip"),
-                         type = c(NA, NA, "ridge"), width = c(NA, NA, 4), across_from = c(NA, NA, "wideL"),
+      rows <- data.frame(landmark = c("wideL", "tip", "wideR"),
+                         kind = c("cap", "profile", "crossing"), radius = 2, reach = 3,
+                         bend = c(NA, "out", NA), mirror = c(NA, "wideL", NA),
+                         from = c(NA, NA, "base"), to = c(NA, NA, "tip"), type = c(NA, NA, "ridge"),
+                         width = c(NA, NA, 4), across_from = c(NA, NA, "wideL"),
                          across_to = c(NA, NA, "base"), across_type = c(NA, NA, "plane"))
       change <- list(...)
       if (length(change)) rows[change[[1]], change[[2]]] <- change[[3]]
@@ -122,7 +134,8 @@ test_that("mistakes in definitions", {
   expect_output(print(fine), "landmarks with a definition: wideL, tip, wideR")
   wrong <- function(row, column, value, words, named = column) {
     error <- expect_crestline_error(leaf_scheme(with_definitions(row, column, value)),
-                                    c("definitions", sprintf("row %d", row), sprintf("column %s", named), words))
+                                    c("definitions", sprintf("row %d", row),
+                                      sprintf("column %s", named), words))
     expect_s3_class(error, "crestline_scheme_error")
   }
   wrong(1, "landmark", "top", "no landmark \"top\"")
@@ -148,13 +161,17 @@ test_that("all problems of a table are told at once, in order of rows, and cut s
     x$curves$kind <- "crest"
     x
   }
-  error <- expect_crestline_error(leaf_scheme(many), c("has 9 problems", "row 1 (midrib)", "row 3 (edge right)", "and 1 more"))
-  expect_equal(lengths(regmatches(conditionMessage(error), gregexpr("\n- ", conditionMessage(error)))), 9)
+  error <- expect_crestline_error(leaf_scheme(many),
+                                  c("has 9 problems", "row 1 (midrib)", "row 3 (edge right)",
+                                    "and 1 more"))
+  expect_equal(lengths(regmatches(conditionMessage(error),
+                                  gregexpr("\n- ", conditionMessage(error)))), 9)
 })
 
 test_that("a table that is none, or empty, is refused", {
   x <- leaf_tables()
-  expect_crestline_error(curve_scheme("landmarks.csv", x$curves), "table landmarks is landmarks.csv")
+  expect_crestline_error(curve_scheme("landmarks.csv", x$curves),
+                         "table landmarks is landmarks.csv")
   expect_crestline_error(curve_scheme(x$landmarks, x$curves[0, ]), "table curves is empty")
   expect_crestline_error(curve_scheme(x$landmarks, NULL), "table curves is NULL")
 })

@@ -76,7 +76,8 @@ test_that("brows keep away from the eye, eye sockets below it, curves from the e
 
 test_that("where the kind differs from the authors', the note says why", {
   differs <- face$curves$kind != face$curves$authors_kind
-  expect_equal(face$curves$curve[differs], paste(rep(c("philtrum ridge", "philtrum lip"), each = 2), c("left", "right")))
+  expect_equal(face$curves$curve[differs],
+               paste(rep(c("philtrum ridge", "philtrum lip"), each = 2), c("left", "right")))
   expect_true(all(nzchar(face$curves$note[differs])) && !anyNA(face$curves$note[differs]))
   expect_true(all(face$curves$authors_kind %in% c("ridge", "valley", "plane")))
 })
@@ -86,7 +87,8 @@ test_that("the model is the published one, point by point", {
   expect_equal(surface$part, reference$patch)
   expect_equal(surface$point, reference$index)
   curves <- utils::read.csv(shared_data("scan_a", "reference_curves.csv"))
-  expect_equal(c(table(curves$curve))[face$curves$curve], stats::setNames(face$curves$n, face$curves$curve))
+  expect_equal(c(table(curves$curve))[face$curves$curve],
+               stats::setNames(face$curves$n, face$curves$curve))
   triangles <- utils::read.csv(shared_data("..", "spec", "face_triangles.csv"))
   first <- match(surface$place, surface$place)
   published <- matrix(first[as.matrix(triangles[c("v1", "v2", "v3")])], ncol = 3)
@@ -104,6 +106,7 @@ test_that("coinciding points of the model lie together on a real face", {
   at <- match(surface$place, points$place)
   gap <- sqrt(rowSums((xyz - as.matrix(curves[own[at], c("x", "y", "z")]))^2))
   expect_equal(sum(!is.na(gap)), 280)
-  inside <- startsWith(surface$place, "curves|")  # the reference's own curves do not agree at stomion
+  # the reference's own curves do not agree at stomion
+  inside <- startsWith(surface$place, "curves|")
   expect_lt(max(gap[inside], na.rm = TRUE), 0.2)
 })

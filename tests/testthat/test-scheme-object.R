@@ -1,8 +1,12 @@
 # The scheme of an object that is no face: the skull of Morpho's boneData (inst/extdata/README.md).
 
-skull_scheme <- function() read_scheme(system.file("extdata", "skull_scheme", package = "crestline"), name = "skull")
+skull_scheme <- function() {
+  read_scheme(system.file("extdata", "skull_scheme", package = "crestline"), name = "skull")
+}
 
-skull_landmarks <- function() read_landmarks(system.file("extdata", "skull_landmarks.csv", package = "crestline"))
+skull_landmarks <- function() {
+  read_landmarks(system.file("extdata", "skull_landmarks.csv", package = "crestline"))
+}
 
 morpho_skull <- function() {
   testthat::skip_if_not_installed("Morpho")
@@ -49,15 +53,17 @@ test_that("every left part has its right one, and no other is paired", {
   right <- sub("L$", "R", sub("left$", "right", left))
   expect_setequal(scheme$pairs$left, left)
   expect_identical(scheme$pairs$right[match(left, scheme$pairs$left)], right)
-  expect_setequal(setdiff(names, c(left, right)), c("n", "rhi", "ac", "pr", "nasal bridge", "subnasal crest"))
+  expect_setequal(setdiff(names, c(left, right)),
+                  c("n", "rhi", "ac", "pr", "nasal bridge", "subnasal crest"))
 })
 
-test_that("the patches' triangles join: each edge is used once a way round, and all hang together", {
+test_that("the patches' triangles join: each edge once a way round, and all hang together", {
   scheme <- skull_scheme()
   v <- as.matrix(scheme$triangles[c("v1", "v2", "v3")])
   way <- rbind(v[, 1:2], v[, 2:3], v[, c(3, 1)])
   expect_identical(anyDuplicated(way), 0L)
-  # Two triangles a quad; a strip between lines of p and q points has p + q - 2, one less where the lines share an end.
+  # Two triangles a quad; a strip between lines of p and q points has p + q - 2, one less where the
+  # lines share an end.
   blocks <- 2 * (7 * 3 + 8 * 3 + 6 * 5 + 8 * 4)
   strips <- (5 + 7 - 2) + (4 + 6 - 3)
   expect_equal(nrow(v), 2 * (blocks + strips))
@@ -91,13 +97,15 @@ test_that("ridges lie where the surface bends outwards, valleys where it bends i
   fit <- skull_fit()
   vertices <- t(fit$specimen$mesh$vb[1:3, ])
   middle_index <- function(row) {
-    points <- fit$shape$points[fit$shape$points$level == "curves" & fit$shape$points$part == row$curve, ]
+    points <- fit$shape$points[fit$shape$points$level == "curves" & fit$shape$points$part ==
+                               row$curve, ]
     nearest <- Rvcg::vcgKDtree(vertices, as.matrix(points[c("x", "y", "z")]), k = 1)$index
     curved <- curvature(fit$specimen, row$radius, vertices = sort(unique(as.vector(nearest))))
     stats::median(shape_index(curved), na.rm = TRUE)
   }
   curves <- fit$shape$scheme$curves
-  index <- vapply(split(curves, curves$curve)[curves$curve[curves$kind != "plane"]], middle_index, 0)
+  index <- vapply(split(curves, curves$curve)[curves$curve[curves$kind != "plane"]],
+                  middle_index, 0)
   kind <- curves$kind[match(names(index), curves$curve)]
   expect_gt(min(index[kind == "ridge"]), 0.25)
   expect_lt(max(index[kind == "valley"]), -0.25)
@@ -123,12 +131,14 @@ test_that("the mirrored skull, left and right swapped, has the mirrored model", 
   mesh$it <- mesh$it[c(1, 3, 2), ]
   marks <- fit$specimen$landmarks %*% diag(c(-1, 1, 1))
   rownames(marks) <- partner_of(rownames(fit$specimen$landmarks), scheme$pairs, "landmarks")
-  image <- fit_shape(specimen(mesh, marks, id = "mirrored"), scheme, ridge_settings(error = FALSE), progress = FALSE)
+  image <- fit_shape(specimen(mesh, marks, id = "mirrored"), scheme, ridge_settings(error = FALSE),
+                     progress = FALSE)
   for (level in c("landmarks", "curves", "surface")) {
     own <- fit$shape$points[fit$shape$points$level == level, ]
     other <- image$points[image$points$level == level, ]
     name <- paste(partner_of(own$part, scheme$pairs, level), own$point)
-    mirror <- as.matrix(other[match(name, paste(other$part, other$point)), c("x", "y", "z")]) %*% diag(c(-1, 1, 1))
+    mirror <- as.matrix(other[match(name, paste(other$part, other$point)), c("x", "y", "z")]) %*%
+      diag(c(-1, 1, 1))
     expect_lt(max(abs(mirror - as.matrix(own[c("x", "y", "z")]))), tolerances$invariance * 100)
   }
 })

@@ -1,12 +1,14 @@
 expect_pair_mistake <- function(change, words) {
-  expect_s3_class(expect_crestline_error(leaf_scheme(change), c("table pairs", words)), "crestline_scheme_error")
+  expect_s3_class(expect_crestline_error(leaf_scheme(change), c("table pairs", words)),
+                  "crestline_scheme_error")
 }
 mirror_broken <- function(table, row, column, value, words) {
   expect_pair_mistake(set_cell(table, row, column, value), words)
 }
 
 test_that("names that mean nothing, and partners of two", {
-  mirror_broken("pairs", 2, "right", "edge", c("row 2 (edge left), column right", "no curve \"edge\""))
+  mirror_broken("pairs", 2, "right", "edge",
+                c("row 2 (edge left), column right", "no curve \"edge\""))
   mirror_broken("pairs", 1, "left", "wide", c("row 1 (wide), column left", "no landmark \"wide\""))
   mirror_broken("pairs", 3, "left", "blade", c("row 3 (blade), column left", "no patch \"blade\""))
   mirror_broken("pairs", 1, "right", "wideL", "has a partner already")
@@ -18,17 +20,20 @@ test_that("names that mean nothing, and partners of two", {
 })
 
 test_that("partners that are no mirror images", {
-  mirror_broken("curves", 3, "kind", "valley", c("row 2 (edge left)", "kind is valley, the partner's ridge"))
+  mirror_broken("curves", 3, "kind", "valley",
+                c("row 2 (edge left)", "kind is valley, the partner's ridge"))
   mirror_broken("curves", 3, "radius", 3, "radius is 3, the partner's 2")
   mirror_broken("curves", 3, "side", "left", "side is left, the partner's right")
   mirror_broken("curves", 3, "to", "wideR", "to is wideR, the partner's tip")
   mirror_broken("curves", 2, c("keep_away_from", "keep_away_to"), list("base", "wideL"),
                 "keep_away is NA NA, the partner's base wideR")
-  mirror_broken("curves", 2:3, c("keep_side_from", "keep_side_to", "keep_side_towards"), list("base", "tip", "wideL"),
-                "keep_side_towards is wideL, the partner's wideR")
-  mirror_broken("patches", 2, "outward", "rows", c("row 3 (blade left)", "outward is rows, the partner's columns"))
+  mirror_broken("curves", 2:3, c("keep_side_from", "keep_side_to", "keep_side_towards"),
+                list("base", "tip", "wideL"), "keep_side_towards is wideL, the partner's wideR")
+  mirror_broken("patches", 2, "outward", "rows",
+                c("row 3 (blade left)", "outward is rows, the partner's columns"))
   mirror_broken("patches", 2, c("columns", "n"), list("2:4", 9), "n is 9, the partner's 12")
-  mirror_broken("patches", 2, "curve_a", "edge left[1:6]", "curve_a is edge left[1:6], the partner's edge right[1:6]")
+  mirror_broken("patches", 2, "curve_a", "edge left[1:6]",
+                "curve_a is edge left[1:6], the partner's edge right[1:6]")
 })
 
 test_that("partners with different n are no pair", {
@@ -57,7 +62,8 @@ test_that("what has no partner must be its own mirror image", {
 
 test_that("a curve across from left to right is its own", {
   across <- function(x) {
-    x$curves <- rbind(x$curves, transform(x$curves[1, ], curve = "waist", from = "wideL", to = "wideR"))
+    x$curves <- rbind(x$curves,
+                      transform(x$curves[1, ], curve = "waist", from = "wideL", to = "wideR"))
     x
   }
   expect_equal(nrow(leaf_scheme(across)$curves), 4)
@@ -65,6 +71,7 @@ test_that("a curve across from left to right is its own", {
 
 test_that("partners go both ways and others are their own", {
   pairs <- leaf_scheme()$pairs
-  expect_equal(partner_of(c("wideL", "wideR", "tip"), pairs, "landmarks"), c("wideR", "wideL", "tip"))
+  expect_equal(partner_of(c("wideL", "wideR", "tip"), pairs, "landmarks"),
+               c("wideR", "wideL", "tip"))
   expect_equal(partner_of("wideL", pairs, "curves"), "wideL")
 })

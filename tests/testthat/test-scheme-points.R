@@ -4,20 +4,25 @@ test_that("ranges are read as written, and what is no range is not", {
   for (wrong in c("", "a", "1:2:3", "1-3", "1,,2", "1.5")) expect_null(number_list(wrong))
   expect_equal(side_points("nose[3:1] + mid-line lip[2]"),
                data.frame(curve = c(rep("nose", 3), "mid-line lip"), point = c(3:1, 2L)))
-  for (wrong in c("nose", "nose[]", "nose[1:]", "[1:2]", "nose[1:2]x", "a[1]+nose")) expect_null(curve_parts(wrong))
+  for (wrong in c("nose", "nose[]", "nose[1:]", "[1:2]", "nose[1:2]x", "a[1]+nose")) {
+    expect_null(curve_parts(wrong))
+  }
 })
 
-test_that("points of a block run by column, then row, with columns counted as kept and rows as made", {
+test_that("a block's points run by column, then row: columns as kept, rows as made", {
   block <- data.frame(patch = "blade", block = NA, columns = "2,4", rows = 4, rows_kept = "2:3")
   expect_equal(block_points(block),
-               data.frame(part = "blade", point = c("1 2", "1 3", "2 2", "2 3"), column = c(2, 2, 4, 4), row = c(2, 3, 2, 3)))
+               data.frame(part = "blade", point = c("1 2", "1 3", "2 2", "2 3"),
+                          column = c(2, 2, 4, 4), row = c(2, 3, 2, 3)))
   expect_equal(block_points(transform(block, block = 7))$point[1], "7 1 2")
   expect_equal(block_points(transform(block, rows = 1, rows_kept = "1"))$point, c("1", "2"))
 })
 
 test_that("points that coincide by construction have one place", {
   points <- leaf_scheme()$points
-  place <- function(level, part, point) points$place[points$level == level & points$part == part & points$point == point]
+  place <- function(level, part, point) {
+    points$place[points$level == level & points$part == part & points$point == point]
+  }
   expect_equal(place("curves", "edge left", "1"), "landmarks|base")
   expect_equal(place("curves", "edge right", "6"), place("landmarks", "tip", "1"))
   expect_equal(place("surface", "blade left", "1 1"), place("curves", "edge left", "2"))
@@ -31,15 +36,19 @@ test_that("a first column lies on its curve, at its own points where they are as
   along <- function(parts) {
     leaf_scheme(function(x) {
       base <- x$curves[c(1, 1), ]
-      base[c("curve", "to", "n")] <- data.frame(c("base left", "base right"), c("wideL", "wideR"), 4)
+      base[c("curve", "to", "n")] <- data.frame(c("base left", "base right"),
+                                                c("wideL", "wideR"), 4)
       x$curves <- rbind(x$curves, base)
       x$patches[1:2, c("columns", "n")] <- data.frame("1:5", c(15, 15))
       x$patches$first_column <- c(paste0("base left", parts), paste0("base right", parts), NA)
-      x$pairs <- rbind(x$pairs, data.frame(level = "curves", left = "base left", right = "base right"))
+      x$pairs <- rbind(x$pairs,
+                       data.frame(level = "curves", left = "base left", right = "base right"))
       x
     })$points
   }
-  first <- function(points) points$place[points$part == "blade left" & points$point %in% c("1 2", "1 3")]
+  first <- function(points) {
+    points$place[points$part == "blade left" & points$point %in% c("1 2", "1 3")]
+  }
   expect_equal(first(along("[1:4]")), c("curves|base left|2", "curves|base left|3"))
   expect_equal(first(along("[4:1]")), c("curves|base left|3", "curves|base left|2"))
   expect_equal(first(along("[1:3]")), c("surface|blade left|1 2", "surface|blade left|1 3"))

@@ -1,7 +1,8 @@
 write_tables <- function(tables, encoding = "UTF-8") {
   dir <- new_folder()
   for (table in names(tables)) {
-    utils::write.csv(tables[[table]], file.path(dir, paste0(table, ".csv")), row.names = FALSE, na = "", fileEncoding = encoding)
+    utils::write.csv(tables[[table]], file.path(dir, paste0(table, ".csv")), row.names = FALSE,
+                     na = "", fileEncoding = encoding)
   }
   dir
 }
@@ -29,7 +30,8 @@ test_that("only landmarks and curves need a file", {
 test_that("mistakes name the file, and folders that are none are refused", {
   x <- leaf_tables()
   x$curves$n[2] <- 1
-  expect_crestline_error(read_scheme(write_tables(x)), c("table curves.csv", "row 2 (edge left), column n: 1 is not"))
+  expect_crestline_error(read_scheme(write_tables(x)),
+                         c("table curves.csv", "row 2 (edge left), column n: 1 is not"))
   expect_crestline_error(read_scheme(file.path(tempdir(), "no such folder")), "no folder")
   expect_crestline_error(read_scheme(3), "no folder 3")
 })
@@ -46,7 +48,8 @@ test_that("lines of different length are explained", {
 test_that("a mark of the encoding and Windows' line ends do no harm", {
   dir <- write_tables(leaf_tables())
   file <- file.path(dir, "landmarks.csv")
-  writeBin(charToRaw(paste0("\xef\xbb\xbf", paste(readLines(file), collapse = "\r\n"), "\r\n")), file)
+  writeBin(charToRaw(paste0("\xef\xbb\xbf", paste(readLines(file), collapse = "\r\n"), "\r\n")),
+           file)
   expect_equal(read_scheme(dir)$landmarks$landmark, leaf_tables()$landmarks$landmark)
 })
 

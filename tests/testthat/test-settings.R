@@ -29,7 +29,8 @@ test_that("no field is taken for another, former names work with a message", {
 
 test_that("settings print as they are written in a call", {
   printed <- utils::capture.output(print_settings(
-    structure(list(a = 0.25, b = c(40, 10), c = "x y"), class = "some_settings"), "<some_settings> of a test"
+    structure(list(a = 0.25, b = c(40, 10), c = "x y"), class = "some_settings"),
+    "<some_settings> of a test"
   ))
   expect_identical(printed, c("<some_settings> of a test",
                               "  a = 0.25, b = c(40, 10), c = \"x y\""))

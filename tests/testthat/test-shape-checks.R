@@ -1,4 +1,4 @@
-test_that("a surface without fault has none, one point moved across its neighbours flips triangles", {
+test_that("a surface without fault has none, a point moved past neighbours flips triangles", {
   shape <- quad_shape()
   face <- quad_specimen()
   expect_equal(nrow(surface_faults(shape, face)), 0)
@@ -29,7 +29,8 @@ test_that("a triangle that is there twice is doubled", {
   shape$scheme$triangles <- rbind(shape$scheme$triangles, shape$scheme$triangles[5, ])
   faults <- surface_faults(shape, quad_specimen())
   expect_equal(faults$fault, "doubled")
-  expect_equal(unlist(faults[c("v1", "v2", "v3")]), unlist(shape$scheme$triangles[5, c("v1", "v2", "v3")]))
+  expect_equal(unlist(faults[c("v1", "v2", "v3")]),
+               unlist(shape$scheme$triangles[5, c("v1", "v2", "v3")]))
 })
 
 test_that("faults of the model are in the status of the patch, beside what was there", {
@@ -38,6 +39,7 @@ test_that("faults of the model are in the status of the patch, beside what was t
   noted <- note_faults(shape, surface_faults(shape, quad_specimen()))
   expect_equal(status_of(noted, "quad")$reason, "2 doubled triangles")
   shape$status$reason[shape$status$part == "quad"] <- "before"
-  expect_equal(status_of(note_faults(shape, surface_faults(shape, quad_specimen())), "quad")$reason, "before; 2 doubled triangles")
+  expect_equal(status_of(note_faults(shape, surface_faults(shape, quad_specimen())), "quad")$reason,
+               "before; 2 doubled triangles")
   expect_true(status_of(noted, "quad")$ok)
 })

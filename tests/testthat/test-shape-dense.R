@@ -5,12 +5,15 @@ border_sides <- function(mesh) {
   t(side[, !key %in% key[duplicated(key)]])
 }
 off_ball <- function(mesh, specimen) {
-  centre <- (mesh$vb[1:3, mesh$it[1, ]] + mesh$vb[1:3, mesh$it[2, ]] + mesh$vb[1:3, mesh$it[3, ]]) / 3
+  centre <- (mesh$vb[1:3, mesh$it[1, ]] + mesh$vb[1:3, mesh$it[2, ]] + mesh$vb[1:3, mesh$it[3, ]]) /
+    3
   surface_gap(specimen$mesh, t(centre))
 }
-surface_gap <- function(mesh, xyz) sqrt(rowSums((as.matrix(surface_points(mesh, xyz)[1:3]) - xyz)^2))
+surface_gap <- function(mesh, xyz) {
+  sqrt(rowSums((as.matrix(surface_points(mesh, xyz)[1:3]) - xyz)^2))
+}
 
-test_that("a denser surface has the model's points, k x k quads for each, and all points on the mesh", {
+test_that("a denser surface has the model's points, k x k quads each, all on the mesh", {
   shape <- quad_shape()
   specimen <- quad_specimen()
   coarse <- shape_mesh(shape)
@@ -41,7 +44,7 @@ test_that("it has no crack, no triangle turned over or crossing, and is nearer t
   }
 })
 
-test_that("sides that are part of a curve follow it, at equal chords, also where it was resampled", {
+test_that("sides that are part of a curve follow it at equal chords, resampled too", {
   scheme <- quad_scheme(function(tables) {
     tables$patches[c("n", "columns", "resample_a", "resample_b")] <- data.frame(20, "1:4", 4, 4)
     tables
@@ -52,7 +55,8 @@ test_that("sides that are part of a curve follow it, at equal chords, also where
   border <- unique(as.vector(border_sides(dense)))
   on <- rowSums(!is.na(sapply(shape$paths, arc_lengths_on, t(dense$vb[1:3, ])[border, ], 1e-9))) > 0
   expect_true(all(on))
-  # The part of a bottom's curve between two of its four points: chords of the nine pieces are equal by threes.
+  # The part of a bottom's curve between two of its four points: chords of the nine pieces are equal
+  # by threes.
   bottom <- arc_lengths_on(shape$paths$bottom, t(dense$vb[1:3, ]), 1e-9)
   along <- order(bottom, na.last = NA)
   chord <- matrix(sqrt(rowSums(diff(t(dense$vb[1:3, along]))^2)), 3)
@@ -72,7 +76,7 @@ test_that("neighbours with different directions share the points of their common
   expect_equal(anyDuplicated(round(xyz, 9)), 0)
 })
 
-test_that("a triangle with a missing neighbour is divided too; across a hole triangles are left out, with a warning", {
+test_that("triangles beside a missing one are divided, across a hole left out, with a warning", {
   shape <- quad_shape()
   specimen <- quad_specimen()
   lost <- which(shape$points$level == "surface" & shape$points$point == "7 5")
@@ -80,7 +84,8 @@ test_that("a triangle with a missing neighbour is divided too; across a hole tri
   expect_equal(ncol(shape_mesh(shape)$it), 46)
   expect_equal(ncol(shape_mesh(shape, specimen = specimen, dense = 2)$it), 4 * 46)
   hole <- quad_specimen(function(mesh) {
-    centre <- (mesh$vb[1:3, mesh$it[1, ]] + mesh$vb[1:3, mesh$it[2, ]] + mesh$vb[1:3, mesh$it[3, ]]) / 3
+    centre <- (mesh$vb[1:3, mesh$it[1, ]] + mesh$vb[1:3, mesh$it[2, ]] +
+               mesh$vb[1:3, mesh$it[3, ]]) / 3
     mesh$it <- mesh$it[, colSums((centre - c(4, 0, 50))^2) > 4]
     mesh
   })
@@ -99,7 +104,9 @@ test_that("a curve that folds the surface is not followed", {
   ends <- lapply(at, function(i) unlist(shape$points[i, c("x", "y", "z")]))
   over <- 50 * c(0, 0.3, 0.95) / sqrt(0.3^2 + 0.95^2)
   s <- arc_lengths_on(shape$paths$bottom, do.call(rbind, ends), 1e-9)
-  part <- function(from, to) as.data.frame(part_of_path(specimen$mesh, shape$paths$bottom, from, to))[mesh_columns]
+  part <- function(from, to) {
+    as.data.frame(part_of_path(specimen$mesh, shape$paths$bottom, from, to))[mesh_columns]
+  }
   away <- function(from, to) as.data.frame(plane_path(specimen, from, to))[mesh_columns]
   detour <- rbind(part(0, s[1]), away(ends[[1]], over), away(over, ends[[2]]), part(s[2], Inf))
   shape$paths$bottom <- path_through(detour)
@@ -116,7 +123,8 @@ test_that("density and specimen are checked", {
 })
 
 test_that("the denser face of scan_a is closed, sound and nearer to the scan", {
-  scan <- read_specimen(shared_data("scan_a", "surface.ply"), shared_data("scan_a", "landmarks.csv"), id = "scan_a")
+  scan <- read_specimen(shared_data("scan_a", "surface.ply"),
+                        shared_data("scan_a", "landmarks.csv"), id = "scan_a")
   shape <- fit_shape(scan, face_scheme(), ridge_settings("one pass", error = FALSE),
                      progress = FALSE)
   coarse <- shape_mesh(shape)

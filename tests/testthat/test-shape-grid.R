@@ -5,14 +5,15 @@ test_that("with the scheme's numbers a patch is the model's, to the last digit",
   expect_equal(dim(mesh$it), dim(shape_mesh(shape)$it))
 })
 
-test_that("any number of columns and rows lies on the mesh, columns at equal chords between resampled curves", {
+test_that("any number of columns and rows lies on the mesh, columns at equal chords", {
   shape <- quad_shape()
   specimen <- quad_specimen()
   mesh <- patch_mesh(shape, specimen, "quad", columns = 10, rows = 4)
   points <- attr(mesh, "points")
   expect_equal(c(ncol(mesh$vb), ncol(mesh$it)), c(40, 2 * 9 * 3))
   expect_on_mesh(points, specimen$mesh)
-  expect_equal(points[c("column", "row")], data.frame(column = rep(1:10, each = 4), row = rep(1:4, 10)))
+  expect_equal(points[c("column", "row")],
+               data.frame(column = rep(1:10, each = 4), row = rep(1:4, 10)))
   chord <- function(rows) sqrt(rowSums(diff(as.matrix(points[rows, c("x", "y", "z")]))^2))
   spread <- function(x) max(x) / min(x) - 1
   for (k in 1:10) expect_lte(spread(chord(points$column == k)), 1e-8)
@@ -27,8 +28,9 @@ test_that("any number of columns and rows lies on the mesh, columns at equal cho
 
 test_that("where bounding curves meet, a column is one vertex", {
   scheme <- quad_scheme(function(tables) {
-    tables$patches <- data.frame(patch = "fan", n = 5, columns = "2", rows = 5, rows_kept = "1:5", curve_a = "bottom[1:5]",
-                                 curve_b = "left[1:5]", outward = "columns")
+    tables$patches <- data.frame(patch = "fan", n = 5, columns = "2", rows = 5, rows_kept = "1:5",
+                                 curve_a = "bottom[1:5]", curve_b = "left[1:5]",
+                                 outward = "columns")
     tables
   })
   mesh <- patch_mesh(quad_shape(scheme), quad_specimen(), "fan", columns = 5, rows = 5)
@@ -49,6 +51,7 @@ test_that("patches that are not there, rows of points and missing curves are ref
     tables$patches <- rbind(cbind(tables$patches, block = 1), cbind(tables$patches, block = 2))
     tables
   })
-  expect_crestline_error(patch_mesh(quad_shape(blocks), specimen, "quad"), c("several blocks", "block = 1 or 2"))
+  expect_crestline_error(patch_mesh(quad_shape(blocks), specimen, "quad"),
+                         c("several blocks", "block = 1 or 2"))
   expect_s3_class(patch_mesh(quad_shape(blocks), specimen, "quad", block = 2), "mesh3d")
 })

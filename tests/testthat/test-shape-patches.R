@@ -1,16 +1,19 @@
 test_that("a bounding curve is resampled along its own path, forwards and backwards", {
   spaced <- function(curve_a) {
     scheme <- quad_scheme(function(tables) {
-      tables$patches <- data.frame(patch = "row", n = 4, columns = "1:4", rows = 1, rows_kept = "1", curve_a = curve_a, resample_a = 4)
+      tables$patches <- data.frame(patch = "row", n = 4, columns = "1:4", rows = 1, rows_kept = "1",
+                                   curve_a = curve_a, resample_a = 4)
       tables
     })
     quad_shape(scheme)
   }
   there <- spaced("bottom[1:7]")
   back <- spaced("bottom[7:1]")
-  expect_equal(unname(coords(there, "surface")), unname(coords(back, "surface")[4:1, ]), tolerance = 1e-9)
+  expect_equal(unname(coords(there, "surface")), unname(coords(back, "surface")[4:1, ]),
+               tolerance = 1e-9)
   expect_identical(coords(there, "surface")["row 1", ], coords(there, "landmarks")["a", ])
-  expect_equal(unname(coords(there, "surface")[2:3, ]), unname(coords(there, "curves")[c("bottom 3", "bottom 5"), ]), tolerance = 1e-4)
+  expect_equal(unname(coords(there, "surface")[2:3, ]),
+               unname(coords(there, "curves")[c("bottom 3", "bottom 5"), ]), tolerance = 1e-4)
   expect_on_mesh(back$points, quad_specimen()$mesh)
   round <- spaced("left[5:1]+bottom[2:7]")
   chord <- sqrt(rowSums(diff(coords(round, "surface"))^2))
@@ -32,21 +35,27 @@ test_that("curves that do not meet are joined by a cut", {
 
 test_that("a column that meets a hole is missing with its reason, the others are there", {
   hole <- function(mesh) {
-    centre <- (mesh$vb[1:3, mesh$it[1, ]] + mesh$vb[1:3, mesh$it[2, ]] + mesh$vb[1:3, mesh$it[3, ]]) / 3
+    centre <- (mesh$vb[1:3, mesh$it[1, ]] + mesh$vb[1:3, mesh$it[2, ]] +
+               mesh$vb[1:3, mesh$it[3, ]]) / 3
     mesh$it <- mesh$it[, colSums((centre - c(0, 0, 50))^2) > 9]
     mesh
   }
-  shape <- fit_shape(quad_specimen(hole), quad_scheme(), column_angle = 0.01, bridge = 0, progress = FALSE)
+  shape <- fit_shape(quad_specimen(hole), quad_scheme(), column_angle = 0.01, bridge = 0,
+                     progress = FALSE)
   lost <- rownames(coords(shape, "surface"))[is.na(coords(shape, "surface")[, 1])]
   expect_equal(lost, paste("quad 4", 2:4))
-  expect_match(status_of(shape, "quad")$reason, "3 of 35 points missing: column 4: the plane cut meets a border")
+  expect_match(status_of(shape, "quad")$reason,
+               "3 of 35 points missing: column 4: the plane cut meets a border")
   # Of the 16 triangles of the 8 quads about the column two have no corner on its inside.
   expect_equal(ncol(shape_mesh(quad_shape())$it), 48)
   expect_equal(ncol(shape_mesh(shape)$it), 48 - 16 + 2)
   bridged <- fit_shape(quad_specimen(hole), quad_scheme(), column_angle = 0.01, progress = FALSE)
-  expect_equal(rownames(coords(bridged, "surface"))[is.na(coords(bridged, "surface")[, 1])], "quad 4 3")
-  expect_match(status_of(bridged, "quad")$reason, "1 of 35 points missing: 1 in a hole of the mesh", fixed = TRUE)
-  expect_lte(max(abs(coords(bridged, "surface") - coords(quad_shape(), "surface")), na.rm = TRUE), 0.1)
+  expect_equal(rownames(coords(bridged, "surface"))[is.na(coords(bridged, "surface")[, 1])],
+               "quad 4 3")
+  expect_match(status_of(bridged, "quad")$reason, "1 of 35 points missing: 1 in a hole of the mesh",
+               fixed = TRUE)
+  expect_lte(max(abs(coords(bridged, "surface") - coords(quad_shape(), "surface")), na.rm = TRUE),
+             0.1)
 })
 
 test_that("the surface is a mesh of the scheme's triangles, outward", {
@@ -61,25 +70,31 @@ test_that("the surface is a mesh of the scheme's triangles, outward", {
   expect_crestline_error(shape_mesh(empty), "no triangle", id = "quad")
 })
 
-# A thin bowl, open at the top: outer wall of radius 50, inner wall of 48, a rim as sharp as a knife at z = 0.
+# A thin bowl, open at the top: outer wall of radius 50, inner wall of 48, a rim as sharp as a knife
+# at z = 0.
 bowl <- function(step = 3) {
   down <- seq(0, 90, step) * pi / 180
   wall <- function(radius, from) radius * cbind(cos(down), -sin(down))[from:length(down), ]
   profile <- rbind(wall(48, 2)[length(down):2 - 1, ], c(49, 0.5), wall(50, 2))
   turn <- seq(0, 360 - step, step) * pi / 180
   grid <- expand.grid(v = seq_len(nrow(profile)), u = turn)
-  xyz <- cbind(profile[grid$v, 1] * cos(grid$u), profile[grid$v, 1] * sin(grid$u), profile[grid$v, 2])
+  xyz <- cbind(profile[grid$v, 1] * cos(grid$u), profile[grid$v, 1] * sin(grid$u),
+               profile[grid$v, 2])
   at <- expand.grid(v = seq_len(nrow(profile) - 1), u = seq_along(turn))
   corner <- function(v, u) (u - 1) %% length(turn) * nrow(profile) + v
-  a <- corner(at$v, at$u); b <- corner(at$v + 1, at$u); c <- corner(at$v + 1, at$u + 1); d <- corner(at$v, at$u + 1)
+  a <- corner(at$v, at$u); b <- corner(at$v + 1, at$u); c <- corner(at$v + 1, at$u + 1)
+  d <- corner(at$v, at$u + 1)
   rgl::mesh3d(vertices = rbind(t(xyz), 1), triangles = cbind(rbind(a, b, c), rbind(a, c, d)))
 }
 
 test_that("columns that begin on a sharp rim run over the outer wall", {
-  on_wall <- function(radius, lon, down) radius * c(cos(down) * cos(lon), cos(down) * sin(lon), -sin(down))
+  on_wall <- function(radius, lon, down) {
+    radius * c(cos(down) * cos(lon), cos(down) * sin(lon), -sin(down))
+  }
   low <- 0.5
   rim <- 0.02
-  landmarks <- rbind(a = on_wall(50, -0.4, low), b = on_wall(50, 0.4, low), c = on_wall(48, 0.4, rim), d = on_wall(48, -0.4, rim))
+  landmarks <- rbind(a = on_wall(50, -0.4, low), b = on_wall(50, 0.4, low),
+                     c = on_wall(48, 0.4, rim), d = on_wall(48, -0.4, rim))
   cup <- specimen(bowl(), landmarks, id = "bowl")
   from_rim <- quad_scheme(function(tables) {
     tables$patches[c("curve_a", "curve_b", "first_column", "outward")] <-

@@ -3,7 +3,9 @@
 grade_in <- function(graded, part, level = "curves") {
   as.character(graded$grade[graded$part == part & graded$level == level])
 }
-why_in <- function(graded, part, level = "curves") graded$why[graded$part == part & graded$level == level]
+why_in <- function(graded, part, level = "curves") {
+  graded$why[graded$part == part & graded$level == level]
+}
 
 # The ball without the vertices within `radius` of a place.
 without_disc <- function(at, radius) {
@@ -14,7 +16,9 @@ without_disc <- function(at, radius) {
   }
 }
 
-spoiled_shape <- function(change, ...) fit_shape(quad_specimen(change), quad_scheme(), ..., progress = FALSE)
+spoiled_shape <- function(change, ...) {
+  fit_shape(quad_specimen(change), quad_scheme(), ..., progress = FALSE)
+}
 
 middle_of <- function(shape, curve) {
   at <- coords(shape, "curves")
@@ -40,7 +44,8 @@ test_that("what is missing is red, with the reason", {
   expect_match(why_in(graded, "top"), "landmark c", fixed = TRUE)
   expect_match(why_in(graded, "quad", "surface"), "24 of 35 points missing", fixed = TRUE)
   expect_equal(graded$missing[graded$level == "surface"], 24 / 35)
-  lenient <- quality(quad_shape(landmarks = quad_corners()[c("a", "b", "d"), ]), quality_limits(missing = c(0.5, 1)))
+  lenient <- quality(quad_shape(landmarks = quad_corners()[c("a", "b", "d"), ]),
+                     quality_limits(missing = c(0.5, 1)))
   expect_equal(grade_in(lenient, "quad", "surface"), "amber")
 })
 
@@ -57,14 +62,15 @@ test_that("a curve that a hole pushes aside, and its patch, are graded; the othe
   expect_true(all(graded$grade[graded$part %in% c("bottom", "left", "right")] == "green"))
 })
 
-test_that("a hole that is bridged is told by the share of the curve over it, and its points are missing", {
+test_that("a bridged hole is told by the share of the curve over it; its points are missing", {
   whole <- quad_shape()
   at <- middle_of(whole, "top") * 50 / sqrt(sum(middle_of(whole, "top")^2))
   shape <- spoiled_shape(without_disc(at, 4))
   gap <- row_lengths(diff(as.matrix(shape$paths$top[c("x", "y", "z")])))
   row <- shape$checks[shape$checks$part == "top", ]
   expect_equal(row$bridged, max(gap) / status_of(shape, "top")$length, tolerance = 0.01)
-  expect_equal(shape$checks$bridged[shape$checks$part %in% c("bottom", "left", "right")], c(0, 0, 0))
+  expect_equal(shape$checks$bridged[shape$checks$part %in% c("bottom", "left", "right")],
+               c(0, 0, 0))
   expect_true(is.infinite(row$border))
   graded <- quality(shape)
   expect_gt(row$missing, 0)
@@ -72,7 +78,7 @@ test_that("a hole that is bridged is told by the share of the curve over it, and
   expect_match(why_in(graded, "top"), "over a hole", fixed = TRUE)
 })
 
-test_that("the distance from a hole is that to the nearest vertex of its rim, the ends of the curve left out", {
+test_that("the distance from a hole is to its rim's nearest vertex, the curve's ends aside", {
   whole <- quad_shape()
   shape <- spoiled_shape(without_disc(c(0, 0, 50), 6), bridge = 0)
   specimen <- quad_specimen(without_disc(c(0, 0, 50), 6))
@@ -124,8 +130,9 @@ test_that("a patch's size is the diameter of the disc with points as far from th
   turn <- seq(0, 2 * pi, length.out = 101)[-1]
   radius <- 7 * sqrt(seq(0.005, 0.995, length.out = 100))
   disc <- expand.grid(radius = radius, turn = turn)
-  points <- data.frame(level = "surface", part = "disc", point = seq_len(nrow(disc)), x = disc$radius * cos(disc$turn),
-                       y = disc$radius * sin(disc$turn), z = 3, face = 1L)
+  points <- data.frame(level = "surface", part = "disc", point = seq_len(nrow(disc)),
+                       x = disc$radius * cos(disc$turn), y = disc$radius * sin(disc$turn),
+                       z = 3, face = 1L)
   shape <- list(points = points, status = data.frame(level = "surface", part = "disc"))
   expect_equal(part_places(shape, list(), 1, 0)[[1]]$size, 14, tolerance = 1e-3)
 })
@@ -208,15 +215,18 @@ test_that("a length that is off the others' is flagged, a large specimen is not"
 })
 
 test_that("the real face: nothing red, and a hole in its cheek is seen", {
-  scan <- read_specimen(shared_data("scan_a", "surface.ply"), shared_data("scan_a", "landmarks.csv"), id = "scan_a")
+  scan <- read_specimen(shared_data("scan_a", "surface.ply"),
+                        shared_data("scan_a", "landmarks.csv"), id = "scan_a")
   whole <- fit_shape(scan, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
   graded <- quality(whole)
   expect_equal(sum(graded$grade == "red"), 0)
   expect_lte(sum(graded$grade == "amber"), 5)
   at <- coords(whole, "curves")["cheek-lip left 10", ]
-  mesh <- without_disc(at, 10)(structure(list(vb = scan$mesh$vb, it = scan$mesh$it), class = "mesh3d"))
+  mesh <- without_disc(at,
+                       10)(structure(list(vb = scan$mesh$vb, it = scan$mesh$it), class = "mesh3d"))
   holed <- specimen(mesh, scan$landmarks, id = "holed")
-  holed <- fit_shape(holed, face_scheme(), ridge_settings(error = FALSE), bridge = 0, progress = FALSE)
+  holed <- fit_shape(holed, face_scheme(), ridge_settings(error = FALSE), bridge = 0,
+                     progress = FALSE)
   moved <- sqrt(rowSums((coords(holed, "curves") - coords(whole, "curves"))^2))
   expect_gt(max(moved, na.rm = TRUE), 3)
   after <- quality(holed)
@@ -230,21 +240,25 @@ test_that("some of the columns print as the data frame that they are", {
   expect_output(print(graded[0, c("part", "grade")]), "0 rows", fixed = TRUE)
 })
 
-test_that("the largest standard error along a curve is in its status and grade, but not in its patch's", {
+test_that("a curve's largest standard error is in its status and grade, not in its patch's", {
   face <- humface_specimen()
   lips <- face_scheme()
-  lips <- curve_scheme(lips$landmarks, lips$curves[grepl("^upper lip", lips$curves$curve), ], name = "lips")
+  lips <- curve_scheme(lips$landmarks, lips$curves[grepl("^upper lip", lips$curves$curve), ],
+                       name = "lips")
   shape <- suppressWarnings(fit_shape(face, lips, progress = FALSE))
   own <- split(shape$points$se, shape$points$part)
   for (name in c("upper lip left", "upper lip right")) {
     expect_equal(status_of(shape, name)$se_max, max(own[[name]], na.rm = TRUE))
   }
   # Beside the corner of the mouth curvature says nothing: the way from there bounds it.
-  right <- coords(shape, "curves")[grepl("upper lip right", shape$points$part[shape$points$level == "curves"]), ]
+  right <- coords(shape,
+                  "curves")[grepl("upper lip right",
+                                  shape$points$part[shape$points$level == "curves"]), ]
   expect_lte(own[["upper lip right"]][2], 1.1 * sqrt(sum((right[2, ] - right[1, ])^2)))
   expect_equal(grade_in(quality(shape), "upper lip right"), "amber")
   expect_match(why_in(quality(shape), "upper lip right"), "radii at one place", fixed = TRUE)
-  expect_equal(grade_in(quality(shape, quality_limits(se_max = c(1, Inf))), "upper lip right"), "green")
+  expect_equal(grade_in(quality(shape, quality_limits(se_max = c(1, Inf))), "upper lip right"),
+               "green")
   quad <- quad_shape()
   quad$status$se_max[quad$status$part == "left"] <- 10
   quad$scheme$curves$radius <- 5
@@ -260,7 +274,7 @@ test_that("shapes of former versions, without what is known of landmarks, are gr
   expect_true(all(quality(shape)$grade == "green"))
 })
 
-test_that("the score is the share's distance from the others' median in their MAD, the specimen's size taken off", {
+test_that("the score is the share's distance from the others' median in their MAD", {
   wobble <- 0.01 * c(-2, -1, 0, 1, 2)
   share <- cbind(0, wobble, -wobble, 0, 0, c(0.3, 0, 0, 0, 0))
   share <- unname(rbind(share, 0))
@@ -280,7 +294,8 @@ test_that("few others give NA, and equal lengths are measured by the least sprea
   expect_true(all(is.na(length_scores(lengths, 5, 0.01)[, 3])))
 })
 
-# The quad of helper-shape.R is its own mirror image: left and right are partners, bottom and top their own.
+# The quad of helper-shape.R is its own mirror image: left and right are partners, bottom and top
+# their own.
 paired_shape <- function() {
   pairs <- data.frame(level = c("landmarks", "landmarks", "curves"),
                       left = c("a", "d", "left"), right = c("b", "c", "right"))

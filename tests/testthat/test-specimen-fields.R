@@ -1,4 +1,4 @@
-test_that("landmarks are changed, moved and named by assignment, and refused where they are no matrix", {
+test_that("landmarks are changed, moved, named by assignment; no matrix is refused", {
   ball <- stretched_ball()
   expect_identical({
     ball$landmarks["low", ] <- c(0, -30, 40)
@@ -26,7 +26,8 @@ test_that("another mesh passes the door again, and takes the landmarks or refuse
   expect_false(identical(other$key, ball$key))
   expect_identical(other$key, mesh_key(other$mesh))
   expect_equal(other$landmarks, ball$landmarks, tolerance = 1e-9)
-  expect_equal(attr(plane_path(other, "low", "high"), "length"), attr(plane_path(ball, "low", "high"), "length"))
+  expect_equal(attr(plane_path(other, "low", "high"), "length"),
+               attr(plane_path(ball, "low", "high"), "length"))
   expect_crestline_error(ball$mesh$vb[1, ] <- ball$mesh$vb[1, ] + 500, "off the surface")
   expect_crestline_error(ball$mesh$it[1, 1] <- 1000000000L, "do not exist", id = "ball")
   expect_crestline_error(ball$mesh <- NULL, "mesh3d", id = "ball")
@@ -58,7 +59,8 @@ test_that("a misspelt field is refused, one that is declared stays when it is em
 test_that("what was changed behind the methods is refused wherever a specimen is taken", {
   case <- complete_case()
   wrong <- wrong_specimens(case)
-  wrong <- wrong[c("mesh exchanged", "index far out", "no normals", "twins gone", "geometry gone", "landmarks as text")]
+  wrong <- wrong[c("mesh exchanged", "index far out", "no normals", "twins gone", "geometry gone",
+                   "landmarks as text")]
   calls <- specimen_calls()
   expect_null(not_refused(calls, case, wrong))
 })
@@ -69,5 +71,6 @@ test_that("a specimen from a file or an older version is taken", {
   old <- tampered(again, function(x) x[c("id", "mesh", "landmarks", "report", "geometry")])
   expect_equal(plane_path(again, "low", "high"), plane_path(ball, "low", "high"))
   expect_equal(plane_path(old, "low", "high"), plane_path(ball, "low", "high"))
-  expect_identical(fit_shape(old, paired_scheme(), ridge_settings(error = FALSE), progress = FALSE)$key, ball$key)
+  expect_identical(fit_shape(old, paired_scheme(), ridge_settings(error = FALSE),
+                             progress = FALSE)$key, ball$key)
 })

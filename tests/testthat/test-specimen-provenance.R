@@ -19,7 +19,8 @@ test_that("only settings that are not as by default are told, in every stage", {
   lines <- settings_lines(list(ridge = utils::modifyList(unclass(ridge_settings()),
                                                          list(error = FALSE)),
                                fit = list(passes = NULL,
-                                          cut_scale = 0.8), slide = unclass(slide_settings("paper")), align = list()))
+                                          cut_scale = 0.8),
+                               slide = unclass(slide_settings("paper")), align = list()))
   expect_match(lines, "ridge error = FALSE; fit cut_scale = 0.8; slide energy = own, nugget = 0",
                fixed = TRUE)
   expect_match(settings_lines(list(fit = list(passes = NULL))), "fit as by default", fixed = TRUE)
@@ -175,7 +176,8 @@ test_that("the record is told in words", {
 test_that("who writes predicted landmarks that lie off the scan is told how to keep them", {
   ball <- specimen(ball_mesh(), rbind(a = c(1, 0, 0), b = c(0, 0, 1)), id = "ball")
   away <- with_fields(ball, landmarks = rbind(ball$landmarks, c = c(0, 1.5, 0)),
-                      placing = data.frame(landmark = c("a", "b", "c"), state = c("found", "found", "predicted")))
+                      placing = data.frame(landmark = c("a", "b", "c"),
+                                           state = c("found", "found", "predicted")))
   expect_message(written_landmarks(away), "off the scan: c.*saveRDS", class = "crestline_message")
   near <- with_fields(away, landmarks = ball$landmarks)
   expect_identical(testthat::capture_messages(written_landmarks(near)), character())

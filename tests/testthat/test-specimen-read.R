@@ -22,8 +22,10 @@ test_that("files that are not there or of no known format are refused", {
 
 test_that("the real scans come in with nothing to mend", {
   for (name in c("scan_a", "template_male")) {
-    s <- read_specimen(shared_data(name, "surface.ply"), shared_data(name, "landmarks.csv"), id = name)
-    expect_equal(setdiff(s$report$check[s$report$count > 0], "landmarks beside the surface"), character())
+    s <- read_specimen(shared_data(name, "surface.ply"),
+                       shared_data(name, "landmarks.csv"), id = name)
+    expect_equal(setdiff(s$report$check[s$report$count > 0], "landmarks beside the surface"),
+                 character())
     expect_on_mesh(s$geometry$located, s$mesh)
   }
 })

@@ -6,7 +6,8 @@ test_that("a clean mesh passes unchanged, with landmarks exactly on it", {
   expect_s3_class(s, "specimen")
   expect_identical(s$mesh$vb, ball$vb)
   expect_equal(s$mesh$it, ball$it)
-  expect_equal(colSums(s$mesh$normals[1:3, ] * ball$vb[1:3, ]), rep(1, ncol(ball$vb)), tolerance = 0.01)
+  expect_equal(colSums(s$mesh$normals[1:3, ] * ball$vb[1:3, ]), rep(1, ncol(ball$vb)),
+               tolerance = 0.01)
   expect_on_mesh(s$geometry$located[1:2, ], s$mesh)
   expect_identical(unname(s$landmarks[1:2, ]), unname(as.matrix(s$geometry$located[1:2, 1:3])))
   expect_equal(dimnames(s$landmarks), list(c("top", "front", "gone"), c("x", "y", "z")))
@@ -20,10 +21,12 @@ test_that("the report has a row for every check, also where nothing is found", {
   report <- specimen(ball_mesh())$report
   expect_named(report, c("check", "count", "action"))
   expect_setequal(report$check, c(
-    "polygons with fewer than three corners", "homogeneous co-ordinates", "quads", "faces naming missing vertices", "non-finite co-ordinates",
-    "vertices far from all others", "duplicate vertices", "point cloud without triangles", "degenerate faces", "duplicate faces",
-    "vertices apart by rounding", "vertices on edges of other triangles", "faces wound against their neighbours", "debris", "unreferenced vertices", "faces looking inwards",
-    "faces without area", "non-manifold edges", "isolated pieces", "holes",
+    "polygons with fewer than three corners", "homogeneous co-ordinates", "quads",
+    "faces naming missing vertices", "non-finite co-ordinates", "vertices far from all others",
+    "duplicate vertices", "point cloud without triangles", "degenerate faces", "duplicate faces",
+    "vertices apart by rounding", "vertices on edges of other triangles",
+    "faces wound against their neighbours", "debris", "unreferenced vertices",
+    "faces looking inwards", "faces without area", "non-manifold edges", "isolated pieces", "holes",
     "vertices on a border beside another", "per cent of the surface with a second skin",
     "landmarks missing", "landmarks beside the surface", "landmarks mirrored"
   ))
@@ -52,7 +55,8 @@ test_that("a landmark is found by its name, with its face and weights", {
 
 test_that("a landmark that is unknown, missing or was moved off is refused by name", {
   s <- specimen(ball_mesh(), ball_landmarks, id = "ball")
-  expect_crestline_error(landmark_point(s, "fron"), c("ball", "fron", "Near names: front"), id = "ball")
+  expect_crestline_error(landmark_point(s, "fron"), c("ball", "fron", "Near names: front"),
+                         id = "ball")
   expect_crestline_error(landmark_point(s, NA), "Near names")
   expect_crestline_error(landmark_point(specimen(ball_mesh()), "a"), "has no landmarks")
   expect_crestline_error(landmark_point(s, "gone"), c("ball", "gone", "missing"), id = "ball")

@@ -10,7 +10,9 @@ test_that("curvature and direction are those of the symbolic forms", {
   found <- simulated_curvature(a, b, x, y)
   expect_equal(found$k2, exact$k2)
   # The direction belongs to k2: normal to that of k1.
-  along <- cbind(found$direction2, rowSums(found$direction2 * cbind(-2 * b * (x - a * y^3), 6 * a * b * (x - a * y^3) * y^2)))
+  along <- cbind(found$direction2,
+                 rowSums(found$direction2 *
+                         cbind(-2 * b * (x - a * y^3), 6 * a * b * (x - a * y^3) * y^2)))
   expect_lt(max(abs(rowSums(along * exact$direction1))), 1e-12)
 })
 
@@ -35,7 +37,7 @@ test_that("beside a bent ridge curvature along its own direction is least on the
   }
 })
 
-test_that("the locus lies beside the crest as far as the ridge is blunt, and ends on very blunt ones", {
+test_that("the locus lies beside the crest the more the ridge is blunt, ends on very blunt", {
   aside <- function(a, b) {
     locus <- ridge_crest(a, b, end = 0.95)
     mean(abs(locus[, "x"] - a * locus[, "y"]^3))
@@ -43,5 +45,6 @@ test_that("the locus lies beside the crest as far as the ridge is blunt, and end
   expect_true(aside(0.5, 2) < aside(0.5, 1) && aside(0.25, 1) < aside(0.25, 0.5))
   expect_true(anyNA(ridge_crest(0.5, 0.25, end = 0.95)))
   expect_false(anyNA(ridge_crest(0.5, 0.25, end = 0.95)[191:211, ]))
-  expect_identical(attr(simulate_ridge(0.5, 1, seed = 1, end = 0.8), "truth_curvature"), ridge_crest(0.5, 1, 0.8))
+  expect_identical(attr(simulate_ridge(0.5, 1, seed = 1, end = 0.8), "truth_curvature"),
+                   ridge_crest(0.5, 1, 0.8))
 })

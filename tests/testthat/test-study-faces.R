@@ -7,7 +7,8 @@ template <- humface_specimen()
 simulated <- function(...) simulate_faces(..., template = template, places = face_effect())
 
 test_that("without deformation every face is the template, exactly", {
-  faces <- simulated(2, effect = 0, size_effect = 0, size_sd = 0, variation = still, scan = clean, waves = 1, seed = 1)
+  faces <- simulated(2, effect = 0, size_effect = 0, size_sd = 0, variation = still, scan = clean,
+                     waves = 1, seed = 1)
   for (face in faces$specimens) {
     expect_equal(face$mesh$vb, faces$template$mesh$vb, tolerance = tolerances$rounding)
     expect_identical(face$mesh$it, faces$template$mesh$it)
@@ -17,7 +18,8 @@ test_that("without deformation every face is the template, exactly", {
 })
 
 test_that("the true points are the vertices and the landmarks of scans without noise", {
-  faces <- simulated(2, effect = 2, scan = scan_settings(noise = 0, turn = 0.4, shift = 20), waves = 20, seed = 2)
+  faces <- simulated(2, effect = 2, scan = scan_settings(noise = 0, turn = 0.4, shift = 20),
+                     waves = 20, seed = 2)
   for (i in 1:2) {
     truth <- true_points(faces, faces$vertices[[i]])[, , i]
     expect_equal(truth, vertices_of(faces, i), tolerance = tolerances$rounding, ignore_attr = TRUE)
@@ -26,12 +28,13 @@ test_that("the true points are the vertices and the landmarks of scans without n
   beside <- true_points(same) - vapply(same$specimens, `[[`, same$template$landmarks, "landmarks")
   # Between vertices 2.3 mm apart the deformed surface leaves the triangles by micrometres.
   expect_lt(max(abs(beside)), 0.02)
-  expect_equal(dimnames(true_points(same)), list(rownames(same$template$landmarks), c("x", "y", "z"), c("face 1", "face 2")))
+  expect_equal(dimnames(true_points(same)),
+               list(rownames(same$template$landmarks), c("x", "y", "z"), c("face 1", "face 2")))
 })
 
 test_that("the difference of groups at the vertices is the given effect", {
-  faces <- simulated(2, effect = c(brow = 2, cheek = 1), size_effect = 0, size_sd = 0, variation = still, scan = clean,
-                          seed = 1)
+  faces <- simulated(2, effect = c(brow = 2, cheek = 1), size_effect = 0, size_sd = 0,
+                     variation = still, scan = clean, seed = 1)
   effect <- true_effect(faces, t(faces$template$mesh$vb[1:3, ]))
   expect_equal(vertices_of(faces, 2) - vertices_of(faces, 1), unname(effect), tolerance = 1e-10)
   middle <- true_effect(faces, faces$places[c("x", "y", "z")])
@@ -47,18 +50,20 @@ test_that("effect and size leave the random fields as they are", {
   at <- face_effect()[c("x", "y", "z")]
   centre <- rowMeans(with$template$mesh$vb[1:3, ])
   unsized <- function(faces, i) {
-    sweep(sweep(true_points(faces, at)[, , i], 2, centre) / faces$covariates$size[i], 2, centre, `+`)
+    sweep(sweep(true_points(faces, at)[, , i], 2, centre) / faces$covariates$size[i], 2,
+          centre, `+`)
   }
   for (i in 1:4) {
     g <- c(female = -1 / 2, male = 1 / 2)[[as.character(with$covariates$group[i])]]
-    expect_equal(unsized(with, i) - unsized(without, i), g * true_effect(with, at), tolerance = 1e-10)
+    expect_equal(unsized(with, i) - unsized(without, i), g * true_effect(with, at),
+                 tolerance = 1e-10)
   }
   expect_equal(with$covariates$size / without$covariates$size[1:4], rep(1.1^c(-1 / 2, 1 / 2), 2))
 })
 
 test_that("sizes have the given ratio and spread", {
-  faces <- simulated(2000, effect = 0, size_effect = 0.05, size_sd = 0.04, scan = NULL, variation = still, waves = 1,
-                          seed = 1)
+  faces <- simulated(2000, effect = 0, size_effect = 0.05, size_sd = 0.04, scan = NULL,
+                     variation = still, waves = 1, seed = 1)
   log_size <- split(log(faces$covariates$size), faces$covariates$group)
   expect_lt(abs(mean(log_size$male) - mean(log_size$female) - log(1.05)), 4 * 0.04 * sqrt(2 / 1000))
   expect_lt(abs(sd(log_size$male) - 0.04), 4 * 0.04 / sqrt(2000))
@@ -82,7 +87,7 @@ test_that("a seed gives the same faces and leaves the user's stream alone", {
   expect_false(identical(simulated(1, scan = NULL)$covariates, own$covariates))
 })
 
-test_that("every scan has vertices of its own, off the truth by its noise, and holes clear of landmarks", {
+test_that("every scan has its own vertices, off by its noise, and holes clear of landmarks", {
   scan <- scan_settings(noise = 0.2, holes = 4, hole_radius = 6)
   faces <- simulated(2, scan = scan, size_sd = 0, size_effect = 0, seed = 3)
   expect_false(ncol(faces$specimens[[1]]$mesh$vb) == ncol(faces$specimens[[2]]$mesh$vb))
@@ -108,14 +113,16 @@ test_that("an observer misses landmarks by the given error, on the surface", {
 
 test_that("noise can go together over a distance", {
   scan <- scan_settings(noise = 0.5, noise_range = 10, remesh = FALSE)
-  faces <- simulated(1, effect = 0, size_effect = 0, size_sd = 0, variation = still, scan = scan, seed = 3)
+  faces <- simulated(1, effect = 0, size_effect = 0, size_sd = 0, variation = still,
+                     scan = scan, seed = 3)
   off <- row_lengths(vertices_of(faces, 1) - t(faces$template$mesh$vb[1:3, ]))
   it <- faces$template$mesh$it
   expect_gt(cor(off[it[1, ]], off[it[2, ]]), 0.8)
 })
 
 test_that("answers do not depend on the unit", {
-  faces <- simulate_faces(1, effect = 2, seed = 7, scan = scan_settings(noise = 0.1, holes = 1, remesh = FALSE))
+  faces <- simulate_faces(1, effect = 2, seed = 7,
+                          scan = scan_settings(noise = 0.1, holes = 1, remesh = FALSE))
   mesh <- faces$template$mesh
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] / 1000
   places <- face_effect()
@@ -123,8 +130,10 @@ test_that("answers do not depend on the unit", {
   template <- specimen(mesh, faces$template$landmarks / 1000)
   metres <- simulate_faces(1, effect = 2e-3, seed = 7, places = places, template = template,
                            variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)) / 1000,
-                           scan = scan_settings(noise = 1e-4, holes = 1, hole_radius = 0.005, remesh = FALSE))
-  expect_equal(metres$specimens[[1]]$mesh$vb[1:3, ] * 1000, faces$specimens[[1]]$mesh$vb[1:3, ], tolerance = 1e-8)
+                           scan = scan_settings(noise = 1e-4, holes = 1, hole_radius = 0.005,
+                                                remesh = FALSE))
+  expect_equal(metres$specimens[[1]]$mesh$vb[1:3, ] * 1000, faces$specimens[[1]]$mesh$vb[1:3, ],
+               tolerance = 1e-8)
 })
 
 test_that("any template and scheme will do, and the faces can be measured", {
@@ -132,14 +141,17 @@ test_that("any template and scheme will do, and the faces can be measured", {
   skip_if_not_installed("progressr")
   corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
   ball <- specimen(ball_mesh(4), corners, id = "ball")
-  places <- data.frame(part = "top", x = 0, y = 0, z = 1.2, radius = 0.4, share = -1, dx = 0, dy = 0, dz = 1)
-  balls <- simulate_faces(2, effect = 0.1, size_effect = 0.1, size_sd = 0, places = places, template = ball,
-                          variation = data.frame(range = 1, sd = 0), scan = clean, groups = c("small", "large"), seed = 1)
+  places <- data.frame(part = "top", x = 0, y = 0, z = 1.2, radius = 0.4, share = -1, dx = 0,
+                       dy = 0, dz = 1)
+  balls <- simulate_faces(2, effect = 0.1, size_effect = 0.1, size_sd = 0, places = places,
+                          template = ball, variation = data.frame(range = 1, sd = 0), scan = clean,
+                          groups = c("small", "large"), seed = 1)
   curves <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 9)
   scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "side")
   shapes <- fit_shapes(balls$specimens, scheme)
   expect_equal(nrow(failures(shapes)), 0)
-  length <- vapply(as.list(shapes), function(shape) shape$status$length[shape$status$part == "ab"], 0)
+  length <- vapply(as.list(shapes), function(shape) shape$status$length[shape$status$part == "ab"],
+                   0)
   expect_equal(length[["face 2"]] / length[["face 1"]], 1.1, tolerance = 1e-6)
   expect_equal(true_effect(balls, cbind(0, 0, 1)), cbind(x = 0, y = 0, z = -0.1), tolerance = 1e-6)
   expect_equal(levels(balls$covariates$group), c("small", "large"))
@@ -150,12 +162,15 @@ test_that("what cannot be is said", {
   expect_crestline_error(simulate_faces(2, template = ball), c("effect", "places"))
   expect_crestline_error(simulate_faces(2, effect = c(chin = 1), scan = NULL), c("effect", "brow"))
   expect_crestline_error(simulate_faces(2, places = face_effect()["part"], scan = NULL), "places")
-  expect_crestline_error(simulate_faces(2, variation = data.frame(sd = 1), scan = NULL), "variation")
+  expect_crestline_error(simulate_faces(2, variation = data.frame(sd = 1), scan = NULL),
+                         "variation")
   expect_crestline_error(simulate_faces(2, groups = "one", scan = NULL), "groups")
   expect_crestline_error(simulate_faces(0), "`n`")
   expect_crestline_error(scan_settings(remesh = NA), "remesh")
   expect_crestline_error(scan_settings(noise = -1), "noise")
-  expect_crestline_error(simulate_faces(1, scan = scan_settings(holes = 1, hole_radius = 500, remesh = FALSE)), "room")
+  expect_crestline_error(simulate_faces(1,
+                                        scan = scan_settings(holes = 1, hole_radius = 500,
+                                                             remesh = FALSE)), "room")
   expect_crestline_error(true_points(1), "simulate_faces")
 })
 
@@ -172,8 +187,10 @@ test_that("a template of one's own needs no places of an effect; parts may be a 
   ball <- specimen(ball_mesh(2), rbind(a = c(0, 0, 1)), id = "ball")
   made <- simulate_faces(2, effect = 0, template = ball, scan = NULL)
   expect_equal(max(abs(true_effect(made, cbind(0, 0, 1)))), 0)
-  places <- data.frame(part = factor(c("top", "front"), c("front", "top")), x = c(0, 1), y = 0, z = c(1, 0), radius = 0.2, share = 1)
-  made <- simulate_faces(2, effect = c(top = 0.5, front = 0), places = places, template = ball, scan = NULL)
+  places <- data.frame(part = factor(c("top", "front"), c("front", "top")), x = c(0, 1), y = 0,
+                       z = c(1, 0), radius = 0.2, share = 1)
+  made <- simulate_faces(2, effect = c(top = 0.5, front = 0), places = places, template = ball,
+                         scan = NULL)
   expect_equal(abs(true_effect(made, cbind(0, 0, 1))[1, "z"]), c(z = 0.5), tolerance = 1e-3)
   expect_lt(max(abs(true_effect(made, cbind(1, 0, 0)))), 1e-3)
 })

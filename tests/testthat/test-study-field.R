@@ -1,5 +1,6 @@
 test_that("values of a random field have the stated variance and covariance, for few waves too", {
-  # 4,000 draws: the standard error of a covariance is at most sd^2 sqrt(3 / 4000) = 0.027 sd^2, four of them 0.11.
+  # 4,000 draws: the standard error of a covariance is at most sd^2 sqrt(3 / 4000) = 0.027 sd^2,
+  # four of them 0.11.
   at <- rbind(c(0, 0, 0), c(10, 0, 0), c(0, 14, 14), c(60, 0, 0))
   for (waves in c(3, 100)) {
     draw <- function(i) random_field(range = 20, sd = 2, columns = 1, waves = waves)(at)
@@ -25,7 +26,8 @@ test_that("a bump is 1 in its centre, 27 / 64 half way, and ends smoothly", {
 })
 
 test_that("bumps move points along their directions, by their shares, and add up", {
-  places <- data.frame(x = c(0, 1), y = 0, z = 0, radius = 2, share = c(3, -1), dx = 0, dy = c(0, 1), dz = c(1, 0))
+  places <- data.frame(x = c(0, 1), y = 0, z = 0, radius = 2, share = c(3, -1), dx = 0,
+                       dy = c(0, 1), dz = c(1, 0))
   field <- bump_field(places)
   expect_equal(field(rbind(c(0, 0, 0), c(9, 0, 0))), rbind(c(0, -27 / 64, 3), 0))
   expect_equal(bump_field(places[0, ])(diag(3)), matrix(0, 3, 3))

@@ -24,7 +24,8 @@ test_that("triangles tile the square once and face up", {
 })
 
 test_that("noise has the size and the correlation that were asked for", {
-  height <- function(...) simulate_ridge(0, 1, spacing = 0.02, noise = 0.03, seed = 3, ...)$mesh$vb[3, ] -
+  height <- function(...)
+    simulate_ridge(0, 1, spacing = 0.02, noise = 0.03, seed = 3, ...)$mesh$vb[3, ] -
     simulate_ridge(0, 1, spacing = 0.02, seed = 3)$mesh$vb[3, ]
   along <- function(z, lag) {
     z <- matrix(z, 101)

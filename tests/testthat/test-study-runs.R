@@ -36,25 +36,29 @@ test_that("distances and coverage of a known estimate are exact", {
   expect_equal(study$distance, 2)
   expect_equal(study$distance_curvature, 2)
   expect_true(is.na(study$covered) && is.na(study$se) && is.na(study$determined))
-  found <- list(at = cbind(x = 0.1, y = seq(-0.9, 0.9, length.out = 6), z = 0), error = c(1, 0.051, 0.049, 0.051, 0.049, 1))
+  found <- list(at = cbind(x = 0.1, y = seq(-0.9, 0.9, length.out = 6), z = 0),
+                error = c(1, 0.051, 0.049, 0.051, 0.049, 1))
   expect_equal(share_covered(found, cbind(x = 0, y = c(-1, 1), z = 0)), 0.5)
 })
 
 test_that("points at equal distances along a line split it evenly", {
   line <- cbind(x = c(0, 0, 3, 3), y = c(0, 4, 4, 4), z = 1)
-  expect_equal(equally_along(line, 8), cbind(x = c(0, 0, 0, 0, 0, 1, 2, 3), y = c(0:4, 4, 4, 4), z = 1))
+  expect_equal(equally_along(line, 8),
+               cbind(x = c(0, 0, 0, 0, 0, 1, 2, 3), y = c(0:4, 4, 4, 4), z = 1))
 })
 
 test_that("every combination of factors and methods is a row, with its own surface", {
   methods <- list(once = fast, stiff = ridge_settings(lambda = 1e-2, error = FALSE))
-  study <- ridge_study(methods, n = 2, a = 0.25, b = 2, noise = 0.01, spacing = c(0.1, 0.05), radius = c(0.25, 0.3),
-                       correlation = c(0, 2))
+  study <- ridge_study(methods, n = 2, a = 0.25, b = 2, noise = 0.01, spacing = c(0.1, 0.05),
+                       radius = c(0.25, 0.3), correlation = c(0, 2))
   expect_equal(nrow(study), 2 * 2 * 2 * 2 * 2)
   expect_false(anyDuplicated(study[c("spacing", "radius", "correlation", "seed", "method")]) > 0)
   expect_equal(length(unique(study$distance)), nrow(study))
   expect_true(all(is.na(study$covered)) && all(study$seconds >= 0))
-  alone <- ridge_study(fast, n = 2, a = 0.25, b = 2, noise = 0.01, spacing = 0.1, radius = 0.3, correlation = 2)
-  same <- study[study$method == "once" & study$spacing == 0.1 & study$radius == 0.3 & study$correlation == 2, ]
+  alone <- ridge_study(fast, n = 2, a = 0.25, b = 2, noise = 0.01, spacing = 0.1, radius = 0.3,
+                       correlation = 2)
+  same <- study[study$method == "once" & study$spacing == 0.1 & study$radius == 0.3 &
+                study$correlation == 2, ]
   expect_equal(alone$distance, same$distance)
 })
 
@@ -76,7 +80,9 @@ test_that("results do not depend on blocks or workers", {
 test_that("a study that was cut short goes on where it was, and only with the same arguments", {
   dir <- tempfile("study")
   on.exit(unlink(dir, recursive = TRUE))
-  run <- function(...) ridge_study(fast, n = 4, a = 0.25, b = 2, noise = 0, block = 1, dir = dir, ...)
+  run <- function(...) {
+    ridge_study(fast, n = 4, a = 0.25, b = 2, noise = 0, block = 1, dir = dir, ...)
+  }
   whole <- run()
   files <- list.files(dir, full.names = TRUE)
   expect_length(files, 4)
@@ -101,12 +107,15 @@ test_that("methods that are none are refused", {
 
 test_that("a grid that makes no study is refused before any work", {
   run <- function(...) ridge_study(fast, n = 1, dir = file.path(tempdir(), "no study"), ...)
-  for (value in list(Inf, NA, NaN, 0, -1, 5, 1e-9, "a", NULL, numeric(), c(0.05, Inf), list(0.05))) {
+  for (value in list(Inf, NA, NaN, 0, -1, 5, 1e-9, "a", NULL, numeric(), c(0.05, Inf), list(0.05)))
+    {
     expect_crestline_error(run(spacing = value), "`spacing`")
   }
-  for (name in c("a", "b", "noise", "landmark_error", "correlation", "passes", "radius", "width", "points", "jitter", "end")) {
+  for (name in c("a", "b", "noise", "landmark_error", "correlation", "passes", "radius", "width",
+                 "points", "jitter", "end")) {
     for (value in list(Inf, NA, "a", -1e9, 1e300)) {
-      expect_crestline_error(do.call(run, stats::setNames(list(value), name)), paste0("`", name, "`"))
+      expect_crestline_error(do.call(run, stats::setNames(list(value), name)),
+                             paste0("`", name, "`"))
     }
   }
   expect_crestline_error(run(passes = 1.5), "`passes`")
@@ -120,8 +129,12 @@ test_that("a grid that makes no study is refused before any work", {
 test_that("two methods of one text and another constant are two methods in a folder", {
   dir <- tempfile("study")
   on.exit(unlink(dir, recursive = TRUE))
-  beside <- function(k) function(specimen, radius, width, n) cbind(k, seq(-0.95, 0.95, length.out = n), 0)
-  run <- function(k) ridge_study(list(beside = beside(k)), n = 1, a = 0, b = 1, noise = 0, dir = dir)$distance
+  beside <- function(k) function(specimen, radius, width, n) {
+    cbind(k, seq(-0.95, 0.95, length.out = n), 0)
+  }
+  run <- function(k) {
+    ridge_study(list(beside = beside(k)), n = 1, a = 0, b = 1, noise = 0, dir = dir)$distance
+  }
   expect_equal(c(run(0.1), run(0.2), run(0.1)), c(2, 4, 2))
   expect_length(list.files(dir), 2)
 })
@@ -136,6 +149,7 @@ test_that("a study whose results cannot be written is a study still", {
   dir.create(file)
   expect_warning(again <- run(), "1 of 1 block not kept", class = "crestline_keeping_warning")
   expect_equal(again$distance, first$distance)
-  lost <- lost_block(list(cell = list(a = 0), seeds = 1:2), list(one = 1), list(message = "gone\nfor good"))
+  lost <- lost_block(list(cell = list(a = 0), seeds = 1:2), list(one = 1),
+                     list(message = "gone\nfor good"))
   expect_identical(vapply(lost, `[[`, "", "error"), rep("the worker died: gone", 2))
 })

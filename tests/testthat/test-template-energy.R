@@ -3,7 +3,8 @@ points <- function(k, seed = 1) with_seed(seed, matrix(stats::rnorm(3 * k), k))
 test_that("B is the corner of the inverse of the spline's system", {
   x <- points(12)
   nugget <- with_seed(2, stats::runif(12))
-  system <- rbind(cbind(-as.matrix(stats::dist(x)) + diag(nugget), 1, x), cbind(rbind(1, t(x)), matrix(0, 4, 4)))
+  system <- rbind(cbind(-as.matrix(stats::dist(x)) + diag(nugget), 1, x),
+                  cbind(rbind(1, t(x)), matrix(0, 4, 4)))
   b <- attr(bending_energy(x, nugget), "matrix")
   expect_equal(unname(b), unname(solve(system)[1:12, 1:12]), tolerance = 1e-10)
   expect_equal(attr(bending_energy(x), "affine"), 4)

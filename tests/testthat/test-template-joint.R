@@ -13,7 +13,7 @@ random_points <- function(n, seed) with_seed(seed, matrix(stats::rnorm(3 * n), n
 
 smooth_kernel <- function(r) (1 + r) * exp(-r) - 0.5 * r
 
-test_that("an energy without points is that of the others alone, and least over where these could be", {
+test_that("an energy without points is that of the others, least over where these could be", {
   xyz <- random_points(30, 1)
   nugget <- rep(c(0.1, 2), 15)
   whole <- energy_matrix(xyz, nugget, 1e-6, smooth_kernel)
@@ -31,27 +31,33 @@ test_that("an energy with more of a nugget is the one made with it", {
   xyz <- random_points(30, 3)
   less <- rep(0.05, 30)
   more <- replace(less, c(2, 7, 9), c(0.5, 10, 0.5))
-  expect_equal(energy_loosened(energy_matrix(xyz, less, 1e-6, smooth_kernel), c(2, 7, 9), (more - less)[c(2, 7, 9)]),
+  expect_equal(energy_loosened(energy_matrix(xyz, less, 1e-6, smooth_kernel), c(2, 7, 9),
+                               (more - less)[c(2, 7, 9)]),
                energy_matrix(xyz, more, 1e-6, smooth_kernel), tolerance = 1e-9, ignore_attr = TRUE)
 })
 
 # One point on a flat sheet, bound to another of weight one, and a line along y at `line`.
-drawn <- function(line, error, x = c(4, 4, 0), to = c(6, 5, 0), scale = 1, reach = 5, relaxation = 1, ...) {
+drawn <- function(line, error, x = c(4, 4, 0), to = c(6, 5, 0), scale = 1, reach = 5,
+                  relaxation = 1, ...) {
   sheet <- specimen(grid_mesh(13), rbind(a = c(1, 1, 0)), id = "sheet", outward = "keep")
   surface <- walkable(sheet)
   at <- as.matrix(surface_points(sheet$mesh, matrix(x, 1)))
   b <- rbind(c(1, -1), c(-1, 1))
   rows <- cbind(1, 0, 0, matrix(0, 1, 6), line, 0, 0, 1, 0, 0, error)
-  settings <- utils::modifyList(list(scale = scale, reach = reach, relaxation = relaxation, gap = 0.1, tolerance = 1e-10,
-                                     halvings = 4, sweeps = 500), list(...))
-  cpp_slide_jointly(surface$vb, surface$it, surface$twin, b, rbind(at[, 1:3], to), rows, at[, 4:7, drop = FALSE], settings)
+  settings <- utils::modifyList(list(scale = scale, reach = reach, relaxation = relaxation,
+                                     gap = 0.1, tolerance = 1e-10, halvings = 4,
+                                     sweeps = 500), list(...))
+  cpp_slide_jointly(surface$vb, surface$it, surface$twin, b, rbind(at[, 1:3], to), rows,
+                    at[, 4:7, drop = FALSE], settings)
 }
 
 test_that("a point between its bond and its line goes to the closed form", {
-  # Without a reach: (x - 6)^2 + (x - 3)^2 / error^2, least at (6 + 3 / error^2) / (1 + 1 / error^2).
+  # Without a reach: (x - 6)^2 + (x - 3)^2 / error^2, least at (6 + 3 / error^2) / (1 + 1 /
+  # error^2).
   for (relaxation in c(1, 1.3)) for (error in c(0.5, 1, 2)) {
     found <- drawn(3, error, reach = 1e6, relaxation = relaxation)
-    expect_equal(found$points[1, 1:3], c((6 + 3 / error^2) / (1 + 1 / error^2), 5, 0), tolerance = 1e-6)
+    expect_equal(found$points[1, 1:3], c((6 + 3 / error^2) / (1 + 1 / error^2), 5, 0),
+                 tolerance = 1e-6)
     expect_true(found$trace$converged)
   }
   expect_equal(drawn(NA, NA)$points[1, 1:3], c(6, 5, 0), tolerance = 1e-9)
@@ -86,26 +92,31 @@ test_that("no point passes its neighbour, however it is drawn", {
   # The first wants to 9, the last to 1.
   b <- diag(5) * 2
   b[1, 4] <- b[4, 1] <- b[3, 5] <- b[5, 3] <- -2
-  rows <- cbind(1:3, c(0, 1, 2), c(2, 3, 0), rbind(0, cbind(c(0.5, 0.5), 0, 0)), rbind(cbind(c(0.5, 0.5), 0, 0), 0),
-                matrix(0, 3, 6), NA)
-  settings <- list(scale = 1, reach = 5, relaxation = 1.3, gap = 0.1, tolerance = 1e-9, halvings = 10, sweeps = 200)
+  rows <- cbind(1:3, c(0, 1, 2), c(2, 3, 0), rbind(0, cbind(c(0.5, 0.5), 0, 0)),
+                rbind(cbind(c(0.5, 0.5), 0, 0), 0), matrix(0, 3, 6), NA)
+  settings <- list(scale = 1, reach = 5, relaxation = 1.3, gap = 0.1, tolerance = 1e-9,
+                   halvings = 10, sweeps = 200)
   x <- rbind(line, c(9, 5, 0), c(1, 5, 0))
-  slid <- cpp_slide_jointly(surface$vb, surface$it, surface$twin, b, x, rows, at[, 4:7], settings)$points
+  slid <- cpp_slide_jointly(surface$vb, surface$it, surface$twin, b, x, rows, at[, 4:7],
+                            settings)$points
   expect_true(all(diff(slid[, 1]) >= 0.2 * (1 - 1e-9)))
 })
 
-test_that("free points are on the mesh, landmarks stay, and offsets say how far points left their curves", {
+test_that("free points are on the mesh, landmarks stay, offsets say how far off their curves", {
   for (i in seq_along(shapes)) {
     shape <- sample$shapes[[i]]
     expect_on_mesh(shape$points, shapes[[i]]$specimen$mesh)
     expect_identical(coords(shape, "landmarks"), coords(shapes[[i]], "landmarks"))
-    expect_identical(shape$paths, slide(shapes[[i]], sample$template, slide_settings(curves = "held"))$paths)
-    expect_identical(is.na(shape$points$offset), shape$points$level != "curves" | grepl("^landmarks", shape$scheme$points$place))
+    expect_identical(shape$paths,
+                     slide(shapes[[i]], sample$template, slide_settings(curves = "held"))$paths)
+    expect_identical(is.na(shape$points$offset), shape$points$level != "curves" |
+                                                 grepl("^landmarks", shape$scheme$points$place))
     own <- shape$points$level == "curves" & shape$points$part == "middle"
     off <- distance_from_line(xyz_of(shape$points[own, ]), xyz_of(shape$paths$middle))
     expect_lte(max(abs(abs(shape$points$offset[own]) - off), na.rm = TRUE), 0.2 * max(off) + 0.02)
     rms <- shape$checks$offset[shape$checks$part == "middle" & shape$checks$level == "curves"]
-    expect_equal(rms * slide_plan(sample$template, slide_settings())$radius, sqrt(mean(shape$points$offset[own]^2, na.rm = TRUE)))
+    expect_equal(rms * slide_plan(sample$template, slide_settings())$radius,
+                 sqrt(mean(shape$points$offset[own]^2, na.rm = TRUE)))
   }
   expect_null(slide(shapes[[1]], sample$template, slide_settings(curves = "held"))$points$offset)
 })
@@ -118,7 +129,8 @@ test_that("a shape slid again, and a new one against the saved sample, come to t
   for (i in seq_along(shapes)) {
     expect_identical(slide(shapes[[i]], kept)$points, sample$shapes[[i]]$points)
     again <- slide(sample$shapes[[i]], kept, specimen = shapes[[i]]$specimen)
-    expect_equal(again$points[c("x", "y", "z")], sample$shapes[[i]]$points[c("x", "y", "z")], tolerance = 1e-4)
+    expect_equal(again$points[c("x", "y", "z")], sample$shapes[[i]]$points[c("x", "y", "z")],
+                 tolerance = 1e-4)
   }
   held <- homologise(shapes, settings = slide_settings(curves = "held"), progress = FALSE)
   expect_identical(slide(shapes[[1]], held)$points, held$shapes[[1]]$points)
@@ -136,7 +148,8 @@ test_that("landmarks count by how they came", {
   shape <- shapes[[1]]
   names <- rownames(paired_corners())
   expect_equal(unname(landmark_nuggets(shape, slide_settings())), rep(0.1, 6))
-  shape$placing <- data.frame(landmark = names, state = c("found", "found", "predicted", "placed", "absent", "found"),
+  shape$placing <- data.frame(landmark = names,
+                              state = c("found", "found", "predicted", "placed", "absent", "found"),
                               confidence = c(0.9, 0.1, NA, NA, NA, 0.8))
   expect_equal(unname(landmark_nuggets(shape, slide_settings())), c(1, 20, 20, 0.1, 0.1, 1))
 })
@@ -155,15 +168,16 @@ test_that("a curve that runs along another feature is let go of, and named by qu
   wrong <- ridged
   path <- coords(plain[[2]], "curves")[paste("middle", 1:7), ]
   aside <- path + cbind(8 * sin(seq(0, pi, length.out = 7)), 0, 0)
-  bowed <- fit_shape(plain[[2]]$specimen, paired_scheme(), ridge_settings(error = FALSE), curves = list(middle = aside),
-                     progress = FALSE)
+  bowed <- fit_shape(plain[[2]]$specimen, paired_scheme(), ridge_settings(error = FALSE),
+                     curves = list(middle = aside), progress = FALSE)
   own <- bowed$points$level == "curves" & bowed$points$part == "middle"
   bowed$points$se[own] <- 0.3
   bowed$scheme <- scheme
   bowed$provenance$settings$fit$given <- NULL
   wrong[[2]] <- bowed
   found <- slide(bowed, good)
-  off <- sqrt(rowSums((coords(found, "curves") - coords(good[[2]], "curves"))[paste("middle", 2:6), ]^2))
+  off <-
+    sqrt(rowSums((coords(found, "curves") - coords(good[[2]], "curves"))[paste("middle", 2:6), ]^2))
   expect_lte(max(off), 2)
   graded <- function(shape) {
     table <- as.data.frame(quality(shape))
@@ -188,5 +202,6 @@ test_that("what does not go together is refused", {
     shape$scheme <- ridged_scheme()
     shape
   })
-  expect_crestline_error(homologise(bare, settings = slide_settings(floor = 0), progress = FALSE), c("standard errors", "floor"))
+  expect_crestline_error(homologise(bare, settings = slide_settings(floor = 0), progress = FALSE),
+                         c("standard errors", "floor"))
 })

@@ -24,7 +24,8 @@ test_that("the mean is that of geomorph's generalised Procrustes analysis", {
   each <- lapply(1:5, function(i) cloud() + 0.1 * cloud(seed = i + 10))
   theirs <- geomorph::gpagen(simplify2array(each), print.progress = FALSE)$consensus
   ours <- procrustes_mean(each, each[[1]])
-  expect_equal(unname(laid_onto(ours, unname(theirs), TRUE)), unname(theirs), tolerance = 1e-5, ignore_attr = TRUE)
+  expect_equal(unname(laid_onto(ours, unname(theirs), TRUE)), unname(theirs), tolerance = 1e-5,
+               ignore_attr = TRUE)
 })
 
 test_that("missing points take no part, and are averaged over those that have them", {

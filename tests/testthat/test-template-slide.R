@@ -1,5 +1,6 @@
 cases <- lapply(1:30, random_slide)
-paper_cases <- lapply(1:10, random_slide, settings = slide_settings("paper", tolerance = 1e-8, sweeps = 20000))
+paper_cases <- lapply(1:10, random_slide,
+                      settings = slide_settings("paper", tolerance = 1e-8, sweeps = 20000))
 
 test_that("points of random wiggly curves keep their order and never coincide", {
   for (case in c(cases, paper_cases)) {
@@ -22,7 +23,8 @@ test_that("the sum never rises, and the trace ends with the energy of the answer
 test_that("points stay on their path; ends and landmarks stay where they are", {
   for (case in cases) {
     at <- seq_len(case$n)
-    expect_lte(max(abs(case$slid$x[at, ] - along_track(case$track, case$slid$after))), tolerances$rounding)
+    expect_lte(max(abs(case$slid$x[at, ] - along_track(case$track, case$slid$after))),
+               tolerances$rounding)
     expect_identical(case$slid$x[-(2:(case$n - 1)), ], case$x[-(2:(case$n - 1)), ])
   }
 })
@@ -51,10 +53,12 @@ test_that("one point in the middle of a straight line goes to the closed form", 
   x <- cbind(c(0, 7, 10), 0, 0)
   goes_to <- function(strain, gap = 0.1, s = 7) {
     x[2, 1] <- s
-    rows <- slider_rows(c(0, s, 10), c(FALSE, TRUE, FALSE), 5, 10, list(gap = gap, tolerance = 1e-9))
+    rows <- slider_rows(c(0, s, 10), c(FALSE, TRUE, FALSE), 5, 10,
+                        list(gap = gap, tolerance = 1e-9))
     cpp_slide_on_tracks(b, x, list(track), rows, strain, 10)$s
   }
-  # Energy s^2 + strain ((s - 5)^2 + (5 - s)^2): least at 10 strain / (1 + 2 strain), and not below the gap.
+  # Energy s^2 + strain ((s - 5)^2 + (5 - s)^2): least at 10 strain / (1 + 2 strain), and not below
+  # the gap.
   expect_equal(goes_to(2), 20 / 5)
   expect_equal(goes_to(0), 0.5)
   expect_equal(goes_to(0, gap = 0), 0)
@@ -88,10 +92,12 @@ test_that("a slid shape is on its mesh, keeps what it shares, its landmarks and 
   expect_gt(max(moved), 0.05)
   for (name in names(shape$paths)) {
     own <- slid$points$part == name & slid$points$level == "curves"
-    expect_lte(max(distance_from_line(xyz_of(slid$points[own, ]), xyz_of(shape$paths[[name]]))), 1e-10)
+    expect_lte(max(distance_from_line(xyz_of(slid$points[own, ]), xyz_of(shape$paths[[name]]))),
+               1e-10)
   }
   expect_true(all(slid$sliding$converged))
-  expect_true(all(slid$sliding$energy_after <= slid$sliding$energy_before + slid$trace[[1]]$strain[1]))
+  expect_true(all(slid$sliding$energy_after <= slid$sliding$energy_before +
+                  slid$trace[[1]]$strain[1]))
   expect_setequal(names(slid$trace), slid$sliding$part)
 })
 
@@ -119,7 +125,8 @@ test_that("unit and pose change nothing", {
   a <- slide(shape, template)
   b <- slide(other, small)
   for (level in c("curves", "surface")) {
-    expect_equal(unname(coords(b, level)), unname(0.001 * coords(a, level) %*% turn), tolerance = 1e-4)
+    expect_equal(unname(coords(b, level)), unname(0.001 * coords(a, level) %*% turn),
+                 tolerance = 1e-4)
   }
 })
 
@@ -134,7 +141,8 @@ test_that("missing points stay missing and cost nothing else", {
   partial$points[partial$points$part == "middle", c("x", "y", "z")] <- NA
   whole <- paired_shape(c(1.2, 1, 1.1))
   expect_false("middle" %in% slide(whole, partial)$sliding$part)
-  expect_identical(coords(slide(whole, partial), "curves")["middle 3", ], coords(whole, "curves")["middle 3", ])
+  expect_identical(coords(slide(whole, partial), "curves")["middle 3", ],
+                   coords(whole, "curves")["middle 3", ])
 })
 
 test_that("a cut end slides along the whole curve, or stays", {
@@ -167,13 +175,16 @@ test_that("standard errors go along", {
 test_that("all settings run, and none moves a point off the mesh", {
   shape <- paired_shape(c(1.2, 1, 1.1))
   template <- symmetrise(paired_shape())
-  changes <- list(list("paper"), list(energy = "all"), list(curves = "held"), list(curves = "held", surface = "between"),
-                  list(curves = "held", surface_energy = "patch"), list(curves = "held", surface = "transect"), list(floor = 0.1))
+  changes <- list(list("paper"), list(energy = "all"), list(curves = "held"),
+                  list(curves = "held", surface = "between"),
+                  list(curves = "held", surface_energy = "patch"),
+                  list(curves = "held", surface = "transect"), list(floor = 0.1))
   for (change in changes) {
     slid <- slide(shape, template, do.call(slide_settings, change))
     expect_on_mesh(slid$points, shape$specimen$mesh)
     expect_false(anyNA(slid$points$x))
-    last <- vapply(slid$trace, function(trace) max(diff(trace$energy + trace$strain)) <= 1e-10 * trace$energy[1] + 1e-12, NA)
+    last <- vapply(slid$trace, function(trace) max(diff(trace$energy + trace$strain)) <=
+                               1e-10 * trace$energy[1] + 1e-12, NA)
     expect_true(all(last))
   }
 })

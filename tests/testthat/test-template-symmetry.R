@@ -6,7 +6,9 @@ reflected <- function(shape) {
   laid_onto(mirrored, at, FALSE)
 }
 
-uneven <- function(...) paired_shape(c(1.2, 1, 1.1), landmarks = replace(paired_corners(), 1, 24), ...)
+uneven <- function(...) {
+  paired_shape(c(1.2, 1, 1.1), landmarks = replace(paired_corners(), 1, 24), ...)
+}
 
 test_that("a symmetric shape is its own reflection to 1e-10", {
   for (shape in list(uneven(), paired_shape())) {
@@ -71,7 +73,7 @@ test_that("a known asymmetry comes back: one landmark moved apart from its pair"
   expect_lte(found$rms[found$part == "middle"], 1e-4)
 })
 
-test_that("landmarks beside the middle that are in no pair are named, at their distance from the mid-plane", {
+test_that("landmarks in no pair beside the middle are named, with their distance from it", {
   scheme <- paired_scheme(function(tables) {
     tables$landmarks <- rbind(tables$landmarks, data.frame(landmark = c("cheekL", "cheekR")))
     tables
@@ -80,7 +82,8 @@ test_that("landmarks beside the middle that are in no pair are named, at their d
   cheek <- 50 * c(sin(0.5), 0, cos(0.5))
   corners <- rbind(at, cheekL = cheek, cheekR = cheek * c(-1, 1, 1))
   shape <- paired_shape(scheme = scheme, landmarks = corners)
-  expect_warning(mean <- symmetrise(shape), "cheekL \\(24\\), cheekR \\(24\\)", class = "crestline_unpaired")
+  expect_warning(mean <- symmetrise(shape), "cheekL \\(24\\), cheekR \\(24\\)",
+                 class = "crestline_unpaired")
   expect_lte(max(abs(coords(mean, "landmarks")[c("cheekL", "cheekR"), 1])), 0.05)
   expect_warning(asymmetry(shape), class = "crestline_unpaired")
   # 24 of a radius below 50: quiet from half of it on, and in another unit as in this one.
@@ -104,7 +107,7 @@ test_that("a missing point is filled from its partner; without pairs there is no
   expect_crestline_error(symmetrise(quad_shape()), "pairs")
 })
 
-test_that("no rotation and shift lays the reflection nearer: asymmetry is half the Procrustes distance", {
+test_that("no pose lays the reflection nearer: asymmetry is half the Procrustes distance", {
   shape <- uneven()
   at <- places_of(shape)
   mirrored <- at[mirror_places(shape$scheme), ] %*% diag(c(-1, 1, 1))
@@ -119,33 +122,40 @@ test_that("no rotation and shift lays the reflection nearer: asymmetry is half t
   }
   gap <- function(a) sum((centred(at) - centred(mirrored) %*% turn(a))^2)
   starts <- rbind(c(0, 0, 0), with_seed(1, matrix(stats::runif(12, -3, 3), 4)))
-  least <- min(apply(starts, 1, function(a) stats::optim(a, gap, method = "BFGS", control = list(reltol = 1e-14))$value))
+  least <- min(apply(starts, 1, function(a)
+    stats::optim(a, gap, method = "BFGS", control = list(reltol = 1e-14))$value))
   expect_equal(asymmetry(shape)$rms[1], sqrt(least / nrow(at)) / 2, tolerance = 1e-6)
 })
 
-test_that("sums of squares of a shape and its reflection fall into symmetric and asymmetric parts (Klingenberg et al. 2002)", {
-  shapes <- list(uneven(), paired_shape(), paired_shape(c(1.05, 1, 0.95), landmarks = replace(paired_corners(), 8, -15)))
+test_that("sums of squares fall into symmetric and asymmetric parts (Klingenberg et al. 2002)", {
+  shapes <- list(uneven(), paired_shape(),
+                 paired_shape(c(1.05, 1, 0.95), landmarks = replace(paired_corners(), 8, -15)))
   aim <- places_of(symmetrise(shapes[[2]]))
   both <- lapply(shapes, function(shape) {
     fit <- superimposition(places_of(symmetrise(shape)), aim, FALSE)
-    list(own = fit(places_of(shape)), mirrored = fit(reflected(shape)), symmetric = fit(places_of(symmetrise(shape))))
+    list(own = fit(places_of(shape)), mirrored = fit(reflected(shape)),
+         symmetric = fit(places_of(symmetrise(shape))))
   })
   centre <- Reduce(`+`, lapply(both, function(x) x$own + x$mirrored)) / (2 * length(both))
   squares <- function(part) sum(vapply(both, function(x) sum((x[[part]] - centre)^2), 0))
-  asymmetric <- sum(vapply(shapes, function(shape) 2 * asymmetry(shape)$points[1] * asymmetry(shape)$rms[1]^2, 0))
-  expect_equal(squares("own") + squares("mirrored"), 2 * squares("symmetric") + asymmetric, tolerance = 1e-9)
+  asymmetric <- sum(vapply(shapes, function(shape) 2 * asymmetry(shape)$points[1] *
+                                   asymmetry(shape)$rms[1]^2, 0))
+  expect_equal(squares("own") + squares("mirrored"), 2 * squares("symmetric") + asymmetric,
+               tolerance = 1e-9)
 })
 
-test_that("the symmetric component is that of geomorph's bilateral symmetry, to the square of the asymmetry", {
+test_that("the symmetric component is that of geomorph, to the square of the asymmetry", {
   skip_if_not_installed("geomorph")
   moved <- lapply(1:4, function(i) paired_corners() + with_seed(i, matrix(stats::rnorm(18), 6)))
   shapes <- lapply(moved, function(at) paired_shape(landmarks = at))
   partner <- mirror_places(paired_scheme())
   left <- which(partner > seq_along(partner))
-  theirs <- geomorph::bilat.symmetry(simplify2array(lapply(shapes, places_of)), ind = factor(1:4), object.sym = TRUE,
-                                     land.pairs = cbind(left, partner[left]), iter = 9, print.progress = FALSE)$symm.shape
+  theirs <- geomorph::bilat.symmetry(simplify2array(lapply(shapes, places_of)), ind = factor(1:4),
+                                     object.sym = TRUE, land.pairs = cbind(left, partner[left]),
+                                     iter = 9, print.progress = FALSE)$symm.shape
   for (i in 1:4) {
     ours <- unname(places_of(symmetrise(shapes[[i]])))
-    expect_equal(laid_onto(ours, unname(theirs[, , i]), TRUE), unname(theirs[, , i]), tolerance = 2e-3, ignore_attr = TRUE)
+    expect_equal(laid_onto(ours, unname(theirs[, , i]), TRUE), unname(theirs[, , i]),
+                 tolerance = 2e-3, ignore_attr = TRUE)
   }
 })
