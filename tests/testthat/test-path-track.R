@@ -1,6 +1,7 @@
 test_that("a plane through the expected places counts whole, one aside as a Gaussian of its distance in spreads", {
   ends <- list(exact = matrix(c(0, 10, 0, 0, 0, 0), 2), axis = c(1, 0, 0), across = c(0, 1, 0))
-  track <- list(xyz = cbind(c(3, 5, 7), 2, 0), across = cbind(0, c(0, 0, 0), 1), spread = rep(0.5, 3))
+  track <- list(xyz = cbind(c(3, 5, 7), 2, 0), across = cbind(0, c(0, 0, 0), 1),
+                spread = rep(0.5, 3))
   weight <- plane_weight(track, ends)
   # The plane at angle pi / 2 contains y, at 0 z: the places are 2, four spreads, from it.
   expect_equal(weight(c(pi / 2, 0)), c(1, exp(-1 / 2)), tolerance = 1e-6)
@@ -13,7 +14,8 @@ test_that("a plane through the expected places counts whole, one aside as a Gaus
 
 test_that("offsets are those along `across`, with their sign, and end where a path is cut off", {
   line <- cbind(seq(0, 10, by = 0.5), 1, 0)
-  track <- list(xyz = cbind(c(2, 5, 12), 0, c(0, 3, 0)), across = cbind(0, rep(1, 3), 0), spread = rep(1, 3))
+  track <- list(xyz = cbind(c(2, 5, 12), 0, c(0, 3, 0)), across = cbind(0, rep(1, 3), 0),
+                spread = rep(1, 3))
   expect_equal(track_offsets(track, line), c(1, 1, 1))
   track$xyz[1, 1] <- -1
   expect_equal(track_offsets(track, line, open = TRUE), c(NA, 1, 1))

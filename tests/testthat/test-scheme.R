@@ -5,7 +5,9 @@ test_that("a scheme keeps its tables, typed, with every column and the defaults"
   }
   leaf <- leaf_scheme(away)
   expect_s3_class(leaf, "curve_scheme")
-  expect_named(leaf, c("name", "landmarks", "curves", "patches", "pairs", "strips", "definitions", "tracks", "points", "triangles"))
+  expect_named(leaf,
+               c("name", "landmarks", "curves", "patches", "pairs", "strips", "definitions",
+                 "tracks", "points", "triangles"))
   expect_equal(leaf$curves$keep_away_radius, c(NA, 0.7, 0.7))
   expect_equal(leaf$curves$keep_away_extension, c(NA, 0.2, 0.2))
   expect_equal(c(leaf$curves$trust_from[1], leaf$curves$trust_to[1]), c(0, 1))
@@ -28,14 +30,17 @@ test_that("text cells are read as numbers, further columns are kept, spaces are 
 test_that("patches, pairs and strips may be absent", {
   x <- leaf_tables()
   bare <- curve_scheme(x$landmarks, x$curves)
-  for (table in c("patches", "pairs", "strips", "definitions", "tracks", "triangles")) expect_equal(nrow(bare[[table]]), 0)
+  for (table in c("patches", "pairs", "strips", "definitions", "tracks", "triangles")) {
+    expect_equal(nrow(bare[[table]]), 0)
+  }
   expect_equal(nrow(bare$points), 4 + 18)
   expect_output(print(bare), "3 curves with 18 points")
 })
 
 test_that("as.data.frame gives any table", {
   leaf <- leaf_scheme()
-  for (table in c("landmarks", "curves", "patches", "pairs", "strips", "definitions", "tracks", "points", "triangles")) {
+  for (table in c("landmarks", "curves", "patches", "pairs", "strips", "definitions", "tracks",
+                  "points", "triangles")) {
     expect_identical(as.data.frame(leaf, table), leaf[[table]])
     expect_identical(as.data.frame(leaf, table = table), leaf[[table]])
   }

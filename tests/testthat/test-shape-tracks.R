@@ -8,11 +8,13 @@ arches_specimen <- function(left, right, seed) {
 
 arches_scheme <- curve_scheme(
   data.frame(landmark = c("a", "b", "c"), x = c(-13.5, 13.5, 0), y = c(0, 0, 9), z = c(0, 0, 8)),
-  data.frame(curve = "arch", from = "a", to = "b", kind = "ridge", radius = 3, width = 4, n = 9), name = "arches"
+  data.frame(curve = "arch", from = "a", to = "b", kind = "ridge", radius = 3, width = 4, n = 9),
+  name = "arches"
 )
 
 fit_arches <- function(specimen, scheme = arches_scheme, ...) {
-  suppressWarnings(fit_shape(specimen, scheme, ridge_settings(error = FALSE), progress = FALSE, ...))
+  suppressWarnings(fit_shape(specimen, scheme, ridge_settings(error = FALSE),
+                             progress = FALSE, ...))
 }
 
 right_ones <- lapply(1:4, function(seed) arches_specimen(3, 2, seed))
@@ -33,7 +35,8 @@ test_that("a learnt track lies on the curves, in the frame of the scheme's landm
   expect_lt(abs(across[3, 1]), 0.1)
   # Four equal specimens: the least spread, a tenth of the radius.
   expect_equal(track$spread * 27, rep(0.3, 5), tolerance = 0.3)
-  expect_true(all(vapply(shapes, function(x) fit_arches(x$specimen, learnt)$checks$track[4], 0) < 4))
+  expect_true(all(vapply(shapes, function(x) fit_arches(x$specimen, learnt)$checks$track[4], 0) <
+                  4))
   expect_match(paste(capture.output(print(learnt)), collapse = " "), "expected tracks: of 1 curve")
 })
 
@@ -57,8 +60,8 @@ test_that("tracks are the same in another pose and unit, and a wrong curve among
     mesh <- one$mesh
     mesh$vb[1:3, ] <- (turn %*% mesh$vb[1:3, ] + c(40, -7, 3)) / 1000
     marks <- sweep(one$landmarks %*% t(turn), 2, c(40, -7, 3), `+`) / 1000
-    fit_arches(specimen(mesh[c("vb", "it")] |> structure(class = "mesh3d"), marks, id = one$id, outward = "keep",
-                        tolerance = 0.001), unit = 1000)
+    fit_arches(specimen(mesh[c("vb", "it")] |> structure(class = "mesh3d"), marks, id = one$id,
+                        outward = "keep", tolerance = 0.001), unit = 1000)
   })
   again <- learn_tracks(moved, fewest = 3, places = 5)
   expect_equal(again$tracks, learnt$tracks, tolerance = 1e-4)
@@ -80,8 +83,10 @@ test_that("without tracks a scheme is what it was, and tracks are read again fro
   dir <- tempfile()
   write_scheme(learnt, dir)
   expect_equal(read_scheme(dir, "arches"), learnt)
-  expect_identical(unname(touched_curves(learnt$curves, "c", list(arch = list(path = 1, followed = NA)), "arch")), TRUE)
-  expect_identical(unname(touched_curves(learnt$curves, "c", list(arch = list(path = 1, followed = NA)))), FALSE)
+  expect_identical(unname(touched_curves(learnt$curves, "c",
+                                         list(arch = list(path = 1, followed = NA)), "arch")), TRUE)
+  expect_identical(unname(touched_curves(learnt$curves, "c",
+                                         list(arch = list(path = 1, followed = NA)))), FALSE)
 })
 
 test_that("what cannot be learnt from is refused", {
@@ -97,13 +102,15 @@ test_that("what cannot be learnt from is refused", {
   other <- leaf_scheme()
   mixed <- shapes
   mixed[[2]]$scheme <- other
-  mixed[[2]]$points <- cbind(other$points[c("level", "part", "point")], x = 0, y = 0, z = 0, face = 1L, w1 = 1, w2 = 0,
-                             w3 = 0, se = NA_real_)
+  mixed[[2]]$points <- cbind(other$points[c("level", "part", "point")], x = 0, y = 0, z = 0,
+                             face = 1L, w1 = 1, w2 = 0, w3 = 0, se = NA_real_)
   expect_crestline_error(learn_tracks(mixed, 3), "is not that of the first")
   wrong <- learnt$tracks
   wrong$curve[1] <- "arc"
-  expect_crestline_error(curve_scheme(learnt$landmarks, learnt$curves, tracks = wrong), c("arc", "arch"))
+  expect_crestline_error(curve_scheme(learnt$landmarks, learnt$curves, tracks = wrong),
+                         c("arc", "arch"))
   wrong <- learnt$tracks
   wrong$place[2] <- 1L
-  expect_crestline_error(curve_scheme(learnt$landmarks, learnt$curves, tracks = wrong), "is there twice")
+  expect_crestline_error(curve_scheme(learnt$landmarks, learnt$curves, tracks = wrong),
+                         "is there twice")
 })
