@@ -1,4 +1,4 @@
-test_that("a plane through the expected places counts whole, one aside as a Gaussian of its distance in spreads", {
+test_that("a plane through the expected places counts whole, one aside as a Gaussian", {
   ends <- list(exact = matrix(c(0, 10, 0, 0, 0, 0), 2), axis = c(1, 0, 0), across = c(0, 1, 0))
   track <- list(xyz = cbind(c(3, 5, 7), 2, 0), across = cbind(0, c(0, 0, 0), 1),
                 spread = rep(0.5, 3))

@@ -1,4 +1,4 @@
-test_that("a scheme that is written is read again number by number, and no table of another is left", {
+test_that("a written scheme is read again number by number, no table of another is left", {
   dir <- file.path(tempfile(), "new", "folder")
   leaf <- leaf_scheme(set_cell("curves", 1, "radius", 1 / 3))
   write_scheme(leaf, dir)

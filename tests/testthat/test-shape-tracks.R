@@ -40,7 +40,7 @@ test_that("a learnt track lies on the curves, in the frame of the scheme's landm
   expect_match(paste(capture.output(print(learnt)), collapse = " "), "expected tracks: of 1 curve")
 })
 
-test_that("a stronger ridge elsewhere is taken without a track, not with one, and is amber when it is", {
+test_that("a stronger ridge elsewhere is taken without a track only, and is amber then", {
   other <- arches_specimen(2.4, 2.8, 9)
   expect_lt(middle_of(fit_arches(other)), -4)
   with_track <- fit_arches(other, learnt)
@@ -54,7 +54,7 @@ test_that("a stronger ridge elsewhere is taken without a track, not with one, an
   expect_lt(quality(with_track)$track[4], 4)
 })
 
-test_that("tracks are the same in another pose and unit, and a wrong curve among many does no harm", {
+test_that("tracks are the same in another pose and unit, and one wrong curve does no harm", {
   turn <- rotation_about(c(0.3, -0.7, 1))
   moved <- lapply(right_ones, function(one) {
     mesh <- one$mesh
