@@ -63,8 +63,8 @@ warn_of_doubts <- function(aligned, limits) {
 }
 
 sample_remedies <- c(
-  size = paste("Are they in another unit? Measure them in one unit: see `unit` of fit_shape()",
-               "and read_specimen()."),
+  size = paste("Are they in another unit? Read them with `rescale`, see read_specimen():",
+               "fit_shapes(reading = list(rescale = c(id = 1000)))."),
   far = "Look at them: are landmarks exchanged, or is it another object? Leave out what is wrong.",
   point = "Look at these points on these specimens: are two landmarks exchanged, or one misplaced?",
   estimated = paste("Use missing = \"drop\", or leave such specimens out: estimates follow the",

@@ -57,7 +57,8 @@
 #'   accident.
 #' @param reading For mesh files: named list of further arguments of [read_specimen()], [specimen()]
 #'   and [read_landmarks()], such as `list(frame = "RAS", names = c(prn = "pn"), tolerance = 0.02)`.
-#'   It may also have `unit`, as in [fit_shape()].
+#'   It may also have `unit`, as in [fit_shape()]. `rescale` is one factor for all specimens, or has
+#'   the names of the specimens that are in another unit: `list(rescale = c(anna = 1000))`.
 #' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
 #'   such parts. With small parts workers are started more often; with large ones they wait longer
 #'   at the end.

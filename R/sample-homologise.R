@@ -52,7 +52,8 @@
 #'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample].
 #'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
 #' @section Errors: of class `crestline_error`: `shapes` is not a list of shapes; schemes differ;
-#'   two shapes have one id; a specimen is missing, or has another mesh than its shape.
+#'   two shapes have one id; a specimen is missing, or has another mesh than its shape. Of class
+#'   `crestline_unit_error`: the shapes have different units (`unit` of [fit_shape()]).
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
 #'   Of class `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning
 #'   gives the one to use for all.

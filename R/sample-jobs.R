@@ -50,15 +50,36 @@ file_jobs <- function(files, landmarks, reading, call) {
   }
   reading <- check_reading(reading, call)
   ids <- file_ids(files)
+  readings <- reading_by_id(reading, ids, call)
   own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else
     given_landmarks(landmarks, ids, reading$landmarks)
   wanting <- c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)]
-  stats::setNames(Map(function(mesh, id, at, wanting) {
+  stats::setNames(Map(function(mesh, id, at, reading, wanting) {
     failed <- inherits(at, "condition")
     list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading,
          refusal = if (failed) at,
          wanting = if (!is.na(wanting)) wanting)
-  }, files, ids, own, wanting, USE.NAMES = FALSE), ids)
+  }, files, ids, own, readings, wanting, USE.NAMES = FALSE), ids)
+}
+
+#' Arguments of reading for each specimen: `rescale` may name the specimens that it is for
+#' @noRd
+reading_by_id <- function(reading, ids, call) {
+  factor <- reading$specimen$rescale
+  if (is.null(names(factor))) {
+    if (!is.null(factor)) check_number(factor, "reading$rescale", 0, open = TRUE, call = call)
+    return(rep(list(reading), length(ids)))
+  }
+  strange <- setdiff(names(factor), ids)
+  if (length(strange)) {
+    crestline_abort(sprintf("`reading$rescale` names %s, which is no specimen.", shorten(strange)),
+                    members_there(ids, strange[1]), stage = "arguments", call = call)
+  }
+  factor <- vapply(factor, check_number, 0, "reading$rescale", 0, open = TRUE, call = call)
+  lapply(ids, function(id) {
+    reading$specimen$rescale <- if (id %in% names(factor)) factor[[id]]
+    reading
+  })
 }
 
 #' Ids of files: their names without extension; where these are the same, with as many folders as

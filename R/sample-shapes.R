@@ -72,21 +72,33 @@ renewed_batch <- function(x) {
 #' @noRd
 kept_shape <- function(task, about) {
   warnings <- if (NROW(about$warnings)) as.data.frame(about$warnings) else no_warnings()
-  lacking <- if (length(about$lacking)) as.integer(about$lacking) else c(0L, NA)
-  structure(list(), file = task$file, key = task$key, id = task$name, warnings = warnings,
-            found = isTRUE(about$found),
-            lacking = lacking, class = c("kept_shape", "shape"))
+  told <- Map(function(value, none) {
+    if (length(value) != length(none)) return(none)
+    storage.mode(value) <- storage.mode(none)
+    value
+  }, about[names(nothing_told)], nothing_told)
+  names(told) <- names(nothing_told)
+  do.call(structure, c(list(list(), file = task$file, key = task$key, id = task$name,
+                            warnings = warnings), told, list(class = c("kept_shape", "shape"))))
 }
 
-#' What a batch tells of a shape without reading it: `found`, whether its landmarks were; `lacking`,
-#' how many of the scheme's landmarks are missing, and of how many
+#' What a batch tells of a shape without reading it
+#'
+#' @return List: `found`, whether its landmarks were; `lacking`, how many of the scheme's landmarks
+#'   are missing, and of how many; `unit` as of [shape_unit()]; `surface`, the key of its mesh;
+#'   `marks`, a hash of its landmarks. What is not known is NA.
 #' @noRd
 told_of <- function(shape) {
-  if (is.null(shape)) return(list(found = FALSE, lacking = c(0L, NA)))
-  if (inherits(shape, "kept_shape")) return(attributes(shape)[c("found", "lacking")])
+  if (is.null(shape)) return(nothing_told)
+  if (inherits(shape, "kept_shape")) return(attributes(shape)[names(nothing_told)])
   landmarks <- shape$status$ok[shape$status$level == "landmarks"]
-  list(found = has_found(shape), lacking = c(sum(!landmarks), length(landmarks)))
+  list(found = has_found(shape), lacking = c(sum(!landmarks), length(landmarks)),
+       unit = shape_unit(shape), surface = c(shape$key, NA_character_)[1],
+       marks = content_hash(unname(coords(shape, "landmarks"))))
 }
+
+nothing_told <- list(found = FALSE, lacking = c(0L, NA), unit = NA_real_, surface = NA_character_,
+                     marks = NA_character_)
 
 #' What keeps a shape from being read from its file: a failure, or NULL
 #' @noRd
@@ -240,9 +252,26 @@ c.shape_batch <- function(...) {
                             schemes[[1]]$name, schemes[[other[1]]]$name),
                     "Measure all by one scheme: fit_shapes(..., scheme = ).", stage = "batch")
   }
-  validate_shape_batch(new_shape_batch(
+  joined <- validate_shape_batch(new_shape_batch(
     do.call(c, lapply(given, plain_list)), do.call(c, lapply(given, attr, "failed")), schemes[[1]]
   ))
+  warn_units(joined)
+  joined
+}
+
+#' Tell of specimens of a batch that were measured in different units
+#' @noRd
+warn_units <- function(batch) {
+  unit <- vapply(plain_list(batch), function(one) told_of(one)$unit, 0)
+  unit <- unit[!is.na(unit)]
+  if (length(unique(unit)) < 2) return(invisible())
+  usual <- as.numeric(names(which.max(table(unit))))
+  odd <- names(unit)[unit != usual]
+  crestline_warn(
+    sprintf("the specimens are in different units: %s %s not in that of the others.",
+            shorten(odd), if (length(odd) == 1) "is" else "are"),
+    unit_remedy(odd[1], unit[[odd[1]]] / usual), stage = "batch", class = "crestline_unit_warning"
+  )
 }
 
 #' The elements of a batch as they are, without what makes it one

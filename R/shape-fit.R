@@ -45,8 +45,9 @@
 #' @param column_reach Greatest distance of a column from the straight line between its ends, as a
 #'   share of that line's length (1 in the authors' programs).
 #' @param unit Factor from the mesh's unit to the unit of the scheme's lengths: 1000 for a scan in
-#'   metres and [face_scheme()]. NULL: the factor of [find_landmarks()] if it found the landmarks,
-#'   else 1.
+#'   metres and [face_scheme()]. The co-ordinates of the shape stay in the mesh's unit. To bring one
+#'   specimen to the unit of the others, use `rescale` of [read_specimen()] instead. NULL: the
+#'   factor of [find_landmarks()] if it found the landmarks, else 1.
 #' @param progress Whether to show a progress bar.
 #' @inheritParams curvature
 #' @return Object of class `shape`, a list:

@@ -55,11 +55,19 @@ check_scale <- function(specimen, scheme, unit = NULL, call = rlang::caller_env(
     sprintf("its landmarks are %.3g times as far apart as those of the scheme %s: another unit.",
             scale,
             scheme$name),
-    sprintf("Give `unit = %.4g`, the factor from the mesh's unit to the scheme's.",
-            asked * c(unit, specimen$match$unit, 1)[1]),
+    unit_remedy(specimen$id, asked * c(unit, specimen$match$unit, 1)[1]),
     stage = "landmarks", id = specimen$id, call = call,
     class = c("crestline_unit_error", "crestline_landmark_error")
   )
+}
+
+#' How a specimen comes to the unit of the others
+#' @noRd
+unit_remedy <- function(id, factor) {
+  sprintf(paste("Read it with `rescale = %.4g`, in a batch fit_shapes(reading = list(rescale =",
+                "c(\"%s\" = %.4g))): then all specimens have one unit. With `unit = %.4g` it is",
+                "measured as it is, and its co-ordinates stay in the mesh's unit."),
+          factor, id, factor, factor)
 }
 
 #' How many times as far apart landmarks are as those of a reference: the median over their

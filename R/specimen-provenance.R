@@ -13,7 +13,10 @@ specimen_provenance <- function(specimen) {
 }
 
 mesh_provenance <- function(specimen) {
-  list(id = specimen$id, key = specimen_key(specimen), file = c(specimen$file, NA_character_)[1])
+  rescaled <- specimen$report$action[specimen$report$check == "rescaled vertices"]
+  c(list(id = specimen$id, key = specimen_key(specimen),
+         file = c(specimen$file, NA_character_)[1]),
+    if (length(rescaled)) list(rescaled = rescaled))
 }
 
 #' Provenance in lines of text
@@ -47,7 +50,7 @@ scheme_line <- function(scheme) {
 mesh_line <- function(mesh) {
   if (is.null(mesh$file)) return(paste("mesh: key", mesh$key))
   from <- if (is.na(mesh$file)) "not from a file" else paste("from", basename(mesh$file))
-  sprintf("mesh: key %s, %s", mesh$key, from)
+  paste(c(sprintf("mesh: key %s, %s", mesh$key, from), mesh$rescaled), collapse = ", ")
 }
 
 specimens_lines <- function(specimens, most = 3) {

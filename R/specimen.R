@@ -28,13 +28,15 @@
 #'   names end in L and R they serve two checks. If left and right are mirrored, you get a warning
 #'   of class `crestline_mirrored`. If two landmarks look exchanged (left for right, two of the
 #'   midline, or two of one side), you get a warning of class `crestline_exchanged`.
+#' @param rescale Factor by which the co-ordinates of mesh and landmarks are multiplied (no unit).
+#'   1000 turns metres into millimetres. All specimens of a sample need one unit.
 #' @return An object of class `specimen`, a list:
 #'   * `id` (character);
 #'   * `mesh` (`mesh3d`; `vb` with fourth row 1, `it`, outward unit `normals` 4 x n, and
 #'     `material$color`, one colour a vertex, where there is natural colour);
 #'   * `landmarks` (k x 3 matrix with row names, exactly on the surface; 0 x 3 without landmarks);
 #'   * `report` (data frame with a row for every check: `check`, `count`, `action`; `count` is 0 if
-#'     nothing was found);
+#'     nothing was found. "rescaled vertices" is there only with `rescale`);
 #'   * `vertices` (integer, for every vertex of the input its number in `mesh`; NA if it was left
 #'     out: `values[!is.na(vertices)]` belong to `vertices[!is.na(vertices)]`);
 #'   * `file` (path of the mesh; NA for a mesh from memory) and `origin` (data frame `landmark`,
@@ -68,20 +70,40 @@
 #' @export
 specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tolerance = 0.01,
                      debris = 0.001,
-                     midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn")) {
+                     midline = c("n", "se", "pn", "sn", "ls", "st", "li", "sl", "gn"),
+                     rescale = 1) {
   check_given()
+  rescale <- check_number(rescale, "rescale", lower = 0, open = TRUE)
   midline <- check_names(midline, "midline", null = TRUE)
   id <- check_id(id)
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
-  landmarks <- as_landmarks(landmarks, id)
-  door <- check_mesh(mesh, id, outward, debris)
+  landmarks <- as_landmarks(landmarks, id) * rescale
+  door <- check_mesh(rescaled_mesh(mesh, rescale), id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
-  new_specimen(id, door$mesh, placed$landmarks, report = rbind(door$report, placed$report),
+  report <- rbind(door$report, placed$report, rescaled_row(door$mesh, rescale))
+  new_specimen(id, door$mesh, placed$landmarks, report = report,
                origin = new_origin(placed$landmarks, "given"),
                geometry = list(twin = door$topology$twin, piece = door$topology$piece,
                                landmarks = placed$landmarks, located = placed$located,
                                size = placed$size, slips = placed$slips),
                vertices = door$vertices)
+}
+
+#' A mesh in another unit; what is no mesh is left for the door to refuse
+#' @noRd
+rescaled_mesh <- function(mesh, factor) {
+  if (factor == 1 || !is.list(mesh) || !is.matrix(mesh$vb) || !is.numeric(mesh$vb)) return(mesh)
+  at <- seq_len(min(3, nrow(mesh$vb)))
+  mesh$vb[at, ] <- mesh$vb[at, ] * factor
+  mesh
+}
+
+#' What the report says of a specimen in another unit than it was given
+#' @noRd
+rescaled_row <- function(mesh, factor) {
+  if (factor == 1) return(NULL)
+  data.frame(check = "rescaled vertices", count = ncol(mesh$vb),
+             action = sprintf("multiplied by %.6g, landmarks too", factor))
 }
 
 #' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled

@@ -94,11 +94,13 @@ settings_of_sample <- function(sample) {
 }
 
 check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
-  if (identical(shape$scheme$points, template$scheme$points)) return(invisible())
-  crestline_abort(sprintf("its scheme, %s, is not that of %s, %s.", shape$scheme$name, template$id,
-                          template$scheme$name),
-                  "Measure all specimens by one scheme.", stage = "slide", id = shape$id,
-                  call = call)
+  if (!identical(shape$scheme$points, template$scheme$points)) {
+    crestline_abort(sprintf("its scheme, %s, is not that of %s, %s.", shape$scheme$name,
+                            template$id, template$scheme$name),
+                    "Measure all specimens by one scheme.", stage = "slide", id = shape$id,
+                    call = call)
+  }
+  check_same_unit(shape, template, call)
 }
 
 kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {

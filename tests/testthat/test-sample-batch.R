@@ -280,3 +280,27 @@ test_that("reading takes other names and another unit", {
   expect_crestline_error(fit_shapes(meshes_in(dir), edge_scheme(), reading = list(unit = -1)),
                          "unit")
 })
+
+test_that("a scan in another unit is brought to that of the others as it is read", {
+  skip_without_futures()
+  two <- batch_specimens(2)
+  dir <- batch_folder(two)
+  on.exit(unlink(dir, recursive = TRUE))
+  metres <- specimen(two[[2]]$mesh, two[[2]]$landmarks, id = "ball 2", rescale = 1e-3)
+  write_mesh(metres, file.path(dir, "ball 2.ply"))
+  write_landmarks(metres, file.path(dir, "ball 2.csv"))
+  scheme <- edge_scheme()
+  read <- list(rescale = c("ball 2" = 1000))
+  mended <- fit_shapes(meshes_in(dir), scheme, reading = read)
+  alike <- fit_shapes(two, scheme)
+  for (i in 1:2) same_points(mended[[i]], alike[[i]], tolerance = 1e-5)
+  expect_crestline_error(fit_shapes(meshes_in(dir), scheme, reading = list(rescale = c(bal = 2))),
+                         c("bal", "ball 1"))
+  expect_crestline_error(fit_shapes(meshes_in(dir), scheme, reading = list(rescale = -1)),
+                         "rescale")
+  # Measured in its own unit it is no part of the sample.
+  own <- fit_shapes(meshes_in(dir)[2], scheme, unit = 1000)
+  expect_warning(mixed <- c(alike[1], own), "unit", class = "crestline_unit_warning")
+  error <- expect_crestline_error(homologise(mixed), c("rescale = 1000", "ball 2"))
+  expect_s3_class(error, "crestline_unit_error")
+})

@@ -90,3 +90,15 @@ test_that("landmarks changed since are located once, and used as if they had bee
   expect_crestline_error(landmark_point(located, "off"), "off", id = "ball")
   expect_crestline_error(landmark_point(located, "gone"), "missing (NA)", id = "ball")
 })
+
+test_that("a specimen comes to another unit with its landmarks, and says so", {
+  at <- rbind(top = c(0, 0, 1), front = c(1, 0, 0))
+  metres <- specimen(Rvcg::vcgSphere(2), at, id = "ball")
+  mm <- specimen(Rvcg::vcgSphere(2), at, id = "ball", rescale = 1000)
+  expect_equal(mm$mesh$vb[1:3, ], 1000 * metres$mesh$vb[1:3, ])
+  expect_equal(mm$landmarks, 1000 * metres$landmarks)
+  expect_output(print(mm), "multiplied by 1000, landmarks too", fixed = TRUE)
+  expect_match(provenance_lines(specimen_provenance(mm)), "multiplied by 1000", all = FALSE)
+  expect_crestline_error(specimen(Rvcg::vcgSphere(2), at, rescale = 0), "rescale")
+  expect_crestline_error(specimen(list(vb = 1), rescale = 2), "mesh3d")
+})
