@@ -1,10 +1,9 @@
 #' Reference path: the plane cut that gathers most curvature
 #'
-#' Finds a path between two points along which the sought curvature is strong. It is
-#' chosen from all plane cuts, at every angle and both ways round, that are not much
-#' longer than the shortest. The cut with the greatest length-weighted mean strength
-#' is taken; for `type = "plane"`, the shortest cut. A coarse grid of angles is tried
-#' first, then a finer one about each local optimum.
+#' Finds a path between two points along which the sought curvature is strong. All plane cuts are
+#' tried, at every angle and both ways round, that are not much longer than the shortest. The result
+#' is the cut with the greatest length-weighted mean strength; for `type = "plane"`, the shortest
+#' cut. A coarse grid of angles is tried first, then a finer one about each local optimum.
 #'
 #' The strength is that of the principal curvature. For a valley it is `k1` where k1 is
 #' positive and the shape index negative. For a ridge it is `-k2` where k2 is negative and
@@ -13,24 +12,26 @@
 #' @param specimen A [specimen()] (or a `mesh3d` with positions for `from` and `to`).
 #' @inheritParams plane_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
-#' @param radius Radius of the curvature estimates, in the unit of the mesh; that of `curvature`
-#'   where it is given; not needed for `"plane"`.
-#' @param keep_away `NULL`, or region(s) of [keep_away()] or [keep_side()] where curvature is
-#'   ignored: one, or a list.
-#' @param curvature A `curvature` of the mesh at this radius, where it is already
-#'   known; otherwise it is estimated where the cuts may pass.
-#' @param settings [path_settings()], the constants of the search.
+#' @param radius Radius of the curvature estimates, in the unit of the mesh. Not needed for
+#'   `"plane"`, nor if `curvature` is given.
+#' @param keep_away Region where curvature is ignored, as of [keep_away()] or [keep_side()], or a
+#'   list of regions. `NULL`: none.
+#' @param curvature A [curvature()] of the mesh at this radius. `NULL`: curvature is estimated in
+#'   the region of the cuts.
+#' @param settings Constants of the search, as of [path_settings()].
 #' @inheritParams curvature
-#' @param ... Fields of [path_settings()], as they were given formerly. They give a message of class
+#' @param ... Fields of [path_settings()], the former form. They give a message of class
 #'   `crestline_deprecated`.
-#' @return A `mesh_path` as of [plane_path()], with attributes `type`, `criterion` (mean strength in
-#'   1 / unit, or length), `optima`: data frame with a row for every local optimum, that of the path
-#'   first, then from the best on: `angle` (radians), `side`, `criterion`, `length`; and
-#'   `competing`: how good the best of those that run elsewhere is, as a share of the path (for
-#'   lengths the other way round), NA where there is none.
-#' @section Errors: of class `crestline_path_error`, when no plane cut joins the points.
-#' @section Warnings: of class `crestline_rival_path`, when another optimum is
-#'   nearly as good; the warning names both angles.
+#' @return A `mesh_path` as of [plane_path()], with these attributes besides:
+#'   * `type`;
+#'   * `criterion`: mean strength in 1 / unit, or for `"plane"` the length in the unit of the mesh;
+#'   * `optima`: data frame with a row for every local optimum, the path's own first, then in order
+#'     of the criterion: `angle` (radians), `side`, `criterion`, `length`;
+#'   * `competing`: criterion of the best optimum that runs elsewhere, as a share of the path's (for
+#'     lengths the inverse); NA if there is none.
+#' @section Errors: of class `crestline_path_error`: no plane cut joins the points.
+#' @section Warnings: of class `crestline_rival_path`: another optimum is nearly as good; the
+#'   warning names both angles.
 #' @template glossary
 #' @templateVar where section 3.1
 #' @template paper

@@ -1,27 +1,29 @@
 #' Settings of the search for a reference path
 #'
-#' All tuning constants of [reference_path()] in one place.
+#' All tuning constants of [reference_path()]. Numbers have no unit, but for angles.
 #'
 #' @param ... Nothing: settings are given by name, and an unknown name is an error.
-#' @param reach Cuts stay within this share of the distance between the landmarks
-#'   from the straight line between them (the paper: 1/2). `Inf`: anywhere.
-#' @param longest Cuts may be this many times as long as the shortest. `Inf`: as long as they are.
-#' @param spacing Strength is taken along a cut at places no further apart than this share of
-#'   `radius`.
+#' @param reach Greatest distance of a cut from the straight line between the landmarks, as a share
+#'   of that line's length (the paper: 1/2). `Inf`: no limit.
+#' @param longest Greatest length of a cut, as a multiple of the shortest. `Inf`: no limit.
+#' @param spacing Greatest distance between the places along a cut at which strength is taken, as a
+#'   share of `radius`.
 #' @param angles Number of angles of the coarse grid over a half turn.
 #' @param refined Number of angles between the neighbours of each local optimum.
-#' @param tie Of local optima within this share of the best the shortest cut is taken: curvature is
-#'   not known better than to some per cent, and planes that nearly touch the surface gather it on a
-#'   ragged way.
-#' @param rival Share within which a second optimum is a rival that is warned of.
-#' @param distinct A rival runs further than this share of the path's length from it at some place.
-#' @param order As in [curvature()], where that is not given; [ridge_curve()] uses the `order` of
-#'   its settings.
+#' @param tie Share of the best criterion within which local optima count as equal; the shortest of
+#'   these cuts is taken. Curvature has an error of some per cent, and planes that nearly touch the
+#'   surface give ragged cuts.
+#' @param rival Share of the best criterion within which another optimum is a rival. A rival gives a
+#'   warning.
+#' @param distinct Least distance of a rival from the path at some place, as a share of the path's
+#'   length.
+#' @param order Order of the curvature fits, as in [curvature()]. [ridge_curve()] uses the `order`
+#'   of its own settings.
 #' @param limited Number of angles of a curve whose planes a scheme limits (`angle_limit`, see
 #'   [curve_scheme()]).
 #' @return List of class `path_settings`.
-#' @section Errors: of class `crestline_error`, for a name that is no setting or a value out of
-#'   range.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
 #' @template glossary
 #' @templateVar where section 3.1
 #' @template paper

@@ -1,61 +1,64 @@
 #' Settings of the ridge estimate
 #'
-#' All tuning constants of [ridge_curve()] in one place. With the preset `"crestline"` curves do not
-#' depend on the unit of the mesh or the number of grid points. `"one pass"` is the same without the
-#' kernel and without the second pass, the former default. `"paper"` reproduces the
-#' choices of the paper. The usage shows the values of `"crestline"`. Numbers have no unit (but see
-#' `lambda_scale`).
+#' All tuning constants of [ridge_curve()]. With the preset `"crestline"` curves do not depend on
+#' the unit of the mesh or the number of grid points. `"one pass"` has neither the kernel nor the
+#' second pass; it is the former default. `"paper"` has the choices of the paper. The usage shows
+#' the values of `"crestline"`. Numbers have no unit (but see `lambda_scale`). Radius, width and
+#' number of points of a curve are not settings: they are arguments of [ridge_curve()], or columns
+#' of a scheme ([curve_scheme()]).
 #'
 #' @param preset `"crestline"`, `"one pass"` or `"paper"`.
 #' @param ... Nothing: settings are given by name, and an unknown name is an error.
 #' @param order Polynomial of the curvature fit, as in [curvature()].
-#' @param strength `"across"` the path (normal curvature normal to it) or `"principal"`.
-#' @param wrong_sign Vertices with the wrong sign of curvature count as `"zero"` or are left out,
-#'   `"drop"`.
+#' @param strength Curvature that gives the strength: `"across"` (normal curvature perpendicular to
+#'   the path) or `"principal"`.
+#' @param wrong_sign Strength at vertices with the wrong sign of curvature: `"zero"`, or `"drop"` to
+#'   leave them out.
 #' @param cap,cap_quantile Strength is capped at `cap` times its quantile `cap_quantile`.
-#' @param window Half width at most this many radii; `Inf`: the width given.
-#' @param vertices Where a window holds more vertices than this it is divided into so many square
-#'   cells in (s, d), and one vertex of each is used: the smooth surface gains nothing from more,
-#'   and dense meshes take no longer; `Inf`: all.
+#' @param window Greatest half width of the window, in radii. `Inf`: no limit.
+#' @param vertices Greatest number of vertices of a window that are used. A window with more
+#'   vertices is divided into this number of square cells in (s, d), and one vertex of each cell is
+#'   used. Dense meshes then take no longer, and the smooth surface is as good. `Inf`: all.
 #' @param basis Number of B-splines along and across.
 #' @param anisotropy Penalty across over penalty along.
 #' @param df Equivalent degrees of freedom of the smooth surface.
 #' @param lambda Weight of the roughness of the ridge line.
-#' @param lambda_scale `"feature"`, `lambda` is divided by the feature's strength times the radius,
-#'   or `"grid"`, the paper's sum over second differences (for meshes in mm).
-#' @param grid Number of points of the ridge line, ends counted.
-#' @param core The mean strength that scales the criterion is taken within this share of the radius
-#'   from the path.
-#' @param bound The ridge stays within this share of the half width.
+#' @param lambda_scale `"feature"`: `lambda` is divided by the feature's strength times the radius.
+#'   `"grid"`: the paper's sum over second differences (for meshes in mm).
+#' @param grid Number of points of the ridge line, both ends included.
+#' @param core Distance from the path within which the mean strength is taken that scales the
+#'   criterion, as a share of the radius.
+#' @param bound Greatest distance of the ridge from the path, as a share of the half width.
 #' @param step Longest Newton step, as a share of the half width.
-#' @param iterations,tolerance Most Newton steps; the step at which it ends, as a share of the half
-#'   width.
-#' @param kernel The criterion is averaged across the path under a kernel ([ridge_line()]), whose
-#'   half width is this many standard errors of the line without it; 0: none.
-#' @param kernel_most,kernel_least Widest kernel, in radii; narrower ones than the least, in radii,
-#'   count as none.
+#' @param iterations,tolerance Greatest number of Newton steps, and the step at which they end, as a
+#'   share of the half width.
+#' @param kernel Half width of the kernel that averages the criterion across the path (see
+#'   [ridge_line()]), in standard errors of the line without kernel. 0: no kernel.
+#' @param kernel_most,kernel_least Greatest and least half width of the kernel, in radii. A narrower
+#'   kernel is not used.
 #' @param kernel_vertices As `vertices`, for the standard error of the line without a kernel.
-#' @param second Share of a second pass, about the curve of the first, that is taken where both
-#'   curves are equally strong; 0: one pass.
-#' @param second_gain Relative gain in strength at which half as much again of a whole pass is
-#'   taken, the loss at which it is so much less.
-#' @param second_whole Half width of the kernel, in radii, from which the whole second pass is
-#'   taken.
-#' @param mix Half width of the kernel, in radii, from which strength is that of the principal
-#'   curvature; it is mixed with that across the path below. `Inf`: never. 0.6 suits very noisy
-#'   data.
-#' @param noise The noise of the scanner, as [scan_noise()] measures it, or `NA`: not known. See
+#' @param second Share of a second pass in the curve if the curves of both passes are equally
+#'   strong. The second pass takes the first curve as its reference path. 0: one pass.
+#' @param second_gain Relative gain in strength of the second pass that raises its share by half of
+#'   a pass. An equal loss lowers the share by as much.
+#' @param second_whole Half width of the kernel, in radii, above which the share of the second pass
+#'   is 1.
+#' @param mix Half width of the kernel, in radii, above which the strength is that of the principal
+#'   curvature. Below it the strength is a mixture with that across the path. `Inf`: always across
+#'   the path. 0.6 suits very noisy data.
+#' @param noise Noise of the scanner, as of [scan_noise()], or `NA` if it is not known. See
 #'   [ridge_curve()], Standard error.
-#' @param longest Reference paths may be this many times as long as the shortest.
-#' @param inflation Factor of the standard error of the delta method, for what the linear
-#'   approximation misses (what the band then covers: [ridge_curve()], Standard error).
+#' @param longest Greatest length of a reference path, as a multiple of the shortest.
+#' @param inflation Factor on the standard error of the delta method. It corrects for the linear
+#'   approximation. For the coverage see [ridge_curve()], Standard error.
 #' @param undetermined Median standard error, in radii, above which a curve counts as not determined
 #'   by curvature.
-#' @param faint A curve also counts as not determined where the mean strength near the reference
-#'   path, times the radius (so without unit), is below this.
-#' @param error Whether to work out standard errors at all.
+#' @param faint Mean strength near the reference path, times the radius, below which a curve counts
+#'   as not determined by curvature.
+#' @param error Whether to compute standard errors.
 #' @return List of class `ridge_settings`.
-#' @section Errors: of class `crestline_error`, for a name that is no setting.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
 #' @template glossary
 #' @templateVar where section 3.2 (12 degrees of freedom, lambda = 0.5)
 #' @template paper

@@ -1,76 +1,80 @@
 #' Settings of sliding
 #'
-#' All tuning constants of [slide()] in one place. The preset `"crestline"` makes points of many
-#' specimens most nearly homologous, as measured below. `"paper"` reproduces the choices of the
-#' paper.
+#' All tuning constants of [slide()]. The preset `"crestline"` gave the best correspondence of
+#' points between specimens, see below. `"paper"` has the choices of the paper.
 #'
 #' Sliding has two steps. First points slide along their curves. Then, with `curves = "free"`,
 #' points of curves and patches slide together over the surface ([slide()] describes both). We chose
 #' the constants on simulated faces of three populations whose true point-to-point correspondence is
 #' known, by minimising the scatter of each point. Nearby values do almost as well. A lower bending
-#' energy does not mean better correspondence: with the paper's energies it is lowest, and the
-#' scatter larger than without sliding. `vignette("homology", "crestline")` has the table.
+#' energy does not mean better correspondence. With the paper's settings the energy is lowest, but
+#' the scatter is larger than without sliding. `vignette("homology", "crestline")` has the table.
 #'
-#' Is a measured crest the homologous line? Two populations give two answers for the brow. On one
-#' the crest is the best place for the points, on the other the corresponding line moves across the
-#' crest by 2 mm from face to face. The default takes the middle: `floor` lets the points of broad
-#' ridges (brow, mandible) leave the crest by some 1 mm. For a study of the crests themselves give
-#' `floor = 0`: points then stay on their ridge within its standard error. Give `curves = "held"` to
-#' keep all curve points exactly on the measured curves.
+#' Is a measured crest the homologous line? Two populations give two answers for the brow. In one
+#' population the crest is the best place for the points. In the other the corresponding line moves
+#' across the crest by 2 mm from face to face. The default is a compromise: with `floor` the points
+#' of broad ridges (brow, mandible) can leave the crest by some 1 mm. For a study of the crests
+#' themselves give `floor = 0`. Points then stay on their ridge within its standard error. Give
+#' `curves = "held"` to keep all curve points exactly on the measured curves.
 #'
-#' A radius is the root mean square distance of the template's landmarks and curve points from their
-#' centre, so nothing depends on the unit. The energy of the joint step has the kernel
-#' \eqn{(1 + \sqrt{3} r / h) \exp(-\sqrt{3} r / h) - c r}, r in radii. The usage shows the values of
-#' `"crestline"`.
+#' Lengths are in radii, so nothing depends on the unit. A radius is the root mean square distance
+#' of the template's landmarks and curve points from their centre. The energy of the joint step has
+#' the kernel \eqn{(1 + \sqrt{3} r / h) \exp(-\sqrt{3} r / h) - c r}, r in radii. The usage shows
+#' the values of `"crestline"`.
 #'
 #' @param preset `"crestline"` or `"paper"`.
 #' @param ... Nothing: settings are given by name, and an unknown name is an error.
-#' @param energy Which points share a bending energy: a curve and all `"landmarks"`, which stay
-#'   where they are; each curve's `"own"` points (the paper, which describes it for one curve); or
-#'   `"all"` landmarks and curves.
-#' @param nugget Of curve points, in radii (20 mm on a face; landmarks have none), see
-#'   [bending_energy()]: it keeps a point from moving along its curve only to make up for an error
-#'   across it.
-#' @param nugget_by `"length"`, the same for all; `"error"`, this times the square of a point's
-#'   standard error over the median square, where the template has any (that of [homologise()]
-#'   has: the sample's root mean square).
+#' @param energy Points that share a bending energy. `"landmarks"`: each curve with all landmarks,
+#'   which do not move. `"own"`: the points of each curve (the paper, which describes one curve).
+#'   `"all"`: all landmarks and curves.
+#' @param nugget Nugget of curve points, in radii (20 mm on a face), see [bending_energy()].
+#'   Landmarks have none. With a nugget an error of a point across its curve does not make it move
+#'   along the curve.
+#' @param nugget_by `"length"`: all curve points have the same nugget. `"error"`: the nugget is
+#'   multiplied by the squared standard error of the point, over the median of the squares. The
+#'   template of [homologise()] has standard errors: the root mean square over the sample.
 #' @param strain Weight of the squared excess of spacings along a curve over equal ones, in means of
 #'   the diagonal of the energy's matrix.
-#' @param cut_ends Where the scheme cuts a curve off there is no landmark; such an end `"slide"`s
-#'   too, or must `"stay"` (the paper, where the end points of every curve stay).
-#' @param gap Neighbours on a curve keep this share of equal spacing between them.
-#' @param tolerance,sweeps Done when no point slides further than this share of its spacing; most
-#'   sweeps over the points.
-#' @param surface The points inside patches slide freely on the `"mesh"`, along their `"transect"`
-#'   (the paper), or not at all and stay `"between"` the slid curves.
-#' @param surface_energy Of `"all"` points (curves and landmarks held), or of each `"patch"` (our
-#'   reading of the paper, which slides each transect as a curve and does not say which points
-#'   share its energy).
-#' @param surface_nugget Of curve and surface points there, in radii (300 mm on a face).
-#' @param surface_tolerance,surface_sweeps As those of curves; the tolerance in radii.
+#' @param cut_ends Ends at which the scheme trims a curve, where there is no landmark: they
+#'   `"slide"` or `"stay"` (the paper, where the end points of every curve stay).
+#' @param gap Least distance between neighbours on a curve, as a share of equal spacing.
+#' @param tolerance,sweeps The first step ends when no point slides by more than this share of its
+#'   spacing. `sweeps` is the greatest number of sweeps over the points.
+#' @param surface Sliding of the points inside patches if curves are held. `"mesh"`: freely on the
+#'   mesh. `"transect"`: along their transect (the paper). `"between"`: they do not slide, and stay
+#'   between the slid curves.
+#' @param surface_energy Points inside patches that share a bending energy. `"all"`: those of all
+#'   patches, with curves and landmarks held. `"patch"`: those of each patch. This is our reading of
+#'   the paper, which slides each transect as a curve and does not define its energy.
+#' @param surface_nugget Nugget of curve and surface points in this energy, in radii (300 mm on a
+#'   face).
+#' @param surface_tolerance,surface_sweeps As `tolerance` and `sweeps`, for the points inside
+#'   patches; the tolerance is in radii.
 #' @param rank `tolerance` of [bending_energy()].
-#' @param curves After the first step the points of curves slide `"free"` over the mesh together
-#'   with those of patches, or are `"held"` on their curves (the paper; then `surface`,
-#'   `surface_energy` and `surface_nugget` say how patches slide).
-#' @param range,rough Of the joint step's energy: h, in radii (85 mm on a face), of its smooth part,
-#'   and c, the weight of its rough part, the thin-plate spline's. See Details.
+#' @param curves Points of curves after the first step. `"free"`: they slide over the mesh together
+#'   with those of patches. `"held"`: they stay on their curves (the paper), and `surface`,
+#'   `surface_energy` and `surface_nugget` apply to the patches.
+#' @param range,rough Constants of the joint step's energy, see Details: h, in radii (85 mm on a
+#'   face), of the smooth part, and c, the weight of the rough part, which is that of the thin-plate
+#'   spline.
 #' @param joint_nugget Nugget of curve and surface points in the joint step, in units of its kernel,
 #'   1 at r = 0.
-#' @param placed_nugget,found_nugget,doubtful_nugget Nuggets there of landmarks that were placed by
-#'   hand, found by [find_landmarks()], or only predicted or found with little confidence.
-#' @param floor A ridge or valley measured with curvature of radius q counts as known, as a
-#'   homologous line, to within `floor` times q^2 / radius at best (on a face 0.25 mm for q = 5 mm
-#'   and 1 mm for 10 mm), whatever its standard error; 0 keeps points on crests.
-#' @param reach A curve no longer draws points that are so many standard errors off (Tukey's
-#'   biweight; `floor` included).
+#' @param placed_nugget,found_nugget,doubtful_nugget Nuggets in the joint step, in the same unit, of
+#'   landmarks: placed by hand; found by [find_landmarks()]; and predicted or found with little
+#'   confidence.
+#' @param floor Least uncertainty of a ridge or valley as a homologous line: `floor` times q^2 /
+#'   radius, where q is the radius of its curvature. On a face this is 0.25 mm for q = 5 mm and 1 mm
+#'   for 10 mm. A smaller standard error is replaced by it. 0: points stay on crests.
+#' @param reach Distance, in standard errors (`floor` included), from which on a curve does not
+#'   attract a point (Tukey's biweight).
 #' @param relaxation Factor on every step towards a point's minimiser (1: exact; less than 2).
-#' @param halvings How often a step is halved that would raise the sum or bring a point past its
-#'   neighbour (that is, nearer than `gap` of its distance there in the warp).
-#' @param joint_tolerance,joint_sweeps Done when the root mean square step of a sweep is below, in
-#'   radii; most sweeps.
+#' @param halvings Greatest number of halvings of a step that would raise the sum, or would bring a
+#'   point too close to its neighbour (closer than `gap` times their distance in the warp).
+#' @param joint_tolerance,joint_sweeps The joint step ends when the root mean square step of a sweep
+#'   is below `joint_tolerance`, in radii. `joint_sweeps` is the greatest number of sweeps.
 #' @return List of class `slide_settings`.
-#' @section Errors: of class `crestline_error`, for a name that is no setting or a value out of
-#'   range.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
 #' @template glossary
 #' @templateVar where section 4
 #' @template paper
