@@ -10,12 +10,13 @@
 #' A first alignment leaves missing points out. Then `missing = "estimate"` estimates them by a
 #' thin-plate spline, with least bending energy. The spline maps the mean of the first alignment
 #' onto the points that the specimen has; the missing points are the images of those of the mean.
-#' `"drop"` leaves these points out of all specimens.
+#' `"drop"` leaves these points out of all specimens. Points that every specimen lacks, such as
+#' those at the ears, are always left out, with a message.
 #'
 #' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array of homologous
 #'   points (k x 2 x n for flat configurations). Missing points are NA.
-#' @param level Kind of points: "landmarks", "curves", "surface", or "model" (all three, each place
-#'   once). For an array it is only a name.
+#' @param level Kind of points: "landmarks" (the default), "curves", "surface", or "model" (all
+#'   three, each place once). For an array it is only a name. The default of [coords()] is "curves".
 #' @param scale `TRUE`: every configuration gets unit centroid size (partial Procrustes). `"full"`:
 #'   it is scaled by the factor that brings it closest to the mean (full Procrustes). `FALSE`: sizes
 #'   are kept, for size and shape together.

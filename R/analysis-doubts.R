@@ -161,9 +161,10 @@ reach_beyond <- function(known, gone) {
 #' @param missing Of an `aligned`.
 #' @noRd
 missing_lines <- function(missing, most = 8) {
-  if (!nrow(missing)) return(character())
-  count <- table(factor(missing$id, unique(missing$id)))
-  sprintf("missing and %s: %s of %s; most, %d, of %s", missing$action[1],
-          amount(nrow(missing), "point"),
-          shorten(names(count), most), max(count), names(count)[which.max(count)])
+  vapply(split(missing, factor(missing$action, unique(missing$action))), function(gone) {
+    count <- table(factor(gone$id, unique(gone$id)))
+    sprintf("missing and %s: %s of %s; most, %d, of %s", gone$action[1],
+            amount(nrow(gone), "point"),
+            shorten(names(count), most), max(count), names(count)[which.max(count)])
+  }, "", USE.NAMES = FALSE)
 }

@@ -28,7 +28,7 @@
 #' compared by its approximate p in the same way. It uses at most a third as many components as the
 #' summed variance has degrees of freedom. The tests are exact if the groups have one distribution.
 #' If only their means agree, they are right in large samples (Janssen 1997; Chung and Romano 2016).
-#' The page `spread.md` of the sources has their level in small ones.
+#' In small samples their level can differ from the nominal one.
 #'
 #' With `equal_spread = TRUE` variances are pooled: Student's t, Goodall's F, Hotelling's T2,
 #' Hotelling and Lawley's trace times (n - groups). The null hypothesis is then that the groups have
@@ -36,6 +36,11 @@
 #' can reject although the means are equal. With 24 and 6 specimens and a threefold spread they do
 #' so in up to 9 of 10 samples. The function warns if this can happen. If spreads are equal and
 #' group sizes very unequal, pooled tests have more power.
+#'
+#' **Few regroupings.** A p-value by permutation is at least 1 / (`n_perm` + 1), and with all
+#' regroupings at least 1 over their number. With five specimens in each of two groups there are 252
+#' regroupings; two-sided tests have p of at least 2/252 = 0.008. `print()` gives the p-values of
+#' single components without adjustment; `as.data.frame()` has `p_adjusted`.
 #'
 #' **Effects.** The distance between two sample means is above 0 even without a difference. `effect`
 #' of the mean shape is therefore this distance less its mean over the regroupings. `effect` of size

@@ -6,8 +6,9 @@
 #' of 12 and of 40, or the mean face of each sex at the same size.
 #'
 #' @param object A `shape_lm`, as [shape_lm()] returns it.
-#' @param newdata Data frame with the model's variables, a row for each shape. Its row names become
-#'   the names of the shapes. `NULL`: the fitted shapes of the sample.
+#' @param newdata Data frame with the model's variables, a row for each shape. `size` is the
+#'   centroid size of this level; levels have different sizes. Its row names become the names of the
+#'   shapes. `NULL`: the fitted shapes of the sample.
 #' @param level Level of the model. `NULL`: its first level.
 #' @param as "array", or "mesh" for a list of `mesh3d`; the level must have triangles.
 #' @param size Centroid size of the shapes, in the unit of the meshes. "mean": the mean size of the
@@ -15,7 +16,7 @@
 #'   that the same terms predict. Or a number (1: unit size). Ignored if the alignment kept sizes.
 #' @param ... Ignored.
 #' @return A k x 3 x m array with the names of the points and shapes, or a list of m meshes, as of
-#'   [shape_at()].
+#'   [shape_at()]. [draw_surface()] draws a mesh.
 #' @section Errors: of class `crestline_error`: `newdata` lacks a variable, has a missing value, or
 #'   has a level of a factor that the sample lacks; the sample has no data for a combination of
 #'   values; the level has no triangles for a mesh.

@@ -32,9 +32,11 @@
 #' @param sample As in [compare_groups()].
 #' @param formula Right-hand side of a linear model, such as `~ age * sex + log(size)`. It may have
 #'   numbers, factors, interactions, and functions of variables such as `poly(age, 2)` and
-#'   `splines::ns(age, 3)`. Characters are factors.
+#'   `splines::ns(age, 3)`. Characters are factors. A group that is coded by numbers is a number:
+#'   write `factor(sex)`.
 #' @param data Data frame of the variables with a row for each specimen, matched by name as in
-#'   [as_geomorph()]. Not needed if `size` is the only variable.
+#'   [as_geomorph()]. Missing values are refused: leave the specimen out with
+#'   `sample[setdiff(names(sample), "anna")]`. Not needed if `size` is the only variable.
 #' @param level,n_perm,seed,scale,weights,missing,progress As in [compare_groups()].
 #' @param tests Tests to make: "shape", "size" (centroid size; not with `size` in the formula),
 #'   "manova" (Pillai's trace of the first components), "components" (each by itself), "points".

@@ -18,9 +18,18 @@ complete_configurations <- function(given, missing, call = rlang::caller_env()) 
   given$kept <- seq_len(given$given)
   if (any(gap)) {
     if (missing == "stop") abort_missing(given$missing, call)
+    nowhere <- rowSums(!gap) == 0
+    if (missing == "estimate" && any(nowhere) && sum(!nowhere) > dim(coords)[2] + 1) {
+      # A face without ears is no reason to stop: nothing is known of these points.
+      crestline_inform(sprintf("align: %s missing in every specimen, left out: %s.",
+                               amount(sum(nowhere), "point"), shorten(rownames(gap)[nowhere], 5)))
+      given$missing$action[nowhere[at[, 1]]] <- "dropped"
+      given <- without_points(given, nowhere)
+      gap <- gap[!nowhere, , drop = FALSE]
+    }
     check_enough(gap, dim(coords)[2], missing, call)
-    given <- if (missing == "drop") without_points(given, rowSums(gap) > 0) else
-      estimated(given, gap, call)
+    if (missing == "drop") given <- without_points(given, rowSums(gap) > 0) else
+      if (any(gap)) given <- estimated(given, gap, call)
   }
   if (is.null(given$reference) ||
       anyNA(given$reference)) given$reference <- unnamed_slice(given$coords, 1)

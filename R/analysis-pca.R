@@ -30,8 +30,8 @@
 #'     [predict.shape_pca()] needs.
 #'
 #'   `as.data.frame()` gives a data frame with a row for each component: `component`, `sd`, `share`,
-#'   `cumulative`. `summary()` and `biplot()` are those of `prcomp`. For `predict()` see
-#'   [predict.shape_pca()].
+#'   `cumulative`. `data.frame(id = rownames(pca$x), pca$x)` is a table of the scores. `summary()`
+#'   and `biplot()` are those of `prcomp`. For `predict()` see [predict.shape_pca()].
 #' @section Errors: of class `crestline_error`: `aligned` is not an `aligned`, or all shapes are
 #'   equal.
 #' @template glossary
@@ -202,6 +202,8 @@ print.shape_pca <- function(x, most = 6, ...) {
 }
 
 #' Shapes along principal components
+#'
+#' Gives the shapes at chosen distances from the mean along one or several principal components.
 #'
 #' @param pca A `shape_pca`.
 #' @param component Numbers of components.

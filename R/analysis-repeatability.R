@@ -13,9 +13,9 @@
 #' Henderson's method 3, which allows different numbers of repeats. For equal numbers the estimates
 #' are those of the analysis of variance. An estimate below 0 counts as 0. The interaction is in the
 #' model if some observer measured some specimen twice, else it is part of the residual. Differences
-#' between observers count as error: the correlation is that of agreement, ICC(1) without and
-#' ICC(2, 1) with observers. One specimen that was measured several times gives the error only; the
-#' variance of specimens and the correlation are NA.
+#' between observers count as error. The correlation is that of agreement: `ICC(1)` without
+#' observers, and `ICC(2,1)` with observers. One specimen that was measured several times gives the
+#' error only; the variance of specimens and the correlation are NA.
 #'
 #' @param shapes The N measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` for a
 #'   failed measurement), a `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of

@@ -9,9 +9,9 @@
 #' * `crestline.threads`: number of threads of the loops over vertices, 1 unless set.
 #'
 #' # Units
-#' Every length is in the unit of the mesh (mm for faces by custom); curvatures
-#' are in 1 / that unit; angles are in radians; the shape index, strengths' ratios
-#' and barycentric weights have no unit.
+#' Every length is in the unit of the mesh (usually mm for faces). Curvatures and strengths are in 1
+#' / that unit. Angles are in radians. The shape index, ratios of strengths and barycentric weights
+#' have no unit.
 #'
 #' # Lifecycle
 #' Functions are meant to stay as they are. Those that are *experimental* say so in their help:
@@ -21,7 +21,7 @@
 #' # Functions by task
 #'
 #' * *Read a scan*: [read_specimen()], [specimen()]; landmarks and curves: [read_landmarks()],
-#'   [write_landmarks()], [read_curves()]; where each came from: `summary()`, see [provenance].
+#'   [write_landmarks()], [read_curves()]; the source of each: `summary()`, see [provenance].
 #' * *Get landmarks without hands*: [find_landmarks()], [check_placing()], [refine_landmarks()]; by
 #'   hand, on a page: [place_landmarks()], [review_landmarks()]; a template of your own:
 #'   [landmark_template()], [face_template()], [calibrate_template()], with [find_settings()].
@@ -36,21 +36,23 @@
 #' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()].
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],
 #'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample].
-#' * *Statistics*: generalised Procrustes analysis [align()], what it doubts [sample_limits()];
-#'   [shape_pca()], [shape_at()], [compare_groups()], [shape_lm()], [shape_lda()],
-#'   [symmetry_parts()]; to other packages and back: [as_geomorph()],
-#'   [as_rrpp()], [as_morpho()], [as_aligned()].
+#' * *Statistics*: generalised Procrustes analysis [align()], with warnings by [sample_limits()];
+#'   principal components [shape_pca()], [shape_at()]; groups [compare_groups()], [shape_lda()];
+#'   covariates and allometry [shape_lm()]; asymmetry [symmetry_parts()].
+#' * *Other packages*: [as_geomorph()], [as_rrpp()], [as_morpho()], and back [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
-#' * *Pictures and pages*: `plot()` of most objects: [plot.specimen()], [plot.curve()],
-#'   [plot.shape()], [plot.group_comparison()], [plot.shape_pca()], [plot.repeatability()]; curves
-#'   together [plot_curves()]; for the browser [write_page()], [write_pca_page()]; colours
-#'   [plot_shape_scale()], [shape_colours()]; a picture step by step: [draw_surface()],
-#'   [draw_lines()], [draw_points()], [draw_band()], [visible_points()], [picture_settings()].
+#' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
+#'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
+#'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].
+#' * *Pages for the browser*: [write_page()], [write_pca_page()], [quality_report()].
+#' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
+#'   [visible_points()], [picture_settings()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]
 #'   and [scan_settings()], [true_points()], [true_effect()].
 #'
 #' # Vignettes
-#' `vignette(package = "crestline")` lists them:
+#' `vignette(package = "crestline")` lists them. If the list is empty, the package was installed
+#' without them; see the README.
 #'
 #' * `crestline`: ten minutes with one face, and your own data;
 #' * `own-object`: a scheme for another object, table by table;
@@ -58,6 +60,8 @@
 #' * `many`: hundreds of scans on one core, several machines or in a queue;
 #' * `homology`: which sliding of semilandmarks makes points homologous;
 #' * `sexual-dimorphism`: two groups compared by landmarks, curves and surface;
+#' * `designs`: which test for which design;
+#' * `covariates`: size, age and other covariates;
 #' * `interop`: to geomorph, Morpho and RRPP, and back;
 #' * `method`: every equation beside the function that does it;
 #' * `paper`: the paper, line by line, and what differs here;
@@ -69,35 +73,35 @@
 #'
 #' * **mesh**: a triangulated surface, a `mesh3d` of the packages rgl and Rvcg.
 #' * **specimen**: a mesh that was checked, with its named landmarks and an id ([specimen()]).
-#' * **landmark**: a named place on the mesh that the user or a search has put there.
+#' * **landmark**: a named place on the mesh, put there by the user or by a search.
 #' * **place**: a point on the mesh, given by its triangle (`face`) and three barycentric weights
 #'   (`w1`, `w2`, `w3`); in a scheme, one or several points that coincide by construction.
-#' * **placing**: the table of what a search or a person did with each landmark: its state ("found",
-#'   "predicted", "absent", "placed") and its confidence ([find_landmarks()]).
+#' * **placing**: the table with the state of each landmark ("found", "predicted", "absent",
+#'   "placed") and its confidence ([find_landmarks()]).
 #' * **confidence**: a number from 0 to 1 that falls when the evidence for a found landmark
 #'   disagrees.
 #' * **doubtful**: a found landmark with a confidence below 0.5, or a match whose score is poor
 #'   ([check_placing()]).
 #' * **predicted**: a landmark that is placed by the positions of the others, since the surface has
 #'   no evidence for it.
-#' * **definition**: a rule by curvature for where a landmark lies: a cap, a cup, an extreme of a
-#'   profile, a turn or end of a curve, or a crossing ([refine_landmarks()]).
+#' * **definition**: a rule that gives the position of a landmark by curvature: a cap, a cup, an
+#'   extreme of a profile, a turn or end of a curve, or a crossing ([refine_landmarks()]).
 #'
 #' * **exchanged**: two landmarks each of which lies where the other belongs, such as left and
 #'   right.
-#' * **origin**: how each landmark came: from a file, given, found, predicted, placed or moved
+#' * **origin**: the source of each landmark: a file, given, found, predicted, placed or moved
 #'   ([provenance]).
-#' * **key**: a hash of a mesh's vertices and triangles. What was measured on a mesh carries its
-#'   key, and is refused with any other mesh.
+#' * **key**: a hash of a mesh's vertices and triangles. Results have the key of their mesh, and are
+#'   refused with any other mesh.
 #'
 #' *Curvature*
 #'
-#' * **radius**: how far the neighbourhood of a vertex reaches in which its curvature is fitted
+#' * **radius**: the size of the neighbourhood in which the curvature of a vertex is fitted
 #'   ([curvature()]).
 #' * **k1, k2**: the principal curvatures, k1 >= k2, positive where the surface bends towards its
 #'   outward normal, so that a valley has k1 > 0 and a ridge k2 < 0.
-#' * **shape index**: the kind of shape from -1 (cup) over 0 (saddle) to 1 (cap), whatever its size
-#'   ([shape_index()]).
+#' * **shape index**: the kind of shape from -1 (cup) over 0 (saddle) to 1 (cap), independent of
+#'   size ([shape_index()]).
 #' * **strength**: the amount of the sought curvature at a place, in 1 / unit, and 0 where the
 #'   surface has curvature of the other kind.
 #' * **contrast**: mean strength along a curve over the mean strength beside it; 1 means that the
@@ -106,9 +110,9 @@
 #' *A curve*
 #'
 #' * **ridge, valley, plane**: the kinds of curve: along a crest, along a groove, or the shortest
-#'   plane cut that asks for no curvature.
-#' * **cut**: a path that a plane through both landmarks cuts from the mesh ([plane_path()]); a
-#'   curve that *is cut off* keeps only the part next to one end.
+#'   plane cut, which does not use curvature.
+#' * **cut**: a path that a plane through both landmarks cuts from the mesh ([plane_path()]).
+#' * **trimmed**: a curve of which the scheme keeps only the part next to one end (`cut_share`).
 #' * **reference path**: the plane cut with the greatest mean strength, beside which the curve is
 #'   sought ([reference_path()]).
 #' * **rival**: another plane cut, elsewhere, that gathers nearly as much strength (`competing` is
@@ -117,8 +121,7 @@
 #'   the curve may lie.
 #' * **(s, d)**: arc length along the reference path and signed distance from it
 #'   ([path_coordinates()]).
-#' * **trust**: the part of the reference path in which curvature is believed; elsewhere strength is
-#'   0.
+#' * **trust**: the part of the reference path in which curvature is used; elsewhere strength is 0.
 #' * **se**: standard error of the curve's position across itself, if the mesh were scanned again
 #'   with independent noise at each vertex.
 #' * **determined**: whether curvature fixes the curve; if not, `reason` gives the cause.
@@ -131,19 +134,23 @@
 #' * **shape**: one specimen measured by a scheme: its points, and a status for every part
 #'   ([fit_shape()]).
 #' * **level**: the kind of points: "landmarks", "curves" or "surface"; "model" is all three, each
-#'   place once.
+#'   place once ([align()], [as_geomorph()]).
+#' * **names of points**: a point of a curve is "curve point", such as "philtrum ridge left 3". A
+#'   point of a patch is "patch column row", or "patch block column row" if the patch has blocks
+#'   ([curve_scheme()]). Some curves and patches share a name; their level tells them apart.
 #' * **part**: one landmark, curve or patch of a shape.
-#' * **semilandmark**: a point that is one of a fixed number on a curve or patch; its place along
-#'   the curve or on the patch is not a measurement but a choice, which sliding makes comparable.
-#' * **share**: a length as a fraction of another one, without unit: of a path, of a radius, of the
-#'   distance between two landmarks; `cut_share` is what is kept of a curve that is cut off.
+#' * **semilandmark**: one of a fixed number of points on a curve or patch. Its place along the
+#'   curve or on the patch is not a measurement but a convention. Sliding makes it comparable
+#'   between specimens.
+#' * **share**: a length as a fraction of another length (a path, a radius, the distance between two
+#'   landmarks), without unit. `cut_share` gives the length of a trimmed curve.
 #' * **track**: the whole curve on the mesh, with the arc length of each of its points, along which
 #'   they can slide.
 #' * **patch**: a piece of surface between curves, filled with semilandmarks.
 #' * **column, row**: a column of a patch is a cut between two points of its bounding curves; its
 #'   points are the rows.
 #' * **strip**: triangles that join two patches which do not share a curve.
-#' * **bridged**: led over a hole of the mesh by flat triangles; points there are missing.
+#' * **bridged**: led across a hole of the mesh by flat triangles; points there are missing.
 #' * **grade**: green (no doubt), amber (look at it) or red (do not use it as it is)
 #'   ([quality()]).
 #'
@@ -155,16 +162,16 @@
 #' * **template**: the shape that others are slid against ([homologise()] uses the sample's own
 #'   mean); for [find_landmarks()], a surface whose landmarks are carried to a scan
 #'   ([landmark_template()]).
-#' * **bending energy**: how much the thin-plate spline from the template to a specimen bends
+#' * **bending energy**: the bending of the thin-plate spline from the template to a specimen
 #'   ([bending_energy()]).
-#' * **nugget**: how far the spline may miss a point. It keeps a point from moving along its curve
-#'   only to make up for an error across it.
+#' * **nugget**: the tolerance of the spline at a point. With a nugget an error of a point across
+#'   its curve does not make it move along the curve.
 #' * **strain**: a penalty on uneven spacing along a curve.
 #' * **sample**: the shapes of many specimens with homologous points ([homologise()]).
 #' * **aligned**: a sample after generalised Procrustes analysis: centred, scaled and turned onto
 #'   its mean ([align()]).
-#' * **estimated**: a missing point of a specimen that [align()] puts where the others suggest.
-#' * **provenance**: what a result was made from: version, scheme, mesh, landmarks and settings
+#' * **estimated**: a missing point of a specimen that [align()] places by the other points.
+#' * **provenance**: the record of a result's origin: version, scheme, mesh, landmarks and settings
 #'   ([provenance]).
 #'
 #' @references

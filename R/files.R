@@ -4,7 +4,12 @@ file_extension <- function(file) tolower(sub("^.*[.]|^[^.]*$", "", basename(file
 
 check_file <- function(file, stage, name = "file") {
   if (!is_path(file)) refuse_no_path(file, stage)
-  if (!file.exists(file) || dir.exists(file)) {
+  if (dir.exists(file)) {
+    crestline_abort(sprintf("`%s`: %s is a folder.", name, file),
+                    sprintf("Give a file of it: see list.files(\"%s\").", file), stage = stage,
+                    call = NULL)
+  }
+  if (!file.exists(file)) {
     crestline_abort(sprintf("`%s`: there is no file %s.", name, file),
                     sprintf("Check the path; the working directory is %s.", getwd()),
                     stage = stage, call = NULL)

@@ -54,6 +54,11 @@
 #' in `.mrk.json` in a field `provenance`. The formats `.csv`, `.pts`, `.fcsv`, `.landmarkAscii` and
 #' `.pp` do not get it, as it would disturb some programs.
 #'
+#' Other programs: MorphoJ and tpsDig read `.tps`. They skip curves, so write all points as
+#' landmarks: `write_landmarks(as.array(sample, "curves"), "curves.tps")`. An `aligned` is written
+#' as it is, mostly with unit size; its sizes (`aligned$size`) are not written. A table of all
+#' points of a sample is `write.csv(as.data.frame(sample), "sample.csv")`.
+#'
 #' If `file` is a folder, all its landmark files are read. Each specimen is named after its file. In
 #' a file of several specimens the names in the file are used. Two files of one specimen must agree.
 #' Empty and compressed files, pipes and devices are refused before they are opened.
@@ -153,7 +158,8 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
   if (length(sets) > 1 && !format$several) {
     refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
-                         "Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.")
+                         paste("Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.",
+                               "A table of all: write.csv(as.data.frame(x), file)."))
   }
   if (any(with_curves) && !format$curves) {
     refuse_landmark_file(

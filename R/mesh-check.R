@@ -245,7 +245,7 @@ describe_topology <- function(mesh, topology, area) {
     report_row("faces without area", sum(area == 0), "kept, so that no slit opens"),
     report_row("non-manifold edges", topology$nonmanifold_edges, "kept; they act as borders"),
     report_row("isolated pieces", topology$pieces - 1, "kept; no curve leaves its piece"),
-    report_row("holes", holes, "kept; no curve crosses them")
+    report_row("holes", holes, "kept; see `bridge` of fit_shape()")
   )
 }
 

@@ -10,11 +10,11 @@
 #'   share of `radius`.
 #' @param angles Number of angles of the coarse grid over a half turn.
 #' @param refined Number of angles between the neighbours of each local optimum.
-#' @param tie Share of the best criterion within which local optima count as equal; the shortest of
-#'   these cuts is taken. Curvature has an error of some per cent, and planes that nearly touch the
-#'   surface give ragged cuts.
-#' @param rival Share of the best criterion within which another optimum is a rival. A rival gives a
-#'   warning.
+#' @param tie Relative difference from the best criterion below which local optima count as equal;
+#'   the shortest of these cuts is taken. Curvature has an error of some per cent, and planes that
+#'   nearly touch the surface give ragged cuts.
+#' @param rival Relative difference from the best criterion below which another optimum is a rival.
+#'   A rival gives a warning.
 #' @param distinct Least distance of a rival from the path at some place, as a share of the path's
 #'   length.
 #' @param order Order of the curvature fits, as in [curvature()]. [ridge_curve()] uses the `order`

@@ -63,6 +63,11 @@ plot.curve <- function(x, specimen, ..., what = c("surface", "panel")) {
 plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL, band = TRUE,
                         points = TRUE, width = 2.5, landmarks = FALSE,
                         engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
+  if (missing(specimen)) {
+    crestline_abort("`specimen` is not given.",
+                    "Give the specimen of the curve; plot(curve, what = \"panel\") needs none.",
+                    stage = "arguments")
+  }
   check_given()
   check_flags(band, points, landmarks, legend)
   if (!is.null(colour)) check_colour(colour, "colour")

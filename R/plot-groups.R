@@ -19,7 +19,9 @@
 #' @param adjust For "map": error rate that the level controls. "fwe": the family-wise error, by the
 #'   greatest statistic over all points. "fdr": the false discovery rate ([stats::p.adjust()],
 #'   Benjamini and Hochberg 1995). If the alignment has weights, it is the rate by weight, such as
-#'   area (Benjamini and Hochberg 1997). "none": the error of each single point.
+#'   area (Benjamini and Hochberg 1997). It needs many permutations: no point can be significant if
+#'   the least p-value times the number of points exceeds the level, unless many points have that
+#'   p-value. "none": the error of each single point.
 #' @param length_unit For "map": name of the unit of lengths, for the legend.
 #' @param limits,palette For "map": range of the distances (two numbers, unit of the meshes;
 #'   default: symmetric about 0), and colours.

@@ -12,8 +12,9 @@
 #' @param colour Colours of curves, named "ridge", "valley" and "plane"; by default red, blue and
 #'   black.
 #' @param surface With a specimen: quantity that its colours show, as `colour` of [plot.specimen()].
-#'   For the shape's own surface: one colour, a colour or a number for each vertex of
-#'   [shape_mesh()], or "patch" for one colour for each patch.
+#'   For the shape's own surface: one colour; a colour or a number for each surface point, or for
+#'   each vertex of [shape_mesh()]; or "patch" for one colour for each patch. Numbers are drawn
+#'   without a scale.
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
 #' @param points Whether to draw the points of the curves.
@@ -42,7 +43,11 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
                        engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
   check_class(x, "shape", "x", "fit_shape()")
   scene <- if (is.null(specimen)) {
-    draw_model(shape_mesh(x, parts), surface, edges, engine, view, ...)
+    model <- shape_mesh(x, parts)
+    # Values of all surface points, as write_mesh() takes them: those that have triangles.
+    every <- length(surface) > 1 && length(surface) == sum(x$points$level == "surface")
+    if (every) surface <- surface[attr(model, "row")]
+    draw_model(model, surface, edges, engine, view, ...)
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
     check_shape_on(x, specimen)

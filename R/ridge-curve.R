@@ -71,7 +71,13 @@
 #'   )` of [scan_noise()] the standard error follows the measured noise. A wider radius adds a bias
 #'   that the standard error does not include. `vignette("how-good", "crestline")` has the tables.
 #' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,
-#'   or an argument is wrong. The error names the specimen, the stage and the remedy.
+#'   or an argument is wrong. The error names the specimen, the stage and the remedy. A hole between
+#'   the landmarks is such an error: unlike [fit_shape()], `ridge_curve()` does not bridge holes.
+#' @section Curvature along a curve: `predict(curve$surface, s, d)` at the points' `s` and `d` gives
+#'   the smoothed strength, whose mean is `strength`. [curvature()] gives the principal curvatures
+#'   at the vertices, without smoothing along the curve. The orders of the local fits differ:
+#'   `order = "adaptive cubic"` here, `"adaptive"` in [curvature()]. Report which you took. `se` is
+#'   the error of the position; strengths and lengths have no standard error.
 #' @section Warnings: of class `crestline_undetermined`: curvature does not determine the curve. The
 #'   warning of [reference_path()] can occur too.
 #' @templateVar where section 3

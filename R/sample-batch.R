@@ -15,7 +15,11 @@
 #' result in `dir` is used again if mesh, landmarks, scheme, settings, template and `reading` are
 #' the same, and if the version of the package gives the same answers. File names do not matter. A
 #' scan that was renamed is not measured again, and two scans of one name in different folders are
-#' kept apart.
+#' kept apart. A message gives the number of results that are read, and the number of results of
+#' other settings that are replaced. Use one folder for each set of settings.
+#'
+#' To read results in a new session, call `fit_shapes()` again with the same arguments. `saveRDS()`
+#' of a batch with `dir` stores only the paths of its files.
 #'
 #' The file of a result has a checksum, which is compared before the file is read. A damaged or
 #' truncated result is measured again. Several runs may share a folder. A run deletes only its own
@@ -31,7 +35,8 @@
 #' then saved in `dir`, or in R's temporary folder. `print()` and `summary()` show which specimens
 #' have found landmarks.
 #'
-#' @param x Mesh files (paths, see [read_specimen()]), or a list of [specimen()]s. The id of a file
+#' @param x Mesh files, or a list of [specimen()]s. Files are given by their paths, each once, such
+#'   as `list.files("scans", "[.]ply$", full.names = TRUE)`; see [read_specimen()]. The id of a file
 #'   is its name without the extension. If several files share that name, their folders are added:
 #'   "visit 1/anna", "visit 2/anna".
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
@@ -62,12 +67,14 @@
 #' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
 #'   such parts. With small parts workers are started more often; with large ones they wait longer
 #'   at the end.
-#' @param progress Whether to show a progress bar, see [progressr::with_progress()].
+#' @param progress Whether to show a progress bar, see [progressr::with_progress()]. In a script
+#'   that `Rscript` runs, set `options(progressr.enable = TRUE)` too.
 #' @return Object of class `shape_batch`: a named list with a shape for each id, or `NULL` for a
 #'   specimen that failed. With `dir`, a shape is read from its file when you use it.
 #'   * `x[["id"]]`, `x$id`, `x[[i]]`: one shape; an unknown id is an error;
 #'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some specimens. `c(x, y)` joins two batches of one
-#'     scheme without common ids;
+#'     scheme. If a specimen failed in one of them and was measured in the other, the result is
+#'     taken;
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
 #'   * `for (shape in x)` has one shape in memory at a time; `lapply(x, f)` and `as.list(x)` have
 #'     all in memory;
@@ -111,6 +118,7 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   tasks <- batch_tasks(jobs, dir, scheme, settings)
   results <- if (is.null(dir)) vector("list", length(tasks)) else lapply(tasks, kept_result)
   open <- vapply(results, is.null, NA)
+  if (!is.null(dir)) say_kept(tasks, open)
   refusal <- if (any(open) && !is.null(dir)) unwritable(dir)
   if (!is.null(refusal)) {
     results[open] <- list(failure_of(refusal))
@@ -119,6 +127,23 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   run <- function() measure_tasks(tasks[open], scheme, settings, chunk)
   if (any(open)) results[open] <- if (isTRUE(progress)) progressr::with_progress(run()) else run()
   batch_of(stats::setNames(results, names(jobs)), scheme)
+}
+
+#' Say how many results the folder has already, and how many of other settings are replaced
+#' @noRd
+say_kept <- function(tasks, open) {
+  kept <- sum(!open)
+  other <- vapply(tasks[open], function(task) !is.na(peek_kept(task$file)$key), NA)
+  if (kept) {
+    crestline_inform(sprintf("%d of %s are read from the folder; %d to measure.", kept,
+                             amount(length(tasks), "result"), sum(open)))
+  }
+  if (any(other)) {
+    crestline_inform(sprintf(paste(
+      "Replaced in the folder: %s of other settings, landmarks or meshes (%s).",
+      "Use another `dir` to keep both."
+    ), amount(sum(other), "result"), shorten(vapply(tasks[open][other], `[[`, "", "name"))))
+  }
 }
 
 #' Arguments for fit_shape() with the unit of what is read

@@ -22,6 +22,9 @@
 #' If the scheme has left-right pairs, the template is made symmetric in every round
 #' ([symmetrise()]).
 #'
+#' Parts that [quality()] grades red are used like all others. Look at them first. Correct their
+#' landmarks and measure them again, leave the specimen out, or take a scheme without the part.
+#'
 #' @param shapes List of `shape`s of one scheme with different `id`s, as [fit_shape()] returns them,
 #'   or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. For a batch in files one
 #'   scan at a time is in memory. The ends of trimmed curves are homologous only if all shapes were
@@ -55,8 +58,9 @@
 #'   two shapes have one id; a specimen is missing, or has another mesh than its shape. Of class
 #'   `crestline_unit_error`: the shapes have different units (`unit` of [fit_shape()]).
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
-#'   Of class `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning
-#'   gives the one to use for all.
+#'   Of class `crestline_twin`: two specimens have the same mesh and the same landmarks. Of class
+#'   `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning gives the one
+#'   to use for all.
 #' @templateVar where section 4
 #' @template paper
 #' @details The defaults of [slide_settings()] differ from the paper's. The paper does not space the
@@ -149,7 +153,25 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
          "Give every specimen an `id` of its own.")
   }
   for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
+  warn_twins(shapes, ids)
   stats::setNames(shapes, ids)
+}
+
+#' The same scan with the same landmarks under two ids counts twice in every test
+#' @noRd
+warn_twins <- function(shapes, ids) {
+  key <- vapply(shapes, function(shape) {
+    if (is.null(shape_key(shape))) NA_character_ else
+      content_hash(list(shape_key(shape), unname(coords(shape, "landmarks"))))
+  }, "")
+  twin <- !is.na(key) & duplicated(key)
+  if (!any(twin)) return(invisible())
+  crestline_warn(
+    sprintf("specimens with the same mesh and the same landmarks: %s.",
+            shorten(sprintf("%s and %s", ids[match(key[twin], key)], ids[twin]))),
+    "Leave out the copies: they count twice in every test.",
+    stage = "homologise", class = "crestline_twin"
+  )
 }
 
 #' The shapes of a batch; of one in files without their specimens, which are read again when they

@@ -48,6 +48,18 @@ file_jobs <- function(files, landmarks, reading, call) {
                     "Give paths of meshes.",
                     stage = "arguments", call = call)
   }
+  folder <- dir.exists(files)
+  if (any(folder)) {
+    crestline_abort(sprintf("`x` is a folder, not a mesh file: %s.", shorten(files[folder])),
+                    sprintf("Give its files: list.files(\"%s\", \"[.]ply$\", full.names = TRUE).",
+                            files[folder][1]),
+                    stage = "arguments", call = call)
+  }
+  twice <- duplicated(normalizePath(files, winslash = "/", mustWork = FALSE))
+  if (any(twice)) {
+    crestline_abort(sprintf("`x` has a file twice: %s.", shorten(unique(files[twice]))),
+                    "Give each file once: unique(x).", stage = "arguments", call = call)
+  }
   reading <- check_reading(reading, call)
   ids <- file_ids(files)
   readings <- reading_by_id(reading, ids, call)

@@ -108,9 +108,9 @@ kept_fault <- function(x, opened = open_kept(attr(x, "file"))) {
   problem <- switch(opened$state, absent = "its file %s is not there.",
                     damaged = "its file %s is damaged or cut short.",
                     former = "its file %s is of a former version, which has no checksum.",
-                    whole = "its file %s has another's result now.")
+                    whole = "its file %s has another result now.")
   remedy <- if (opened$state == "whole") {
-    "Run fit_shapes() again, with a `dir` of its own where two runs use one id for two specimens."
+    "Run fit_shapes() again. Use one `dir` for each set of settings."
   } else "Run fit_shapes() again: it is measured again."
   new_failure("keeping", sprintf(problem, file), remedy, attr(x, "warnings"))
 }
@@ -252,8 +252,14 @@ c.shape_batch <- function(...) {
                             schemes[[1]]$name, schemes[[other[1]]]$name),
                     "Measure all by one scheme: fit_shapes(..., scheme = ).", stage = "batch")
   }
+  shapes <- do.call(c, lapply(given, plain_list))
+  # A specimen that failed in one batch and was measured in another is taken as measured.
+  none <- vapply(shapes, is.null, NA)
+  shapes <- shapes[!(none & names(shapes) %in% names(shapes)[!none])]
+  failed <- do.call(c, lapply(given, attr, "failed"))
   joined <- validate_shape_batch(new_shape_batch(
-    do.call(c, lapply(given, plain_list)), do.call(c, lapply(given, attr, "failed")), schemes[[1]]
+    shapes, failed[intersect(names(shapes)[vapply(shapes, is.null, NA)], names(failed))],
+    schemes[[1]]
   ))
   warn_units(joined)
   joined
@@ -350,7 +356,9 @@ new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault 
 
 #' Failed specimens of a batch
 #'
-#' Lists the specimens that could not be measured, with the reason and the remedy.
+#' Lists the specimens that could not be measured, with the reason and the remedy. After a remedy,
+#' measure the failed specimens again, and join the results: `shapes <- c(shapes,
+#' fit_shapes(files["anna"], found = TRUE))`.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it.
 #' @return Data frame with a row for each failed specimen: `id`, `stage` (of the measurement),

@@ -101,10 +101,14 @@
 #'   * A trimmed curve (`cut_share`) keeps only the part next to its end `to`, and needs no more of
 #'     the mesh. Its other landmark may lie outside the scan (an ear). The curve then runs towards
 #'     that landmark to the border of the mesh. The direction is that of the landmark's
-#'     co-ordinates, if it has any. `specimen$landmarks["tL", ] <- ...` after [specimen()] sets
-#'     co-ordinates off the mesh. Otherwise it is that of the mirror image of its pair. The points
-#'     keep their places on the whole curve; points beyond the mesh are missing. With a smaller
-#'     `cut_scale` all points lie on the mesh.
+#'     co-ordinates, if it has any. These may lie off the mesh, if they are set after [specimen()]:
+#'     `specimen$landmarks <- rbind(specimen$landmarks, tL = c(x, y, z))`. Otherwise the direction
+#'     is that of the mirror image of its pair. The points keep their places on the whole curve;
+#'     points beyond the mesh are missing. With a smaller `cut_scale` all points lie on the mesh.
+#'   * Scans of faces without ears lack tL, tR, oiL and oiR, and the curves that run to them.
+#'     [find_landmarks()] predicts these landmarks. Add them to your own: `ears <-
+#'     find_landmarks(face)$landmarks[c("tL", "tR", "oiL", "oiR"), ]`, then `face$landmarks <-
+#'     rbind(face$landmarks, ears)`.
 #'   * Shares are measured between the two landmarks of a pair. On half a face one of them is
 #'     missing. The length is then twice the distance of the other from the mirror plane. The mirror
 #'     plane is perpendicular to the directions between left and right. Without a whole pair, it
@@ -138,7 +142,8 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   check_flags(progress)
   if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   threads <- check_threads(threads)
-  check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
+  check_class(specimen, "specimen", "specimen",
+              "specimen(), read_specimen() or, without landmarks, find_landmarks()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   named <- scheme
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]

@@ -9,7 +9,8 @@
 #'
 #' The defaults were chosen on 26 good scans and on scans that were spoiled on purpose (holes,
 #' spikes, noise, decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber
-#' or red. Of the parts of good whole faces, up to 4.3 % were.
+#' or red. Of the parts of good whole faces, up to 4.3 % were. Scans that end before the ears have
+#' more, as trimmed curves are then too short.
 #'
 #' @param ... Nothing: limits are given by name, and an unknown name is an error.
 #' @param missing Share of the part's points that are missing.

@@ -17,6 +17,13 @@
 #' exchanged with another. If most found landmarks have little confidence, nothing is green.
 #' [crestline-package] has a glossary.
 #'
+#' What to do: look at every red part, and at amber parts that matter to you, with `plot(shape,
+#' specimen)` or [quality_report()]. A wrong landmark is moved ([review_landmarks()], or
+#' `specimen$landmarks`), and the specimen is measured again. If trimmed curves are too short on
+#' many scans, measure all specimens with one smaller `cut_scale`, see [fit_shape()]. A part that
+#' stays red is left out: drop the specimen, or set its points to NA. No later step reads the
+#' grades.
+#'
 #' `quality()` does not detect a wrong landmark that was placed by hand, unless lengths, symmetry or
 #' the order of landmarks show it. It does not detect a smooth error of the scan. A curve along the
 #' wrong feature can be detected in a sample of [homologise()], and in a shape of [slide()]. There a
@@ -47,11 +54,12 @@
 #'   * `grade`: ordered factor green < amber < red;
 #'   * `why`: the reason, as text; NA if the part is green.
 #'
-#'   A specimen that could not be measured has one row with level "specimen", red. A specimen with
-#'   warnings (see [warnings_of()]) has such a row too, amber. `print()` gives the counts, the worst
-#'   parts, and the specimens whose landmarks were found and not placed by hand. `summary()` gives a
-#'   data frame with a row for each specimen: `specimen`, `green`, `amber`, `red` (numbers of
-#'   parts), and `landmarks` ("found" or "placed"; NA if it could not be measured).
+#'   A specimen that could not be measured has one row with level "specimen", red, with the reason
+#'   of the failure. A specimen with warnings (see [warnings_of()]) has such a row too, amber.
+#'   `print()` gives the counts, the worst parts, and the specimens whose landmarks were found and
+#'   not placed by hand; `as.data.frame()` shows the rows. `summary()` gives a data frame with a row
+#'   for each specimen: `specimen`, `green`, `amber`, `red` (numbers of parts), and `landmarks`
+#'   ("found" or "placed"; NA if it could not be measured).
 #' @section Errors: of class `crestline_error`: `x` has no shapes.
 #' @seealso [quality_report()] for a page with pictures.
 #' @examples
@@ -77,7 +85,10 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
                ),
                parts, names(parts))
   noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
-  lost <- lapply(setdiff(names(shapes), names(measured)), lost_specimen)
+  failed <- if (inherits(x, "shape_batch")) failures(x)
+  lost <- lapply(setdiff(names(shapes), names(measured)), function(name) {
+    lost_specimen(name, failed[match(name, failed$id), ])
+  })
   table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
   rownames(table) <- NULL
@@ -93,7 +104,7 @@ has_found <- function(shape) any(shape$placing$state == "found")
 #' A list of shapes by name of specimen; every name once
 #' @noRd
 named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
-  if (inherits(x, "shape_batch")) x <- as.list(x)
+  if (inherits(x, c("shape_batch", "shape_sample"))) x <- as.list(x)
   if (inherits(x, "shape")) x <- list(x)
   if (!is.list(x) || length(x) == 0) check_class(x, "shape", name, "fit_shape()", call)
   for (shape in Filter(Negate(is.null), x)) check_class(shape, "shape", name, "fit_shape()", call)
@@ -159,9 +170,13 @@ sample_scores <- function(shapes, others, limits) {
   scores[seq_along(shapes), , drop = FALSE]
 }
 
-#' A specimen that is not there
+#' A specimen that could not be measured
+#' @param failure Its row of [failures()]; NULL where it is not known.
 #' @noRd
-lost_specimen <- function(name) specimen_row(name, "red", "it was not measured")
+lost_specimen <- function(name, failure) {
+  why <- if (NROW(failure) && !is.na(failure$message)) paste0(": ", sub("[.]$", "", failure$message))
+  specimen_row(name, "red", paste0("it was not measured", why))
+}
 
 #' What a specimen was warned of while it was measured; NULL where it was not
 #' @noRd

@@ -98,6 +98,9 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 
 #' Co-ordinates of a shape
 #'
+#' Gives the points of one level as a matrix. `subset(as.data.frame(x), level == "curves" & part ==
+#' "philtrum ridge left")` gives the points of one curve, with their standard errors.
+#'
 #' @param x A `shape`, as [fit_shape()] returns it.
 #' @param level Kind of points: "curves", "landmarks" or "surface".
 #' @param ... Ignored.

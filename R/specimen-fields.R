@@ -70,10 +70,11 @@ refuse_geometry <- function(id) refuse_specimen("its `geometry` is not that of i
 
 #' Change a field of a specimen
 #'
-#' `specimen$landmarks["tL", ] <- c(x, y, z)` moves a landmark or adds one. Functions that use the
-#' landmark put it on the surface. `specimen$mesh <- other` replaces the mesh. New colours or
-#' normals are taken as they are. New vertices or triangles are checked as by [specimen()], and the
-#' landmarks are put on them or refused. The fields `report` and `key` are updated.
+#' `specimen$landmarks["tL", ] <- c(x, y, z)` moves a landmark. `specimen$landmarks <-
+#' rbind(specimen$landmarks, tL = c(x, y, z))` adds one. Functions that use the landmark put it on
+#' the surface. `specimen$mesh <- other` replaces the mesh. New colours or normals are taken as they
+#' are. New vertices or triangles are checked as by [specimen()], and the landmarks are put on them
+#' or refused. The fields `report` and `key` are updated.
 #'
 #' @param x A [specimen()].
 #' @param name,i Name of a field.

@@ -180,8 +180,8 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #' Shapes, samples and results have it as the field `provenance`. Files that the package writes
 #' include it if their format has a place for comments, see [write_mesh()] and [write_landmarks()].
 #'
-#' @param object A [specimen()], a `shape`, a `shape_sample`, an `aligned`, a `shape_pca` or a
-#'   `repeatability`.
+#' @param object A [specimen()], a `curve`, a `shape`, a `shape_sample`, an `aligned`, a `shape_pca`
+#'   or a `repeatability`.
 #' @param ... Ignored.
 #' @return Object of class `crestline_summary`, a list:
 #'   * `lines`: the text (character);

@@ -57,6 +57,10 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   own <- as_landmarks(landmarks_of(landmarks, id), id)
   name <- rownames(own)
   changed <- name %in% names(names)
+  if (length(names) && length(name) && !any(changed)) {
+    crestline_inform(sprintf("`names` changes no landmark: there is none named %s.",
+                             shorten(names(names))))
+  }
   name[changed] <- names[name[changed]]
   twice <- unique(name[duplicated(name)])
   if (length(twice)) {

@@ -198,6 +198,21 @@ test_that("what cannot be aligned is refused", {
   expect_crestline_error(align(flat), "in a plane", id = "2")
   nowhere <- x
   nowhere[3, , ] <- NA
-  expect_crestline_error(align(nowhere), "every specimen: 3")
+  expect_crestline_error(align(nowhere, missing = "stop"), "points missing")
   expect_warning(align(posed_sample(sd = 0.5), rounds = 1), class = "crestline_not_converged")
+})
+
+test_that("points that every specimen lacks are left out, as if they had never been, and named", {
+  x <- posed_sample()
+  gone <- x
+  gone[3, , ] <- NA
+  expect_message(a <- align(gone), "1 point missing in every specimen, left out: 3")
+  b <- align(x[-3, , ])
+  expect_equal(unname(a$coords), unname(b$coords), tolerance = 1e-12)
+  expect_equal(unname(a$size), unname(b$size), tolerance = 1e-12)
+  expect_identical(unique(a$missing$action), "dropped")
+  gone[1, , 2] <- NA
+  both <- suppressMessages(align(gone))
+  expect_setequal(both$missing$action, c("dropped", "estimated"))
+  expect_output(print(both), "missing and dropped.*missing and estimated")
 })

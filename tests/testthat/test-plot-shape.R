@@ -29,3 +29,10 @@ test_that("a shape is drawn in rgl", {
     expect_s3_class(plot(shape, engine = "rgl"), "rgl_scene")
   })
 })
+
+test_that("the surface takes a value for each surface point, as write_mesh() does", {
+  shape <- quad_shape()
+  values <- seq_len(nrow(coords(shape, "surface")))
+  expect_s3_class(draw_quietly(plot(shape, surface = grDevices::rainbow(length(values)),
+                                    engine = "picture")), "picture_scene")
+})

@@ -117,3 +117,11 @@ test_that("ids that look like scripts leave the page's table whole", {
     expect_no_match(html, "<!--<script>", fixed = TRUE)
   }
 })
+
+test_that("a homologised sample has a page", {
+  sample <- homologise(paired_sample()[1:2], rounds = 1, tolerance = 1, progress = FALSE)
+  file <- tempfile(fileext = ".html")
+  on.exit(unlink(file))
+  expect_identical(quality_report(sample, file, pictures = 0), file)
+  expect_match(paste(readLines(file, warn = FALSE), collapse = ""), "ball1")
+})

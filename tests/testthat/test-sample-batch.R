@@ -103,7 +103,7 @@ test_that("a batch goes into quality(), homologise() and lapply()", {
   writeLines("no mesh", file.path(dir, "broken.ply"))
   shapes <- fit_shapes(meshes_in(dir), quad_scheme(), file.path(dir, "out"))
   expect_identical(unique(quality(shapes)$specimen), names(shapes))
-  expect_true(any(quality(shapes)$why %in% "it was not measured"))
+  expect_true(any(grepl("^it was not measured: .*broken", quality(shapes)$why)))
   expect_named(Filter(Negate(is.null), lapply(shapes, function(shape) shape$id)),
                paste("ball", 1:3))
   sample <- homologise(shapes, tolerance = 1e-3)
@@ -167,8 +167,8 @@ test_that("a folder that two runs share has the results of both, each for its ow
   files <- list.files(out, full.names = TRUE)
   file.copy(files[grepl("-", basename(files))], files[!grepl("-", basename(files))],
             overwrite = TRUE)
-  expect_match(failures(first)$message, "another's result")
-  expect_warning(expect_null(first[[1]]), "another's result", class = "crestline_keeping_warning")
+  expect_match(failures(first)$message, "another result")
+  expect_warning(expect_null(first[[1]]), "another result", class = "crestline_keeping_warning")
 })
 
 test_that("what reading, finding and fitting warn of is kept and told", {
@@ -303,4 +303,37 @@ test_that("a scan in another unit is brought to that of the others as it is read
   expect_warning(mixed <- c(alike[1], own), "unit", class = "crestline_unit_warning")
   error <- expect_crestline_error(homologise(mixed), c("rescale = 1000", "ball 2"))
   expect_s3_class(error, "crestline_unit_error")
+})
+
+test_that("a specimen that was measured later takes the place of its failure", {
+  skip_without_futures()
+  two <- batch_specimens(2)
+  bare <- two
+  bare[[2]]$landmarks <- bare[[2]]$landmarks[0, , drop = FALSE]
+  first <- fit_shapes(bare, edge_scheme())
+  expect_identical(failures(first)$id, two[[2]]$id)
+  both <- c(first, fit_shapes(two[2], edge_scheme()))
+  expect_named(both, c(two[[1]]$id, two[[2]]$id))
+  expect_identical(nrow(failures(both)), 0L)
+  expect_crestline_error(c(both, both), "twice")
+})
+
+test_that("a run names what it reads from the folder and what it replaces", {
+  skip_without_futures()
+  out <- tempfile("out-")
+  on.exit(unlink(out, recursive = TRUE))
+  two <- batch_specimens(2)
+  expect_no_message(fit_shapes(two[1], edge_scheme(), out))
+  expect_message(fit_shapes(two, edge_scheme(), out), "1 of 2 results are read .*; 1 to measure")
+  expect_message(fit_shapes(two, edge_scheme(), out, cut_scale = 0.9),
+                 "Replaced in the folder: 2 results of other settings.*Use another `dir`")
+})
+
+test_that("a folder of meshes, and a mesh given twice, are refused by name", {
+  skip_without_futures()
+  dir <- batch_folder()
+  on.exit(unlink(dir, recursive = TRUE))
+  expect_crestline_error(fit_shapes(dir, quad_scheme()), c("folder", "list.files"))
+  files <- meshes_in(dir)
+  expect_crestline_error(fit_shapes(c(files, files[2]), quad_scheme()), c("twice", "ball 2"))
 })

@@ -170,3 +170,10 @@ test_that("a face of which half is missing is slid with the others, however long
                  sample$template)
   expect_true("side left" %in% other$sliding$part && !"side right" %in% other$sliding$part)
 })
+
+test_that("the same scan under two ids is named", {
+  copy <- shapes[[1]]
+  copy$id <- copy$specimen$id <- "copy"
+  expect_warning(homologise(list(shapes[[1]], copy), rounds = 1, tolerance = 1, progress = FALSE),
+                 "ball1 and copy", class = "crestline_twin")
+})

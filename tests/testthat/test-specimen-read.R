@@ -29,3 +29,11 @@ test_that("the real scans come in with nothing to mend", {
     expect_on_mesh(s$geometry$located, s$mesh)
   }
 })
+
+test_that("new names of which none is there are named", {
+  file <- tempfile(fileext = ".ply")
+  Rvcg::vcgPlyWrite(Rvcg::vcgSphere(3), file)
+  landmarks <- rbind(pn = c(0, 0, 1))
+  expect_message(read_specimen(file, landmarks, names = c(prn = "pn")), "none named prn")
+  expect_no_message(read_specimen(file, landmarks, names = c(pn = "prn")))
+})
