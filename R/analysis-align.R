@@ -20,8 +20,8 @@
 #' @param scale `TRUE`: every configuration gets unit centroid size (partial Procrustes). `"full"`:
 #'   it is scaled by the factor that brings it closest to the mean (full Procrustes). `FALSE`: sizes
 #'   are kept, for size and shape together.
-#' @param weights Weights of the points (no unit). `NULL`: all points have equal weights. "area": the
-#'   weight is the area of the surface nearest to the point, a third of the area of its triangles on
+#' @param weights Weights of the points (no unit). `NULL`: all points have equal weights. "area":
+#'   the weight is the area of the surface nearest to the point, a third of the area of its triangles on
 #'   the mean. This needs level "surface" or "model", or `triangles`; points without triangles have
 #'   no weight. "places": points that coincide, such as the common end of two curves, count as one.
 #'   Or k numbers of at least 0.

@@ -158,8 +158,8 @@ write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), mis
   with_curves <- vapply(sets, function(x) length(attr(x, "curves")) > 0, TRUE)
   if (length(sets) > 1 && !format$several) {
     refuse_landmark_file(file, sprintf("the format holds one specimen, not %d", length(sets)),
-                         paste("Write a file for each, or a .tps, .nts, .dta or .landmarkAscii file.",
-                               "A table of all: write.csv(as.data.frame(x), file)."))
+                         paste("Write a file for each, or a .tps, .nts, .dta or .landmarkAscii",
+                               "file. A table of all: write.csv(as.data.frame(x), file)."))
   }
   if (any(with_curves) && !format$curves) {
     refuse_landmark_file(

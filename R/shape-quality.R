@@ -85,9 +85,9 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
                ),
                parts, names(parts))
   noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
-  failed <- if (inherits(x, "shape_batch")) failures(x)
+  failed <- attr(x, "failed")
   lost <- lapply(setdiff(names(shapes), names(measured)), function(name) {
-    lost_specimen(name, failed[match(name, failed$id), ])
+    lost_specimen(name, failed[[name]]$message)
   })
   table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
@@ -171,10 +171,10 @@ sample_scores <- function(shapes, others, limits) {
 }
 
 #' A specimen that could not be measured
-#' @param failure Its row of [failures()]; NULL where it is not known.
+#' @param reason What a batch says of its failure; NULL where nothing is known.
 #' @noRd
-lost_specimen <- function(name, failure) {
-  why <- if (NROW(failure) && !is.na(failure$message)) paste0(": ", sub("[.]$", "", failure$message))
+lost_specimen <- function(name, reason) {
+  why <- if (!is.null(reason)) paste0(": ", sub("[.]$", "", reason))
   specimen_row(name, "red", paste0("it was not measured", why))
 }
 

@@ -13,7 +13,7 @@ test_that("the id is the file's name unless given, landmarks come from a file or
 
 test_that("files that are not there or of no known format are refused", {
   expect_crestline_error(read_specimen("nowhere.ply"), c("nowhere.ply", "Check the path"))
-  expect_crestline_error(read_specimen(tempdir()), "there is no file")
+  expect_crestline_error(read_specimen(tempdir()), "is a folder")
   expect_crestline_error(read_specimen(c("a", "b")), "path of one file")
   file <- tempfile(fileext = ".xyz")
   file.create(file)
