@@ -118,17 +118,19 @@
 #'       level);
 #'   * `aligned`, `pca`: lists by level;
 #'   * `group`, `n_perm` (number of regroupings besides the observed one), `exact` (TRUE if these
-#'     are all), `components` (number by level), `seed`, `equal_spread`;
+#'     are all), `least` (the least p-value that they can give), `components` (number by level),
+#'     `seed`, `equal_spread`;
 #'   * `design`: list of `kind` (of exchange: "free", "within" or "whole" blocks), `group` (of the
 #'     exchanged units), `block`.
 #'
-#'   `as.data.frame()` gives `tests`. `summary()` gives the p-values, with a row for each test and a
-#'   column for each level.
+#'   `as.data.frame()` gives `tests`. `summary()` gives the adjusted p-values, with a row for each
+#'   test and a column for each level.
 #' @section Errors: of class `crestline_error`: there is only one group, or a group has fewer than
 #'   two specimens; groups do not match the specimens; a specimen is in two groups; names of groups
 #'   differ by blanks or case only; `permutations` are not orders of the specimens.
 #' @section Warnings: of class `crestline_unequal_spread`: variances are pooled, and groups of
-#'   unequal size differ in spread.
+#'   unequal size differ in spread. Of class `crestline_few_permutations`: no p-value can be below
+#'   0.05.
 #' @templateVar where section 6
 #' @template paper
 #' @references Goodall (1991) Procrustes methods in the statistical analysis of shape,
@@ -194,7 +196,7 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
     list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
          pca = lapply(each, `[[`, "pca"), group = group, n_perm = ncol(dealt$labels) - 1L,
          exact = dealt$exact, components = count, seed = seed, design = design,
-         equal_spread = equal_spread,
+         equal_spread = equal_spread, least = least_p(dealt$labels),
          provenance = with_settings(
            aligned[[1]]$provenance, "compare",
            list(n_perm = n_perm, components = components, tests = tests, exchange = design$kind,
@@ -203,6 +205,7 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
     class = "group_comparison"
   )
   warn_unequal_spread(compared)
+  warn_few_orders(compared$least, "comparison")
   compared
 }
 
@@ -377,7 +380,7 @@ summary.group_comparison <- function(object, ...) {
   tests <- unique(object$tests$test)
   p <- lapply(levels, function(level) {
     own <- object$tests[object$tests$level == level, ]
-    own$p_value[match(tests, own$test)]
+    own$p_adjusted[match(tests, own$test)]
   })
   table <- data.frame(test = tests, stats::setNames(p, levels), check.names = FALSE)
   structure(table, provenance = object$provenance, class = c("comparison_summary", "data.frame"))
@@ -398,12 +401,18 @@ print.group_comparison <- function(x, most = 5, ...) {
   check_most(most)
   printed(x, {
     counts <- table(x$group)
-    drawn <- if (x$exact) paste("all", format(x$n_perm + 1, big.mark = ","), "regroupings") else
+    drawn <- if (x$exact) paste0(
+      "all ", format(x$n_perm + 1, big.mark = ","), " regroupings",
+      if (!is.null(x$least)) sprintf(", least p %.2g", x$least)
+    ) else
       amount(x$n_perm, "random permutation")
     cat("<group_comparison> ", paste0(names(counts), " (", counts, ")", collapse = " and "), "; ",
         drawn, "\n", sep = "")
     if (!is.null(x$tests)) {
-      cat("p-values by permutation:\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+      adjusted <- if (any(grepl("^PC[0-9]+$", x$tests$test))) {
+        " (of single components: adjusted for their number)"
+      }
+      cat("p-values by permutation", adjusted, ":\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
     }
     line <- design_line(x$design)
     if (!is.null(line)) cat("  ", line, "\n", sep = "")
@@ -479,8 +488,10 @@ warn_unequal_spread <- function(x, ratio = 1.5) {
 
 points_line <- function(points, level = 0.05) {
   found <- which(points$p_adjusted <= level)
+  untested <- sum(is.na(points$p_adjusted))
   text <- sprintf("%s: %s differ (family-wise %g)", points$level[1],
-                  paste(length(found), "of", amount(nrow(points), "point")), level)
+                  paste(length(found), "of", amount(nrow(points) - untested, "point"),
+                        if (untested) sprintf("(%d more: no test)", untested)), level)
   if (!length(found) || all(is.na(points$displacement))) return(text)
   sprintf("%s, by %.3g at most (%s)", text, max(points$displacement[found]),
           points$point[found][which.max(points$displacement[found])])

@@ -132,6 +132,8 @@ fit_lda <- function(aligned, group, candidates, prior, call = rlang::caller_env(
 
 classes_of <- function(fit, newdata) {
   scores <- predict.shape_pca(fit$pca, newdata)
+  # A fit that was read from a file needs the method of MASS, which nothing has loaded yet.
+  loadNamespace("MASS")
   stats::predict(fit$lda, unit_scores(scores, fit$pca, fit$components))
 }
 

@@ -78,14 +78,14 @@
 #'   * `formula`, `ss`, `n_perm`, `block`, `exchange` ("free", "within", "whole"), `seed`,
 #'     `provenance`.
 #'
-#'   `as.data.frame()` gives `tests`. `summary()` gives the p-values, with a row for each term and
-#'   test and a column for each level.
+#'   `as.data.frame()` gives `tests`. `summary()` gives the adjusted p-values, with a row for each
+#'   term and test and a column for each level.
 #' @section Errors: of class `crestline_error`: a variable is not a column of `data`, or has missing
 #'   or infinite values (the error names the specimens); a term is a linear combination of others;
 #'   no residual degrees of freedom are left.
 #' @section Warnings: of class `crestline_contrasts`: type III has interactions of factors whose
 #'   coding does not sum to zero. Of class `crestline_constant_term`: terms are constant within
-#'   blocks.
+#'   blocks. Of class `crestline_few_permutations`: no p-value can be below 0.05.
 #' @template glossary
 #' @references Freedman and Lane (1983) A nonstochastic interpretation of reported significance
 #'   levels, *Journal of Business and Economic Statistics* 1, 292-298; Collyer, Sekora and Adams
@@ -130,9 +130,11 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
   n <- length(units[[1]])
   check_memory(n * as.numeric(n_perm), n_perm, "n_perm")
   orders <- model_orders(n, design, n_perm, permutations, seed)
-  models <- lapply(units, function(one) level_model(terms, columns, one$size, contrasts))
+  here <- rlang::current_env()
+  models <- lapply(units, function(one) level_model(terms, columns, one$size, contrasts, here))
   warn_contrasts(models[[1]], ss)
-  spans <- lapply(models, term_spans, ss)
+  spans <- lapply(models, term_spans, ss, here)
+  warn_few_orders(least_of_orders(orders, design), "model")
   tick <- comparison_ticks(progress, length(units) * length(spans[[1]]))
   each <- Map(function(one, span, name) {
     part <- parts_of_points(sample, one, name)
@@ -274,7 +276,7 @@ summary.shape_lm <- function(object, ...) {
   rows <- unique(object$tests[c("term", "test")])
   p <- lapply(levels, function(level) {
     own <- object$tests[object$tests$level == level, ]
-    own$p_value[match(paste(rows$term, rows$test), paste(own$term, own$test))]
+    own$p_adjusted[match(paste(rows$term, rows$test), paste(own$term, own$test))]
   })
   table <- data.frame(rows, stats::setNames(p, levels), check.names = FALSE, row.names = NULL)
   structure(table, provenance = object$provenance, class = c("comparison_summary", "data.frame"))
@@ -301,7 +303,7 @@ print.shape_lm <- function(x, ...) {
       for (term in unique(x$points$term)) {
         own <- x$points[x$points$level == level & x$points$term == term, ]
         cat("  ", level, ", ", term, ": ", sum(own$p_adjusted <= 0.05, na.rm = TRUE), " of ",
-            amount(nrow(own), "point"), " (family-wise 0.05)\n", sep = "")
+            amount(sum(!is.na(own$p_adjusted)), "point"), " (family-wise 0.05)\n", sep = "")
       }
     }
     invisible(x)

@@ -51,15 +51,18 @@ model_data <- function(terms, data, ids, call = rlang::caller_env()) {
 #' @param columns As of [model_data()].
 #' @param size Centroid sizes, named.
 #' @return List: `terms` (with what prediction needs), `frame`, `xlev`, `contrasts`, `matrix` (n x
-#'   p), `assign` (term of each column, 0 the intercept), `variables`.
+#'   p), `assign` (term of each column, 0 the intercept), `variables`, `ranges` (least and greatest
+#'   value of each variable that is a number).
 #' @noRd
 level_model <- function(terms, columns, size, contrasts = NULL, call = rlang::caller_env()) {
   ids <- names(size)
   columns$size <- unname(size)
   used <- columns[intersect(names(columns), all.vars(terms))]
   used <- lapply(used, function(x) if (is.character(x)) factor(x) else x)
+  say_single_levels(used, call)
   frame_data <- list2DF(used, length(ids))
   say_missing(frame_data, ids, call)
+  say_codes(used)
   frame <- tryCatch(
     suppressWarnings(stats::model.frame(
       terms, frame_data, na.action = stats::na.pass, drop.unused.levels = TRUE
@@ -74,7 +77,20 @@ level_model <- function(terms, columns, size, contrasts = NULL, call = rlang::ca
   rownames(x) <- ids
   list(terms = terms, frame = frame, xlev = stats::.getXlevels(terms, frame),
        contrasts = attr(x, "contrasts"), matrix = x, assign = attr(x, "assign"),
-       variables = names(used))
+       variables = names(used), ranges = lapply(Filter(is_plain_number, used), range))
+}
+
+is_plain_number <- function(x) is.numeric(x) && length(dim(x)) < 2
+
+#' Stops where a factor has one level only
+#' @noRd
+say_single_levels <- function(used, call) {
+  single <- function(x) !is.numeric(x) && length(unique(x[!is.na(x)])) == 1
+  for (name in names(used)[vapply(used, single, NA)]) {
+    crestline_abort(sprintf("`%s` has one level only (%s).", name,
+                            as.character(used[[name]][!is.na(used[[name]])][1])),
+                    "Leave it out of the formula.", stage = "model", call = call)
+  }
 }
 
 refuse_formula <- function(e, call) {
@@ -82,16 +98,43 @@ refuse_formula <- function(e, call) {
                   "Check the formula, and the columns of `data`.", stage = "model", call = call)
 }
 
+#' Whole numbers of few values may be codes of groups
+#'
+#' @param most Greatest number of distinct values that may be codes.
+#' @noRd
+say_codes <- function(used, most = 4) {
+  coded <- function(x) is_plain_number(x) && length(unique(x)) <= most && all(x == round(x)) &&
+    length(x) > 2 * most
+  for (name in names(used)[vapply(used, coded, NA)]) {
+    crestline_inform(sprintf(
+      "`%s` is taken as a number (%s): if these are groups, give factor(%s).",
+      name, toString(sort(unique(used[[name]]))), name
+    ))
+  }
+}
+
+range_text <- function(x) paste(signif(x, 4), collapse = " to ")
+
+#' Names of specimens as R writes them, the first ones only
+#' @noRd
+quoted_ids <- function(ids, most = 3) {
+  if (length(ids) > most) return("...")
+  if (length(ids) == 1) return(dQuote(ids, FALSE))
+  sprintf("c(%s)", paste(dQuote(ids, FALSE), collapse = ", "))
+}
+
 #' Stops where a variable is missing or infinite, and names the specimens
 #' @noRd
-say_missing <- function(frame, ids, call) {
+say_missing <- function(frame, ids, call, sample = TRUE) {
   for (name in names(frame)) {
     value <- frame[[name]]
     absent <- if (is.numeric(value)) !is.finite(value) else is.na(value)
     if (is.matrix(absent)) absent <- rowSums(absent) > 0
     if (any(absent)) {
       crestline_abort(sprintf("`%s` is missing or infinite for %s.", name, shorten(ids[absent])),
-                      "Give these values, or leave these specimens out of the sample.",
+                      paste0("Give these values", if (sample) paste0(
+                        ", or leave these specimens out: sample[setdiff(names(sample), ",
+                        quoted_ids(ids[absent]), ")]"), "."),
                       stage = "model", call = call)
     }
   }
@@ -167,18 +210,41 @@ term_spans <- function(model, ss, call = rlang::caller_env()) {
 #' @noRd
 model_at <- function(model, newdata, call = rlang::caller_env()) {
   terms <- stats::delete.response(model$terms)
+  fail <- function(problem, remedy) {
+    crestline_abort(problem, remedy, stage = "model", call = call)
+  }
   absent <- setdiff(model$variables, names(newdata))
   if (length(absent)) {
-    crestline_abort(sprintf("`newdata` has no column `%s`.", absent[1]),
-                    paste("The model's variables are", shorten(model$variables)), stage = "model",
-                    call = call)
+    sizes <- if (absent[1] == "size") sprintf(" The centroid sizes of this level are %s.",
+                                              range_text(model$ranges$size))
+    fail(sprintf("`newdata` has no column `%s`.", absent[1]),
+         paste0("The model's variables are ", shorten(model$variables), ".", sizes))
+  }
+  for (name in names(model$ranges)) {
+    value <- newdata[[name]]
+    if (!is.numeric(value)) {
+      fail(sprintf("`%s` of `newdata` is %s; the model has numbers.", name, describe_value(value)),
+           "Give numbers.")
+    }
+    own <- model$ranges[[name]]
+    out <- is.finite(value) & (value < own[1] - 1e-8 * abs(own[1]) |
+                                 value > own[2] + 1e-8 * abs(own[2]))
+    if (any(out)) {
+      crestline_warn(
+        sprintf("`%s` of `newdata` is %s; the sample has %s%s.", name,
+                shorten(signif(value[out], 4)), range_text(own),
+                if (name == "size") " (centroid sizes of this level)" else ""),
+        "The shape is extrapolated there: nothing in the sample supports it.",
+        stage = "model", class = "crestline_extrapolated"
+      )
+    }
   }
   frame <- tryCatch(
     stats::model.frame(terms, newdata, na.action = stats::na.pass, xlev = model$xlev),
     error = function(e) refuse_formula(e, call)
   )
   say_missing(frame, if (is.null(rownames(newdata))) seq_len(nrow(newdata)) else
-    rownames(newdata), call)
+    rownames(newdata), call, sample = FALSE)
   x <- stats::model.matrix(terms, frame, model$contrasts)
   rows <- qr(t(model$matrix))
   off <- sqrt(rowSums(t(qr.resid(rows, t(x)))^2) / rowSums(x^2))

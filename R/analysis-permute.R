@@ -92,3 +92,28 @@ permutation_p <- function(x, observed = x[1, ], slack = 1e-10) {
   x <- as.matrix(x)
   colMeans(x >= rep(observed - slack * abs(observed), each = nrow(x)))
 }
+
+#' The least p-value that regroupings can give: the share of those that deal the specimens as
+#' observed, under whatever names of the groups
+#' @noRd
+least_p <- function(labels) {
+  dealt <- function(column) match(column, unique(column))
+  own <- dealt(labels[, 1])
+  mean(apply(labels, 2, function(column) all(dealt(column) == own)))
+}
+
+#' The least p-value that orders of units can give
+#' @noRd
+least_of_orders <- function(orders, design) {
+  sizes <- if (design$kind == "within") tabulate(design$block) else nrow(orders)
+  max(1 / ncol(orders), exp(-sum(lfactorial(sizes))))
+}
+
+#' @param level Least p-value that is called significant.
+#' @noRd
+warn_few_orders <- function(least, stage, level = 0.05) {
+  if (least <= level) return(invisible())
+  crestline_warn(sprintf("no p-value can be below %.2g: there are too few permutations.", least),
+                 "Give a greater `n_perm`; where all orders are used, more specimens are needed.",
+                 stage = stage, class = "crestline_few_permutations")
+}

@@ -74,6 +74,7 @@ symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), 
     crestline_abort("`individual` names one individual.", "Give two or more.", stage = "symmetry")
   }
   check_memory(length(ids) * as.numeric(n_perm), n_perm, "n_perm")
+  warn_few_orders(1 / min(n_perm + 1, 2^(nlevels(individual) - 1)), "symmetry")
   template <- if (inherits(sample, "shape_sample")) sample$template
   each <- Map(function(one, name) {
     parts <- parts_of_level(one, partners(one, name, template, pairs))
@@ -83,7 +84,8 @@ symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), 
                  asymmetric = lapply(each, `[[`, "asymmetric"),
                  tests = with_level(each, "tests"), specimens = with_level(each, "specimens"),
                  directional = lapply(each, `[[`, "directional"), individual = individual,
-                 n_perm = n_perm, seed = seed), class = "symmetry_parts")
+                 n_perm = n_perm, exchanges = 2^(nlevels(individual) - 1), seed = seed),
+            class = "symmetry_parts")
 }
 
 #' The point that each point of an alignment is mirrored to
@@ -243,8 +245,10 @@ print.symmetry_parts <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
     cat("<symmetry_parts> ", amount(length(x$symmetric[[1]]), "specimen"), ", ",
-        amount(nlevels(x$individual), "individual"), "; ", amount(x$n_perm, "permutation"), "\n",
-        sep = "")
+        amount(nlevels(x$individual), "individual"), "; ", amount(x$n_perm, "permutation"),
+        if (!is.null(x$exchanges) && x$exchanges <= x$n_perm) {
+          sprintf(" (all %d exchanges of sides)", as.integer(x$exchanges))
+        }, "\n", sep = "")
     for (level in names(x$symmetric)) {
       own <- x$tests[x$tests$level == level, ]
       cat("  ", level, ":\n", sep = "")

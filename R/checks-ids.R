@@ -89,8 +89,8 @@ places_of_specimens <- function(names, n, ids, what, value, same, fail) {
   absent <- ids[lengths(place) == 0]
   if (length(absent)) {
     fail(sprintf("%s has no %s for %s.", what, value, shorten(absent)),
-         sprintf("The specimens are %s; it has %s. Name it alike.", shorten(ids),
-                 shorten(id_text(names))))
+         sprintf("The specimens are %s; it has %s. Name it alike, or leave the specimen out.",
+                 shorten(ids), shorten(id_text(names))))
   }
   for (i in which(lengths(place) > 1)) {
     if (!same(place[[i]])) {
@@ -119,7 +119,10 @@ by_specimen <- function(x, ids, name, fail) {
     value <- setdiff(names(x), attr(place, "key"))
     if (length(value) != 1) {
       fail(sprintf("%s has the columns %s.", what, toString(names(x))),
-           "Give one column of values, and one of the specimens.")
+           paste0("Give one column of values, and one of the specimens",
+                  if (length(value) && nzchar(attr(place, "key"))) {
+                    sprintf(": %s[c(\"%s\", \"%s\")]", name, attr(place, "key"), value[1])
+                  }, "."))
     }
     return(x[[value]][place])
   }

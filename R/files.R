@@ -27,7 +27,14 @@ refuse_file <- function(file, reason, id,
                   stage = "reading", id = id, class = "crestline_mesh_error", call = NULL)
 }
 
-is_path <- function(x) is.character(x) && length(x) == 1 && !is.na(x) && nzchar(x)
+#' Whether a value can be a path. R's own functions stop at longer ones, in some of its front ends
+#' only
+#'
+#' @param longest Greatest number of bytes: Linux's.
+#' @noRd
+is_path <- function(x, longest = 4095) {
+  is.character(x) && length(x) == 1 && !is.na(x) && nzchar(x) && nchar(x, "bytes") <= longest
+}
 
 #' The program that a file's first bytes are of, NA for none
 #' @noRd
