@@ -28,22 +28,22 @@ check_block <- function(block, ids, call) {
     problem, remedy, stage = "comparison", call = call
   )
   if (!is.atomic(block)) {
-    fail(sprintf("`block` is %s.", describe_value(block)), "Give a factor, one value a specimen.")
+    fail(sprintf("`%s` is %s.", name, describe_value(block)), "Give a factor, one value a specimen.")
   }
   if (!is.null(names(block))) {
     absent <- setdiff(ids, names(block))
     if (length(absent)) {
-      fail(sprintf("`block` has no value for %s.", shorten(absent)),
+      fail(sprintf("`%s` has no value for %s.", name, shorten(absent)),
            "Name its values by specimens, or not at all.")
     }
     block <- block[ids]
   }
   if (length(block) != length(ids)) {
-    fail(sprintf("`block` has %d values for %d specimens.", length(block), length(ids)),
+    fail(sprintf("`%s` has %d values for %d specimens.", name, length(block), length(ids)),
          "Give one for each.")
   }
   if (anyNA(block)) {
-    fail(sprintf("`block` is missing for %s.", shorten(ids[is.na(block)])),
+    fail(sprintf("`%s` is missing for %s.", name, shorten(ids[is.na(block)])),
          "Leave these specimens out.")
   }
   droplevels(as.factor(unname(block)))

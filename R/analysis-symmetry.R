@@ -68,7 +68,7 @@ symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), 
   individual <- if (is.null(individual)) {
     factor(ids, ids)
   } else {
-    check_block(individual, ids, rlang::current_env())
+    check_block(individual, ids, rlang::current_env(), "individual")
   }
   if (nlevels(individual) < 2) {
     crestline_abort("`individual` names one individual.", "Give two or more.", stage = "symmetry")

@@ -281,7 +281,7 @@ as_curve <- function(x, name) {
 }
 
 landmark_format <- function(file) {
-  if (!is.character(file) || length(file) != 1 || is.na(file)) refuse_no_path(file, "landmarks")
+  if (!is_path(file)) refuse_no_path(file, "landmarks")
   formats <- landmark_formats()
   extension <- sub("^(mrk[.])?json$", "mrk.json", file_extension(file))
   format <- match(extension, tolower(names(formats)))

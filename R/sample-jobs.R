@@ -42,7 +42,7 @@ specimen_ids <- function(x) {
 
 #' @noRd
 file_jobs <- function(files, landmarks, reading, call) {
-  none <- is.na(files) | !nzchar(files)
+  none <- !vapply(files, is_path, NA)
   if (any(none)) {
     crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(none))),
                     "Give paths of meshes.",

@@ -17,7 +17,7 @@ content_hash <- function(x) rlang::hash(serialize(x, NULL, version = 2)[-(1:14)]
 #' The folder for results, made where it is not there
 #' @noRd
 results_folder <- function(dir, call = rlang::caller_env()) {
-  if (!is.character(dir) || length(dir) != 1 || is.na(dir)) {
+  if (!is_path(dir)) {
     crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.",
                     stage = "arguments",
                     call = call)
