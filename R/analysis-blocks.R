@@ -23,12 +23,13 @@ comparison_design <- function(group, block, call = rlang::caller_env()) {
   list(kind = "within", block = block, group = group, silent = names(groups)[groups == 1])
 }
 
-check_block <- function(block, ids, call) {
+check_block <- function(block, ids, call, name = "block") {
   fail <- function(problem, remedy) crestline_abort(
     problem, remedy, stage = "comparison", call = call
   )
   if (!is.atomic(block)) {
-    fail(sprintf("`%s` is %s.", name, describe_value(block)), "Give a factor, one value a specimen.")
+    fail(sprintf("`%s` is %s.", name, describe_value(block)),
+         "Give a factor, one value a specimen.")
   }
   if (!is.null(names(block))) {
     absent <- setdiff(ids, names(block))

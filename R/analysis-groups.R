@@ -412,7 +412,8 @@ print.group_comparison <- function(x, most = 5, ...) {
       adjusted <- if (any(grepl("^PC[0-9]+$", x$tests$test))) {
         " (of single components: adjusted for their number)"
       }
-      cat("p-values by permutation", adjusted, ":\n", paste0("  ", comparison_lines(x, most), "\n"), sep = "")
+      cat("p-values by permutation", adjusted, ":\n",
+          paste0("  ", comparison_lines(x, most), "\n"), sep = "")
     }
     line <- design_line(x$design)
     if (!is.null(line)) cat("  ", line, "\n", sep = "")

@@ -24,7 +24,7 @@ test_that("pairs are compared within persons: the paired t, and what differs is 
   own <- compared$tests[compared$tests$test == "size t", ]
   expect_equal(own$statistic, theirs$statistic[["t"]], tolerance = 1e-8)
   expect_equal(own$p_parametric, theirs$p.value, tolerance = 1e-8)
-  apart <- blocked(data, n_perm = 9, exact = 0, equal_spread = FALSE, tests = "size")$tests
+  apart <- blocked(data, n_perm = 19, exact = 0, equal_spread = FALSE, tests = "size")$tests
   expect_equal(c(apart$statistic, apart$p_parametric), c(own$statistic, own$p_parametric),
                tolerance = 1e-8)
   shape <- function(x) x$tests$p_value[x$tests$test == "mean shape"]
@@ -81,7 +81,7 @@ test_that("repeated scans of persons count once", {
 
 test_that("blocks that cannot be are refused", {
   data <- paired_sample(6)
-  plainly <- function(...) compare_groups(data$x, data$time, n_perm = 9, progress = FALSE, ...)
+  plainly <- function(...) compare_groups(data$x, data$time, n_perm = 19, progress = FALSE, ...)
   expect_crestline_error(plainly(block = 1:3), "`block` has 3 values for 12")
   expect_crestline_error(plainly(block = replace(data$person, 2, NA)), "`block` is missing for 2")
   expect_crestline_error(plainly(block = data$person, permutations = diag(12)), "both given")

@@ -62,7 +62,7 @@ test_that("components can be a share of the variance, and never too many", {
   data <- grouped_sample(c(5, 5))
   share <- cumsum(shape_pca(align(data$x))$share)
   counted <- function(components)
-    unname(compare_quietly(data$x, data$group, components = components, n_perm = 9,
+    unname(compare_quietly(data$x, data$group, components = components, n_perm = 19,
                            tests = "T2")$components)
   expect_equal(counted(share[3]), 3)
   expect_equal(counted(share[3] + 1e-6), 4)
@@ -264,7 +264,9 @@ test_that("groups go to specimens by name, from a vector or a table, in any orde
   by_name <- setNames(as.character(data$group), dimnames(x)[[3]])
   turned <- by_name[c(4, 6, 2, 1, 3, 5)]
   expected <- factor(by_name)
-  group_of <- function(group) compare_quietly(x, group, n_perm = 9, tests = "size")$group
+  group_of <- function(group) suppressWarnings(
+    compare_quietly(x, group, n_perm = 19, tests = "size")$group, "crestline_few_permutations"
+  )
   expect_equal(group_of(turned), expected)
   expect_equal(group_of(setNames(turned, toupper(names(turned)))), expected)
   expect_equal(group_of(data.frame(Specimen = paste0(names(turned), ".ply"), group = turned)),
@@ -319,4 +321,28 @@ test_that("components of later levels have the sides of the first level's", {
   expect_true(all(agree > 0))
   table <- compared$tests[grepl("^PC", compared$tests$test), ]
   expect_equal(table$statistic[1:4], table$statistic[5:8], tolerance = 1e-6)
+})
+
+test_that("the least p-value is that of the regroupings, and one above 0.05 is told", {
+  made <- grouped_sample(c(5, 5), effect = 2)
+  compared <- compare_quietly(made$x, made$group, exact = 1000, tests = "shape")
+  expect_equal(compared$least, 2 / choose(10, 5))
+  expect_equal(compared$tests$p_value, compared$least)
+  expect_output(print(compared), "all 252 regroupings, least p 0.0079")
+  expect_warning(compare_quietly(made$x, made$group, n_perm = 9, exact = 0, tests = "shape"),
+                 "below 0.1:", class = "crestline_few_permutations")
+  few <- grouped_sample(c(2, 2))
+  expect_warning(compare_quietly(few$x, few$group, tests = "size"), "below 0.33",
+                 class = "crestline_few_permutations")
+})
+
+test_that("components are printed with p-values that are adjusted for their number", {
+  made <- grouped_sample(c(8, 8), effect = 0.05)
+  compared <- compare_quietly(made$x, made$group, n_perm = 99, components = 4, seed = 1,
+                              tests = c("components", "size"))
+  own <- compared$tests
+  shown <- summary(compared)
+  expect_equal(shown$points, own$p_adjusted[match(shown$test, own$test)])
+  expect_true(any(own$p_adjusted > own$p_value))
+  expect_output(print(compared), "single components: adjusted for their number")
 })

@@ -55,3 +55,18 @@ test_that("what cannot be is refused", {
   expect_error(lda_of(made$x, made$group, components = 7), "`components`",
                class = "crestline_error")
 })
+
+test_that("discriminants that another session reads assign new shapes", {
+  skip_on_cran()
+  made <- grouped_sample(c(7, 8), effect = 0.1)
+  fit <- lda_of(made$x, made$group, components = 3)
+  files <- c(tempfile(fileext = ".rds"), tempfile(fileext = ".rds"), tempfile(fileext = ".R"))
+  on.exit(unlink(files))
+  saveRDS(list(fit = fit, new = made$x[, , 2]), files[1])
+  writeLines(sprintf(".libPaths(%s); given <- readRDS('%s'); library(crestline, quietly = TRUE)
+    saveRDS(predict(given$fit, given$new), '%s')", paste(deparse(.libPaths()), collapse = ""),
+    files[1], files[2]), files[3])
+  system2(file.path(R.home("bin"), "Rscript"), c("--vanilla", files[3]), stdout = FALSE,
+          stderr = FALSE)
+  expect_equal(readRDS(files[2])$posterior, predict(fit, made$x[, , 2])$posterior)
+})

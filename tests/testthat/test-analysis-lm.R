@@ -49,7 +49,7 @@ test_that("squares and F of the whole shape are those of a plain Freedman-Lane l
 test_that("size and components are those of lm(), components together those of manova()", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(aligned, ~ site + poly(age, 2), data, components = 4, n_perm = 9,
+  model <- shape_lm(aligned, ~ site + poly(age, 2), data, components = 4, n_perm = 19,
                     tests = c("size", "components", "manova"))
   scores <- shape_pca(aligned)$x[, 1:4]
   rows <- function(test) model$tests[model$tests$test == test, ]
@@ -72,7 +72,7 @@ test_that("types II and III are those of nested and of one-term-less models", {
     sum(qr.resid(qr(model.matrix(formula, data)), y)^2)
   }
   fit <- function(ss) {
-    shape_lm(aligned, ~ age * sex, data, tests = "shape", n_perm = 9, ss = ss,
+    shape_lm(aligned, ~ age * sex, data, tests = "shape", n_perm = 19, ss = ss,
              contrasts = list(sex = "contr.sum"))$tests$squares
   }
   second <- c(left(~ sex) - left(~ age + sex), left(~ age) - left(~ age + sex),
@@ -81,7 +81,7 @@ test_that("types II and III are those of nested and of one-term-less models", {
   x <- model.matrix(~ age * sex, data, list(sex = "contr.sum"))
   without <- vapply(2:4, function(j) sum(qr.resid(qr(x[, -j]), y)^2), 0)
   expect_equal(fit("III"), without - left(~ age * sex), tolerance = 1e-8)
-  expect_warning(shape_lm(aligned, ~ age * sex, data, tests = "shape", n_perm = 9, ss = "III"),
+  expect_warning(shape_lm(aligned, ~ age * sex, data, tests = "shape", n_perm = 19, ss = "III"),
                  class = "crestline_contrasts")
 })
 
@@ -154,8 +154,8 @@ test_that("a map's distance is the regression coefficient along the normal, in t
 test_that("predicted shapes are those of lm() for factors, poly() and ns(), at any new value", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(aligned, ~ splines::ns(age, 3) + sex, data, tests = "shape", n_perm = 9)
-  new <- data.frame(age = c(12, 40), sex = c("M", "F"), row.names = c("boy", "woman"))
+  model <- shape_lm(aligned, ~ splines::ns(age, 3) + sex, data, tests = "shape", n_perm = 19)
+  new <- data.frame(age = c(12, 39), sex = c("M", "F"), row.names = c("boy", "woman"))
   found <- predict(model, new, size = 1)
   own <- lm(aligned$coords[3, 2, ] ~ splines::ns(age, 3) + sex, data)
   expect_equal(found[3, 2, ], predict(own, new), tolerance = 1e-10)
@@ -165,7 +165,7 @@ test_that("predicted shapes are those of lm() for factors, poly() and ns(), at a
   expect_equal(unname(apply(fitted / found, 3, mean)), unname(exp(predict(size, new))),
                tolerance = 1e-10)
   expect_error(predict(model, new["age"]), "has no column `sex`", class = "crestline_error")
-  expect_error(predict(model, data.frame(age = 1, sex = "X")), class = "crestline_error")
+  expect_error(predict(model, data.frame(age = 9, sex = "X")), class = "crestline_error")
 })
 
 test_that("rows of data are matched by name, whatever their order", {
@@ -224,7 +224,7 @@ test_that("answers do not depend on pose, unit or order of the specimens", {
                  dimnames(x))
   mixed <- with_seed(6, sample.int(24))
   fit <- function(x) {
-    shape_lm(align(x), ~ age + sex, data, n_perm = 9, components = 3,
+    shape_lm(align(x), ~ age + sex, data, n_perm = 19, components = 3,
              tests = c("shape", "components", "manova"))$tests
   }
   columns <- c("term", "test", "df", "squares", "statistic")
@@ -259,7 +259,7 @@ test_that("squares, F, Z and p are those of RRPP on the same permutations", {
 test_that("tables, print and summary fit", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(list(a = aligned, b = aligned), ~ age + sex, data, n_perm = 9, components = 2)
+  model <- shape_lm(list(a = aligned, b = aligned), ~ age + sex, data, n_perm = 19, components = 2)
   expect_equal(nrow(as.data.frame(model)), 2 * 2 * 5)
   expect_equal(names(summary(model)), c("term", "test", "a", "b"))
   expect_output(print(model), "whole shape")
@@ -278,7 +278,7 @@ test_that("curves and patches of a sample are tested with the family held", {
   expect_true(all(model$parts$p_adjusted >= model$parts$p_value - 1e-12))
   expect_equal(sum(model$parts$points[model$parts$level == "curves"]),
                nrow(coords(sample$template, "curves")))
-  meshes <- predict(model, data.frame(w = c(1, 9)), "surface", as = "mesh")
+  meshes <- predict(model, data.frame(w = c(1, 7)), "surface", as = "mesh")
   expect_s3_class(meshes[[1]], "mesh3d")
   expect_error(predict(model, data.frame(w = 1), "landmarks"), "level", class = "crestline_error")
   expect_error(predict(model, data.frame(w = 1), "curves", as = "mesh"), "triangles",
@@ -288,7 +288,7 @@ test_that("curves and patches of a sample are tested with the family held", {
 test_that("a damaged model is refused by all its methods", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(aligned, ~ age, data, n_perm = 9, components = 2)
+  model <- shape_lm(aligned, ~ age, data, n_perm = 19, components = 2)
   calls <- list(as.data.frame, summary, plot, predict, generics::tidy, generics::glance)
   for (part in c("aligned", "models", "formula")) {
     damaged <- structure(unclass(model)[setdiff(names(model), part)], class = "shape_lm")
@@ -296,4 +296,34 @@ test_that("a damaged model is refused by all its methods", {
       expect_error(utils::capture.output(call(damaged)), class = "crestline_error")
     }
   }
+})
+
+test_that("predictions outside of the sample are told, wrong kinds and levels are named", {
+  made <- grouped_sample(c(6, 6))
+  data <- data.frame(age = 1:12, sex = rep(c("F", "M"), 6), visit = rep(1:3, 4))
+  model <- shape_lm(made$x, ~ log(size) + age, data, n_perm = 19, tests = "shape", seed = 1)
+  inside <- data.frame(age = 6, size = mean(model$aligned[[1]]$size))
+  expect_silent(predict(model, inside))
+  expect_warning(predict(model, transform(inside, age = 40)), "age.*40; the sample has 1 to 12",
+                 class = "crestline_extrapolated")
+  expect_warning(predict(model, transform(inside, size = 100)), "centroid sizes of this level",
+                 class = "crestline_extrapolated")
+  expect_error(predict(model, data.frame(age = 6)), "centroid sizes of this level are",
+               class = "crestline_error")
+  expect_error(predict(model, transform(inside, age = "6")), "`age` of `newdata` is",
+               class = "crestline_error")
+  expect_error(shape_lm(made$x, ~ sex, transform(data, sex = "M")), "`sex` has one level only \\(M",
+               class = "crestline_error")
+  expect_message(shape_lm(made$x, ~ visit, data, n_perm = 19, tests = "shape"), "factor\\(visit\\)",
+                 class = "crestline_message")
+})
+
+test_that("specimens without a value are named with the way to leave them out", {
+  made <- grouped_sample(c(6, 6))
+  dimnames(made$x) <- list(NULL, NULL, paste0("s", 1:12))
+  data <- data.frame(id = paste0("s", 1:12), age = replace(1:12, 4, NA))
+  expect_error(shape_lm(made$x, ~ age, data), "setdiff\\(names\\(sample\\), \"s4\"\\)",
+               class = "crestline_error")
+  expect_error(shape_lm(made$x, ~ age, data[-4, ]), "or leave the specimen out",
+               class = "crestline_error")
 })

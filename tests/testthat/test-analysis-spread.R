@@ -26,7 +26,7 @@ test_that("sizes and scores are tested by Welch's t, on Satterthwaite's degrees 
 
 test_that("T2 has separate covariances, on as many components as the degrees of freedom allow", {
   data <- spread_sample(c(14, 9), 2, 2)
-  compared <- apart_quietly(data$x, data$group, n_perm = 9, seed = 1, tests = "T2")
+  compared <- apart_quietly(data$x, data$group, n_perm = 19, seed = 1, tests = "T2")
   aligned <- align(data$x)
   first <- data$group == "a"
   flat <- t(matrix(aligned$coords, 24))

@@ -15,7 +15,7 @@ two_pairs <- rbind(c("aL", "aR"), c("bL", "bR"))
 
 test_that("symmetric parts are symmetric, and both parts add up to the shape", {
   x <- mirrored_sample(directional = 0.1)
-  parts <- symmetry_parts(x, pairs = two_pairs, n_perm = 9)
+  parts <- symmetry_parts(x, pairs = two_pairs, n_perm = 19)
   partner <- c(2, 1, 4, 3, 5, 6)
   for (one in parts$symmetric$points) {
     reflected <- one[partner, ] %*% diag(c(-1, 1, 1))
@@ -87,7 +87,7 @@ test_that("answers do not depend on pose and unit; parts go into tests", {
 test_that("a sample's scheme pairs its points at every level", {
   made <- argument_objects()
   sample <- suppressWarnings(homologise(made$shapes, progress = FALSE))
-  parts <- suppressWarnings(symmetry_parts(sample, c("landmarks", "curves", "surface"), n_perm = 9))
+  parts <- suppressWarnings(symmetry_parts(sample, c("landmarks", "curves", "surface"), n_perm = 19))
   expect_equal(names(parts$symmetric), c("landmarks", "curves", "surface"))
   # These balls are symmetric but for sampling.
   expect_lt(max(parts$specimens$asymmetry), 1)
@@ -109,6 +109,10 @@ test_that("sums of squares and F are those of geomorph's bilat.symmetry()", {
 })
 
 test_that("few individuals have all exchanges of sides", {
-  found <- symmetry_parts(mirrored_sample(5, directional = 0.3), pairs = two_pairs)
+  expect_warning(
+    found <- symmetry_parts(mirrored_sample(5, directional = 0.3), pairs = two_pairs),
+    "below 0.062", class = "crestline_few_permutations"
+  )
   expect_equal(found$tests$p_value[2], 1 / 16)
+  expect_output(print(found), "all 16 exchanges of sides")
 })

@@ -19,6 +19,6 @@ test_that("tidy tables have broom's names and the results' values", {
   aligned <- compared$aligned[[1]]
   expect_equal(generics::tidy(aligned), as.data.frame(aligned))
   expect_equal(generics::glance(aligned)$size, mean(aligned$size))
-  without <- compare_groups(data$x, data$group, n_perm = 9, tests = "points", progress = FALSE)
+  without <- compare_groups(data$x, data$group, n_perm = 19, tests = "points", progress = FALSE)
   expect_crestline_error(generics::tidy(without), "no tests")
 })

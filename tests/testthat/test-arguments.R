@@ -72,3 +72,11 @@ test_that("misspelt arguments are not passed over", {
   expect_crestline_error(draw_surface(ball_mesh(), resolutoin = 5), c("resolutoin", "resolution"))
   expect_crestline_error(as_morpho(array(0, c(4, 3, 4)), "points", scal = TRUE), "scal")
 })
+
+test_that("a path that no system takes is refused, whichever way R was started", {
+  long <- strrep("x", 5000)
+  expect_crestline_error(write_landmarks(rbind(a = 1:3), paste0(long, ".csv")), "`file`")
+  expect_crestline_error(fit_shapes(long), "`x`")
+  expect_crestline_error(fit_shapes("face.ply", dir = long), "`dir`")
+  expect_crestline_error(read_specimen(long), "`file`")
+})

@@ -8,7 +8,7 @@ printable_objects <- function(made = argument_objects()) {
   aligned <- align(sample, "landmarks")
   list(one, shape, curve, curve$path, curve$surface, curve$line, made$scheme, sample, aligned,
        shape_pca(aligned),
-       suppressWarnings(compare_groups(sample, c(1, 1, 2, 2), "landmarks", n_perm = 9,
+       suppressWarnings(compare_groups(sample, c(1, 1, 2, 2), "landmarks", n_perm = 19,
                                        components = 1, progress = FALSE)),
        curve_distance(shape, made$shapes[[2]]), sample_limits(), quality_limits(),
        quality(made$shapes[1:2]),
