@@ -87,7 +87,8 @@ test_that("answers do not depend on pose and unit; parts go into tests", {
 test_that("a sample's scheme pairs its points at every level", {
   made <- argument_objects()
   sample <- suppressWarnings(homologise(made$shapes, progress = FALSE))
-  parts <- suppressWarnings(symmetry_parts(sample, c("landmarks", "curves", "surface"), n_perm = 19))
+  parts <- suppressWarnings(symmetry_parts(sample, c("landmarks", "curves", "surface"),
+    n_perm = 19))
   expect_equal(names(parts$symmetric), c("landmarks", "curves", "surface"))
   # These balls are symmetric but for sampling.
   expect_lt(max(parts$specimens$asymmetry), 1)

@@ -77,7 +77,8 @@ test_that("what cannot be drawn is refused", {
   compared <- compare_groups(data$x, data$group, n_perm = 19, components = 2, progress = FALSE)
   ball <- bumped_balls()
   expect_crestline_error(plot(ball, level = "curves"), "`level`")
-  three <- compare_groups(ball$aligned, rep(1:4, 4), n_perm = 19, tests = "points", progress = FALSE)
+  three <- compare_groups(ball$aligned, rep(1:4, 4), n_perm = 19, tests = "points",
+                             progress = FALSE)
   expect_crestline_error(plot(three, "means"), "4 groups")
   without <- compare_groups(ball$aligned, ball$group, n_perm = 19, tests = "size", progress = FALSE)
   expect_crestline_error(plot(without, "map"), "tests")
