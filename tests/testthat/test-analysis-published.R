@@ -72,7 +72,8 @@ test_that("pupfish (geomorph): the table of variance of their example", {
   ours <- anova(geomorph::procD.lm(coords ~ Pop * Sex, data = frame, iter = 99))$table
   expect_equal(ours, theirs, tolerance = 1e-12)
   expect_equal(round(theirs$SS[1:4], 6), c(0.008993, 0.015917, 0.003453, 0.027970))
-  compared <- compare_groups(aligned, pupfish$Sex, equal_spread = TRUE, n_perm = 19, tests = "shape",
+  compared <- compare_groups(aligned, pupfish$Sex, equal_spread = TRUE, n_perm = 19,
+                             tests = "shape",
                              progress = FALSE)
   one <- anova(geomorph::procD.lm(coords ~ Sex, data = pupfish, iter = 9))$table
   expect_equal(compared$tests$share, one$Rsq[1], tolerance = 1e-10)
