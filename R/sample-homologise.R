@@ -40,6 +40,14 @@
 #' @param rounds Greatest number of rounds. 0: the shapes slide against the given template, which is
 #'   not changed. Use 0 for new specimens of an old sample.
 #' @param progress Whether to show a progress bar.
+#' @param red What is done with parts that [quality()] grades red. A part that is red only because
+#'   points are missing is used with the points that it has. "warn":
+#'   they are used as they are, and a warning names the parts and their specimens. "leave out": they
+#'   are made missing before anything slides. With a curve go the patch points that depend on it;
+#'   the landmarks at its ends stay. `status` of each shape then gives the reason, and `missing` of
+#'   the sample the number of points. [align()] estimates missing points or drops them. "keep": they
+#'   are used without a warning.
+#' @param limits [quality_limits()], which decide what is red.
 #' @return Object of class `shape_sample`, a list:
 #'   * `shapes`: named list of the slid shapes, as of [slide()], without their specimens;
 #'   * `template`: the `shape` against which they were slid. `slide(shape, template)` gives a slid
@@ -58,7 +66,8 @@
 #'   two shapes have one id; a specimen is missing, or has another mesh than its shape. Of class
 #'   `crestline_unit_error`: the shapes have different units (`unit` of [fit_shape()]).
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
-#'   Of class `crestline_twin`: two specimens have the same mesh and the same landmarks. Of class
+#'   Of class `crestline_red_parts`: parts are red, see `red`. Of class `crestline_twin`: two
+#'   specimens have the same mesh and the same landmarks. Of class
 #'   `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning gives the one
 #'   to use for all.
 #' @templateVar where section 4
@@ -87,10 +96,12 @@
 #' }
 #' @export
 homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL,
-                       tolerance = 2e-4, rounds = 20,
-                       progress = interactive()) {
+                       tolerance = 2e-4, rounds = 20, progress = interactive(),
+                       red = c("warn", "leave out", "keep"), limits = quality_limits()) {
   check_given()
   check_flags(progress)
+  red <- check_choice(red, c("warn", "leave out", "keep"), "red")
+  check_class(limits, "quality_limits", "limits", "quality_limits()")
   check_specimens(specimens)
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
@@ -98,13 +109,16 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
   rounds <- check_count(rounds, "rounds", lower = 0)
+  shapes <- with_red(shapes, red, limits)
   template <- first_template(shapes, template, rounds)
   tick <- progress_ticks(progress, length(shapes), "the sample")
   states <- lapply(shapes, slide_state, settings)
   found <- mean_curves(states, template, settings, tolerance, rounds)
   plan <- slide_plan(found$template, settings)
   cuts <- Map(function(shape, state) {
-    cut_between_slid(shape, state, slide_curves(state, plan), specimen_of(shape, specimens))
+    cut <- cut_between_slid(shape, state, slide_curves(state, plan), specimen_of(shape, specimens))
+    cut$store[places_left_out(shape), ] <- NA
+    cut
   }, shapes, states)
   if (rounds > 0) {
     found$template <- with_mean_surface(found$template, lapply(cuts, `[[`, "store"))
@@ -127,7 +141,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
     shape
   })
   provenance <- sample_provenance(
-    found$template, plan, list(tolerance = tolerance, rounds = rounds)
+    found$template, plan, list(tolerance = tolerance, rounds = rounds, red = red)
   )
   validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
 }

@@ -29,6 +29,12 @@
 #' wrong feature can be detected in a sample of [homologise()], and in a shape of [slide()]. There a
 #' curve is amber if its homologous points lie far beside it (limit `offset`).
 #'
+#' @section What to do with amber and red parts: Look at the part in a picture, such as of
+#'   [quality_report()]. Move its landmarks if they are wrong, clean the mesh if it is, and fit the
+#'   shape again. A part that is still red is better left out. `homologise(red = "leave out")` makes
+#'   it missing in that specimen. For one shape, use the rows of `as.data.frame(shape)` whose `part`
+#'   and `level` are not red. Leave out a curve of all specimens if it is red in most, or measure it
+#'   as a "plane" curve (`kind` of [curve_scheme()]). Use an amber part if the picture is right.
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of shapes. Names of the list, if any,
 #'   name the specimens. `NULL` in the list stands for a specimen that could not be measured.
 #' @param limits [quality_limits()].
