@@ -15,7 +15,8 @@
 #'
 #' In the joint step the bending energy is weighed against the standard errors of the curves. The
 #' scale of the energy is estimated from the sample. It is the mean over specimens of the energy of
-#' the warp by landmarks, for each place and direction. The template stores it
+#' the warp by landmarks, for each place and direction. As in a variance, the sum is divided by the
+#' number of specimens less one, since the template is their own mean. The template stores it
 #' (`sample$template$energy_scale`, unit of the mesh squared). `slide(shape, sample)` uses it to
 #' slide a new specimen in the same way.
 #'
@@ -111,39 +112,60 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
   rounds <- check_count(rounds, "rounds", lower = 0)
   shapes <- with_red(shapes, red, limits)
   template <- first_template(shapes, template, rounds)
-  tick <- progress_ticks(progress, length(shapes), "the sample")
+  tick <- progress_ticks(progress, 3 * length(shapes), "the sample")
   states <- lapply(shapes, slide_state, settings)
   found <- mean_curves(states, template, settings, tolerance, rounds)
-  plan <- slide_plan(found$template, settings)
+  slid <- slide_together(shapes, states, found$template, settings, specimens, rounds > 0, tick)
+  provenance <- sample_provenance(
+    slid$template, slid$plan, list(tolerance = tolerance, rounds = rounds, red = red)
+  )
+  validate_shape_sample(new_shape_sample(slid$shapes, slid$template, found$convergence, provenance))
+}
+
+#' All shapes slid against one template
+#'
+#' @param states As of [slide_state()].
+#' @param own_mean Whether the template is the mean of these shapes: then it takes its surface from
+#'   them too.
+#' @param tick Called three times for every shape.
+#' @return List: `shapes` (without their specimens), `template`, `plan`.
+#' @noRd
+slide_together <- function(shapes, states, template, settings, specimens, own_mean, tick) {
+  plan <- slide_plan(template, settings)
   cuts <- Map(function(shape, state) {
+    tick()
     cut <- cut_between_slid(shape, state, slide_curves(state, plan), specimen_of(shape, specimens))
     cut$store[places_left_out(shape), ] <- NA
     cut
   }, shapes, states)
-  if (rounds > 0) {
-    found$template <- with_mean_surface(found$template, lapply(cuts, `[[`, "store"))
-    plan <- slide_plan(found$template, settings)
+  if (own_mean) {
+    template <- with_mean_surface(template, lapply(cuts, `[[`, "store"))
+    plan <- slide_plan(template, settings)
   }
-  starts <- lapply(shapes, function(shape) NULL)
+  starts <- joint_starts(shapes, cuts, plan, specimens, tick)
   if (slides_free(settings)) {
-    starts <- Map(function(shape, cut) {
-      joint_start(shape, cut$store, plan, specimen_of(shape, specimens))
-    }, shapes, cuts)
-    if (is.null(plan$scale)) plan$scale <- energy_scale(starts)
-    found$template$energy_scale <- plan$scale
+    if (is.null(plan$scale)) plan$scale <- energy_scale(starts, own_mean)
+    template$energy_scale <- plan$scale
   }
   slid <- Map(function(shape, cut, start) {
     tick()
-    finish_slide(shape, cut, start, plan, specimen_of(shape, specimens))
-  }, shapes, cuts, starts)
-  slid <- lapply(slid, function(shape) {
+    shape <- finish_slide(shape, cut, start, plan, specimen_of(shape, specimens))
     shape$specimen <- NULL
     shape
-  })
-  provenance <- sample_provenance(
-    found$template, plan, list(tolerance = tolerance, rounds = rounds, red = red)
-  )
-  validate_shape_sample(new_shape_sample(slid, found$template, found$convergence, provenance))
+  }, shapes, cuts, starts)
+  list(shapes = slid, template = template, plan = plan)
+}
+
+#' Where the joint step of every shape begins: list by shape of [joint_start()], of NULL where
+#' curve points are held
+#' @noRd
+joint_starts <- function(shapes, cuts, plan, specimens, tick) {
+  Map(function(shape, cut) {
+    tick()
+    if (slides_free(plan$settings)) {
+      joint_start(shape, cut$store, plan, specimen_of(shape, specimens))
+    }
+  }, shapes, cuts)
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {

@@ -105,9 +105,14 @@ joint_start <- function(shape, store, plan, specimen) {
        energy = energy / (3 * max(length(there) - 4, 1)))
 }
 
-#' The scale of the energy in a sample: the mean over its shapes' starts
+#' The scale of the energy in a sample: the mean over its shapes' starts, as in a variance
+#'
+#' @param own_mean Whether the template is the mean of these shapes: then one of them is no witness.
 #' @noRd
-energy_scale <- function(starts) mean(vapply(starts, `[[`, 0, "energy"))
+energy_scale <- function(starts, own_mean = FALSE) {
+  n <- length(starts)
+  sum(vapply(starts, `[[`, 0, "energy")) / max(n - own_mean, 1)
+}
 
 #' Slide all free points together
 #'
@@ -120,16 +125,17 @@ slide_joint <- function(shape, cut, start, plan, specimen) {
   settings <- plan$settings
   if (!length(start$free)) return(list(store = cut$store, offset = numeric()))
   across <- across_directions(shape, cut$store, specimen)
-  error <- curve_errors(shape, cut$store, plan)[start$free]
+  error <- curve_errors(shape, cut$store, settings)[start$free]
   error[is.na(across[start$free, 1])] <- NA
   drawn <- !is.na(error)
   rows <- cbind(match(start$free, start$places), wanted_steps(shape, start),
                 cut$store[start$free, c("x", "y", "z")], across[start$free, ], error)
   rows[!drawn, 10:15] <- 0
   surface <- walkable(specimen)
-  chosen <- list(scale = plan$scale, reach = settings$reach, relaxation = settings$relaxation,
-                 gap = settings$gap, tolerance = settings$joint_tolerance * plan$radius,
-                 halvings = settings$halvings, sweeps = settings$joint_sweeps)
+  chosen <- list(scale = settings$pull * plan$scale, reach = settings$reach,
+                 relaxation = settings$relaxation, gap = settings$gap,
+                 tolerance = settings$joint_tolerance * plan$radius, halvings = settings$halvings,
+                 sweeps = settings$joint_sweeps)
   slid <- cpp_slide_jointly(
     surface$vb, surface$it, surface$twin,
     joint_energy(start$places, landmark_nuggets(shape, settings), plan),
@@ -181,8 +187,7 @@ places_by_curve <- function(scheme) {
 #'
 #' A point without a standard error has the largest of its face.
 #' @noRd
-curve_errors <- function(shape, store, plan) {
-  settings <- plan$settings
+curve_errors <- function(shape, store, settings) {
   error <- stats::setNames(rep(NA_real_, nrow(store)), rownames(store))
   largest <- suppressWarnings(max(store[, "se"], na.rm = TRUE))
   curves <- shape$scheme$curves
@@ -190,7 +195,7 @@ curve_errors <- function(shape, store, plan) {
     place <- places_by_curve(shape$scheme)[[curves$curve[i]]]
     own <- store[place, "se"]
     own[is.na(own)] <- max(largest, 0)
-    error[place] <- sqrt(own^2 + (settings$floor * curves$radius[i]^2 / plan$radius)^2)
+    error[place] <- sqrt(own^2 + (settings$floor * curves$radius[i])^2)
   }
   if (any(error == 0, na.rm = TRUE)) {
     crestline_abort("its ridges have no standard errors, and `floor` is 0.",

@@ -62,9 +62,11 @@
 #' @param placed_nugget,found_nugget,doubtful_nugget Nuggets in the joint step, in the same unit, of
 #'   landmarks: placed by hand; found by [find_landmarks()]; and predicted or found with little
 #'   confidence.
-#' @param floor Least uncertainty of a ridge or valley as a homologous line: `floor` times q^2 /
-#'   radius, where q is the radius of its curvature. On a face this is 0.25 mm for q = 5 mm and 1 mm
-#'   for 10 mm. A smaller standard error is replaced by it. 0: points stay on crests.
+#' @param pull Weight of the curves' pull on their points. 1: the weight that the standard errors
+#'   and the sample's scale of the energy give (see [homologise()]).
+#' @param floor Uncertainty of a ridge or valley as a homologous line, beside its standard error: a
+#'   share of the radius of its curvature. On a face this is 0.4 mm for 5 mm and 0.8 mm for 10 mm.
+#'   0: points stay nearest to crests.
 #' @param reach Distance, in standard errors (`floor` included), from which on a curve does not
 #'   attract a point (Tukey's biweight).
 #' @param relaxation Factor on every step towards a point's minimiser (1: exact; less than 2).
@@ -88,8 +90,9 @@ slide_settings <- function(preset = c("crestline", "paper"), ..., energy = "land
                            surface_energy = "all", surface_nugget = 5, surface_tolerance = 1e-5,
                            surface_sweeps = 200, rank = 1e-6, curves = "free", range = 1.5,
                            rough = 3, joint_nugget = 2, placed_nugget = 0.1, found_nugget = 1,
-                           doubtful_nugget = 20, floor = 0.55, reach = 5, relaxation = 1.7,
-                           halvings = 4, joint_tolerance = 1e-5, joint_sweeps = 100) {
+                           doubtful_nugget = 20, pull = 4, floor = 0.08, reach = 5,
+                           relaxation = 1.7, halvings = 4, joint_tolerance = 1e-5,
+                           joint_sweeps = 100) {
   preset <- check_choice(preset, c("crestline", "paper"), "preset")
   paper <- list(energy = "own", nugget = 0, strain = 0, cut_ends = "stay", surface = "transect",
                 surface_energy = "patch", surface_nugget = 0, curves = "held")
@@ -100,7 +103,7 @@ slide_settings <- function(preset = c("crestline", "paper"), ..., energy = "land
 
 check_slide_settings <- function(settings) {
   for (name in c("nugget", "strain", "surface_nugget", "rough", "joint_nugget", "placed_nugget",
-                 "found_nugget", "doubtful_nugget", "floor")) {
+                 "found_nugget", "doubtful_nugget", "pull", "floor")) {
     check_number(settings[[name]], name, lower = 0)
   }
   for (name in c("tolerance", "surface_tolerance", "rank", "range", "reach", "joint_tolerance")) {

@@ -5,16 +5,12 @@
 #
 # FOLDER: of bench/homology.R, whose shapes of simpop it takes.
 
-library(crestline)
+source("bench/homology.R")
 
-options(rgl.useNULL = TRUE, width = 160)
-inner <- function(name) getFromNamespace(name, "crestline")
-shared <- Sys.getenv("CRESTLINE_SHARED")
-folder <- commandArgs(TRUE)[1]
 wanted <- commandArgs(TRUE)[-1]
 if (!length(wanted)) wanted <- c("real", "wrong", "new", "many")
 
-simpop <- function() readRDS(file.path(folder, "shapes-simpop.rds"))$shapes
+simpop <- function() kept("shapes-simpop", function() population("simpop"))$shapes
 
 settings_of <- function(name)
   switch(name, held = slide_settings(curves = "held"), free = slide_settings(),
@@ -106,21 +102,41 @@ wrong <- function() {
   }
 }
 
+# RMS length of the rows of a matrix of three columns.
+rms <- function(x) sqrt(mean(rowSums(x^2), na.rm = TRUE))
+
+# Faces slid against the saved sample of the others: how far from their places in the whole sample,
+# and how much of that is the template's own move, which takes all faces along.
 new <- function() {
-  shapes <- simpop()
-  file <- file.path(folder, "simpop-sample.rds")
-  whole <- if (file.exists(file)) readRDS(file) else homologise(shapes, progress = FALSE)
-  gap <- vapply(c(2, 14), function(i) {
+  case <- kept("shapes-simpop", function() population("simpop"))
+  case$mean <- inner("procrustes_mean")(case$dense, case$dense[[1]])
+  shapes <- case$shapes
+  whole <- homologise(shapes, progress = FALSE)
+  at <- function(shapes, of) {
+    part <- case
+    part$it <- case$it[of]
+    carried(part, lapply(shapes, store_of))
+  }
+  before <- at(whole$shapes, seq_along(shapes))
+  rows <- lapply(c(2, 9, 14, 20), function(i) {
     file <- tempfile(fileext = ".rds")
     saveRDS(homologise(shapes[-i], progress = FALSE), file)
-    alone <- slide(shapes[[i]], readRDS(file))
-    off <- as.matrix(alone$points[c("x", "y", "z")]) -
-      as.matrix(whole[[i]]$points[c("x", "y", "z")])
-    sqrt(mean(rowSums(off^2), na.rm = TRUE))
-  }, 0)
-  cat(sprintf(paste("a new face against the sample of the other 22: off its place in the whole",
-                    "sample by %s mm RMS\n"),
-              paste(round(gap, 3), collapse = ", ")))
+    others <- readRDS(file)
+    new <- slide(shapes[[i]], others)
+    apart <- at(list(new), i)[, , 1] - before[, , i]
+    along <- apply(at(others$shapes, seq_along(shapes)[-i]) - before[, , -i], 1:2, mean)
+    rescaled <- whole$template
+    rescaled$energy_scale <- others$template$energy_scale
+    scaled <- slide(shapes[[i]], rescaled)
+    of_mesh <- store_of(new)[, 1:3] - store_of(whole[[i]])[, 1:3]
+    data.frame(face = names(whole)[i], off = rms(of_mesh), off_on_mean = rms(apart),
+               all_others = rms(along),
+               beyond_the_others = rms(apart - along),
+               scale_alone = rms(store_of(scaled)[, 1:3] - store_of(whole[[i]])[, 1:3]),
+               scales = others$template$energy_scale / whole$template$energy_scale)
+  })
+  cat("a new face against the sample of the other 22, mm RMS\n")
+  print(do.call(rbind, rows), digits = 3)
 }
 
 # Time and memory, 23 faces and 200 (the same again under other ids).
@@ -139,7 +155,7 @@ many <- function() {
       meshes[[i]]$id <- id
       meshes[[i]]
     }
-    for (how in c("held", "free")) {
+    for (how in c(if (n < 100) "held", "free")) {
       gc(reset = TRUE)
       before <- sum(gc()[, 2])
       time <-

@@ -58,6 +58,14 @@ test_that("long work in C++ ends within two seconds of an interrupt", {
        ball$it <- matrix(seq_len(3 * n), 3)
        ball$normals <- NULL
        function() for (i in 1) draw_surface(ball, resolution = 600, samples = 3)",
+    "points slid together without end" =
+      "face <- specimen(ball, rbind(a = ball$vb[1:3, 1]), id = 'ball'); on <- crestline:::walkable(face)
+       at <- as.matrix(crestline:::surface_points(face$mesh, t(face$mesh$vb[1:3, 1:500])))
+       rows <- cbind(1:500, matrix(0, 500, 14), NA); chain <- crossprod(diff(diag(500)))
+       set <- list(scale = 1, reach = 5, relaxation = 1, gap = 0, tolerance = 0, halvings = 0,
+                   sweeps = 1e9)
+       function() crestline:::cpp_slide_jointly(on$vb, on$it, on$twin, chain, at[, 1:3], rows,
+                                                at[, 4:7], set)",
     "distances over the mesh" =
       "at <- data.frame(face = rep(1L, 500), w1 = 1, w2 = 0, w3 = 0)
        function() crestline:::geodesic_distances(ball, at)"

@@ -144,6 +144,30 @@ test_that("the order of specimens changes nothing", {
   for (id in names(sample)) expect_identical(other[[id]]$points, sample[[id]]$points)
 })
 
+test_that("a half, and one without the landmarks of its cut ends, come to where the whole has its points", {
+  whole <- sample$shapes$ball2
+  for (gone in list(c("lowL", "highL"), "highR")) {
+    corners <- paired_corners()
+    corners[gone, ] <- NA
+    part <- paired_shape(c(1.2, 1, 1.1), "part", landmarks = corners)
+    slid <- slide(part, sample)
+    there <- !is.na(part$points$x)
+    expect_identical(!is.na(slid$points$x), there)
+    expect_true(all(slid$sliding$converged))
+    off <- row_lengths(xyz_of(slid$points) - xyz_of(whole$points))[there]
+    plain <- row_lengths(xyz_of(part$points) - xyz_of(whole$points))[there]
+    expect_lte(sqrt(mean(off^2)), 0.5)
+    expect_lte(sqrt(mean(off^2)), sqrt(mean(plain^2)) / 2)
+  }
+})
+
+test_that("the energy's scale is a variance about the sample's own mean", {
+  starts <- list(list(energy = 1), list(energy = 2), list(energy = 6))
+  expect_equal(energy_scale(starts, own_mean = TRUE), 9 / 2)
+  expect_equal(energy_scale(starts), 3)
+  expect_equal(energy_scale(starts[3], own_mean = TRUE), 6)
+})
+
 test_that("landmarks count by how they came", {
   shape <- shapes[[1]]
   names <- rownames(paired_corners())
