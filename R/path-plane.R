@@ -60,7 +60,8 @@ cut_path <- function(ends, angle, side, reach, ...) {
 #' A mesh as walks need it, from a specimen (kept) or a mesh (worked out)
 #'
 #' @return List: `vb`, `it` (as kernels take them), `normals` (NULL where the mesh has none),
-#'   `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`. It serves as a mesh too.
+#'   `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`, and `search`, the constants of
+#'   searches for paths. It serves as a mesh too.
 #' @noRd
 walkable <- function(specimen) {
   whole <- as_mesh(specimen)
@@ -69,7 +70,7 @@ walkable <- function(specimen) {
     mesh_topology(whole)[c("twin", "piece")]
   list(vb = known$vb, it = known$it, normals = whole$normals, twin = geometry$twin,
        piece = geometry$piece, key = known$key, diagonal = known$diagonal,
-       id = if (inherits(specimen, "specimen")) specimen$id)
+       id = if (inherits(specimen, "specimen")) specimen$id, search = path_settings())
 }
 
 #' The ends of a path, from names of landmarks and positions as a user gives them

@@ -312,7 +312,7 @@ trusted_path <- function(trust, scan, path) {
   between <- function(from, to) {
     exact <- rbind(from, to)
     names <- c(end_name(from), end_name(to))
-    find_reference(path_ends(scan, exact, names), "plane", NULL, NULL, path_settings())
+    find_reference(path_ends(scan, exact, names), "plane", NULL, NULL, scan$search)
   }
   parts <- list(
     if (trust[1] > 0) between(ends[1, ], at[1, ]),

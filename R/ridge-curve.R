@@ -138,7 +138,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 curve_job <- function(ends, type, n, settings, passes = NULL, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
                       reach = 0.5, track = NULL) {
-  search <- path_settings()
+  search <- if (!failed(ends)) ends$scan$search
   search$reach <- reach
   if (type != "plane") search$longest <- settings$longest
   list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius,

@@ -119,7 +119,7 @@ offset_slope <- function(problem, surface, alpha) {
   along <- margin_design(surface$margins$along, problem$u[seq_along(alpha) + 1])
   across <- across_design(problem, alpha, 1)
   by_beta <- mgcv::tensor.prod.model.matrix(list(along, across)) * problem$weight
-  factor <- ascent_factor(problem, alpha)
+  factor <- ascent_factor(problem, ridge_bend(problem, alpha))
   by_beta <- backsolve(factor, backsolve(factor, by_beta, transpose = TRUE))
   t(backsolve(surface$factor, backsolve(surface$factor, t(by_beta), transpose = TRUE)))
 }

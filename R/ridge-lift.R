@@ -101,10 +101,12 @@ piece_together <- function(scan, coordinates, path, s, alpha) {
   at <- columns_of(path)
   knots <- rbind(at[1, ], columns_of(places), at[nrow(at), ])
   knots <- knots[c(TRUE, row_lengths(diff(knots[, 1:3])) > 0), ]
+  search <- scan$search
+  search$reach <- Inf
   pieces <- lapply(seq_len(nrow(knots) - 1), function(i) {
     names <- c(end_name(knots[i, ]), end_name(knots[i + 1, ]))
     ends <- path_ends(scan, knots[c(i, i + 1), ], names)
-    find_reference(ends, "plane", NULL, NULL, path_settings(reach = Inf))
+    find_reference(ends, "plane", NULL, NULL, search)
   })
   bad <- Find(failed, pieces)
   if (!is.null(bad)) return(bad)

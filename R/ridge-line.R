@@ -48,7 +48,7 @@ ridge_line <- function(surface, scale, radius, settings = ridge_settings(), kern
   in_context(highest_line(surface, scale, radius, settings, kernel), NULL)
 }
 
-#' The ridge line without checks, or a failure
+#' The ridge line without checks, by safeguarded Newton steps from the reference path; or a failure
 #' @noRd
 highest_line <- function(surface, scale, radius, settings, kernel = 0) {
   problem <- ridge_problem(surface, scale, radius, settings, kernel)
@@ -59,11 +59,27 @@ highest_line <- function(surface, scale, radius, settings, kernel = 0) {
       "Give both in the unit of the surface.", "ridge"
     ))
   }
-  found <- climb(problem, settings)
+  alpha <- numeric(length(problem$u) - 2)
+  value <- ridge_criterion(problem, alpha)
+  small <- settings$tolerance * problem$width
+  converged <- FALSE
+  round <- 0
+  while (!converged && round < settings$iterations) {
+    round <- round + 1
+    factor <- ascent_factor(problem, ridge_bend(problem, alpha))
+    gradient <- ridge_gradient(problem, alpha)
+    step <- backsolve(factor, backsolve(factor, gradient, transpose = TRUE))
+    step <- step * min(1, settings$step * problem$width / max(abs(step)), na.rm = TRUE)
+    risen <- rise(problem, alpha, value, step, small)
+    converged <- max(abs(risen$alpha - alpha)) <= small
+    alpha <- risen$alpha
+    value <- risen$value
+  }
+  free <- abs(alpha) < problem$limit
   structure(
-    list(s = problem$u * surface$length, alpha = c(0, found$alpha, 0), lambda = problem$lambda,
-         criterion = found$value, gradient = found$gradient, iterations = found$iterations,
-         converged = found$converged, at_bound = found$at_bound, kernel = kernel),
+    list(s = problem$u * surface$length, alpha = c(0, alpha, 0), lambda = problem$lambda,
+         criterion = value, gradient = max(0, abs(ridge_gradient(problem, alpha)[free])),
+         iterations = round, converged = converged, at_bound = any(!free), kernel = kernel),
     class = "ridge_line"
   )
 }
@@ -115,43 +131,24 @@ ridge_gradient <- function(problem, alpha) {
     2 * problem$lambda * as.vector(problem$roughness %*% alpha)
 }
 
-#' Hessian, or with `convex` its negative-definite stand-in
+#' Second derivatives of the criterion by the single offsets, roughness aside
 #' @noRd
-ridge_hessian <- function(problem, alpha, convex = FALSE) {
-  bend <- problem$weight * profile_at(problem, alpha, 2)
+ridge_bend <- function(problem, alpha) problem$weight * profile_at(problem, alpha, 2)
+
+#' Hessian, or with `convex` its negative-definite stand-in
+#' @param bend As of [ridge_bend()].
+#' @noRd
+ridge_hessian <- function(problem, bend, convex = FALSE) {
   diag(if (convex) -abs(bend) else bend) - 2 * problem$lambda * problem$roughness
 }
 
 #' Cholesky factor of the negative Hessian, of its stand-in where that is not positive definite
 #' @noRd
-ascent_factor <- function(problem, alpha) {
-  exact <- tryCatch(chol(-ridge_hessian(problem, alpha)), error = function(e) NULL)
+ascent_factor <- function(problem, bend) {
+  exact <- tryCatch(chol(-ridge_hessian(problem, bend)), error = function(e) NULL)
   if (!is.null(exact)) return(exact)
-  stand_in <- -ridge_hessian(problem, alpha, convex = TRUE)
+  stand_in <- -ridge_hessian(problem, bend, convex = TRUE)
   chol(stand_in + diag(1e-12 * max(diag(stand_in)), nrow(stand_in)))
-}
-
-climb <- function(problem, settings) {
-  alpha <- numeric(length(problem$u) - 2)
-  value <- ridge_criterion(problem, alpha)
-  small <- settings$tolerance * problem$width
-  converged <- FALSE
-  round <- 0
-  while (!converged && round < settings$iterations) {
-    round <- round + 1
-    factor <- ascent_factor(problem, alpha)
-    gradient <- ridge_gradient(problem, alpha)
-    step <- backsolve(factor, backsolve(factor, gradient, transpose = TRUE))
-    step <- step * min(1, settings$step * problem$width / max(abs(step)), na.rm = TRUE)
-    risen <- rise(problem, alpha, value, step, small)
-    converged <- max(abs(risen$alpha - alpha)) <= small
-    alpha <- risen$alpha
-    value <- risen$value
-  }
-  free <- abs(alpha) < problem$limit
-  list(alpha = alpha, value = value, iterations = round, converged = converged,
-       at_bound = any(!free),
-       gradient = max(0, abs(ridge_gradient(problem, alpha)[free])))
 }
 
 #' Longest of the halved steps with which the criterion rises, within the bounds

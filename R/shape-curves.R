@@ -55,7 +55,7 @@ curve_record <- function(job) {
   if (failed(curve) && job$type != "plane") {
     job$type <- "plane"
     job[c("source", "regions")] <- list(NULL)
-    job$search <- path_settings()
+    job$search <- if (!failed(job$ends)) job$ends$scan$search
     curve <- trace_curve(job)
   }
   if (failed(curve)) return(new_record(reason = problem))

@@ -160,11 +160,8 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   tick <- progress_ticks(
     progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id
   )
-  given <- if (length(curves)) given_fits(scan, curves)
-  slips <- scheme_slips(specimen, scheme)
-  fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
-  fits[names(given)] <- given
-  open <- !names(fits) %in% names(given)
+  fits <- given_fits(scan, curves)
+  open <- vapply(fits, is.null, NA)
   fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan, cut_scale)
   patches <- fit_scheme_patches(scan, fits, place_store(scan, fits), tick)
   shape <- new_shape(
@@ -173,13 +170,20 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
     tracks = curve_tracks(fits, scan), column = column, specimen = specimen,
     provenance = shape_provenance(specimen, named, unit, scan, cut_scale, names(curves))
   )
-  triangles <- triangles_there(scheme$triangles, shape$points, "model")
+  with_checks(shape, scan, fits)
+}
+
+#' A shape with its checks, and the reasons of faults and of landmarks that look exchanged
+#' @noRd
+with_checks <- function(shape, scan, fits) {
+  slips <- scheme_slips(scan$specimen, shape$scheme)
+  triangles <- triangles_there(shape$scheme$triangles, shape$points, "model")
   faults <- if (nrow(triangles)) {
-    faults_among(triangles, shape$points[shape$points$level == "surface", ], specimen$mesh)
+    faults_among(triangles, shape$points[shape$points$level == "surface", ], scan$specimen$mesh)
   }
   shape <- note_slips(note_faults(shape, faults), slips)
   shape$checks <- cbind(shape_checks(shape, scan, fits, faults),
-                        landmark_checks(shape, specimen$placing, slips))
+                        landmark_checks(shape, scan$specimen$placing, slips))
   shape
 }
 

@@ -5,11 +5,13 @@
 #'
 #' @param scan As of [prepare_scan()].
 #' @param curves As in [fit_shape()].
-#' @return Named list of the given curves, each as of [fit_scheme_curves()].
+#' @return List by name of all curves of the scheme, NULL for those that are not given.
 #' @noRd
 given_fits <- function(scan, curves) {
   specimen <- scan$specimen
   scheme <- scan$scheme
+  fits <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
+  if (!length(curves)) return(fits)
   for (name in names(curves)) {
     if (inherits(curves[[name]], "curve")) {
       check_curve_on(curves[[name]], specimen, sprintf("`curves`: %s", name))
@@ -24,9 +26,10 @@ given_fits <- function(scan, curves) {
                     stage = "curves", id = specimen$id, call = NULL)
   }
   tolerance <- 0.01 * specimen_size(specimen)
-  Map(function(xyz, name) {
+  fits[names(curves)] <- Map(function(xyz, name) {
     given_fit(scheme$curves[scheme$curves$curve == name, ], xyz, scan, tolerance)
   }, curves, names(curves))
+  fits
 }
 
 #' One given curve: its points on the mesh, its ends at the landmarks, joined by cuts

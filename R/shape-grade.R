@@ -36,51 +36,53 @@ grade_parts <- function(parts, scores, limits, scheme) {
 #'   part; the text is NA where the part's own reason says it.
 #' @noRd
 judge_parts <- function(parts, limits, scheme) {
-  judge <- function(name, text, value = parts[[name]]) {
-    list(level = level_beyond(value, limits[[name]], name %in% small_is_bad),
-         text = rep_len(as.character(text), nrow(parts)))
+  value <- parts
+  value[c("se", "se_max")] <- parts[c("se", "se_max")] / parts$radius
+  value$z <- abs(parts$z)
+  said <- said_of_parts(value, parts$z, scheme)
+  of_free <- c("se", "se_max", "competing", "contrast", "coarse")
+  value[!parts$free, of_free] <- NA
+  value$coarse[!parts$kind %in% c("ridge", "valley")] <- NA
+  judge <- function(name) {
+    list(level = level_beyond(value[[name]], limits[[name]], name %in% small_is_bad),
+         text = rep_len(as.character(c(said[[name]], NA)), nrow(parts)))
   }
   flag <- function(bad, name) {
     list(level = ifelse(bad, match(limits[[name]], grades) - 1, 0),
          text = rep(NA_character_, nrow(parts)))
   }
-  own <- function(values) ifelse(parts$free, values, NA)
-  curved <- parts$kind %in% c("ridge", "valley")
-  its <- ifelse(parts$level == "curves", "length", "extent")
-  partner <- partner_of(parts$part, scheme$pairs, "curves")
-  partner <- ifelse(partner == parts$part, "its own mirror image",
-                    paste("the mirror image of", partner))
-  list(judge("missing", NA), flag(parts$determined %in% FALSE, "undetermined"),
-       flag(parts$guessed %in% TRUE, "guessed"),
-       judge("se", sprintf("its standard error is %.2g radii", parts$se / parts$radius),
-             own(parts$se / parts$radius)),
-       se_max = judge("se_max",
-                      sprintf("its standard error is %.2g radii at one place",
-                              parts$se_max / parts$radius),
-                      own(parts$se_max / parts$radius)),
-       judge("competing", sprintf("another path is %.0f %% as good", 100 * parts$competing),
-             own(parts$competing)),
-       judge("contrast", sprintf("its strength is only %.2g times that beside it", parts$contrast),
-             own(parts$contrast)),
-       judge("z", sprintf("its length is off the others' (z = %.1f)", parts$z), abs(parts$z)),
-       judge("asymmetry", sprintf(
-         "it is off %s by %.0f %% of its length", partner, 100 * parts$asymmetry
-       )),
-       judge("roughness", sprintf("the surface is rough there: %.0f degrees", parts$roughness)),
-       judge("coarse", sprintf("the mesh is coarse there: edges of %.2g radii", parts$coarse),
-             ifelse(curved, own(parts$coarse), NA)),
-       judge("bridged", sprintf(
-         "it runs over a hole for %s of its length", per_cent(parts$bridged)
-       )),
-       judge("border", sprintf(
-         "it runs by a border or hole, %s of its %s away", per_cent(parts$border), its
-       )),
-       judge("spike", sprintf("it runs by a spike, %s of its %s away", per_cent(parts$spike), its)),
-       judge("offset", sprintf(
-         "it runs beside its homologous points, %.2g radii of the template off", parts$offset
-       )),
-       judge("track", sprintf("it leaves its expected track by %.1f spreads", parts$track)),
-       judge("cut", NA), judge("faults", NA))
+  measures <- c("se", "se_max", "competing", "contrast", "z", "asymmetry", "roughness", "coarse",
+                "bridged", "border", "spike", "offset", "track", "cut", "faults")
+  c(list(judge("missing"), flag(parts$determined %in% FALSE, "undetermined"),
+         flag(parts$guessed %in% TRUE, "guessed")),
+    stats::setNames(lapply(measures, judge), ifelse(measures == "se_max", measures, "")))
+}
+
+#' What is said of parts whose measure is beyond its limit, by measure
+#'
+#' @param value Measures as they are judged; `z` with its sign.
+#' @noRd
+said_of_parts <- function(value, z, scheme) {
+  its <- ifelse(value$level == "curves", "length", "extent")
+  partner <- partner_of(value$part, scheme$pairs, "curves")
+  mirrored <- ifelse(partner == value$part, "its own mirror image",
+                     paste("the mirror image of", partner))
+  list(
+    se = sprintf("its standard error is %.2g radii", value$se),
+    se_max = sprintf("its standard error is %.2g radii at one place", value$se_max),
+    competing = sprintf("another path is %.0f %% as good", 100 * value$competing),
+    contrast = sprintf("its strength is only %.2g times that beside it", value$contrast),
+    z = sprintf("its length is off the others' (z = %.1f)", z),
+    asymmetry = sprintf("it is off %s by %.0f %% of its length", mirrored, 100 * value$asymmetry),
+    roughness = sprintf("the surface is rough there: %.0f degrees", value$roughness),
+    coarse = sprintf("the mesh is coarse there: edges of %.2g radii", value$coarse),
+    bridged = sprintf("it runs over a hole for %s of its length", per_cent(value$bridged)),
+    border = sprintf("it runs by a border or hole, %s of its %s away", per_cent(value$border), its),
+    spike = sprintf("it runs by a spike, %s of its %s away", per_cent(value$spike), its),
+    offset = sprintf("it runs beside its homologous points, %.2g radii of the template off",
+                     value$offset),
+    track = sprintf("it leaves its expected track by %.1f spreads", value$track)
+  )
 }
 
 #' What is doubted of landmarks, and so of the curves that end there; where most are, of all parts

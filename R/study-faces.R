@@ -98,10 +98,8 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
   deformations <- stats::setNames(lapply(drawn, `[[`, "map"), id)
   scanned <- scan_faces(template, deformations, scan, seeds[2, ], progress)
   structure(list(specimens = lapply(scanned, `[[`, "specimen"),
-                 covariates = data.frame(
-                   id = id, group = factor(groups[side + 3 / 2], groups),
-                   size = vapply(drawn, `[[`, 0, "size")
-                 ),
+                 covariates = data.frame(id = id, group = factor(groups[side + 3 / 2], groups),
+                                         size = vapply(drawn, `[[`, 0, "size")),
                  vertices = lapply(scanned, `[[`, "vertices"), template = template, places = places,
                  effect = effect, size_effect = size_effect, deformations = deformations,
                  scan = scan),
