@@ -165,6 +165,14 @@ cpp_fit_poses <- function(xyz, normal, to_xyz, to_normal, starts, settings) {
     .Call(`_crestline_cpp_fit_poses`, xyz, normal, to_xyz, to_normal, starts, settings)
 }
 
+cpp_mounds <- function(xyz, normal, at, radius) {
+    .Call(`_crestline_cpp_mounds`, xyz, normal, at, radius)
+}
+
+cpp_search_starts <- function(points, cloud, at, mound, settings) {
+    .Call(`_crestline_cpp_search_starts`, points, cloud, at, mound, settings)
+}
+
 cpp_warp_gram <- function(basis, used, normal, weight, along, across) {
     .Call(`_crestline_cpp_warp_gram`, basis, used, normal, weight, along, across)
 }

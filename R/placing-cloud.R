@@ -1,5 +1,20 @@
-# A scan as a cloud of representative vertices with normals and curvature, and its anchors: the
+# A scan as a cloud of representative points with normals and curvature, and its anchors: the
 # strongest caps and cups.
+
+#' Centroid and principal axes of points, as a rotation
+#'
+#' The axes' signs are free but for the turn's being proper: what is worked out by them must not
+#' hang on two of them being turned round.
+#'
+#' @param xyz n x 3.
+#' @return List: `centre` (3), `rotation` (3 x 3, axes in columns).
+#' @noRd
+principal_axes <- function(xyz) {
+  centre <- colMeans(xyz)
+  axes <- eigen(crossprod(sweep(xyz, 2, centre)), symmetric = TRUE)$vectors
+  if (det(axes) < 0) axes[, 3] <- -axes[, 3]
+  list(centre = centre, rotation = axes)
+}
 
 #' One vertex for each cell of a grid in the cloud's own principal axes
 #'
@@ -9,8 +24,8 @@
 #' @return Indices of the vertices nearest to the middles of their cells.
 #' @noRd
 cell_vertices <- function(vertex, cell) {
-  centred <- sweep(vertex, 2, colMeans(vertex))
-  turned <- centred %*% eigen(crossprod(centred), symmetric = TRUE)$vectors
+  axes <- principal_axes(vertex)
+  turned <- sweep(vertex, 2, axes$centre) %*% axes$rotation
   at <- round(turned / cell)
   off <- row_lengths(turned - cell * at)
   at <- sweep(at, 2, apply(at, 2, min))
@@ -28,19 +43,60 @@ cell_vertices <- function(vertex, cell) {
 #' @param specimen A specimen.
 #' @param scale Factor on its lengths: to the template's unit.
 #' @param settings Of [find_settings()], in the template's unit.
-#' @return List: `xyz`, `normal` (3 x n), `k1`, `k2` (n, in balls of `feature`), `border` (n,
-#'   logical), `coarse` (indices among n of a thinner cloud), `spacing` (lengths, of the cloud and
-#'   of the thinner one), `anchors` (see [cloud_anchors()]).
+#' @return List: `xyz`, `normal` (3 x n), `border` (n, logical), `coarse` (indices among n of a
+#'   thinner cloud), `spacing` (lengths, of the cloud and of the thinner one), `corners` (3 x n: the
+#'   vertices whose mean a point is), `mesh` (scaled).
 #' @noRd
-scan_cloud <- function(specimen, scale, settings, threads) {
+scan_cloud <- function(specimen, scale, settings) {
   mesh <- specimen$mesh
   mesh$vb[1:3, ] <- mesh$vb[1:3, ] * scale
-  vertex <- cell_vertices(t(mesh$vb[1:3, ]), settings$cluster)
-  fine <- curvature(mesh, settings$feature, "adaptive cubic", threads, vertex)
-  broad <- curvature(mesh, settings$bend, "quadratic", threads, vertex)
-  # The strongest caps and cups of a cloud, apart from each other
-  xyz <- mesh$vb[1:3, vertex, drop = FALSE]
+  n <- ncol(mesh$vb)
+  corners <- matrix(rep(seq_len(n), each = 3), 3)
+  sparse <- sum(row_lengths(face_normals(mesh))) / 2 > n * settings$cluster^2
+  if (sparse) corners <- cbind(corners, mesh$it)
+  xyz <- if (sparse) corner_means(mesh$vb[1:3, ], corners) else mesh$vb[1:3, ]
+  kept <- cell_vertices(t(xyz), settings$cluster)
+  corners <- corners[, kept, drop = FALSE]
+  normal <- corner_means(mesh$normals[1:3, ], corners)
+  normal <- normal / rep(pmax(sqrt(colSums(normal^2)), .Machine$double.xmin), each = 3)
+  border <- seq_len(n) %in% border_vertices(mesh$it, specimen$geometry$twin)
+  xyz <- xyz[, kept, drop = FALSE]
+  list(xyz = xyz, normal = normal, border = corner_means(rbind(border), corners)[1, ] >= 2 / 3,
+       coarse = cell_vertices(t(xyz), settings$coarse),
+       spacing = c(settings$cluster, settings$coarse), corners = corners, mesh = mesh)
+}
+
+#' Means of vertices' values over the corners of points
+#' @param x Rows by vertices; `corners` (3 x n). @return Rows by n.
+#' @noRd
+corner_means <- function(x, corners) {
+  at <- function(i) x[, corners[i, ], drop = FALSE]
+  (at(1) + at(2) + at(3)) / 3
+}
+
+#' A cloud with the curvature of its points: `k1`, `k2`, in balls of `feature`, 0 where there is
+#' none
+#' @noRd
+with_curvature <- function(cloud, settings, threads) {
+  vertex <- unique(c(cloud$corners))
+  fine <- curvature(cloud$mesh, settings$feature, "adaptive cubic", threads, vertex)
+  both <- corner_means(rbind(fine$k1, fine$k2), cloud$corners)
+  both[is.na(both)] <- 0
+  cloud$k1 <- both[1, ]
+  cloud$k2 <- both[2, ]
+  cloud
+}
+
+#' A cloud with `anchors`: its strongest caps and cups, apart from each other
+#'
+#' @return The cloud with `anchors`, a data frame `point`, `kind`, `size` with the attributes
+#'   `frames` (3 x 3 each) and `places` (3 x anchors).
+#' @noRd
+with_anchors <- function(cloud, settings, threads) {
+  vertex <- unique(cloud$corners[1, ])
+  broad <- curvature(cloud$mesh, settings$bend, "quadratic", threads, vertex)
   broad <- lapply(unclass(broad), rows_at, vertex)
+  xyz <- cloud$mesh$vb[1:3, vertex, drop = FALSE]
   found <- rbind(strongest_points(xyz, -broad$k1, "cap", settings),
                  strongest_points(xyz, broad$k2, "cup", settings))
   frames <- lapply(found$point, function(i) {
@@ -48,28 +104,8 @@ scan_cloud <- function(specimen, scale, settings, threads) {
     first <- broad$direction1[i, ]
     cbind(first, cross_product(normal, first), normal)
   })
-  anchors <- structure(found, frames = frames, places = xyz[, found$point, drop = FALSE])
-  points <- list(xyz = mesh$vb[1:3, ], normal = mesh$normals[1:3, ], k1 = fine$k1, k2 = fine$k2,
-                 border = seq_len(ncol(mesh$vb)) %in%
-                   border_vertices(mesh$it, specimen$geometry$twin))
-  sparse <- sum(row_lengths(face_normals(mesh))) / 2 > ncol(mesh$vb) * settings$cluster^2
-  points <- if (sparse) {
-    of_centre <- function(x) {
-      corner <- function(i) if (is.matrix(x)) x[, mesh$it[i, ]] else x[mesh$it[i, ]]
-      (corner(1) + corner(2) + corner(3)) / 3
-    }
-    centre <- lapply(points, of_centre)
-    centre$normal <- centre$normal / rep(
-      pmax(sqrt(colSums(centre$normal^2)), .Machine$double.xmin), each = 3
-    )
-    centre$border <- centre$border >= 2 / 3
-    all <- Map(function(a, b) if (is.matrix(a)) cbind(a, b) else c(a, b), points, centre)
-    at_points(all, cell_vertices(t(all$xyz), settings$cluster))
-  } else at_points(points, vertex)
-  points[c("k1", "k2")] <- lapply(points[c("k1", "k2")], function(k) ifelse(is.na(k), 0, k))
-  coarse <- cell_vertices(t(points$xyz), settings$coarse)
-  c(points, list(coarse = coarse, spacing = c(settings$cluster, settings$coarse),
-                 anchors = anchors))
+  cloud$anchors <- structure(found, frames = frames, places = xyz[, found$point, drop = FALSE])
+  cloud
 }
 
 at_points <- function(points, at) {
@@ -97,6 +133,7 @@ inverted_cloud <- function(cloud) {
   k1 <- cloud$k1
   cloud$k1 <- -cloud$k2
   cloud$k2 <- -k1
+  if (is.null(cloud$anchors)) return(cloud)
   cloud$anchors$kind <- ifelse(cloud$anchors$kind == "cap", "cup", "cap")
   attr(cloud$anchors, "frames") <- lapply(
     attr(cloud$anchors, "frames"), function(f) cbind(f[, 2], f[, 1], -f[, 3])

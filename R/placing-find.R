@@ -4,8 +4,10 @@
 #' Find the landmarks of a raw scan
 #'
 #' Finds the landmarks of a template on a scan. The scan is brought to the template's unit (a power
-#' of ten). The template is placed on the scan by matching its strongest caps and cups, in many
-#' poses. It is then deformed onto the scan, by points that are closest in position and curvature.
+#' of ten). The template's nose tip is placed on every prominent part of the scan, in many rotations.
+#' The starts that match best are fitted. If no fit is good, starts at the strongest caps and cups
+#' follow. The template is then deformed onto the scan, by points that are closest in position and
+#' curvature.
 #' Each of its landmarks moves to the closest point of the mesh. The result does not depend on the
 #' scan's pose, nor on the orientation of its triangles. The scan may show more than the object, or
 #' lack parts of it. [crestline-package] has a glossary.
@@ -26,20 +28,25 @@
 #'       the others, perhaps off the mesh); or "absent" (the scan has no surface there);
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
 #'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. If
-#'       the score is above the setting `poor`, it is multiplied by (1 - score) / (1 - `poor`);
+#'       the verdict is "perhaps", it is at most the setting `unsure`. With a template of your own
+#'       whose score is above the setting `poor`, it is multiplied by (1 - score) / (1 - `poor`);
 #'     * `moved`: distance between the positions with and without curvature;
 #'     * `sd`: standard deviation that missing parts of the scan add;
 #'     * `residual`: mean distance of the deformed template from the scan near the landmark;
 #'     * `lost`: share of the template near the landmark that has no counterpart on the scan;
 #'     * `x`, `y`, `z`: the position, of absent landmarks too;
 #'   * `match`: list of `score` (0: the undeformed template fits the scan; 1: it fits nowhere),
-#'     `unit` (factor to the template's unit), `scale` (of the template), `rotation` (3 x 3, from
+#'     `agree` (mean correlation of the deformed template's curvature with the scan's: 1 equal, 0
+#'     unrelated), `verdict` ("face" or "perhaps", by `agree` and the setting of that name; NA for a
+#'     template of your own, as the limits were measured on faces), `unit` (factor to the template's unit), `scale` (of the template), `rotation` (3 x 3, from
 #'     the template to the scan), `inverted` (TRUE if the triangles faced inwards), `doubtful` (TRUE
 #'     if the share of found landmarks with low confidence is above the setting `wrong`) and
 #'     `template`.
 #' @section Errors: of class `crestline_error`, stage "landmarks": nothing in the scan resembles the
-#'   template (the score is above the setting `refuse`).
-#' @section Warnings: of class `crestline_doubtful_placing`: most landmarks have low confidence
+#'   template (the score is above the setting `refuse`), or the scan is no face (`agree` is below the
+#'   first limit).
+#' @section Warnings: of class `crestline_doubtful_placing`: the scan is perhaps no face; or `agree`
+#'   is below the first limit with a template of your own; or most landmarks have low confidence
 #'   (settings `low`, `wrong`). Most likely the scan does not show the object, or not enough of it.
 #'   [quality()] then grades nothing green. A single landmark with low confidence gives no warning.
 #'   `print()` names it, and [quality()] grades it, and the curves that end there, amber.
@@ -77,30 +84,17 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
     scan <- with_fields(turned, file = scan$file)
   }
   doubt <- placing_doubt(placed, settings$low)
-  found <- with_placing(scan, placed, list(
-    score = laid$score, unit = laid$unit, scale = laid$pose[13],
-    rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
+  match <- laid[c("score", "agree", "verdict", "unit")]
+  found <- with_placing(scan, placed, c(match, list(
+    scale = laid$pose[13], rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
     doubtful = doubt$share > settings$wrong, template = template$id
-  ))
-  if (found$match$doubtful) {
-    said <- if (doubt$of) {
-      sprintf("%d of %d found landmarks have little confidence", length(doubt$names), doubt$of)
-    } else {
-      "no landmark was found"
-    }
-    crestline_warn(
-      sprintf("the template %s lies badly on it: %s.", found$match$template, said),
-      paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\");",
-            "place the landmarks by hand (place_landmarks()),",
-            "or calibrate the template (calibrate_template())."),
-      stage = "landmarks", id = found$id, class = "crestline_doubtful_placing"
-    )
-  }
+  )))
+  warn_doubtful(found, doubt, settings)
   found
 }
 
 #' The template laid on a scan, or an error where it does not fit
-#' @return List as of [settled_pose()], with `unit`.
+#' @return List as of [settled_pose()], with `verdict` (NA for a template without one).
 #' @noRd
 laid_template <- function(prepared, template, scan, settings, threads, unit = NULL) {
   unit <- if (is.null(unit)) {
@@ -108,34 +102,50 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }
-  cloud <- in_context(scan_cloud(scan, unit, prepared$settings, threads), scan$id,
-                      "looking for landmarks")
-  # The pose: by the template's strongest anchor, else by all of them, inside out, with a freer
-  # scale, until it is good
-  all <- seq_len(nrow(prepared$anchors))
-  tries <- list(list(1, FALSE, prepared$settings$tight), list(all, FALSE, prepared$settings$tight),
-                list(1, TRUE, prepared$settings$tight),
-                list(all, FALSE, prepared$settings$loose), list(all, TRUE, prepared$settings$loose))
-  laid <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, inverted = FALSE,
-               cloud = cloud)
-  for (one in tries) {
-    seen <- if (one[[2]]) inverted_cloud(cloud) else cloud
-    found <- best_pose(prepared, seen, one[[1]], one[[3]], prepared$settings)
-    if (found$misfit < laid$misfit) laid <- c(found, list(inverted = one[[2]], cloud = seen))
-    if (laid$score <= prepared$settings$poor) break
-  }
+  laid <- settled_pose(prepared, scan, unit, prepared$settings, threads)
+  laid$verdict <- if (template$judged) verdict_of(laid$agree, settings$agree) else NA_character_
+  remedy <- sprintf(
+    paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
+           "%g: else give `unit`, or place the landmarks by hand."),
+    laid$unit
+  )
   if (laid$score > settings$refuse) {
-    unlike <- sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
-                      template$id, laid$score,
-                      settings$refuse)
-    remedy <- sprintf(
-      paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
-             "%g: else give `unit`, or place the landmarks by hand."),
-      unit
-    )
-    refuse_landmarks(unlike, remedy, scan$id)
+    refuse_landmarks(sprintf("nothing on it is like the template %s (score %.2f, at most %.2f).",
+                             template$id, laid$score, settings$refuse), remedy, scan$id)
   }
-  c(laid, list(unit = unit))
+  if (laid$verdict %in% "none") {
+    refuse_landmarks(sprintf("nothing on it is a %s (agreement %.2f, at least %.2f).",
+                             template$id, laid$agree, settings$agree[1]), remedy, scan$id)
+  }
+  laid
+}
+
+#' Warn where the answer as a whole is in doubt
+#' @param doubt Of [placing_doubt()].
+#' @noRd
+warn_doubtful <- function(found, doubt, settings) {
+  match <- found$match
+  remedy <- paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\");",
+                  "place the landmarks by hand (place_landmarks()),",
+                  "or calibrate the template (calibrate_template()).")
+  said <- if (match$verdict %in% "perhaps") {
+    sprintf("perhaps it is no %s (agreement %.2f, of one that surely is at least %.2f).",
+            match$template, match$agree, settings$agree[2])
+  } else if (is.na(match$verdict) && match$agree < settings$agree[1]) {
+    sprintf("its curvature hardly agrees with the template %s (%.2f, at least %.2f).",
+            match$template, match$agree, settings$agree[1])
+  } else if (match$doubtful) {
+    many <- if (doubt$of) {
+      sprintf("%d of %d found landmarks have little confidence", length(doubt$names), doubt$of)
+    } else {
+      "no landmark was found"
+    }
+    sprintf("the template %s lies badly on it: %s.", match$template, many)
+  }
+  if (!is.null(said)) {
+    crestline_warn(said, remedy, stage = "landmarks", id = found$id,
+                   class = "crestline_doubtful_placing")
+  }
 }
 
 #' A specimen with landmarks as they were placed
@@ -161,11 +171,10 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   settings <- prepared$settings
   local <- cloud_in_frame(laid$cloud, laid$pose)
   bent <- fit_warp(prepared, local, settings, settings$weight)
-  plain <- fit_warp(prepared, local, settings, 0)
   n <- ncol(prepared$xyz)
-  own <- template$landmarks
+  own <- prepared$landmarks
   to_scan <- function(xyz) from_frame(xyz, laid)
-  carried <- lapply(list(bent, plain),
+  carried <- lapply(list(bent, laid$plain),
                     function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
   places <- columns_of(surface_points(scan$mesh, do.call(rbind, carried)), c("x", "y", "z"))
   with_curvature <- seq_len(nrow(own))
@@ -175,19 +184,26 @@ carried_landmarks <- function(prepared, template, scan, laid) {
   moved <- row_lengths(at - places[-with_curvature, , drop = FALSE]) * length
   here <- local_evidence(prepared, local, bent, settings)
   residual <- pmax(here$residual, row_lengths(at - carried[[1]]) * length)
-  state <- ifelse(here$lost > settings$lost, "absent", "found")
   sd <- sqrt(pmax(bent$sd^2 - prepared$sd^2, 0))
-  confidence <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 +
-                     (sd / settings$vague)^2)
-  confidence <- confidence * min(1, (1 - laid$score) / (1 - settings$poor))
-  confidence[is.na(confidence)] <- 0
-  found <- data.frame(landmark = rownames(own), state = state,
-                      confidence = ifelse(state == "absent", NA, confidence),
+  found <- data.frame(landmark = rownames(own),
+                      state = ifelse(here$lost > settings$lost, "absent", "found"),
+                      confidence = placing_confidence(moved, residual, sd, laid, settings),
                       moved = moved / length, sd = sd / length, residual = residual / length,
                       lost = here$lost,
                       x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
+  found$confidence[found$state == "absent"] <- NA
   if (!nrow(template$predicted)) return(found)
   rbind(found, predicted_landmarks(template, found, to_scan))
+}
+
+#' Confidence of landmarks, see [find_landmarks()]; lengths in the template's unit
+#' @noRd
+placing_confidence <- function(moved, residual, sd, laid, settings) {
+  each <- 1 / (1 + (moved / settings$moved)^2 + (residual / settings$off)^2 +
+                 (sd / settings$vague)^2)
+  each[is.na(each)] <- 0
+  if (is.na(laid$verdict)) return(each * min(1, (1 - laid$score) / (1 - settings$poor)))
+  if (laid$verdict == "face") each else pmin(each, settings$unsure)
 }
 
 #' How well the bent template agrees with the scan about each landmark

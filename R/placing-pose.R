@@ -1,4 +1,4 @@
-# Where the template lies in a scan: rotation, shift and scale, from anchors in many turns.
+# Where the template lies in a scan: rotation, shift and scale, fitted from starts.
 
 #' Starts: each of the template's anchors on each of the scan's of its kind, in turns about the
 #' normal
@@ -26,55 +26,77 @@ anchor_starts <- function(template, cloud, own, settings) {
 
 #' The best pose of a template in a cloud
 #'
-#' All starts go some steps on thin clouds; the better go on, the best that differ on the whole, and
-#' the one with the least misfit is fitted again with a free scale.
+#' All starts go some steps on thin clouds; the better go on; the best that differ are fitted on the
+#' whole, with a tight scale and with a loose one, and that of the least misfit wins.
 #'
-#' @return List: `pose` (13 numbers: rotation, shift, scale), `score`, `misfit`.
+#' @param starts 13 x s, as of [proud_starts()] or [anchor_starts()].
+#' @param reach Greatest distance of a match at the first step.
+#' @return List: `pose` (13 numbers: rotation, shift, scale), `score`, `misfit` (the score where the
+#'   cloud has no curvature), `rests` (whether a further step would move it).
 #' @noRd
-best_pose <- function(template, cloud, own, scale, settings) {
-  starts <- anchor_starts(template, cloud, own, settings)
-  if (!ncol(starts)) return(list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf))
+best_pose <- function(template, cloud, starts, reach, settings) {
+  if (!ncol(starts)) return(list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, rests = FALSE))
   middle <- exp(mean(log(settings$reach)))
-  first <- fit_poses(template, cloud, starts, c(settings$reach[1], middle), scale, settings,
+  first <- fit_poses(template, cloud, starts, c(reach, middle), settings$tight, settings,
                      thin = TRUE)
   better <- utils::head(order(first$score), settings$followed)
   second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE],
-                      c(middle, settings$reach[2]), scale, settings,
-                      thin = TRUE)
-  # The best of the fitted poses that put the template's centre in different places or turns
-  left <- order(second$score)
+                      c(middle, settings$reach[2]), settings$tight, settings, thin = TRUE)
+  chosen <- distinct_poses(second, template, settings)
+  last <- c(1, 0.5) * settings$reach[2]
+  tried <- lapply(list(settings$tight, settings$loose), function(scale) {
+    fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale, settings)
+  })
+  tried <- unlist(tried, recursive = FALSE)
+  best <- tried[[which.min(vapply(tried, `[[`, 0, "misfit"))]]
+  rested_pose(template, cloud, best, settings)
+}
+
+#' A pose fitted on until it rests, where that makes it better
+#' @return List as of [best_pose()].
+#' @noRd
+rested_pose <- function(template, cloud, best, settings) {
+  long <- utils::modifyList(settings, list(steps = settings$rest_steps[1]))
+  found <- fitted_poses(template, cloud, cbind(best$pose), c(1, 0.5) * settings$reach[2],
+                        settings$loose, long, settings$rest_steps[2])[[1]]
+  if (found$misfit < best$misfit) found else best
+}
+
+#' Which of the fitted poses to go on with: the best that put the template's points elsewhere
+#' @noRd
+distinct_poses <- function(fits, template, settings) {
+  left <- order(fits$score)
   probe <- template$xyz[, template$coarse, drop = FALSE]
   placed <- function(pose) pose[13] * matrix(pose[1:9], 3) %*% probe + pose[10:12]
   chosen <- integer()
   while (length(left) && length(chosen) < settings$refined) {
     chosen <- c(chosen, left[1])
-    mine <- placed(second$poses[, left[1]])
-    gap <- vapply(left, function(i) sqrt(mean(colSums((placed(second$poses[, i]) - mine)^2))), 0)
+    mine <- placed(fits$poses[, left[1]])
+    gap <- vapply(left, function(i) sqrt(mean(colSums((placed(fits$poses[, i]) - mine)^2))), 0)
     left <- left[gap > settings$saturation]
   }
-  last <- c(1, 0.5) * settings$reach[2]
-  tight <- fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale,
-                        settings)
-  best <- tight[[which.min(vapply(tight, `[[`, 0, "misfit"))]]
-  free <- fitted_poses(template, cloud, cbind(best$pose), last, settings$loose, settings)[[1]]
-  if (free$misfit < best$misfit) free else best
+  chosen
 }
 
 #' Poses fitted to whole clouds, with score and misfit
 #' @return List of lists as of [best_pose()].
 #' @noRd
-fitted_poses <- function(template, cloud, starts, reach, scale, settings) {
-  fits <- fit_poses(template, cloud, starts, reach, scale, settings, thin = FALSE)
+fitted_poses <- function(template, cloud, starts, reach, scale, settings, more = 0) {
+  fits <- fit_poses(template, cloud, starts, reach, scale, settings, thin = FALSE, more = more)
   lapply(seq_along(fits$score), function(i) {
-    list(pose = fits$poses[, i], score = fits$score[i],
-         misfit = pose_misfit(template, cloud, fits$poses[, i], settings))
+    pose <- fits$poses[, i]
+    misfit <- if (is.null(cloud$k1)) fits$score[i] else {
+      parts <- misfit_parts(template, cloud, pose, settings)
+      parts[["unlike"]] + settings$left_over * parts[["left"]]
+    }
+    list(pose = pose, score = fits$score[i], misfit = misfit, rests = fits$rests[i])
   })
 }
 
-#' What speaks against a pose: the template's points without a like in the scan, in place and
-#' curvature, and the share of the scan without a like in the template
+#' What speaks against a pose: `unlike`, the template's points without a like in the scan, in place
+#' and curvature, and `left`, the share of the scan without a like in the template
 #' @noRd
-pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$saturation) {
+misfit_parts <- function(template, cloud, pose, settings, reach = 2 * settings$saturation) {
   local <- cloud_in_frame(cloud, pose)
   of <- function(x) settings$weight * rbind(x$k1, x$k2)
   found <- match_points(t(template$xyz), template$normal, of(template), local, of(local),
@@ -90,18 +112,35 @@ pose_misfit <- function(template, cloud, pose, settings, reach = 2 * settings$sa
                        settings$warp_reach[1], settings$cosine)$distance
   apart <- ifelse(is.na(back), 1,
                   pmin(pmax(back - template$spacing[1], 0) / settings$saturation, 1))
-  mean(pmin(gap / reach, 1)) + settings$left_over * mean(apart)
+  c(unlike = mean(pmin(gap / reach, 1)), left = mean(apart))
 }
 
-fit_poses <- function(template, cloud, starts, reach, scale, settings, thin) {
+#' Rigid fits from some poses, each within bounds of scale about its own
+#'
+#' @param starts 13 x s. @param scale Two factors on the scale of each start.
+#' @param more Most further steps at the last reach, until a pose rests.
+#' @return List: `poses` (13 x s), `score`, `rests` (s).
+#' @noRd
+fit_poses <- function(template, cloud, starts, reach, scale, settings, thin, more = 0) {
   own <- if (thin) template$coarse else seq_len(ncol(template$xyz))
   at <- if (thin) cloud$coarse else seq_len(ncol(cloud$xyz))
-  rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine,
-                kept = settings$trim_share,
-                scale = scale, saturation = settings$saturation, spacing = cloud$spacing[1 + thin])
-  cpp_fit_poses(template$xyz[, own, drop = FALSE], template$normal[, own, drop = FALSE],
-                cloud$xyz[, at, drop = FALSE],
-                cloud$normal[, at, drop = FALSE], starts, rigid)
+  moving <- at_points(template[c("xyz", "normal")], own)
+  fixed <- at_points(cloud[c("xyz", "normal")], at)
+  out <- list(poses = starts, score = rep(1, ncol(starts)), rests = logical(ncol(starts)))
+  alike <- round(starts[13, ], 2)
+  for (about in unique(alike)) {
+    these <- which(alike == about)
+    rigid <- list(reach = reach, steps = as.integer(settings$steps), cosine = settings$cosine,
+                  kept = settings$trim_share, scale = about * scale,
+                  more = as.integer(more), rest = settings$rest,
+                  saturation = settings$saturation, spacing = cloud$spacing[1 + thin])
+    fits <- cpp_fit_poses(moving$xyz, moving$normal, fixed$xyz, fixed$normal,
+                          starts[, these, drop = FALSE], rigid)
+    out$poses[, these] <- fits$poses
+    out$score[these] <- fits$score
+    out$rests[these] <- fits$rests
+  }
+  out
 }
 
 #' A cloud in the frame of the template

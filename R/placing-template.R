@@ -17,10 +17,14 @@
 #' @param mirror TRUE if left and right are alike. Landmarks whose names end in L and R are then
 #'   partners, and the deformations are mostly symmetric. `NA`: TRUE if there are at least two such
 #'   pairs.
+#' @param start Name of the landmark that [find_landmarks()] places on every prominent part of a
+#'   scan. Choose one on the most prominent part of the object, as the nose tip of a face. `NULL`:
+#'   the most prominent position of the template.
 #' @return Object of class `landmark_template`, a list: `id`; `specimen` (in the template's own
 #'   frame: with `mirror`, left is at positive x, and the mirror plane is x = 0); `landmarks` (k x 3
-#'   matrix of those that are found); `predicted` (k x 3 matrix); `unit`; `mirror`. Lengths are in
-#'   the unit of `specimen`.
+#'   matrix of those that are found); `predicted` (k x 3 matrix); `unit`; `mirror`; `start` (the
+#'   position of that landmark, or NULL); `judged` (TRUE if the setting `agree` of
+#'   [find_settings()] was measured for it, as for the face). Lengths are in the unit of `specimen`.
 #' @section Errors: of class `crestline_error`: the specimen has fewer than four landmarks, or
 #'   `predicted` names others.
 #' @template glossary
@@ -33,7 +37,8 @@
 #' landmark_template(face, predicted = c("tL", "tR", "oiL", "oiR"))
 #' @export
 landmark_template <- function(specimen, predicted = character(),
-                              unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA) {
+                              unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA,
+                              start = NULL) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   predicted <- check_names(predicted, "predicted")
@@ -50,6 +55,9 @@ landmark_template <- function(specimen, predicted = character(),
                      "A template needs four or more: place them, or give fewer `predicted`.",
                      specimen$id)
   }
+  if (!is.null(start)) {
+    start <- check_choice(start, setdiff(rownames(at), predicted), "start")
+  }
   pairs <- side_pairs(rownames(at))
   if (is.na(mirror)) mirror <- nrow(pairs) >= 2
   if (mirror && !nrow(pairs)) {
@@ -61,7 +69,8 @@ landmark_template <- function(specimen, predicted = character(),
   at <- specimen$landmarks[rownames(at), , drop = FALSE]
   found <- !rownames(at) %in% predicted
   structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE],
-                 predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror),
+                 predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror,
+                 start = if (!is.null(start)) at[start, ], judged = FALSE),
             class = "landmark_template")
 }
 
@@ -123,7 +132,7 @@ moved_specimen <- function(specimen, rotation, origin) {
 #'   [warp_sd()]).
 #' @noRd
 prepared_template <- function(template, settings, threads) {
-  asked <- list(template[c("specimen", "landmarks", "unit", "mirror")], settings)
+  asked <- list(template[c("specimen", "landmarks", "unit", "mirror", "start")], settings)
   if (!identical(asked, last_template$asked)) {
     scaled <- scaled_settings(settings, template$unit)
     mesh <- template$specimen$mesh
@@ -131,13 +140,18 @@ prepared_template <- function(template, settings, threads) {
     thin$cluster <- sqrt(sum(row_lengths(face_normals(mesh))) / 2 / settings$points)
     thin$coarse <- sqrt(settings$points / settings$thin) * thin$cluster
     thin$anchors <- settings$own
-    cloud <- scan_cloud(template$specimen, 1, thin, threads)
+    cloud <- with_curvature(scan_cloud(template$specimen, 1, thin), thin, threads)
+    cloud <- with_anchors(cloud, thin, threads)
+    cloud$light <- cell_vertices(
+      t(cloud$xyz), thin$cluster * sqrt(settings$points / settings$light_points)
+    )
     cloud$settings <- scaled
     cloud$mirror <- template$mirror
+    cloud$start <- template_start(cloud, template$start, scaled)
     last_template$prepared <- with_landmarks(cloud, template$landmarks)
     last_template$asked <- asked
   }
-  last_template$prepared
+  c(last_template$prepared, template["judged"])
 }
 
 last_template <- new.env(parent = emptyenv())
@@ -170,7 +184,9 @@ read_face_template <- function() {
     classes = "crestline_seam"
   )
   face$landmarks <- at
-  landmark_template(face, ears, unit = 1)
+  template <- landmark_template(face, ears, unit = 1, start = "pn")
+  template$judged <- TRUE
+  template
 }
 
 #' A template, or a specimen made into one

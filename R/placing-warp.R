@@ -74,6 +74,9 @@ joined_basis <- function(full, share, factor, rank) {
 
 #' Fit the displacement of a template's points to a cloud in the template's frame
 #'
+#' All steps but the last few take the template's light points only, each counting for more, so that
+#' the balance with the prior is kept; without curvature in the matches all steps do.
+#'
 #' @param weight Of curvature in the matches.
 #' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see
 #'   [warp_sd()]); of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
@@ -84,40 +87,54 @@ fit_warp <- function(template, cloud, settings, weight) {
   n <- nrow(xyz)
   basis <- lapply(template$basis, function(b) b[seq_len(n), , drop = FALSE])
   of <- function(x) weight * rbind(x$k1, x$k2)
+  feature <- of(template)
+  to_feature <- of(cloud)
   moved <- xyz
   ends <- settings$warp_reach
   reach <- ends[1] * (ends[2] / ends[1])^seq(0, 1, length.out = settings$warp_steps)
-  coefficients <- solved <- NULL
+  light <- if (weight > 0) settings$warp_steps - settings$whole_steps else settings$warp_steps
+  solved <- NULL
   for (step in seq_along(reach)) {
-    found <- match_points(moved, template$normal, of(template), cloud, of(cloud), reach[step],
+    own <- if (step <= light) template$light else seq_len(n)
+    found <- match_points(moved[own, , drop = FALSE], template$normal[, own, drop = FALSE],
+                          feature[, own, drop = FALSE], cloud, to_feature, reach[step],
                           settings$cosine)
-    used <- which(!is.na(found$index) & !cloud$border[found$index])
-    if (length(used) < settings$fewest) break
-    # Coefficients by penalised least squares: distances across the scan's surface count in full,
-    # along it by a share
-    normal <- t(cloud$normal[, found$index[used], drop = FALSE])
-    to <- t(cloud$xyz[, found$index[used], drop = FALSE])
-    across <- row_products(to - moved[used, , drop = FALSE], normal)
-    weights <- 1 / ((1 + (across / settings$robust_scale)^2) * settings$error^2)
-    gap <- to - xyz[used, , drop = FALSE]
-    pull <- weights *
-      ((1 - settings$along) * row_products(gap, normal) * normal + settings$along * gap)
-    right <- unlist(lapply(1:3, function(k) {
-      crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
-    }))
-    root <- warp_root(basis, used, cloud$normal[, found$index[used], drop = FALSE], weights,
-                      settings)
-    solved <- list(coefficients = drop(backsolve(root, backsolve(root, right, transpose = TRUE))),
-                   root = root)
-    coefficients <- solved$coefficients
-    moved <- xyz + displaced(basis, coefficients)
+    on <- which(!is.na(found$index) & !cloud$border[found$index])
+    if (length(on) < settings$fewest) break
+    solved <- solved_warp(basis, own[on], xyz, moved, found$index[on], cloud,
+                          settings$error * sqrt(length(own) / n), settings)
+    moved <- xyz + displaced(basis, solved$coefficients)
   }
-  near <- match_points(moved, template$normal, 0 * of(template), cloud, 0 * of(cloud), ends[1],
+  near <- match_points(moved, template$normal, 0 * feature, cloud, 0 * to_feature, ends[1],
                        settings$cosine)
   own <- lapply(template$basis, function(b) b[-seq_len(n), , drop = FALSE])
-  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, coefficients),
-       coefficients = coefficients,
+  list(moved = rbind(xyz, template$landmarks) + displaced(template$basis, solved$coefficients),
+       coefficients = solved$coefficients,
        sd = warp_sd(own, solved$root), index = near$index, residual = near$distance)
+}
+
+#' Coefficients of a displacement by penalised least squares
+#'
+#' Distances across the scan's surface count in full, along it by a share.
+#'
+#' @param used Numbers of the matched points, whose places were `xyz` and are `moved` (n x 3).
+#' @param to Their matches in the cloud. @param error Standard deviation of a match.
+#' @return List: `coefficients`, `root` (see [warp_root()]).
+#' @noRd
+solved_warp <- function(basis, used, xyz, moved, to, cloud, error, settings) {
+  across_surface <- cloud$normal[, to, drop = FALSE]
+  normal <- t(across_surface)
+  place <- t(cloud$xyz[, to, drop = FALSE])
+  across <- row_products(place - moved[used, , drop = FALSE], normal)
+  weights <- 1 / ((1 + (across / settings$robust_scale)^2) * error^2)
+  gap <- place - xyz[used, , drop = FALSE]
+  pull <- weights *
+    ((1 - settings$along) * row_products(gap, normal) * normal + settings$along * gap)
+  right <- unlist(lapply(1:3, function(k) {
+    crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
+  }))
+  root <- warp_root(basis, used, across_surface, weights, settings)
+  list(coefficients = drop(backsolve(root, backsolve(root, right, transpose = TRUE))), root = root)
 }
 
 match_points <- function(xyz, normal, feature, cloud, to_feature, reach, cosine) {

@@ -26,8 +26,8 @@
 #' @param cosine Least cosine of the angle between the normals of two matched points.
 #' @param saturation Distance beyond which a point of the template counts as unmatched in the score
 #'   (length).
-#' @param poor,refuse Scores (0 to 1). Above `poor`, further fits are tried, and confidence is
-#'   lowered. Above `refuse`, [find_landmarks()] stops with an error.
+#' @param poor,refuse Scores (0 to 1). Up to `poor`, a fit from a strong cap or cup is good enough.
+#'   Above `refuse`, [find_landmarks()] stops with an error.
 #' @param left_over Weight of the share of the scan without a match in the template, relative to the
 #'   share of the template without a match in the scan. It is used when poses are compared.
 #' @param length_scale,length_scale_sd Length scales and standard deviations of the Gaussian
@@ -38,6 +38,10 @@
 #' @param weight Weight of curvature against position in a match (length squared).
 #' @param warp_reach,warp_steps Greatest distance of a match in the warp, at the first and at the
 #'   last step (two lengths); number of its steps.
+#' @param light_points,whole_steps Number of the template's points in the steps of the warp, and
+#'   number of last steps that use all points.
+#' @param light_points,whole_steps Number of the template's points in the steps of the warp but the
+#'   last, and number of those last steps, which take all points.
 #' @param error Standard deviation of a match (length).
 #' @param robust_scale Scale of the Cauchy weights (length).
 #' @param along Weight of the part of a match that runs along the surface.
@@ -55,6 +59,33 @@
 #'   with correct results the share is at most 0.47. On two faces with wrong results, and on objects
 #'   that are not faces, it is at least 0.68.
 #' @param fewest Least number of matches for the deformation of the template.
+#' @param step Edge of the cells by which the positions are thinned out that the template's `start` is
+#'   placed on (length).
+#' @param ball,proud The height of a position is measured over the weighted centroid of a ball of
+#'   radius `ball` (length), along the mean normal. A position is tried if it is higher than the
+#'   share `proud` of the height of the template's `start`. Nose tips of 38 faces are 11 to 17 mm
+#'   high.
+#' @param look_up Edge of the cells of the look-up table that scores starts, and the distance beyond
+#'   which a point counts as unmatched there (two lengths).
+#' @param start_turns,start_scales Number of rotations about the mean normal, and the scales that are
+#'   tried if no start of scale 1 is accepted (two numbers).
+#' @param start_points,start_cosine Number of the template's points in the score of a start, and least
+#'   cosine of the angle between their normals and those of their matches.
+#' @param start_each,starts Greatest number of starts that are fitted: of one position, and in all.
+#' @param start_angle,start_gap Starts count as equal if their rotations differ by less than this
+#'   angle (degrees), and their positions by less than this length.
+#' @param start_reach Greatest distance of a match at the first step of the fit of a start (length).
+#' @param good,unlike A pose is accepted if its score is at most the first number of `good`. It is
+#'   also accepted if its score is at most the second number, and the share of the template that
+#'   differs from the scan in position or curvature is at most `unlike`.
+#' @param agree Limits of the agreement of curvature (-1 to 1), see [find_landmarks()]. Below the
+#'   first the scan is no face. From the second on it is a face. 54 faces and smiles have 0.48 to
+#'   0.89, incomplete faces 0.55 to 0.82, 15 other objects at most 0.29.
+#' @param unsure Greatest confidence of a landmark if the agreement is between these limits.
+#' @param clip Curvatures are limited to this absolute value in the agreement (1 / length).
+#' @param rest,rest_steps The best pose is fitted further: `rest_steps[1]` steps with a decreasing
+#'   reach, then at most `rest_steps[2]` until a step moves the template by less than `rest` (root
+#'   mean square, length).
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is not
 #'   numeric.
@@ -64,15 +95,22 @@
 #' @export
 find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8, cap = 0.03,
                           apart = 12, anchors = 8, own = 2, turns = 12, reach = c(40, 10),
-                          steps = 6, trim_share = 0.7, followed = 40, refined = 6,
+                          steps = 6, trim_share = 0.7, followed = 16, refined = 4,
                           tight = c(0.95, 1.05), loose = c(0.75, 1.3), cosine = 0.5,
                           saturation = 5, poor = 0.55, refuse = 0.76, left_over = 0.5,
                           length_scale = c(60, 30, 15), length_scale_sd = c(4, 2.5, 1.5),
                           affine = 5, uneven = 0.3, rank = 220, weight = 80,
-                          warp_reach = c(15, 6), warp_steps = 15, error = 3, robust_scale = 1.5,
+                          warp_reach = c(15, 6), warp_steps = 12, whole_steps = 3,
+                          light_points = 900, error = 3, robust_scale = 1.5,
                           along = 0.1, points = 2500, thin = 200, moved = 2, off = 2.5,
                           vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2, low = 0.5,
-                          wrong = 0.6, fewest = 30) {
+                          wrong = 0.6, fewest = 30, step = 7, ball = 40, proud = 0.55,
+                          look_up = c(4, 15), start_turns = 16, start_points = 100,
+                          start_cosine = 0.3, start_each = 3, starts = 40,
+                          start_angle = 25, start_gap = 12, start_reach = 25,
+                          start_scales = c(0.85, 1.15), good = c(0.45, 0.55), unlike = 0.38,
+                          agree = c(0.3, 0.45), unsure = 0.4, clip = 0.15,
+                          rest = 0.02, rest_steps = c(24, 100)) {
   sizes <- lengths(lapply(formals(find_settings)[-1], eval))
   former <- c(kept = "trim_share", kernel_length = "length_scale", kernel_sd = "length_scale_sd",
               robust = "robust_scale")
@@ -86,11 +124,11 @@ check_find_settings <- function(settings, sizes) {
   for (name in names(settings)) {
     value <- settings[[name]]
     size <- sizes[[name]]
-    low <- if (name %in% may_be_none) 0 else .Machine$double.xmin
+    low <- if (name == "agree") -1 else if (name %in% may_be_none) 0 else .Machine$double.xmin
     if (!is.numeric(value) || length(value) != size || any(!is.finite(value) | value < low)) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(value)),
-                      sprintf("Give %d finite number%s %s 0.", size, if (size > 1) "s" else "",
-                              if (low > 0) "above" else "of at least"),
+                      sprintf("Give %d finite number%s %s.", size, if (size > 1) "s" else "",
+                              if (low > 0) "above 0" else paste("of at least", low)),
                       stage = "arguments")
     }
   }
@@ -108,9 +146,10 @@ print.find_settings <- function(x, ...) {
 scaled_settings <- function(settings, unit) {
   lengths <- c("cluster", "coarse", "bend", "feature", "apart", "reach", "saturation",
                "length_scale", "length_scale_sd", "affine", "warp_reach", "error",
-               "robust_scale", "moved", "off", "vague", "near")
+               "robust_scale", "moved", "off", "vague", "near", "step", "ball", "look_up",
+               "start_gap", "start_reach", "rest")
   settings[lengths] <- lapply(settings[lengths], `*`, unit)
-  settings$cap <- settings$cap / unit
+  settings[c("cap", "clip")] <- lapply(settings[c("cap", "clip")], `/`, unit)
   settings$weight <- settings$weight * unit^2
   settings
 }

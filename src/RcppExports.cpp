@@ -611,6 +611,35 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_mounds
+NumericMatrix cpp_mounds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix at, double radius);
+RcppExport SEXP _crestline_cpp_mounds(SEXP xyzSEXP, SEXP normalSEXP, SEXP atSEXP, SEXP radiusSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type xyz(xyzSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normal(normalSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type at(atSEXP);
+    Rcpp::traits::input_parameter< double >::type radius(radiusSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mounds(xyz, normal, at, radius));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_search_starts
+NumericMatrix cpp_search_starts(List points, List cloud, NumericMatrix at, NumericMatrix mound, List settings);
+RcppExport SEXP _crestline_cpp_search_starts(SEXP pointsSEXP, SEXP cloudSEXP, SEXP atSEXP, SEXP moundSEXP, SEXP settingsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< List >::type points(pointsSEXP);
+    Rcpp::traits::input_parameter< List >::type cloud(cloudSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type at(atSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type mound(moundSEXP);
+    Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_search_starts(points, cloud, at, mound, settings));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_warp_gram
 NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal, NumericVector weight, double along, double across);
 RcppExport SEXP _crestline_cpp_warp_gram(SEXP basisSEXP, SEXP usedSEXP, SEXP normalSEXP, SEXP weightSEXP, SEXP alongSEXP, SEXP acrossSEXP) {
@@ -722,6 +751,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},
     {"_crestline_cpp_fit_poses", (DL_FUNC) &_crestline_cpp_fit_poses, 6},
+    {"_crestline_cpp_mounds", (DL_FUNC) &_crestline_cpp_mounds, 4},
+    {"_crestline_cpp_search_starts", (DL_FUNC) &_crestline_cpp_search_starts, 5},
     {"_crestline_cpp_warp_gram", (DL_FUNC) &_crestline_cpp_warp_gram, 6},
     {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},

@@ -10,6 +10,7 @@
 #include "curvature.h"
 #include "placing_match.h"
 #include "placing_rigid.h"
+#include "placing_starts.h"
 #include "placing_warp.h"
 #include "mesh_bend.h"
 #include "mesh_crop.h"
@@ -662,24 +663,70 @@ List cpp_fit_poses(NumericMatrix xyz, NumericMatrix normal, NumericMatrix to_xyz
                    List settings) {
   NumericVector reach = settings["reach"], scale = settings["scale"];
   crestline::RigidSettings rigid{{reach[0], reach[1]}, settings["steps"], settings["cosine"], settings["kept"],
-                                 {scale[0], scale[1]}, settings["saturation"], settings["spacing"]};
+                                 {scale[0], scale[1]}, settings["saturation"], settings["more"], settings["rest"],
+                                 settings["spacing"]};
   crestline::Cloud moving{xyz.begin(), normal.begin(), nullptr, xyz.ncol(), 0};
   crestline::CloudGrid fixed({to_xyz.begin(), to_normal.begin(), nullptr, to_xyz.ncol(), 0}, rigid.spacing);
   NumericMatrix poses(13, starts.ncol());
   NumericVector score(starts.ncol());
+  LogicalVector rests(starts.ncol());
   for (int i = 0; i < starts.ncol(); ++i) {
     crestline::Pose pose;
     std::copy(&starts(0, i), &starts(0, i) + 9, pose.rotation);
     std::copy(&starts(9, i), &starts(9, i) + 3, pose.shift);
     pose.scale = starts(12, i);
-    pose = crestline::fit_pose(moving, fixed, pose, rigid);
+    bool at_rest = false;
+    pose = crestline::fit_pose(moving, fixed, pose, rigid, &at_rest);
+    rests[i] = at_rest;
     score[i] = crestline::pose_score(moving, fixed, pose, rigid);
     std::copy(pose.rotation, pose.rotation + 9, &poses(0, i));
     std::copy(pose.shift, pose.shift + 3, &poses(9, i));
     poses(12, i) = pose.scale;
     checkUserInterrupt();
   }
-  return List::create(_["poses"] = poses, _["score"] = score);
+  return List::create(_["poses"] = poses, _["score"] = score, _["rests"] = rests);
+}
+
+// xyz, normal: 3 x n, at: 3 x m. Columns: the mean normal about a place and its height.
+// [[Rcpp::export]]
+NumericMatrix cpp_mounds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix at, double radius) {
+  std::vector<crestline::Mound> found =
+      crestline::mounds({xyz.begin(), normal.begin(), nullptr, xyz.ncol(), 0}, at.begin(), at.ncol(), radius);
+  NumericMatrix out(4, at.ncol());
+  for (int i = 0; i < at.ncol(); ++i) {
+    std::copy(found[i].normal, found[i].normal + 3, &out(0, i));
+    out(3, i) = found[i].height;
+  }
+  return out;
+}
+
+// points: list of xyz, normal in the anchor's frame; cloud: the same in its own axes; at: 3 x m; mound: 4 x m.
+// Columns: pose (13 numbers, of the anchor's frame), score, place (from 1).
+// [[Rcpp::export]]
+NumericMatrix cpp_search_starts(List points, List cloud, NumericMatrix at, NumericMatrix mound, List settings) {
+  auto view = [](const NumericMatrix& xyz, const NumericMatrix& normal) {
+    return crestline::Cloud{xyz.begin(), normal.begin(), nullptr, xyz.ncol(), 0};
+  };
+  NumericMatrix xyz = points["xyz"], normal = points["normal"], to = cloud["xyz"], to_normal = cloud["normal"];
+  std::vector<crestline::Mound> places(at.ncol());
+  for (int i = 0; i < at.ncol(); ++i) {
+    std::copy(&mound(0, i), &mound(0, i) + 3, places[i].normal);
+    places[i].height = mound(3, i);
+  }
+  crestline::StartSettings search{settings["turns"], settings["scales"], settings["voxel"], settings["reach"],
+                                  settings["spacing"], settings["cosine"], settings["each"]};
+  std::vector<crestline::Start> found = crestline::search_starts(view(xyz, normal), view(to, to_normal), at.begin(),
+                                                                 places, search, [] { checkUserInterrupt(); });
+  NumericMatrix out(15, found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const crestline::Pose& pose = found[i].pose;
+    std::copy(pose.rotation, pose.rotation + 9, &out(0, i));
+    std::copy(pose.shift, pose.shift + 3, &out(9, i));
+    out(12, i) = pose.scale;
+    out(13, i) = found[i].score;
+    out(14, i) = found[i].place + 1;
+  }
+  return out;
 }
 
 // [[Rcpp::export]]

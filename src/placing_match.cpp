@@ -10,12 +10,6 @@ namespace {
 
 constexpr double most_cells = 4e6;
 
-double squared_gap(const double* a, const double* b, int k) {
-  double sum = 0;
-  for (int i = 0; i < k; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
-
 }  // namespace
 
 CloudGrid::CloudGrid(const Cloud& cloud, double cell) : cloud_(cloud), cell_(cell) {
@@ -67,31 +61,18 @@ int CloudGrid::nearest(const double* xyz, const double* normal, const double* fe
 
 int CloudGrid::nearest_within(const double* xyz, const double* normal, const double* feature,
                               double reach, double cosine, double least, double* distance2) const {
-  int from[3], to[3];
-  for (int k = 0; k < 3; ++k) {
-    if (xyz[k] + reach < low_[k] || xyz[k] - reach > low_[k] + cells_[k] * cell_) return -1;
-    from[k] = cell_of(xyz[k] - reach, k);
-    to[k] = cell_of(xyz[k] + reach, k);
-  }
   int best = -1;
-  for (int c = from[2]; c <= to[2]; ++c) {
-    for (int b = from[1]; b <= to[1]; ++b) {
-      std::size_t row = (static_cast<std::size_t>(c) * cells_[1] + b) * cells_[0];
-      for (int i = start_[row + from[0]]; i < start_[row + to[0] + 1]; ++i) {
-        int p = point_[i];
-        double d2 = squared_gap(cloud_.xyz + 3 * p, xyz, 3);
-        if (d2 > reach * reach || d2 >= least) continue;
-        const double* n = cloud_.normal + 3 * p;
-        if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] < cosine) continue;
-        const double* own = cloud_.feature + static_cast<std::size_t>(cloud_.features) * p;
-        double all = d2 + squared_gap(own, feature, cloud_.features);
-        if (all >= least) continue;
-        least = all;
-        best = p;
-        *distance2 = d2;
-      }
-    }
-  }
+  visit(xyz, reach, [&](int p, double d2) {
+    if (d2 >= least) return;
+    const double* n = cloud_.normal + 3 * p;
+    if (n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2] < cosine) return;
+    const double* own = cloud_.feature + static_cast<std::size_t>(cloud_.features) * p;
+    double all = d2 + squared_gap(own, feature, cloud_.features);
+    if (all >= least) return;
+    least = all;
+    best = p;
+    *distance2 = d2;
+  });
   return best;
 }
 

@@ -1,6 +1,7 @@
 // Nearest points of a cloud, in space and in further features, among those near in space and alike
 // in normal.
 #pragma once
+#include <cstddef>
 #include <vector>
 
 namespace crestline {
@@ -25,10 +26,35 @@ class CloudGrid {
   int nearest(const double* xyz, const double* normal, const double* feature, double reach,
               double cosine, double* distance2) const;
 
+  // Calls `see(point, squared distance)` for each point within `reach` of a place.
+  template <typename See>
+  void visit(const double* xyz, double reach, See see) const {
+    int from[3], to[3];
+    for (int k = 0; k < 3; ++k) {
+      if (xyz[k] + reach < low_[k] || xyz[k] - reach > low_[k] + cells_[k] * cell_) return;
+      from[k] = cell_of(xyz[k] - reach, k);
+      to[k] = cell_of(xyz[k] + reach, k);
+    }
+    for (int c = from[2]; c <= to[2]; ++c)
+      for (int b = from[1]; b <= to[1]; ++b) {
+        std::size_t row = (static_cast<std::size_t>(c) * cells_[1] + b) * cells_[0];
+        for (int i = start_[row + from[0]]; i < start_[row + to[0] + 1]; ++i) {
+          double d2 = squared_gap(cloud_.xyz + 3 * static_cast<std::size_t>(point_[i]), xyz, 3);
+          if (d2 <= reach * reach) see(point_[i], d2);
+        }
+      }
+  }
+
   const Cloud& cloud() const { return cloud_; }
 
  private:
   int cell_of(double x, int axis) const;
+
+  static double squared_gap(const double* a, const double* b, int k) {
+    double sum = 0;
+    for (int i = 0; i < k; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
+  }
 
   // The same among what is nearer than the root of `least` in (xyz, feature).
   int nearest_within(const double* xyz, const double* normal, const double* feature, double reach,

@@ -71,12 +71,25 @@ Pose pose_of(const Cloud& moving, const Cloud& fixed, const std::vector<Pair>& p
   return out;
 }
 
+// Root mean square of the way from one pose of the points to another.
+double moved_by(const Cloud& moving, const Pose& from, const Pose& to) {
+  double sum = 0;
+  for (int i = 0; i < moving.n; ++i) {
+    double a[3], b[3];
+    move_point(from, moving.xyz + 3 * i, a);
+    move_point(to, moving.xyz + 3 * i, b);
+    for (int k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  }
+  return std::sqrt(sum / moving.n);
+}
+
 }  // namespace
 
 Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose,
-              const RigidSettings& settings) {
-  for (int step = 0; step < settings.steps; ++step) {
-    double share = settings.steps > 1 ? step / (settings.steps - 1.0) : 1;
+              const RigidSettings& settings, bool* rests) {
+  *rests = false;
+  for (int step = 0; step < settings.steps + settings.more && !*rests; ++step) {
+    double share = settings.steps > 1 ? std::min(step / (settings.steps - 1.0), 1.0) : 1;
     double reach = settings.reach[0] * std::pow(settings.reach[1] / settings.reach[0], share);
     std::vector<Pair> pairs = matches(moving, fixed, pose, reach, settings.cosine);
     std::size_t kept = static_cast<std::size_t>(settings.kept * pairs.size());
@@ -84,7 +97,9 @@ Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose,
     std::nth_element(pairs.begin(), pairs.begin() + (kept - 1), pairs.end(),
                      [](const Pair& x, const Pair& y) { return x.distance2 < y.distance2; });
     pairs.resize(kept);
-    pose = pose_of(moving, fixed.cloud(), pairs, settings.scale);
+    Pose next = pose_of(moving, fixed.cloud(), pairs, settings.scale);
+    if (step >= settings.steps) *rests = moved_by(moving, pose, next) <= settings.rest;
+    pose = next;
   }
   return pose;
 }

@@ -20,13 +20,16 @@ struct RigidSettings {
   double kept;           // share of the matches, nearest first, that count
   double scale[2];       // bounds
   double saturation;  // distance from which on a point counts as not matched at all, in the score
+  int more;           // most further steps at the last reach, until the pose rests
+  double rest;        // root mean square by which a pose at rest moves the points in a step
   double spacing;     // of the fixed points: so far along the surface a match may be at no cost, in
                       // the score
 };
 
-// Trimmed iterated closest points from one pose. moving: the points that are moved.
+// Trimmed iterated closest points from one pose. moving: the points that are moved. rests: whether
+// the pose came to rest; with no further steps it is not asked.
 Pose fit_pose(const Cloud& moving, const CloudGrid& fixed, Pose pose,
-              const RigidSettings& settings);
+              const RigidSettings& settings, bool* rests);
 
 // Mean over the moved points of min(distance / saturation, 1), 1 where there is no match; the
 // distance is that across the fixed surface and, beyond the spacing of its points, along it.

@@ -20,6 +20,8 @@ test_that("the landmarks of a face are found near those placed by hand, with the
   expect_equal(placing$state, ifelse(placing$landmark %in% ear_names, "predicted", "found"))
   expect_gte(sum(placing$confidence > 0.5, na.rm = TRUE), 18)
   expect_lt(face$match$score, 0.5)
+  expect_gt(face$match$agree, 0.6)
+  expect_equal(face$match$verdict, "face")
   expect_equal(face$match$unit, 1)
   # On the surface, located once.
   expect_equal(as.matrix(surface_points(face$mesh, face$landmarks[inner, ])[1:3]),
@@ -76,25 +78,43 @@ test_that("if most landmarks have little confidence, a warning; the match is dou
   face <- found_humface()
   expect_false(face$match$doubtful)
   expect_equal(placing_doubt(face$placing)$of, 19)
-  # The back of a head, which the score alone would hardly refuse.
-  lenient <- find_settings(points = 1000, warp_steps = 10, refuse = 1)
+  # The back of a head is refused by the agreement; by other limits, perhaps a face.
   data(dummyhead, package = "Rvcg", envir = environment())
   at <- read_landmarks(system.file("extdata", "dummyhead_landmarks.csv", package = "crestline"))
   head <- dummyhead.mesh
   middle <- rowMeans(head$vb[1:3, ])
   front <- unit_vector(colMeans(at[c("pn", "sn", "n", "exL", "exR"), ]) - middle)
-  head <- keep_vertices(list(vb = head$vb, it = head$it),
-                        drop(front %*% (head$vb[1:3, ] - middle)) < -10)
+  behind <- drop(front %*% (head$vb[1:3, ] - middle)) < -10
+  head <- keep_vertices(list(vb = head$vb, it = head$it), behind)
   head <- structure(head, class = "mesh3d")
+  quick <- list(points = 1000, warp_steps = 10, refuse = 1)
+  error <- expect_crestline_error(
+    find_landmarks(head, id = "behind", settings = do.call(find_settings, quick)),
+    c("nothing on it is a face", "agreement 0."), id = "behind"
+  )
+  expect_s3_class(error, "crestline_landmark_error")
+  lenient <- do.call(find_settings, c(quick, list(agree = c(-1, 0.45))))
   expect_warning(behind <- find_landmarks(head, id = "behind", settings = lenient),
-                 "specimen behind.*little confidence", class = "crestline_doubtful_placing")
+                 "specimen behind.*perhaps it is no face", class = "crestline_doubtful_placing")
+  expect_equal(behind$match$verdict, "perhaps")
   expect_true(behind$match$doubtful)
-  expect_gt(placing_doubt(behind$placing)$share, 0.6)
+  expect_lte(max(behind$placing$confidence, na.rm = TRUE), 0.4)
+  expect_equal(placing_doubt(behind$placing)$share, 1)
   expect_output(print(behind), "the template lies badly on it", fixed = TRUE)
-  expect_warning(find_landmarks(humface_scan(),
-                                settings = find_settings(points = 1000, warp_steps = 10,
-                                                         low = 0.99)),
+  strict <- find_settings(points = 1000, warp_steps = 10, low = 0.99)
+  expect_warning(find_landmarks(humface_scan(), settings = strict), "little confidence",
                  class = "crestline_doubtful_placing")
+})
+
+test_that("a template of one's own gives no verdict, but a warning where curvature disagrees", {
+  found <- with_fields(found_humface(), match = utils::modifyList(
+    found_humface()$match, list(verdict = NA_character_, agree = 0.2, template = "mine")
+  ))
+  doubt <- placing_doubt(found$placing)
+  expect_warning(warn_doubtful(found, doubt, find_settings()), "hardly agrees with the template mine",
+                 class = "crestline_doubtful_placing")
+  found$match$agree <- 0.5
+  expect_no_warning(warn_doubtful(found, doubt, find_settings()))
 })
 
 test_that("a platform, or a stray vertex, does not change the unit that is guessed", {

@@ -37,7 +37,9 @@ test_that("any specimen with landmarks serves as a template", {
 })
 
 test_that("an inverted cloud inverted again is the first", {
-  cloud <- scan_cloud(lump(), 1, scaled_settings(find_settings(), 1), 1)
+  settings <- scaled_settings(find_settings(), 1)
+  cloud <- scan_cloud(lump(), 1, settings)
+  cloud <- with_anchors(with_curvature(cloud, settings, 1), settings, 1)
   twice <- inverted_cloud(inverted_cloud(cloud))
   expect_equal(twice[c("normal", "k1", "k2")], cloud[c("normal", "k1", "k2")])
   expect_equal(twice$anchors$kind, cloud$anchors$kind)
@@ -51,9 +53,23 @@ test_that("the best pose of trimmed matches is Horn's", {
   angle <- 0.05
   turn <- rbind(c(cos(angle), -sin(angle), 0), c(sin(angle), cos(angle), 0), c(0, 0, 1))
   settings <- list(reach = c(20, 5), steps = 10L, cosine = 0.5, kept = 0.9, scale = c(0.9, 1.1),
-                   saturation = 5, spacing = 1)
+                   saturation = 5, spacing = 1, more = 0L, rest = 0)
   found <- cpp_fit_poses(own, normal, 1.03 * turn %*% own + c(1, 2, 3), turn %*% normal,
                          matrix(c(diag(3), 0, 0, 0, 1)), settings)
   expect_equal(found$poses[, 1], c(turn, 1, 2, 3, 1.03), tolerance = 1e-8)
   expect_lt(found$score, 1e-8)
+})
+
+test_that("a pose is fitted on until it rests, and says whether it does", {
+  own <- with_seed(4, matrix(stats::rnorm(300, sd = 30), 3))
+  normal <- with_seed(5, apply(matrix(stats::rnorm(300), 3), 2, function(x) x / sqrt(sum(x^2))))
+  settings <- list(reach = c(20, 5), steps = 1L, cosine = -1, kept = 1, scale = c(1, 1),
+                   saturation = 5, spacing = 1, more = 0L, rest = 1e-9)
+  fit <- function(more, rest) {
+    settings[c("more", "rest")] <- list(more, rest)
+    cpp_fit_poses(own, normal, own + c(1, 1, 0), normal, matrix(c(diag(3), 0, 0, 0, 1)), settings)
+  }
+  expect_false(fit(0L, 1e-9)$rests)
+  expect_true(fit(50L, 1e-9)$rests)
+  expect_equal(fit(50L, 1e-9)$poses[, 1], c(diag(3), 1, 1, 0, 1), tolerance = 1e-8)
 })

@@ -41,7 +41,8 @@ test_that("a template bent by a known displacement is bent back to it", {
   }
   scan <- own$specimen$mesh
   scan$vb[1:3, ] <- t(bend(t(scan$vb[1:3, ])))
-  cloud <- scan_cloud(specimen(scan), 1, prepared$settings, 1)
+  cloud <- scan_cloud(specimen(scan), 1, prepared$settings)
+  cloud <- with_curvature(cloud, prepared$settings, 1)
   bent <- fit_warp(prepared, cloud, prepared$settings, settings$weight)
   error <- row_lengths(bent$moved[-seq_len(ncol(prepared$xyz)), ] - bend(own$landmarks))
   expect_lt(mean(error), 0.6)
