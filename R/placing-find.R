@@ -4,8 +4,8 @@
 #' Find the landmarks of a raw scan
 #'
 #' Finds the landmarks of a template on a scan. The scan is brought to the template's unit (a power
-#' of ten). The template's nose tip is placed on every prominent part of the scan, in many rotations.
-#' The starts that match best are fitted. If no fit is good, starts at the strongest caps and cups
+#' of ten). The template's nose tip is placed on every prominent part of the scan, in many
+#' rotations. The starts that match best are fitted. If no fit is good, starts at the strongest caps and cups
 #' follow. The template is then deformed onto the scan, by points that are closest in position and
 #' curvature.
 #' Each of its landmarks moves to the closest point of the mesh. The result does not depend on the
@@ -38,13 +38,13 @@
 #'   * `match`: list of `score` (0: the undeformed template fits the scan; 1: it fits nowhere),
 #'     `agree` (mean correlation of the deformed template's curvature with the scan's: 1 equal, 0
 #'     unrelated), `verdict` ("face" or "perhaps", by `agree` and the setting of that name; NA for a
-#'     template of your own, as the limits were measured on faces), `unit` (factor to the template's unit), `scale` (of the template), `rotation` (3 x 3, from
-#'     the template to the scan), `inverted` (TRUE if the triangles faced inwards), `doubtful` (TRUE
+#'     template of your own, as the limits were measured on faces), `unit` (factor to the template's
+#'     unit), `scale` (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (TRUE if the triangles faced inwards), `doubtful` (TRUE
 #'     if the share of found landmarks with low confidence is above the setting `wrong`) and
 #'     `template`.
 #' @section Errors: of class `crestline_error`, stage "landmarks": nothing in the scan resembles the
-#'   template (the score is above the setting `refuse`), or the scan is no face (`agree` is below the
-#'   first limit).
+#'   template (the score is above the setting `refuse`), or the scan is no face (`agree` is below
+#'   the first limit).
 #' @section Warnings: of class `crestline_doubtful_placing`: the scan is perhaps no face; or `agree`
 #'   is below the first limit with a template of your own; or most landmarks have low confidence
 #'   (settings `low`, `wrong`). Most likely the scan does not show the object, or not enough of it.

@@ -35,7 +35,7 @@ anchor_starts <- function(template, cloud, own, settings) {
 #'   cloud has no curvature), `rests` (whether a further step would move it).
 #' @noRd
 best_pose <- function(template, cloud, starts, reach, settings) {
-  if (!ncol(starts)) return(list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, rests = FALSE))
+  if (!ncol(starts)) return(no_pose())
   middle <- exp(mean(log(settings$reach)))
   first <- fit_poses(template, cloud, starts, c(reach, middle), settings$tight, settings,
                      thin = TRUE)
@@ -60,6 +60,10 @@ rested_pose <- function(template, cloud, best, settings) {
   found <- fitted_poses(template, cloud, cbind(best$pose), c(1, 0.5) * settings$reach[2],
                         settings$loose, long, settings$rest_steps[2])[[1]]
   if (found$misfit < best$misfit) found else best
+}
+
+no_pose <- function() {
+  list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, rests = FALSE)
 }
 
 #' Which of the fitted poses to go on with: the best that put the template's points elsewhere

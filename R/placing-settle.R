@@ -14,8 +14,7 @@
 settled_pose <- function(template, scan, unit, settings, threads) {
   cloud <- in_context(with_curvature(scan_cloud(scan, unit, settings), settings, threads), scan$id,
                       "looking for landmarks")
-  laid <- list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, rests = FALSE,
-               inverted = FALSE, cloud = cloud, unit = unit)
+  laid <- c(no_pose(), list(inverted = FALSE, cloud = cloud, unit = unit))
   tries <- list(list(FALSE, 1), list(FALSE, settings$start_scales),
                 list(TRUE, c(0.9, 1.1)))
   for (one in tries) {

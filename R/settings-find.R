@@ -59,18 +59,18 @@
 #'   with correct results the share is at most 0.47. On two faces with wrong results, and on objects
 #'   that are not faces, it is at least 0.68.
 #' @param fewest Least number of matches for the deformation of the template.
-#' @param step Edge of the cells by which the positions are thinned out that the template's `start` is
-#'   placed on (length).
+#' @param step Edge of the cells by which the positions are thinned out that the template's `start`
+#'   is placed on (length).
 #' @param ball,proud The height of a position is measured over the weighted centroid of a ball of
 #'   radius `ball` (length), along the mean normal. A position is tried if it is higher than the
 #'   share `proud` of the height of the template's `start`. Nose tips of 38 faces are 11 to 17 mm
 #'   high.
 #' @param look_up Edge of the cells of the look-up table that scores starts, and the distance beyond
 #'   which a point counts as unmatched there (two lengths).
-#' @param start_turns,start_scales Number of rotations about the mean normal, and the scales that are
-#'   tried if no start of scale 1 is accepted (two numbers).
-#' @param start_points,start_cosine Number of the template's points in the score of a start, and least
-#'   cosine of the angle between their normals and those of their matches.
+#' @param start_turns,start_scales Number of rotations about the mean normal, and the scales that
+#'   are tried if no start of scale 1 is accepted (two numbers).
+#' @param start_points,start_cosine Number of the template's points in the score of a start, and
+#'   least cosine of the angle between their normals and those of their matches.
 #' @param start_each,starts Greatest number of starts that are fitted: of one position, and in all.
 #' @param start_angle,start_gap Starts count as equal if their rotations differ by less than this
 #'   angle (degrees), and their positions by less than this length.

@@ -102,7 +102,7 @@ show_flags <- function(rows) {
   each <- each[each$visible, ]
   near <- each$error < 3
   far <- each$error > 5 & !each$landmark %in% conventions
-  cat(sprintf("flagged: %.1f %% of %d within 3 mm; %d of %d more than 5 mm off, not by definition\n",
+  cat(sprintf("flagged: %.1f %% of %d within 3 mm; %d of %d beyond 5 mm, not by definition\n",
               100 * mean(each$doubted[near]), sum(near), sum(each$doubted[far]), sum(far)))
   left <- each[each$error > 5 & !each$doubted, c("id", "landmark", "error")]
   if (nrow(left)) print(left, row.names = FALSE, digits = 2)
@@ -135,8 +135,8 @@ run_rotations <- function(n) {
     }
     middle <- Reduce(`+`, at) / n
     apart <- vapply(at, function(x) sqrt(rowSums((x - middle)^2)), numeric(nrow(middle)))
-    cat(sprintf("%-8s worst mean error %.2f, apart at most %.4f, in the mean %.4f; %.2f s\n", face$id,
-                max(vapply(rows, `[[`, 0, "mean")), max(apart), mean(apart),
+    cat(sprintf("%-8s worst mean error %.2f, apart at most %.4f, in the mean %.4f; %.2f s\n",
+                face$id, max(vapply(rows, `[[`, 0, "mean")), max(apart), mean(apart),
                 mean(vapply(rows, `[[`, 0, "seconds"))))
   }
 }
@@ -210,7 +210,8 @@ run_expressions <- function(n) {
     at_mouth <- each$landmark %in% mouth
     wrong <- each[at_mouth & each$error > 5 & !each$doubted, ]
     cat(sprintf("%-18s away %.2f, mouth %.2f (flagged %d); wrong and not flagged: %s\n", row$id,
-                mean(each$error[!at_mouth]), mean(each$error[at_mouth]), sum(each$doubted[at_mouth]),
+                mean(each$error[!at_mouth]), mean(each$error[at_mouth]),
+                sum(each$doubted[at_mouth]),
                 paste(wrong$landmark, round(wrong$error, 1), collapse = ", ")))
   }
 }

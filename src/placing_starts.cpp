@@ -87,7 +87,8 @@ void frame_about(const double* normal, double* frame) {
   }
   for (int k = 0; k < 3; ++k) frame[k] /= std::sqrt(length);
   for (int k = 0; k < 3; ++k)
-    frame[3 + k] = normal[(k + 1) % 3] * frame[(k + 2) % 3] - normal[(k + 2) % 3] * frame[(k + 1) % 3];
+    frame[3 + k] =
+        normal[(k + 1) % 3] * frame[(k + 2) % 3] - normal[(k + 2) % 3] * frame[(k + 1) % 3];
 }
 
 Pose turned(const double* frame, int turn, int turns, double scale, const double* at) {

@@ -8,7 +8,7 @@
 
 namespace crestline {
 
-// How a place lies in the ball about it, each point of the cloud weighing 1 - (distance / radius)^2.
+// How a place lies in the ball about it; points of the cloud weigh 1 - (distance / radius)^2.
 struct Mound {
   double normal[3];  // mean, unit; 0 where the normals cancel or the ball is empty
   double height;     // of the place over the centroid of the ball, along that normal
