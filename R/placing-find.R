@@ -90,6 +90,7 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
     doubtful = doubt$share > settings$wrong, template = template$id
   )))
   warn_doubtful(found, doubt, settings)
+  warn_bare_piece(found)
   found
 }
 

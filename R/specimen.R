@@ -54,7 +54,10 @@
 #'     distance from the middle;
 #'   * `crestline_loose_triangles`: triangles touch no other;
 #'   * `crestline_seam`: borders lie beside one another;
-#'   * `crestline_double_skin`: the surface is double, with one skin very close to the other.
+#'   * `crestline_double_skin`: the surface is double, with one skin very close to the other;
+#'   * `crestline_bare_piece`: a piece with more than 20 % of the triangles has no landmark, while
+#'     another piece has some. It may be a second object of the same kind. [find_landmarks()] warns
+#'     of it too.
 #'
 #'   Corners within 1e-6 of the size are joined without a warning: both sides of a seam, single
 #'   triangles, vertices on the edge of another triangle.
@@ -81,12 +84,16 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   door <- check_mesh(rescaled_mesh(mesh, rescale), id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
   report <- rbind(door$report, placed$report, rescaled_row(door$mesh, rescale))
-  new_specimen(id, door$mesh, placed$landmarks, report = report,
-               origin = new_origin(placed$landmarks, "given"),
-               geometry = list(twin = door$topology$twin, piece = door$topology$piece,
-                               landmarks = placed$landmarks, located = placed$located,
-                               size = placed$size, slips = placed$slips),
-               vertices = door$vertices)
+  made <- new_specimen(
+    id, door$mesh, placed$landmarks, report = report,
+    origin = new_origin(placed$landmarks, "given"),
+    geometry = list(twin = door$topology$twin, piece = door$topology$piece,
+                    landmarks = placed$landmarks, located = placed$located,
+                    size = placed$size, slips = placed$slips),
+    vertices = door$vertices
+  )
+  warn_bare_piece(made)
+  made
 }
 
 #' A mesh in another unit; what is no mesh is left for the door to refuse
