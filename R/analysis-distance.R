@@ -10,9 +10,9 @@
 #' The paper matches "each pair of curves" by Procrustes. That can also mean a superimposition of
 #' each curve by itself.
 #'
-#' @param a,b Sets of curves in one unit. Each is a `shape` of [fit_shape()], a named list with a k
-#'   x 3 matrix for each curve, as of [read_curves()], or a k x 3 matrix with row names "curve
-#'   point", as of [coords()].
+#' @param a,b Sets of curves in one unit. Each is a `shape` of [fit_shape()]; or a named list with a
+#'   k x 3 matrix for each curve, as of [read_curves()]. A k x 3 matrix with row names "curve
+#'   point", as of [coords()], is a set too.
 #' @param match "none": the sets are compared as they lie. "procrustes": `b` is first superimposed
 #'   on `a`.
 #' @param between "points": distances between points of the same number. "curves": distances from

@@ -125,9 +125,11 @@
 #'
 #'   `as.data.frame()` gives `tests`. `summary()` gives the adjusted p-values, with a row for each
 #'   test and a column for each level.
-#' @section Errors: of class `crestline_error`: there is only one group, or a group has fewer than
-#'   two specimens; groups do not match the specimens; a specimen is in two groups; names of groups
-#'   differ by blanks or case only; `permutations` are not orders of the specimens.
+#' @section Errors: of class `crestline_error`:
+#'   * there is only one group, or a group has fewer than two specimens;
+#'   * groups do not match the specimens, or a specimen is in two groups;
+#'   * names of groups differ by blanks or case only;
+#'   * `permutations` are not orders of the specimens.
 #' @section Warnings: of class `crestline_unequal_spread`: variances are pooled, and groups of
 #'   unequal size differ in spread. Of class `crestline_few_permutations`: no p-value can be below
 #'   0.05.

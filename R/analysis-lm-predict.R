@@ -17,9 +17,11 @@
 #' @param ... Ignored.
 #' @return A k x 3 x m array with the names of the points and shapes, or a list of m meshes, as of
 #'   [shape_at()]. [draw_surface()] draws a mesh.
-#' @section Errors: of class `crestline_error`: `newdata` lacks a variable, has a missing value, or
-#'   has a level of a factor that the sample lacks; the sample has no data for a combination of
-#'   values; the level has no triangles for a mesh.
+#' @section Errors: of class `crestline_error`:
+#'   * `newdata` lacks a variable, has a missing value, or has a level of a factor that the sample
+#'     lacks;
+#'   * the sample has no data for a combination of values;
+#'   * the level has no triangles for a mesh.
 #' @template glossary
 #' @seealso [shape_lm()], [write_mesh()], [plot.shape_lm()]
 #' @inherit shape_lm examples

@@ -69,9 +69,9 @@
 #'     * `statistic`: signed t if there is a `distance`, else F;
 #'     * `p_value`, `p_adjusted` (by the greatest F over all points of the level and term, which
 #'       controls the family-wise error);
-#'   * `parts`: data frame with a row for each level, term, and curve or patch of a `shape_sample`:
-#'     `level`, `term`, `part`, `points` (number), `statistic` (F of all its points), `p_value`,
-#'     `p_adjusted` (by the least p over all parts);
+#'   * `parts`: data frame with a row for each level, term, and curve or patch of a `shape_sample`.
+#'     Columns are `level`, `term`, `part`, `points` (number), `statistic` (F of all its points),
+#'     `p_value`, and `p_adjusted` (by the least p over all parts);
 #'   * `aligned`, `pca`, `models` (`terms`, `frame`, `matrix`, `coefficients`: p x dk): lists by
 #'     level;
 #'   * `left`: residual degrees of freedom;
@@ -80,9 +80,10 @@
 #'
 #'   `as.data.frame()` gives `tests`. `summary()` gives the adjusted p-values, with a row for each
 #'   term and test and a column for each level.
-#' @section Errors: of class `crestline_error`: a variable is not a column of `data`, or has missing
-#'   or infinite values (the error names the specimens); a term is a linear combination of others;
-#'   no residual degrees of freedom are left.
+#' @section Errors: of class `crestline_error`:
+#'   * a variable is not a column of `data`, or has missing or infinite values (the error names the
+#'     specimens);
+#'   * a term is a linear combination of others, or no residual degrees of freedom are left.
 #' @section Warnings: of class `crestline_contrasts`: type III has interactions of factors whose
 #'   coding does not sum to zero. Of class `crestline_constant_term`: terms are constant within
 #'   blocks. Of class `crestline_few_permutations`: no p-value can be below 0.05.

@@ -17,9 +17,9 @@
 #' observers, and `ICC(2,1)` with observers. One specimen that was measured several times gives the
 #' error only; the variance of specimens and the correlation are NA.
 #'
-#' @param shapes The N measurements: a list of `shape`s of one scheme (ids may repeat; `NULL` for a
-#'   failed measurement), a `shape_batch`, a `shape_sample`, or a k x 3 x N array with names of
-#'   points "curve point".
+#' @param shapes The N measurements: a list of `shape`s of one scheme, a `shape_batch`, a
+#'   `shape_sample`, or a k x 3 x N array with names of points "curve point". In a list ids may
+#'   repeat, and `NULL` stands for a failed measurement.
 #' @param specimen N names: the specimen of each measurement. Failed measurements may be included or
 #'   left out. A vector with names, or a data frame with a column of names, is matched to the names
 #'   of the measurements. A vector without names is taken in their order.
@@ -35,8 +35,8 @@
 #'   * `parts`: data frame with a row for each curve, and one for all:
 #'     * `part`, `points` (number);
 #'     * `specimen`, `observer`, `interaction`, `residual`: standard deviations in the unit of the
-#'       mesh, of the three co-ordinates together, root mean square over the points; NA for effects
-#'       that are not in the model;
+#'       mesh; NA for effects that are not in the model. They are of the three co-ordinates
+#'       together, root mean square over the points;
 #'     * `error`: standard deviation of all effects but the specimen, the typical distance of a
 #'       measured point from its average place;
 #'     * `icc`: intra-class correlation;

@@ -34,9 +34,10 @@
 #'     "directional", "fluctuating", "error"), `df`, `squares`, `mean_squares`, `share`,
 #'     `statistic`, `p_value`. `statistic` is F: individual and directional over fluctuating,
 #'     fluctuating over error;
-#'   * `specimens`: data frame with a row for each level and specimen: `level`, `id`, `asymmetry`
-#'     (root mean square distance of the points from the symmetric mean, in the unit of the meshes),
-#'     `fluctuating` (the same after the mean asymmetry is subtracted);
+#'   * `specimens`: data frame with a row for each level and specimen: `level`, `id`, `asymmetry`,
+#'     `fluctuating`. `asymmetry` is the root mean square distance of the points from the symmetric
+#'     mean, in the unit of the meshes. `fluctuating` is the same after the mean asymmetry is
+#'     subtracted;
 #'   * `directional`: list by level of k x 3 matrices: the mean asymmetry, in the unit of the
 #'     meshes.
 #'

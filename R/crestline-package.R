@@ -84,8 +84,9 @@
 #'   ([check_placing()]).
 #' * **predicted**: a landmark that is placed by the positions of the others, since the surface has
 #'   no evidence for it.
-#' * **definition**: a rule that gives the position of a landmark by curvature: a cap, a cup, an
-#'   extreme of a profile, a turn or end of a curve, or a crossing ([refine_landmarks()]).
+#' * **definition**: a rule that gives the position of a landmark by curvature
+#'   ([refine_landmarks()]). Examples are a cap, a cup, an extreme of a profile, and a crossing of
+#'   curves.
 #'
 #' * **exchanged**: two landmarks each of which lies where the other belongs, such as left and
 #'   right.

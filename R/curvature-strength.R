@@ -66,10 +66,9 @@ print.keep_away <- function(x, ...) {
 
 #' A side to keep to
 #'
-#' Use this when two similar features run on either side of a line between two landmarks and you
-#' want only one, such as the ridge of the lower or of the upper eyelid. Curvature on the other side
-#' is ignored. The dividing plane contains the two landmarks and is perpendicular to the plane
-#' through all three.
+#' Use this if two similar features run on either side of a line between two landmarks. An example
+#' are the ridges of the upper and the lower eyelid. Curvature on the other side is ignored. The
+#' dividing plane contains the two landmarks and is perpendicular to the plane through all three.
 #'
 #' @param from,to Names of the two landmarks that the line joins, or positions (three co-ordinates,
 #'   in the unit of the mesh).

@@ -19,12 +19,12 @@
 #' @param engine "picture" or "rgl".
 #' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
 #'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].
-#' @return `draw_surface()`: a scene. For the engine "picture" a list of class `picture_scene`:
-#'   `rotation` (3 x 3), `pixel` (size of a pixel, in the unit of the mesh), `depth` (matrix, by
-#'   pixel), and the map from pixels to the plot. For "rgl" a list of class `rgl_scene`: `ids` of
-#'   the rgl objects, `diagonal` of the mesh's bounding box. `draw_lines()`, `draw_points()`,
-#'   `draw_band()`: the scene with the added rgl `ids`, invisibly. `visible_points()`: a logical
-#'   value for each point of `x`, TRUE if it is visible.
+#' @return `draw_surface()`: a scene. For the engine "picture" it is a list of class
+#'   `picture_scene`. It has `rotation` (3 x 3), `pixel` (size of a pixel, in the unit of the mesh),
+#'   `depth` (matrix, by pixel), and the map from pixels to the plot. For "rgl" a list of class
+#'   `rgl_scene`: `ids` of the rgl objects, `diagonal` of the mesh's bounding box. `draw_lines()`,
+#'   `draw_points()`, `draw_band()`: the scene with the added rgl `ids`, invisibly.
+#'   `visible_points()`: a logical value for each point of `x`, TRUE if it is visible.
 #' @template glossary
 #' @template experimental
 #' @examples

@@ -15,9 +15,9 @@
 #' @param margin Width of the strip outside the window in which vertices are kept, in the unit of
 #'   the mesh.
 #' @return Object of class `path_coordinates`: a data frame with a row for each vertex. Its columns
-#'   are `vertex` (index), `s`, `d` (unit of the mesh), `inside` (TRUE in the window, FALSE in its
-#'   margin), `tx`, `ty`, `tz` (unit tangent of the path at the closest place). Its attributes are
-#'   `length` (of the path), `width`, `key` and `id` (of the mesh).
+#'   are `vertex` (index), `s`, `d` (unit of the mesh), `inside` (FALSE in the margin), and `tx`,
+#'   `ty`, `tz` (unit tangent of the path at the closest place). Its attributes are `length` (of the
+#'   path), `width`, `key` and `id` (of the mesh).
 #' @section Errors: of class `crestline_wrong_mesh`, when the path belongs to another mesh.
 #' @template glossary
 #' @templateVar where section 3.2

@@ -14,9 +14,9 @@
 #' @param reach Greatest distance of the cut from the straight line between the points, as a share
 #'   of that line's length. `Inf`: no limit.
 #' @return A `mesh_path`: a data frame with a row for each point where the plane crosses an edge of
-#'   the mesh, in order from `from` to `to`. Its columns are `s` (arc length, in the unit of the
-#'   mesh), `x`, `y`, `z`, `face` (triangle of the segment that ends at the point) and the
-#'   barycentric weights `w1`, `w2`, `w3` in it. Its attributes are `length` (unit of the mesh),
+#'   the mesh, in order from `from` to `to`. Its columns are `s` (arc length), `x`, `y`, `z`, `face`
+#'   (triangle of the segment that ends at the point), and the barycentric weights `w1`, `w2`, `w3`
+#'   in it. Lengths are in the unit of the mesh. Its attributes are `length` (unit of the mesh),
 #'   `angle` (radians) and `side`.
 #' @section Errors: of class `crestline_path_error`: the cut ends at a border of the mesh (such as a
 #'   hole between the points), exceeds `reach`, or returns without meeting `to`.

@@ -35,13 +35,18 @@
 #'     * `residual`: mean distance of the deformed template from the scan near the landmark;
 #'     * `lost`: share of the template near the landmark that has no counterpart on the scan;
 #'     * `x`, `y`, `z`: the position, of absent landmarks too;
-#'   * `match`: list of `score` (0: the undeformed template fits the scan; 1: it fits nowhere),
-#'     `agree` (mean correlation of the deformed template's curvature with the scan's: 1 equal, 0
-#'     unrelated), `verdict` ("face" or "perhaps", by `agree` and the setting of that name; NA for a
-#'     template of your own, as the limits were measured on faces), `unit` (factor to the template's
-#'     unit), `scale` (of the template), `rotation` (3 x 3, from the template to the scan), `inverted` (TRUE if the triangles faced inwards), `doubtful` (TRUE
-#'     if the share of found landmarks with low confidence is above the setting `wrong`) and
-#'     `template`.
+#'   * `match`: a list:
+#'     * `score`: 0 if the undeformed template fits the scan, 1 if it fits nowhere;
+#'     * `agree`: mean correlation of the deformed template's curvature with the scan's (1: equal,
+#'       0: unrelated);
+#'     * `verdict`: "face" or "perhaps", by `agree` and the setting of that name. NA for a template
+#'       of your own, as the limits were measured on faces;
+#'     * `unit`: factor to the template's unit; `scale`: factor of the template;
+#'     * `rotation`: 3 x 3, from the template to the scan;
+#'     * `inverted`: TRUE if the triangles faced inwards;
+#'     * `doubtful`: TRUE if the share of found landmarks with low confidence is above the setting
+#'       `wrong`;
+#'     * `template`.
 #' @section Errors: of class `crestline_error`, stage "landmarks": nothing in the scan resembles the
 #'   template (the score is above the setting `refuse`), or the scan is no face (`agree` is below
 #'   the first limit).

@@ -35,8 +35,8 @@
 #'
 #'   Others are passed to [graphics::image()].
 #' @return The scene of [draw_surface()], invisibly. For a panel its grid, invisibly: a list of `s`,
-#'   `d` (unit of the mesh) and `strength` (1 / unit), a matrix with a row for each `s` and a column
-#'   for each `d`; NA beyond the data.
+#'   `d` (unit of the mesh) and `strength` (1 / unit). `strength` is a matrix with a row for each
+#'   `s` and a column for each `d`; it is NA beyond the data.
 #' @section Errors: of class `crestline_error`: the specimen has another mesh; a panel is asked for
 #'   a plane curve, or for a curve that was not found by curvature.
 #' @template glossary

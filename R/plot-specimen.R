@@ -28,18 +28,18 @@
 #'   * `"surface"`: the surface with its landmarks.
 #'   * `"placing"`: the landmarks of [find_landmarks()], seen from several sides. Found and placed
 #'     ones are green, doubtful ones red, and predicted ones blue. Predicted landmarks off the scan
-#'     are not drawn. Further arguments: `least`, the least confidence of a landmark that is not
-#'     doubtful (0 to 1, 0.5 by default); `views`, directions of view, as angles in radians towards
-#'     the subject's left (`c(-0.7, 0, 0.7)` by default). Of the arguments above only those of
-#'     [draw_surface()] have an effect.
+#'     are not drawn. Further argument `least`: the least confidence of a landmark that is not
+#'     doubtful (0 to 1, 0.5 by default). Further argument `views`: directions of view, as angles in
+#'     radians towards the subject's left (`c(-0.7, 0, 0.7)` by default). Of the arguments above
+#'     only those of [draw_surface()] have an effect.
 #'   * `"refinement"`: the landmarks of [refine_landmarks()]. Given ones are black, their defined
 #'     places orange, with lines between. Of the arguments above `view`, `labels` and `main` have an
 #'     effect.
 #'   * `"cuts"`: paths that planes through two landmarks cut from the surface, one path for each
 #'     plane (Fig. 2 of the paper). [reference_path()] chooses among such paths. Further arguments:
-#'     `from` and `to`, the names of the two landmarks; `angles` of the planes about the axis
-#'     between them, in radians, as in [plane_path()] (`c(-pi / 6, 0, pi / 6)` by default);
-#'     `colours`, one for each cut; `width` of the lines. `colour` is "plain" by default.
+#'     `from` and `to`, the names of the two landmarks; `colours`, one for each cut; `width` of the
+#'     lines; `angles` of the planes about the axis, in radians, as in [plane_path()]. The default
+#'     of `angles` is `c(-pi / 6, 0, pi / 6)`. `colour` is "plain" by default.
 #' @return Invisibly: the scene of [draw_surface()], for [draw_lines()] and similar functions.
 #'   "placing": the specimen. "cuts": a list with a `mesh_path` for each angle that has a path.
 #' @section Errors: of class `crestline_error`: the landmarks were not found by [find_landmarks()]

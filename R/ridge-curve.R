@@ -47,12 +47,14 @@
 #'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the
 #'     reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
-#'   * `determined`: whether curvature determines the curve. `FALSE` has one of five causes, which
-#'     `reason` gives: the median standard error exceeds `settings$undetermined` radii; the curve
-#'     runs along the edge of the window; the curvature is fainter than `settings$faint`; the line
-#'     cannot be lifted onto the mesh; the path has no such curvature near it. The plane path
-#'     (`reference`, or `type = "plane"`) is then the safer choice. `NA` for plane curves and
-#'     without standard errors;
+#'   * `determined`: whether curvature determines the curve; `NA` for plane curves and without
+#'     standard errors. If it is `FALSE`, the plane path (`reference`, or `type = "plane"`) is the
+#'     safer choice. `reason` gives one of five causes:
+#'     * the median standard error exceeds `settings$undetermined` radii;
+#'     * the curve runs along the edge of the window;
+#'     * the curvature is fainter than `settings$faint`;
+#'     * the line cannot be lifted onto the mesh;
+#'     * the path has no such curvature near it;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: key of the mesh. Functions that draw or use the curve refuse another mesh.
 #' @section Standard error: `se` is the standard deviation of the curve's position across itself,

@@ -21,10 +21,10 @@
 #'   `tidy()`: data frame with a row for each point: `term` (point), `s` (arc length along the
 #'   curve), `estimate` (d), `std.error`, and with `conf.int` `conf.low` and `conf.high`.
 #'
-#'   `glance()`: data frame with one row. `type`, `length` (unit of the mesh), `strength` (mean
-#'   along the curve, 1 / unit), `std.error` (median, unit of the mesh), `nobs` (number of vertices
-#'   in the smooth surface of curvature), `df`, `sigma` (residual standard deviation of strength, 1
-#'   / unit), `converged`, `determined`.
+#'   `glance()`: data frame with one row: `type`, `length`, `strength` (mean along the curve),
+#'   `std.error` (median), `nobs` (number of vertices in the smooth surface of curvature), `df`,
+#'   `sigma` (residual standard deviation of strength), `converged`, `determined`. Lengths and
+#'   standard errors are in the unit of the mesh, strengths in 1 / unit.
 #'
 #'   `augment()`: data frame with a row for each vertex in that surface: `vertex`, `s`, `d`,
 #'   `strength`, `.fitted`, `.resid` (1 / unit).

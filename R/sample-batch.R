@@ -79,9 +79,9 @@
 #'   * `for (shape in x)` has one shape in memory at a time; `lapply(x, f)` and `as.list(x)` have
 #'     all in memory;
 #'   * `print(x)` counts and lists failures and warnings. `summary(x)` is a data frame with a row
-#'     for each specimen: `specimen`, `measured` (TRUE or FALSE), `landmarks` ("placed", "found"),
-#'     `lacking` (number of the scheme's landmarks that are missing), `warnings` (number), `message`
-#'     (reason of a failure).
+#'     for each specimen. Columns are `specimen`, `measured` (TRUE or FALSE), `landmarks` ("placed",
+#'     "found"), `lacking` (number of missing landmarks of the scheme), `warnings` (number), and
+#'     `message` (reason of a failure).
 #' @section Errors: of class `crestline_error`: an argument is wrong for every specimen. Errors of
 #'   single specimens do not stop the batch, see [failures()].
 #' @section Warnings: of class `crestline_keeping_warning`: the file of a result is damaged or

@@ -20,10 +20,11 @@
 #' @param rings Number of rings of vertices, about the vertex with the least sum, to which the
 #'   quadratic is fitted.
 #' @return Data frame with one row: `x`, `y`, `z`, `face`, `w1`, `w2`, `w3` (a place on the mesh),
-#'   and `variance` (weighted mean of squared geodesic distances from the vertex with the least sum,
-#'   unit of the mesh squared). If several places have the least sum, one of them is given.
-#' @section Errors: of class `crestline_error`: the points are not a k x 3 matrix of numbers, or lie
-#'   on separate pieces of the mesh; the weights are negative, all 0, or not k numbers.
+#'   and `variance`. `variance` is the weighted mean of squared geodesic distances from the vertex
+#'   with the least sum, in the squared unit of the mesh. If several places have the least sum, one
+#'   of them is given.
+#' @section Errors: of class `crestline_error`: `points` is not a k x 3 matrix of numbers, or its
+#'   points are on separate pieces of the mesh; `weights` are negative, all 0, or not k numbers.
 #' @template glossary
 #' @templateVar where section 3
 #' @template paper

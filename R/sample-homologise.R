@@ -53,10 +53,10 @@
 #'   * `shapes`: named list of the slid shapes, as of [slide()], without their specimens;
 #'   * `template`: the `shape` against which they were slid. `slide(shape, template)` gives a slid
 #'     shape again;
-#'   * `convergence`: data frame with a row for each round: `round`, `movement` and `largest` (RMS
-#'     and largest movement of the template's points, unit of the mesh), `energy` (mean over
-#'     specimens of the sum over curves), `slide` (RMS distance that curve points have slid, unit of
-#'     the mesh);
+#'   * `convergence`: data frame with a row for each round; lengths in the unit of the mesh. Columns
+#'     are `round`, `movement` and `largest` (RMS and largest movement of the template's points),
+#'     `energy` (mean over specimens of the sum over curves), and `slide` (RMS distance that curve
+#'     points have slid);
 #'   * `missing`: data frame with a row for each specimen and part that has missing points: `id`,
 #'     `level`, `part`, `points` (their number);
 #'   * `provenance`: versions, scheme, specimens and settings, see [summary.shape_sample()].

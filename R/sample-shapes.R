@@ -400,9 +400,9 @@ failures <- function(x) {
 #' [specimen()] or [fit_shape()] gives its warnings at once, and stores none.
 #'
 #' @param x A `shape_batch`, as [fit_shapes()] returns it; a `shape`; or a list of shapes.
-#' @return Data frame with a row for each warning, those of failed specimens included: `id`, `stage`
-#'   (of the measurement), `class` (first class of the condition, such as `"crestline_mirrored"`),
-#'   `problem` (the warning), `remedy` ("" for a warning of another package).
+#' @return Data frame with a row for each warning, those of failed specimens included. Columns are
+#'   `id`, `stage` (of the measurement), `class` (first class of the condition, such as
+#'   `"crestline_mirrored"`), `problem`, and `remedy` ("" for a warning of another package).
 #' @section Errors: of class `crestline_error`: `x` has no shapes.
 #' @template glossary
 #' @seealso [failures()], [quality()]

@@ -12,8 +12,9 @@
 #'   positions. It so detects a specimen in another unit, and landmarks that are exchanged.
 #' @param curves Data frame with a row for each curve from one landmark to another:
 #'   * `curve` (its name, without square brackets, plus sign or vertical bar), `from`, `to`
-#'     (landmarks), `kind` ("ridge", "valley" or "plane": the shortest plane cut), `n` (number of
-#'     points at equal chords, both ends included);
+#'     (landmarks);
+#'   * `kind`: "ridge", "valley", or "plane" for the shortest plane cut;
+#'   * `n`: number of points at equal chords, both ends included;
 #'   * `radius` of the curvature and half `width` of the window, in the unit of the mesh; needed for
 #'     ridges and valleys;
 #'   * `cut_share`, `cut_from`, `cut_to`: only the part next to the end `to` is kept. Its arc length

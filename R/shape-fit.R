@@ -52,13 +52,14 @@
 #' @inheritParams curvature
 #' @return Object of class `shape`, a list:
 #'   * `id`: of the specimen;
-#'   * `points`: data frame with a row for each point, in the order of the scheme: `level`
-#'     ("landmarks", "curves", "surface"), `part`, `point` (text), `x`, `y`, `z`, `face`, `w1`,
-#'     `w2`, `w3` (all NA for a missing point), `se` (standard error across the curve, in the unit
-#'     of the mesh). `se` is NA for landmarks, plane curves and the insides of patches;
-#'   * `status`: data frame with a row for each landmark, curve and patch: `part`, `level`, `kind`
-#'     ("landmark", "ridge", "valley", "plane", "patch"), `ok` (TRUE if it has all its points),
-#'     `reason` (text; NA without a problem). For curves it has also
+#'   * `points`: data frame with a row for each point, in the order of the scheme. Columns:
+#'     * `level` ("landmarks", "curves", "surface"), `part`, `point` (text);
+#'     * `x`, `y`, `z`, `face`, `w1`, `w2`, `w3`: the place; NA for a missing point;
+#'     * `se`: standard error across the curve, in the unit of the mesh; NA for landmarks, plane
+#'       curves and the insides of patches;
+#'   * `status`: data frame with a row for each landmark, curve and patch. Columns are `part`,
+#'     `level`, `kind` ("landmark", "ridge", "valley", "plane", "patch"), `ok` (TRUE if it has all
+#'     its points), and `reason` (text; NA without a problem). For curves it has also
 #'     * `length`: after trimming, in the unit of the mesh;
 #'     * `strength`: mean strength before trimming, 1 / unit;
 #'     * `contrast`: strength over the mean strength beside the curve, in its window but farther
@@ -66,22 +67,29 @@
 #'     * `se`, `se_max`: median and largest standard error at its points, in the unit of the mesh;
 #'     * `competing`: criterion of the best other reference path, as a share of the chosen path's.
 #'       Near 1: a rival. NA: no other path;
-#'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Columns
-#'     are `part`, `level`, `missing` (share of the points), and
-#'     * curves: `determined` (see [ridge_curve()]; NA if the curve has no points besides
-#'       landmarks), `cut` (length of a trimmed curve as a share of the scheme's), `guessed` (TRUE
-#'       if a trimmed curve had to be directed or measured without one of its landmarks, see below),
-#'       `bridged` (share of the length that lies over holes);
-#'     * patches: `faults` (number of faults, see [surface_faults()]);
-#'     * curves and patches: `size` (length of a curve; for a patch the diameter of a disc whose
-#'       points are on average as far from their centroid), `roughness` (mean angle in degrees
-#'       between the normals of its triangles and those at their corners), `edge` (mean edge length
-#'       of its triangles), `border` (distance to the closest border that is not bridged; the ends
-#'       of a curve do not count), `spike` (distance within which there are four triangles with such
-#'       an angle above 30 degrees). Lengths are in the unit of the mesh; Inf if there is no border
-#'       or spike;
-#'     * landmarks: `state` and `confidence` (of [find_landmarks()]; NA for given landmarks),
-#'       `exchanged` (text: the landmark that it looks exchanged with);
+#'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Lengths are
+#'     in the unit of the mesh. Columns for all parts are `part`, `level` and `missing` (share of the
+#'     points). Columns for curves only:
+#'     * `determined`: see [ridge_curve()]; NA if the curve has no points besides landmarks;
+#'     * `cut`: length of a trimmed curve, as a share of the length in the scheme;
+#'     * `guessed`: TRUE if a trimmed curve had to be directed or measured without one of its
+#'       landmarks, see below;
+#'     * `bridged`: share of the length that lies over holes.
+#'
+#'     Columns for curves and patches:
+#'     * `size`: length of a curve; for a patch the diameter of a disc whose points are on average
+#'       as far from their centroid;
+#'     * `roughness`: mean angle in degrees between the normals of its triangles and those at their
+#'       corners;
+#'     * `edge`: mean edge length of its triangles;
+#'     * `border`: distance to the closest border that is not bridged, or Inf; the ends of a curve do
+#'       not count;
+#'     * `spike`: distance within which there are four triangles with such an angle above 30 degrees,
+#'       or Inf.
+#'
+#'     `faults` is the number of faults of a patch, see [surface_faults()]. Landmarks have `state` and
+#'     `confidence` (of [find_landmarks()]; NA for given landmarks), and `exchanged` (text: the
+#'     landmark that it looks exchanged with);
 #'   * `paths`: named list with the `mesh_path` of each curve, after trimming; over holes it is
 #'     straight from rim to rim. `NULL` for a curve that failed;
 #'   * `scheme`, its lengths in the unit of the mesh;

@@ -28,8 +28,8 @@
 #'   * `group`: patch or strip of every triangle, as in the scheme's `triangles`.
 #' @section Errors: of class `crestline_error`: the scheme has no such part, no triangle is left, or
 #'   `dense` is above 1 without a specimen. Warnings of class `crestline_warning` of a denser
-#'   surface give the number of triangles that are lost at holes of the specimen, and name the parts
-#'   with triangles that are turned over.
+#'   surface give the number of triangles that are lost at holes. They also name the parts with
+#'   triangles that are turned over.
 #' @template glossary
 #' @seealso [fit_shape()]; [write_mesh()] to save it
 #' @examples

@@ -185,10 +185,10 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #' @param ... Ignored.
 #' @return Object of class `crestline_summary`, a list:
 #'   * `lines`: the text (character);
-#'   * `provenance`: a list of `package` and `r` (versions) and, if the object has them, `scheme`
-#'     (`name`, `hash`, `unit`), `mesh` (`id`, `key`, `file`), `landmarks` (data frame `landmark`,
-#'     `how`, `file`, `time`), `template` (`id`, `hash`), `specimens` (data frame `id`, `file`,
-#'     `key`, `landmarks`) and `settings`.
+#'   * `provenance`: a list of `package` and `r` (versions). If the object has them, it also has
+#'     `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`, `file`), `template` (`id`, `hash`)
+#'     and `settings`, and the data frames `landmarks` (`landmark`, `how`, `file`, `time`) and
+#'     `specimens` (`id`, `file`, `key`, `landmarks`).
 #'
 #'   For a `shape_pca`: the summary of `prcomp`, with a field `provenance`.
 #' @template glossary

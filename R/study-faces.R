@@ -25,10 +25,10 @@
 #'   named number for each `part`. 0: no difference of shape.
 #' @param size_effect Difference of the groups' sizes as a share: 0.03 makes the second group 3 %
 #'   larger.
-#' @param places Data frame with a row for each bump: `part` (name), `x`, `y`, `z` (centre, moved to
-#'   the closest place of the template), `radius` (unit of the template), `share` (factor of
-#'   `effect`, with sign). Optional columns are `dx`, `dy`, `dz` (direction; without them outward
-#'   along the template's normal).
+#' @param places Data frame with a row for each bump. Columns are `part` (name), `x`, `y`, `z`
+#'   (centre, moved to the closest place of the template), `radius` (unit of the template), and
+#'   `share` (factor of `effect`, with sign). Optional columns are `dx`, `dy`, `dz` (direction;
+#'   without them outward along the template's normal).
 #' @param template A [specimen()] with landmarks; `NULL`: `humface` of the package Rvcg with the
 #'   landmarks of this package (left is the subject's own left). Another template needs `places` of
 #'   its own.

@@ -14,8 +14,9 @@
 #' [simulate_ridge()].
 #'
 #' The paper takes the mean Euclidean distance between 21 equally spaced points of both. It has 500
-#' simulations for each combination. Its ranges are 0 to 0.5 for `a` and `b`, 0 to 0.1 for the error
-#' of landmarks, 0.05 to 0.1 for the distance between vertices and 0 to 0.05 for noise.
+#' simulations for each combination. Its ranges are 0 to 0.5 for `a` and `b`, and 0 to 0.1 for the
+#' error of landmarks. For the distance between vertices they are 0.05 to 0.1, and for noise 0 to
+#' 0.05.
 #'
 #' With the packages future and progressr it runs in parallel by the user's plan, as [fit_shapes()]
 #' does. Surfaces depend on their seeds only. Results therefore do not depend on the number of

@@ -54,9 +54,9 @@
 #' @param curves Points of curves after the first step. `"free"`: they slide over the mesh together
 #'   with those of patches. `"held"`: they stay on their curves (the paper), and `surface`,
 #'   `surface_energy` and `surface_nugget` apply to the patches.
-#' @param range,rough Constants of the joint step's energy, see Details: h, in radii (85 mm on a
-#'   face), of the smooth part, and c, the weight of the rough part, which is that of the thin-plate
-#'   spline.
+#' @param range,rough Constants of the joint step's energy, see Details. `range` is h of the smooth
+#'   part, in radii (85 mm on a face). `rough` is c, the weight of the rough part, which is that of
+#'   the thin-plate spline.
 #' @param joint_nugget Nugget of curve and surface points in the joint step, in units of its kernel,
 #'   1 at r = 0.
 #' @param placed_nugget,found_nugget,doubtful_nugget Nuggets in the joint step, in the same unit, of
@@ -70,8 +70,9 @@
 #' @param reach Distance, in standard errors (`floor` included), from which on a curve does not
 #'   attract a point (Tukey's biweight).
 #' @param relaxation Factor on every step towards a point's minimiser (1: exact; less than 2).
-#' @param halvings Greatest number of halvings of a step that would raise the sum, or would bring a
-#'   point too close to its neighbour (closer than `gap` times their distance in the warp).
+#' @param halvings Greatest number of halvings of a step. A step is halved if it would raise the
+#'   sum, or bring a point too close to its neighbour: closer than `gap` times their distance in the
+#'   warp.
 #' @param joint_tolerance,joint_sweeps The joint step ends when the root mean square step of a sweep
 #'   is below `joint_tolerance`, in radii. `joint_sweeps` is the greatest number of sweeps.
 #' @return List of class `slide_settings`.

@@ -36,19 +36,19 @@
 #' @param specimen The [specimen()] that the shape was measured on.
 #' @return The `shape` with slid points (`se` is interpolated along the curve), and
 #'   * column `offset` of `points`, after the joint step: distance of a curve's point from the
-#'     measured curve, across it, positive to the curve's left as seen from outside; in the unit of
-#'     the mesh; NA for landmarks and insides of patches;
+#'     measured curve, across it, in the unit of the mesh. It is positive to the curve's left as
+#'     seen from outside, and NA for landmarks and insides of patches;
 #'   * column `offset` of `checks`, after the joint step: its root mean square over each curve, in
 #'     radii of the template;
 #'   * `sliding`: data frame with a row for each set of points that share an energy. Columns: `part`
 #'     (the curve, "curves", "joint", "surface", or the patch), `level`, `points` (number of sliding
-#'     points), `sweeps`, `converged`, `energy_before` and `energy_after` (unit of the mesh; for the
-#'     joint step, squared), `longest` (largest distance that a point has slid, in the unit of the
-#'     mesh). `longest` is taken along the curve or straight; in the joint step, from the point's
-#'     place on its curve or patch;
-#'   * `trace`: list with a data frame for each of these parts: `sweep` (0: the start), `energy`,
-#'     `strain` (for the joint step, the attraction of the curves), `longest` (largest slide of that
-#'     sweep).
+#'     points), `sweeps`, `converged`, `energy_before`, `energy_after`, `longest` (largest distance
+#'     that a point has slid). Energies are in the unit of the mesh (squared for the joint step),
+#'     distances too. `longest` is taken along the curve or straight; in the joint step, from the
+#'     point's place on its curve or patch;
+#'   * `trace`: list with a data frame for each of these parts. Columns are `sweep` (0: the start),
+#'     `energy`, `strain` (for the joint step, the attraction of the curves), and `longest` (largest
+#'     slide of that sweep).
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or the shape has
 #'   no specimen and none is given. Of class `crestline_wrong_mesh`: the specimen has another mesh
 #'   than the shape.

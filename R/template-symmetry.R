@@ -53,10 +53,10 @@ symmetrise <- function(shape, off_middle = 0.1) {
 #' @rdname symmetrise
 #' @param by "part": a row for each part; "point": a row for each point.
 #' @return `asymmetry()`: data frame with `level` ("overall", "landmarks", "curves", "surface"),
-#'   `part` (landmark, curve, patch), `points` (their number; coinciding points count once), `rms`
-#'   and `largest` (in the unit of the mesh; NA if no point has a partner). With `by = "point"`:
-#'   `level`, `part`, `point`, `distance` and its components `dx`, `dy`, `dz` along the shape's
-#'   axes, in the unit of the mesh.
+#'   `part`, `points` (their number; coinciding points count once), `rms` and `largest`. Both are in
+#'   the unit of the mesh, and NA if no point has a partner. With `by = "point"`: `level`, `part`,
+#'   `point`, `distance` and its components `dx`, `dy`, `dz` along the shape's axes, in the unit of
+#'   the mesh.
 #' @export
 asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
   check_given()
