@@ -21,10 +21,10 @@
 #'   it is scaled by the factor that brings it closest to the mean (full Procrustes). `FALSE`: sizes
 #'   are kept, for size and shape together.
 #' @param weights Weights of the points (no unit). `NULL`: all points have equal weights. "area":
-#'   the weight is the area of the surface nearest to the point, a third of the area of its triangles on
-#'   the mean. This needs level "surface" or "model", or `triangles`; points without triangles have
-#'   no weight. "places": points that coincide, such as the common end of two curves, count as one.
-#'   Or k numbers of at least 0.
+#'   the weight is the area of the surface nearest to the point, a third of the area of its
+#'   triangles on the mean. This needs level "surface" or "model", or `triangles`; points without
+#'   triangles have no weight. "places": points that coincide, such as the common end of two curves,
+#'   count as one. Or k numbers of at least 0.
 #' @param missing Treatment of missing points: "estimate", "drop" or "stop" (an error).
 #' @param tangent TRUE: scaled configurations are projected onto the tangent space of the shape
 #'   space at the mean.

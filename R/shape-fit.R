@@ -67,9 +67,9 @@
 #'     * `se`, `se_max`: median and largest standard error at its points, in the unit of the mesh;
 #'     * `competing`: criterion of the best other reference path, as a share of the chosen path's.
 #'       Near 1: a rival. NA: no other path;
-#'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Lengths are
-#'     in the unit of the mesh. Columns for all parts are `part`, `level` and `missing` (share of the
-#'     points). Columns for curves only:
+#'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Lengths
+#'     are in the unit of the mesh. Columns for all parts are `part`, `level` and `missing` (share
+#'     of the points). Columns for curves only:
 #'     * `determined`: see [ridge_curve()]; NA if the curve has no points besides landmarks;
 #'     * `cut`: length of a trimmed curve, as a share of the length in the scheme;
 #'     * `guessed`: TRUE if a trimmed curve had to be directed or measured without one of its
@@ -82,13 +82,13 @@
 #'     * `roughness`: mean angle in degrees between the normals of its triangles and those at their
 #'       corners;
 #'     * `edge`: mean edge length of its triangles;
-#'     * `border`: distance to the closest border that is not bridged, or Inf; the ends of a curve do
-#'       not count;
-#'     * `spike`: distance within which there are four triangles with such an angle above 30 degrees,
-#'       or Inf.
+#'     * `border`: distance to the closest border that is not bridged, or Inf; the ends of a curve
+#'       do not count;
+#'     * `spike`: distance within which there are four triangles with such an angle above 30
+#'       degrees, or Inf.
 #'
-#'     `faults` is the number of faults of a patch, see [surface_faults()]. Landmarks have `state` and
-#'     `confidence` (of [find_landmarks()]; NA for given landmarks), and `exchanged` (text: the
+#'     `faults` is the number of faults of a patch, see [surface_faults()]. Landmarks have `state`
+#'     and `confidence` (of [find_landmarks()]; NA for given landmarks), and `exchanged` (text: the
 #'     landmark that it looks exchanged with);
 #'   * `paths`: named list with the `mesh_path` of each curve, after trimming; over holes it is
 #'     straight from rim to rim. `NULL` for a curve that failed;
