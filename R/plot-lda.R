@@ -2,21 +2,22 @@
 
 #' Plot a discriminant analysis
 #'
-#' Draws the scores of the specimens on the discriminants, by group. The discriminants have seen
-#' these specimens, so that groups look better apart than new specimens would be. Specimens that
-#' were assigned to a wrong group when they were left out are ringed, and the title has their share.
+#' Draws the scores of the specimens on the discriminants, by group. The discriminants were fitted
+#' to these specimens, so groups look better separated than new specimens would be. Specimens that
+#' cross-validation assigns to a wrong group are ringed. The title has the share of correct
+#' assignments.
 #'
 #' @param x A `shape_lda`, as [shape_lda()] returns it.
-#' @param component Numbers of discriminants: two, drawn against each other, or one, drawn by group.
-#'   By default the first two; the only one with two groups.
+#' @param component Numbers of discriminants: two are drawn against each other, one is drawn by
+#'   group. NULL: the first two; with two groups the only one.
 #' @param colour Colours of the groups.
 #' @param labels Whether to write the names of the specimens.
-#' @param ellipse As in [plot.shape_pca()]; not with one discriminant.
-#' @param main Title; `NULL` for the share that was right.
+#' @param ellipse As in [plot.shape_pca()]. Not used for one discriminant.
+#' @param main Title. `NULL`: the share of correct assignments.
 #' @param ... Passed to [graphics::plot.default()], or to [graphics::boxplot()] with one
 #'   discriminant.
 #' @return The scores that are drawn, invisibly.
-#' @section Errors: of class `crestline_error`: no such discriminant.
+#' @section Errors: of class `crestline_error`: there is no such discriminant.
 #' @template glossary
 #' @seealso [shape_lda()]
 #' @examples

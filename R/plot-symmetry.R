@@ -3,17 +3,17 @@
 #' Plot the symmetric and the asymmetric part of a sample
 #'
 #' @param x A `symmetry_parts`, as [symmetry_parts()] returns it.
-#' @param what "directional": the mean asymmetry, as colours on the symmetric mean; on a surface how
-#'   far the mean shape lies outside the symmetric one along its normal, outward positive, elsewhere
-#'   the distance. "symmetric", "asymmetric": root mean square displacement of the specimens' parts
-#'   from their own mean, so that the asymmetric map shows fluctuating asymmetry.
-#' @param level Level; the first with triangles, if there is one.
-#' @param limits,palette Range of the colours in the unit of the meshes, and colours.
+#' @param what Kind of map on the symmetric mean. "directional": the mean asymmetry. On a surface it
+#'   is the distance of the mean shape from the symmetric mean along the normal, outward positive;
+#'   without triangles the distance. "symmetric", "asymmetric": root mean square displacement of the
+#'   specimens' parts from their own mean. The asymmetric map shows fluctuating asymmetry.
+#' @param level Level. NULL: the first with triangles, if there is one, else the first.
+#' @param limits,palette Range of the colours (two numbers, in the unit of the meshes), and colours.
 #' @param engine,view,legend,main,... As in [plot.group_comparison()].
-#' @param length_unit Unit of lengths, for the legend.
-#' @return The scene of [draw_surface()], or a data frame of the points that are drawn where there
-#'   are no triangles; invisibly.
-#' @section Errors: of class `crestline_error`: no such level.
+#' @param length_unit Name of the unit of lengths, for the legend.
+#' @return Invisibly: the scene of [draw_surface()], or without triangles a data frame of the drawn
+#'   points.
+#' @section Errors: of class `crestline_error`: there is no such level.
 #' @template glossary
 #' @seealso [symmetry_parts()], [plot.group_comparison()]
 #' @examples

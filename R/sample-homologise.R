@@ -23,8 +23,7 @@
 #' If the scheme has left-right pairs, the template is made symmetric in every round
 #' ([symmetrise()]).
 #'
-#' Parts that [quality()] grades red are used like all others. Look at them first. Correct their
-#' landmarks and measure them again, leave the specimen out, or take a scheme without the part.
+#' Look at parts that [quality()] grades red first, see `red`.
 #'
 #' @param shapes List of `shape`s of one scheme with different `id`s, as [fit_shape()] returns them,
 #'   or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. For a batch in files one
@@ -41,14 +40,13 @@
 #' @param rounds Greatest number of rounds. 0: the shapes slide against the given template, which is
 #'   not changed. Use 0 for new specimens of an old sample.
 #' @param progress Whether to show a progress bar.
-#' @param red What is done with parts that [quality()] grades red. A part that is red only because
-#'   points are missing is used with the points that it has. "warn":
-#'   they are used as they are, and a warning names the parts and their specimens. "leave out": they
-#'   are made missing before anything slides. With a curve go the patch points that depend on it;
-#'   the landmarks at its ends stay. `status` of each shape then gives the reason, and `missing` of
-#'   the sample the number of points. [align()] estimates missing points or drops them. "keep": they
-#'   are used without a warning.
-#' @param limits [quality_limits()], which decide what is red.
+#' @param red Treatment of parts that [quality()] grades red. "warn": they are used, and a warning
+#'   names the parts and their specimens. "keep": they are used without a warning. "leave out":
+#'   their points are missing from the start. So are the patch points that depend on a red curve;
+#'   the landmarks at its ends are used. `status` of each shape then gives the reason, and `missing`
+#'   of the sample the number of points. [align()] estimates missing points or drops them. A part
+#'   that is red only because points are missing is used with the points that it has.
+#' @param limits [quality_limits()] by which parts are red.
 #' @return Object of class `shape_sample`, a list:
 #'   * `shapes`: named list of the slid shapes, as of [slide()], without their specimens;
 #'   * `template`: the `shape` against which they were slid. `slide(shape, template)` gives a slid

@@ -3,9 +3,10 @@
 #' Write a scheme to a folder
 #'
 #' @param scheme A [curve_scheme()].
-#' @param dir Folder; it is made where there is none. Its tables of a scheme are replaced.
-#' @return `dir`, invisibly. [read_scheme()] of it gives the scheme again, number by number.
-#' @section Errors: of class `crestline_error`, when the folder or a file cannot be written.
+#' @param dir Path of the folder; it is created if it does not exist. Tables of a scheme in it are
+#'   replaced.
+#' @return `dir`, invisibly. `read_scheme(dir)` gives the same scheme, with the same numbers.
+#' @section Errors: of class `crestline_error`: the folder or a file cannot be written.
 #' @template glossary
 #' @seealso [read_scheme()], [learn_tracks()]
 #' @examples

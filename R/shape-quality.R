@@ -17,24 +17,20 @@
 #' exchanged with another. If most found landmarks have little confidence, nothing is green.
 #' [crestline-package] has a glossary.
 #'
-#' What to do: look at every red part, and at amber parts that matter to you, with `plot(shape,
-#' specimen)` or [quality_report()]. A wrong landmark is moved ([review_landmarks()], or
-#' `specimen$landmarks`), and the specimen is measured again. If trimmed curves are too short on
-#' many scans, measure all specimens with one smaller `cut_scale`, see [fit_shape()]. A part that
-#' stays red is left out: drop the specimen, or set its points to NA. No later step reads the
-#' grades.
-#'
 #' `quality()` does not detect a wrong landmark that was placed by hand, unless lengths, symmetry or
 #' the order of landmarks show it. It does not detect a smooth error of the scan. A curve along the
 #' wrong feature can be detected in a sample of [homologise()], and in a shape of [slide()]. There a
 #' curve is amber if its homologous points lie far beside it (limit `offset`).
 #'
-#' @section What to do with amber and red parts: Look at the part in a picture, such as of
-#'   [quality_report()]. Move its landmarks if they are wrong, clean the mesh if it is, and fit the
+#' @section What to do with amber and red parts: Look at the part in a picture, such as those of
+#'   [quality_report()] or `plot(shape, specimen)`. Move its landmarks if they are wrong
+#'   ([review_landmarks()], or `specimen$landmarks`), clean the mesh if it is at fault, and fit the
 #'   shape again. A part that is still red is better left out. `homologise(red = "leave out")` makes
 #'   it missing in that specimen. For one shape, use the rows of `as.data.frame(shape)` whose `part`
 #'   and `level` are not red. Leave out a curve of all specimens if it is red in most, or measure it
-#'   as a "plane" curve (`kind` of [curve_scheme()]). Use an amber part if the picture is right.
+#'   as a "plane" curve (`kind` of [curve_scheme()]). Use an amber part if the picture is right. If
+#'   trimmed curves are too short on many scans, measure all specimens with one smaller `cut_scale`,
+#'   see [fit_shape()].
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of shapes. Names of the list, if any,
 #'   name the specimens. `NULL` in the list stands for a specimen that could not be measured.
 #' @param limits [quality_limits()].

@@ -1,34 +1,37 @@
 # Where the curves of a scheme are expected, learnt from specimens that are measured already.
 
-#' Learn where curves run, from specimens measured already
+#' Learn the expected tracks of curves from measured specimens
 #'
-#' A ridge may compete with another feature that is nearly as strong. Specimens measured already
-#' show where a curve runs. `learn_tracks()` takes, for every ridge and valley of a scheme, the
-#' median place of its curve at shares of its length, and the spread of the curves across it, and
-#' writes both into the scheme. [fit_shape()] with that scheme uses them twice:
+#' A ridge may compete with another feature that is nearly as strong. Measured specimens show the
+#' usual track of a curve. For every ridge and valley of a scheme, `learn_tracks()` takes the median
+#' place of its curve at shares of its length, and the spread of the curves across it. Both are
+#' written into the scheme. [fit_shape()] with that scheme uses them twice:
 #'
-#' * as a weak prior on the reference path: a plane that is z spreads off the expected places counts
-#'   \eqn{\exp(-z^2 / 32)}{exp(-z^2 / 32)} as much (0.6 at four spreads), beyond what the nearest
-#'   plane is off;
-#' * as a flag: [quality()] grades a curve amber that leaves its expected track by more than four
-#'   spreads at one place (limit `track` of [quality_limits()]).
+#' * as a weak prior on the reference path. The criterion of a plane that is z spreads off the
+#'   expected places is multiplied by \eqn{\exp(-z^2 / 32)}{exp(-z^2 / 32)} (0.6 at four spreads).
+#'   The distance of the closest plane is subtracted first;
+#' * as a flag. [quality()] grades a curve amber if it is more than four spreads off its expected
+#'   track at one place (limit `track` of [quality_limits()]).
 #'
-#' Medians and median absolute deviations are taken, so that a few wrong curves among the specimens
-#' do no harm. Look at the specimens all the same ([quality()]). The specimens should vary as those
-#' that are to be measured: [face_scheme()] has no tracks, since we have no population of scans that
-#' stands for all. Nothing changes with a scheme without tracks.
+#' Medians and median absolute deviations are taken, so a few wrong curves do no harm. Look at the
+#' specimens nevertheless ([quality()]). They should vary like the specimens that you will measure.
+#' [face_scheme()] has no tracks, as we have no representative population of scans. A scheme without
+#' tracks works as before.
 #'
 #' @param shapes List of shapes of one scheme, as [fit_shape()] returns them, with their specimens;
-#'   also a `shape_batch`.
-#' @param fewest A curve has no track where fewer shapes than this have the curve (our choice).
-#' @param least Least spread, in radii of the curve's curvature estimate, so that a sample of nearly
-#'   equal specimens flags nobody (our choice).
+#'   or a `shape_batch`.
+#' @param fewest Least number of shapes that have a curve; with fewer the curve gets no track (our
+#'   choice).
+#' @param least Least spread, in radii of the curve's curvature estimate. It avoids flags in a
+#'   sample of nearly equal specimens (our choice).
 #' @param places Number of places along a curve (our choice).
-#' @return The scheme of the shapes, a [curve_scheme()], in its own unit, with the table `tracks`;
-#'   write it with [write_scheme()].
-#' @section Errors: of class `crestline_error`, when `shapes` holds no shapes or shapes of several
-#'   schemes, when a shape does not keep its specimen, when the scheme lacks typical places (`x`,
-#'   `y`, `z`) of its landmarks, and when no curve is there on `fewest` shapes.
+#' @return The scheme of the shapes, a [curve_scheme()], in its own unit, with the table `tracks`.
+#'   [write_scheme()] writes it to a folder.
+#' @section Errors: of class `crestline_error`:
+#'   * `shapes` has no shapes, or shapes of several schemes;
+#'   * a shape has no specimen;
+#'   * the scheme lacks typical places (`x`, `y`, `z`) of its landmarks;
+#'   * no curve is on at least `fewest` shapes.
 #' @template glossary
 #' @seealso [fit_shape()], [quality()], [curve_scheme()] for the table
 #' @examples
