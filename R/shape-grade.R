@@ -41,7 +41,7 @@ judge_parts <- function(parts, limits, scheme) {
   value$z <- abs(parts$z)
   said <- said_of_parts(value, parts$z, scheme)
   of_free <- c("se", "se_max", "competing", "contrast", "coarse")
-  value[!parts$free, of_free] <- NA
+  value[!parts$free %in% TRUE, of_free] <- NA
   value$coarse[!parts$kind %in% c("ridge", "valley")] <- NA
   judge <- function(name) {
     list(level = level_beyond(value[[name]], limits[[name]], name %in% small_is_bad),
