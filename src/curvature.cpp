@@ -39,7 +39,7 @@ bool is_unit(const double* normal) {
 
 // The targets of a cell, each fitted and handed on.
 template <class Use>
-void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
+void fit_cell(const ConnectedBalls& balls, int cell, const Triangulation& mesh,
               const std::vector<int>& targets, const std::vector<double>& normals,
               const FitSettings& settings, ConnectedBalls::Workspace& space, FitBuffer& buffer,
               Patience& patience, int thread, Use&& use) {
@@ -49,7 +49,7 @@ void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
     LocalFit fit;
     fit.neighbours = static_cast<int>(w.selected.size());
     if (is_unit(&normals[3 * v]))
-      fit = fit_surface(mesh.xyz + 3 * v, &normals[3 * v], w.x.data(), w.y.data(), w.z.data(),
+      fit = fit_surface(mesh.vb + 3 * v, &normals[3 * v], w.x.data(), w.y.data(), w.z.data(),
                         w.selected.data(), fit.neighbours, settings, buffer);
     use(t, fit, w);
     return true;
@@ -58,7 +58,7 @@ void fit_cell(const ConnectedBalls& balls, int cell, const MeshView& mesh,
 
 }  // namespace
 
-Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
+Curvature curvature(const Triangulation& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between) {
   std::size_t count = targets.size();
@@ -68,9 +68,9 @@ Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
   out.order.assign(count, 0);
   out.neighbours.assign(count, 0);
   if (targets.empty()) return out;
-  VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0);
-  ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
+  VertexGraph graph = vertex_graph(mesh);
+  std::vector<double> normals = vertex_normals(mesh);
+  ConnectedBalls balls(mesh.vb, mesh.n, graph, settings.radius, targets);
   int cells = balls.cells();
   Patience patience(between);
   std::vector<ConnectedBalls::Workspace> spaces(threads, balls.workspace());
@@ -107,13 +107,13 @@ struct Responses {
   std::vector<double> own;                      // sum of squares of the curvatures' own responses
 };
 
-Responses responses(const MeshView& mesh, const std::vector<int>& targets, const double* directions,
+Responses responses(const Triangulation& mesh, const std::vector<int>& targets, const double* directions,
                     const double* design, int functions, const FitSettings& settings,
                     const std::function<void()>& between) {
-  VertexGraph graph = vertex_graph(mesh.it, mesh.m, mesh.n);
-  std::vector<double> normals = vertex_normals(mesh.xyz, 3, mesh.n, mesh.it, mesh.m, 0), derivative,
+  VertexGraph graph = vertex_graph(mesh);
+  std::vector<double> normals = vertex_normals(mesh), derivative,
                       total;
-  ConnectedBalls balls(mesh.xyz, mesh.n, graph, settings.radius, targets);
+  ConnectedBalls balls(mesh.vb, mesh.n, graph, settings.radius, targets);
   ConnectedBalls::Workspace space = balls.workspace();
   FitBuffer buffer;
   Patience patience(between);
@@ -187,7 +187,7 @@ void visit_near(const std::vector<double>& xyz, double reach, const std::functio
 
 }  // namespace
 
-CurvatureCovariance curvature_covariance(const MeshView& mesh, const std::vector<int>& targets,
+CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::vector<int>& targets,
                                          const double* directions, const double* design,
                                          int functions, const HeightNoise& noise,
                                          const FitSettings& settings,
@@ -209,7 +209,7 @@ CurvatureCovariance curvature_covariance(const MeshView& mesh, const std::vector
     for (std::size_t q = 0; q < p; ++q) out.matrix[size * p + q] = out.matrix[size * q + p];
   if (noise.smooth == 0 || noise.range == 0) return out;
   std::vector<double> xyz;
-  for (int v : r.vertex) xyz.insert(xyz.end(), mesh.xyz + 3 * v, mesh.xyz + 3 * v + 3);
+  for (int v : r.vertex) xyz.insert(xyz.end(), mesh.vb + 3 * v, mesh.vb + 3 * v + 3);
   std::vector<double> sum(size);
   double variance = noise.smooth * noise.smooth, scale = -1 / (2 * noise.range * noise.range);
   int last = -1;

@@ -5,6 +5,7 @@
 
 #include "curvature_fit.h"
 #include "mesh_neighbours.h"
+#include "mesh_view.h"
 
 namespace crestline {
 
@@ -13,16 +14,8 @@ struct Curvature {  // one entry (or three) a target; NaN where there is no fit
   std::vector<int> order, neighbours;
 };
 
-// A triangulation as it comes from R, counted from 0.
-struct MeshView {
-  const double* xyz;  // 3 x n
-  int n;
-  const int* it;      // 3 x m
-  int m;
-};
-
-// `between` is called on the calling thread every tenth of a second: it may throw to interrupt.
-Curvature curvature(const MeshView& mesh, const std::vector<int>& targets,
+// The mesh has three rows. `between` is called on the calling thread every tenth of a second: it may throw to interrupt.
+Curvature curvature(const Triangulation& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between);
 
@@ -41,7 +34,7 @@ struct CurvatureCovariance {
 // Covariance of linear functions X' k of the normal curvatures k at the targets, when the vertices have errors:
 // curvatures of near targets share vertices. directions: 3 x targets, the tangent directions of the normal
 // curvatures; design: targets x functions, column major, mostly zeros.
-CurvatureCovariance curvature_covariance(const MeshView& mesh, const std::vector<int>& targets,
+CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::vector<int>& targets,
                                          const double* directions, const double* design,
                                          int functions, const HeightNoise& noise,
                                          const FitSettings& settings,

@@ -65,27 +65,21 @@ crestline::FitSettings fit_settings(const List& s) {
   return out;
 }
 
-// The part of a mesh that the balls about the targets reach.
-crestline::Crop crop(const NumericMatrix& vb, const IntegerMatrix& it, const IntegerVector& targets,
-                     double radius) {
-  return crestline::crop_mesh(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(),
-                              from_zero(targets), radius);
-}
-
-crestline::MeshView view(const crestline::Crop& crop) {
-  return {crop.xyz.data(), static_cast<int>(crop.vertex.size()), crop.it.data(),
-          static_cast<int>(crop.it.size() / 3)};
-}
-
 // vb has three rows or more, the first three x, y, z.
 crestline::Triangulation triangulation(const NumericMatrix& vb, const IntegerMatrix& it,
                                        const IntegerMatrix& twin) {
-  return {vb.begin(), vb.nrow(), it.begin(), twin.begin(), it.ncol()};
+  return {vb.begin(), vb.nrow(), vb.ncol(), it.begin(), twin.begin(), it.ncol(), 1};
 }
 
 // For what does not walk over edges.
 crestline::Triangulation triangulation(const NumericMatrix& vb, const IntegerMatrix& it) {
-  return {vb.begin(), vb.nrow(), it.begin(), nullptr, it.ncol()};
+  return {vb.begin(), vb.nrow(), vb.ncol(), it.begin(), nullptr, it.ncol(), 1};
+}
+
+// The part of a mesh that the balls about the targets reach.
+crestline::Crop crop(const NumericMatrix& vb, const IntegerMatrix& it, const IntegerVector& targets,
+                     double radius) {
+  return crestline::crop_mesh(triangulation(vb, it), from_zero(targets), radius);
 }
 
 // (face, w1, w2, w3), the face counted from 1.
@@ -206,7 +200,7 @@ List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, Li
                    int threads) {
   crestline::FitSettings fit = fit_settings(settings);
   crestline::Crop near = crop(vb, it, targets, fit.radius);
-  crestline::Curvature c = crestline::curvature(view(near), near.local, fit, threads,
+  crestline::Curvature c = crestline::curvature(view_of(near), near.local, fit, threads,
                                                 [] { checkUserInterrupt(); });
   return List::create(_["k1"] = c.k1, _["k2"] = c.k2, _["direction1"] = as_rows(c.direction1),
                       _["direction2"] = as_rows(c.direction2), _["normal"] = as_rows(c.normal),
@@ -224,7 +218,7 @@ List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector 
   for (int v : near.vertex) near_sigma.push_back(sigma[v]);
   int size = design.ncol();
   crestline::CurvatureCovariance c = crestline::curvature_covariance(
-      view(near), near.local, directions.begin(), design.begin(), size, {near_sigma.data(), smooth, range}, fit,
+      view_of(near), near.local, directions.begin(), design.begin(), size, {near_sigma.data(), smooth, range}, fit,
       [] { checkUserInterrupt(); });
   return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
 }
@@ -471,7 +465,7 @@ List cpp_fit_columns(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Num
 
 // [[Rcpp::export]]
 NumericVector cpp_face_bend(NumericMatrix vb, NumericMatrix normals, IntegerMatrix it) {
-  return wrap(crestline::face_bend(vb.begin(), normals.begin(), vb.nrow(), it.begin(), it.ncol()));
+  return wrap(crestline::face_bend(triangulation(vb, it), normals.begin()));
 }
 
 // Bytes from the system's random numbers, for a secret; R's own are not touched.
@@ -485,7 +479,7 @@ RawVector cpp_random_bytes(int n) {
 
 // [[Rcpp::export]]
 double cpp_half_area_radius(NumericMatrix vb, IntegerMatrix it, LogicalVector used, double cap, int steps) {
-  return crestline::half_area_radius(vb.begin(), vb.nrow(), it.begin(), it.ncol(), used.begin(), cap, steps);
+  return crestline::half_area_radius(triangulation(vb, it), used.begin(), cap, steps);
 }
 
 // [[Rcpp::export]]
@@ -503,8 +497,8 @@ List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatri
 // [[Rcpp::export]]
 LogicalVector cpp_joined_to(IntegerMatrix it, LogicalVector member, IntegerVector seeds) {
   std::vector<char> marked(member.begin(), member.end());
-  std::vector<char> joined =
-      crestline::joined_to(it.begin(), it.ncol(), marked, from_zero(seeds));
+  crestline::Triangulation mesh{nullptr, 0, static_cast<int>(member.size()), it.begin(), nullptr, it.ncol(), 1};
+  std::vector<char> joined = crestline::joined_to(mesh, marked, from_zero(seeds));
   return LogicalVector(joined.begin(), joined.end());
 }
 
@@ -560,7 +554,7 @@ List cpp_slide_on_mesh(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, N
 List cpp_slide_jointly(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericMatrix b, NumericMatrix x,
                        NumericMatrix rows, NumericMatrix places, List settings) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
-  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  std::vector<double> normals = crestline::vertex_normals(triangulation(vb, it));
   NumericMatrix moved = clone(x), out(rows.nrow(), 7);
   std::vector<crestline::JointPoint> points(rows.nrow());
   std::vector<crestline::SurfacePoint> at;
@@ -747,13 +741,13 @@ NumericMatrix cpp_warp_gram(List basis, IntegerVector used, NumericMatrix normal
 // [[Rcpp::export]]
 NumericMatrix cpp_face_normals(NumericMatrix vb, IntegerMatrix it) {
   NumericMatrix out(it.ncol(), 3);
-  crestline::face_normals(vb.begin(), vb.nrow(), it.begin(), it.ncol(), 1, out.begin());
+  crestline::face_normals(triangulation(vb, it), out.begin());
   return out;
 }
 
 // [[Rcpp::export]]
 NumericMatrix cpp_vertex_normals(NumericMatrix vb, IntegerMatrix it) {
-  std::vector<double> normals = crestline::vertex_normals(vb.begin(), vb.nrow(), vb.ncol(), it.begin(), it.ncol(), 1);
+  std::vector<double> normals = crestline::vertex_normals(triangulation(vb, it));
   NumericMatrix out(4, vb.ncol());
   for (int v = 0; v < vb.ncol(); ++v) {
     for (int i = 0; i < 3; ++i) out(i, v) = normals[3 * static_cast<std::size_t>(v) + i];

@@ -8,14 +8,14 @@
 
 namespace crestline {
 
-std::vector<double> face_bend(const double* vb, const double* normals, int rows, const int* it,
-                              int m) {
+std::vector<double> face_bend(const Triangulation& mesh, const double* normals) {
   const double degrees = 180 / std::acos(-1.0);
-  std::vector<double> bend(m, 0.0);
-  for (int f = 0; f < m; ++f) {
-    const int* v = it + 3 * static_cast<std::size_t>(f);
+  const double* vb = mesh.vb;
+  std::vector<double> bend(mesh.m, 0.0);
+  for (int f = 0; f < mesh.m; ++f) {
     std::size_t at[3];
-    for (int c = 0; c < 3; ++c) at[c] = rows * static_cast<std::size_t>(v[c] - 1);
+    for (int c = 0; c < 3; ++c)
+      at[c] = mesh.rows * static_cast<std::size_t>(vertex_at(mesh, 3 * f + c));
     double own[3], mean[3];
     triangle_normal(vb + at[0], vb + at[1], vb + at[2], own);
     for (int i = 0; i < 3; ++i)

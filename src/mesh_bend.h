@@ -3,12 +3,12 @@
 #pragma once
 #include <vector>
 
+#include "mesh_view.h"
+
 namespace crestline {
 
 // Angle in degrees between every triangle's normal and the mean of those at its corners; 0 where
-// either has no length. vb, normals: rows x n, the first three of each column x, y, z; it: 3 x m,
-// from 1.
-std::vector<double> face_bend(const double* vb, const double* normals, int rows, const int* it,
-                              int m);
+// either has no length. normals: as the mesh's vb.
+std::vector<double> face_bend(const Triangulation& mesh, const double* normals);
 
 }  // namespace crestline

@@ -2,6 +2,8 @@
 #pragma once
 #include <vector>
 
+#include "mesh_view.h"
+
 namespace crestline {
 
 // Vertices in a box, from 0, in the order of the mesh. vb: rows x n, the first three of each column
@@ -17,9 +19,10 @@ struct Crop {
 };
 
 // Every triangle with a corner within `margin` of the box about the wanted vertices, along each
-// axis. vb: rows x n, the first three of each column x, y, z; it: 3 x m, corners from 1; wanted:
-// from 0.
-Crop crop_mesh(const double* vb, int rows, int n, const int* it, int m,
-               const std::vector<int>& wanted, double margin);
+// axis.
+Crop crop_mesh(const Triangulation& mesh, const std::vector<int>& wanted, double margin);
+
+// The part as a mesh; it holds as long as the crop does.
+Triangulation view_of(const Crop& crop);
 
 }  // namespace crestline

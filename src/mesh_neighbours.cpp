@@ -18,18 +18,18 @@ double squared(const double* p, const double* q) {
 
 }  // namespace
 
-VertexGraph vertex_graph(const int* it, int m, int n) {
+VertexGraph vertex_graph(const Triangulation& mesh) {
+  const int n = mesh.n;
   VertexGraph g;
   std::vector<int> count(n + 1, 0);
-  for (int h = 0; h < 3 * m; ++h) count[it[h] + 1] += 2;
+  for (int h = 0; h < 3 * mesh.m; ++h) count[vertex_at(mesh, h) + 1] += 2;
   for (int v = 0; v < n; ++v) count[v + 1] += count[v];
   std::vector<int> all(count[n]), at(count.begin(), count.end() - 1);
-  for (int f = 0; f < m; ++f)
-    for (int c = 0; c < 3; ++c) {
-      int v = it[3 * f + c];
-      all[at[v]++] = it[3 * f + (c + 1) % 3];
-      all[at[v]++] = it[3 * f + (c + 2) % 3];
-    }
+  for (int h = 0; h < 3 * mesh.m; ++h) {
+    int v = vertex_at(mesh, h), next = next_half_edge(h);
+    all[at[v]++] = vertex_at(mesh, next);
+    all[at[v]++] = vertex_at(mesh, next_half_edge(next));
+  }
   g.start.assign(n + 1, 0);
   g.neighbour.reserve(all.size() / 2 + n);
   for (int v = 0; v < n; ++v) {

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh_view.h"
+
 namespace crestline {
 
 // Neighbours of each vertex over mesh edges, in one array.
@@ -12,8 +14,7 @@ struct VertexGraph {
   std::vector<int> neighbour;
 };
 
-// it: 3 x m, corners from 0.
-VertexGraph vertex_graph(const int* it, int m, int n);
+VertexGraph vertex_graph(const Triangulation& mesh);
 
 // Connected balls by a uniform grid. What holds for all targets of a grid cell is found once a
 // cell: with C the centre of its targets and rho their largest distance from it, every vertex

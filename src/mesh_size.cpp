@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "geometry.h"
+
 namespace crestline {
 
 namespace {
@@ -56,24 +58,18 @@ void step_to_middle(const std::vector<Patch>& patches, double near, double* midd
   for (int i = 0; i < 3; ++i) middle[i] = sum[i] / total;
 }
 
-std::vector<Patch> patches_of(const double* vb, int rows, const int* it, int m, const int* used) {
+std::vector<Patch> patches_of(const Triangulation& mesh, const int* used) {
   std::vector<Patch> patches;
-  patches.reserve(m);
-  for (int f = 0; f < m; ++f) {
+  patches.reserve(mesh.m);
+  for (int f = 0; f < mesh.m; ++f) {
     if (!used[f]) continue;
-    const double* corner[3];
-    for (int c = 0; c < 3; ++c)
-      corner[c] = vb + rows * static_cast<std::size_t>(it[3 * static_cast<std::size_t>(f) + c] - 1);
-    double a[3], b[3];
+    const double* at[3];
+    for (int c = 0; c < 3; ++c) at[c] = corner(mesh, vertex_at(mesh, 3 * f + c));
+    double normal[3];
+    triangle_normal(at[0], at[1], at[2], normal);
     Patch p;
-    for (int i = 0; i < 3; ++i) {
-      a[i] = corner[1][i] - corner[0][i];
-      b[i] = corner[2][i] - corner[0][i];
-      p.at[i] = (corner[0][i] + corner[1][i] + corner[2][i]) / 3;
-    }
-    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
-           z = a[0] * b[1] - a[1] * b[0];
-    p.weight = std::sqrt(x * x + y * y + z * z) / 2;
+    for (int i = 0; i < 3; ++i) p.at[i] = (at[0][i] + at[1][i] + at[2][i]) / 3;
+    p.weight = std::sqrt(dot(normal, normal)) / 2;
     if (p.weight > 0) patches.push_back(p);
   }
   return patches;
@@ -81,9 +77,8 @@ std::vector<Patch> patches_of(const double* vb, int rows, const int* it, int m, 
 
 }  // namespace
 
-double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used,
-                        double cap, int steps) {
-  std::vector<Patch> patches = patches_of(vb, rows, it, m, used);
+double half_area_radius(const Triangulation& mesh, const int* used, double cap, int steps) {
+  std::vector<Patch> patches = patches_of(mesh, used);
   if (patches.empty()) return 0;
   std::vector<double> area(patches.size());
   std::transform(patches.begin(), patches.end(), area.begin(),

@@ -1,5 +1,6 @@
 // How large a mesh is, by where most of its surface lies.
 #pragma once
+#include "mesh_view.h"
 
 namespace crestline {
 
@@ -8,9 +9,7 @@ namespace crestline {
 // algorithm, `steps` steps from the centroid): less than half of it, wherever that lies, does not
 // move it far. A triangle counts with its area, but no more than `cap` times the median of them: a
 // long needle that leads to a stray vertex, or a platform of two triangles, then counts for little.
-// vb: rows x n, the first three of each column x, y, z; it: 3 x m, from 1; used: m, whether a
-// triangle counts.
-double half_area_radius(const double* vb, int rows, const int* it, int m, const int* used,
-                        double cap, int steps);
+// used: m, whether a triangle counts.
+double half_area_radius(const Triangulation& mesh, const int* used, double cap, int steps);
 
 }  // namespace crestline

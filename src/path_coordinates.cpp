@@ -129,7 +129,7 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
   return out;
 }
 
-std::vector<char> joined_to(const int* it, int m, const std::vector<char>& member,
+std::vector<char> joined_to(const Triangulation& mesh, const std::vector<char>& member,
                             const std::vector<int>& seeds) {
   std::vector<int> parent(member.size());
   for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<int>(v);
@@ -137,11 +137,10 @@ std::vector<char> joined_to(const int* it, int m, const std::vector<char>& membe
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  for (int f = 0; f < m; ++f)
-    for (int c = 0; c < 3; ++c) {
-      int a = it[3 * f + c] - 1, b = it[3 * f + (c + 1) % 3] - 1;
-      if (member[a] && member[b]) parent[root(a)] = root(b);
-    }
+  for (int h = 0; h < 3 * mesh.m; ++h) {
+    int a = vertex_at(mesh, h), b = vertex_at(mesh, next_half_edge(h));
+    if (member[a] && member[b]) parent[root(a)] = root(b);
+  }
   std::vector<char> wanted(member.size(), 0), out(member.size(), 0);
   for (int v : seeds)
     if (member[v]) wanted[root(v)] = 1;

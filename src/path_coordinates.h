@@ -3,6 +3,8 @@
 #include <functional>
 #include <vector>
 
+#include "mesh_view.h"
+
 namespace crestline {
 
 struct PathCoordinates {       // one entry (tangent: three) a point
@@ -18,8 +20,7 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
                                  const std::function<void()>& between);
 
 // Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
-// it: 3 x m, corners from 1; seeds from 0.
-std::vector<char> joined_to(const int* it, int m, const std::vector<char>& member,
+std::vector<char> joined_to(const Triangulation& mesh, const std::vector<char>& member,
                             const std::vector<int>& seeds);
 
 }  // namespace crestline

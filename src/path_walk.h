@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh_topology.h"
+#include "mesh_view.h"
 
 namespace crestline {
 
@@ -19,23 +19,6 @@ struct Crossing {
 };
 
 enum class WalkEnd { arrived, border, round, too_far };
-
-// The arrays as R holds them, so that no walk waits for a copy: corners and half edges counted
-// from 1.
-struct Triangulation {
-  const double* vb;  // rows x n, the first three of each column are x, y, z
-  int rows;
-  const int* it;     // 3 x m
-  const int* twin;   // 3 x m, 0 at borders; null where nobody walks over edges
-  int m;
-};
-
-inline int vertex_at(const Triangulation& t, int half_edge) { return t.it[half_edge] - 1; }
-inline int twin_of(const Triangulation& t, int half_edge) { return t.twin[half_edge] - 1; }
-
-inline const double* corner(const Triangulation& t, int vertex) {
-  return t.vb + t.rows * static_cast<std::size_t>(vertex);
-}
 
 // Half edges by which the zero line leaves `face`: two where it crosses it, else none. Zero counts
 // as positive, so a line through a vertex is never lost.
