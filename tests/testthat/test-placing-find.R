@@ -111,8 +111,8 @@ test_that("a template of one's own gives no verdict, but a warning where curvatu
     found_humface()$match, list(verdict = NA_character_, agree = 0.2, template = "mine")
   ))
   doubt <- placing_doubt(found$placing)
-  expect_warning(warn_doubtful(found, doubt, find_settings()), "hardly agrees with the template mine",
-                 class = "crestline_doubtful_placing")
+  expect_warning(warn_doubtful(found, doubt, find_settings()),
+                 "hardly agrees with the template mine", class = "crestline_doubtful_placing")
   found$match$agree <- 0.5
   expect_no_warning(warn_doubtful(found, doubt, find_settings()))
 })
