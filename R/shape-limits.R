@@ -3,9 +3,8 @@
 #' Limits of the quality report
 #'
 #' All limits of [quality()]. Each limit has two values, `c(amber, red)`. A part is amber above the
-#' first and red above the second; where small values are bad, below them. `Inf` switches a limit
-#' off (`-Inf` if small values are bad). No limit depends on the unit of
-#' the mesh.
+#' first and red above the second. If small values are bad, it is amber and red below them. `Inf`
+#' switches a limit off (`-Inf` if small values are bad). No limit depends on the unit of the mesh.
 #'
 #' The defaults were chosen on 26 good scans and on scans that were spoiled on purpose (holes,
 #' spikes, noise, decimation). Of the points that were more than 3 mm off, 99.9 % were graded amber
@@ -53,9 +52,9 @@
 #'   there: "green", "amber" or "red".
 #' @param predicted Grade of landmarks that [find_landmarks()] predicts (those at the ears: 10 mm
 #'   off on average), and of the curves that end there: "green", "amber" or "red".
-#' @param others Fewest other specimens for a z-score.
-#' @param spread Least spread of a length across specimens (as a share of it) that z-scores count
-#'   with, so that a sample of nearly equal specimens flags nobody.
+#' @param others Least number of other specimens for a z-score.
+#' @param spread Least spread of a length across specimens for z-scores, as a share of the length.
+#'   It avoids flags in a sample of nearly equal specimens.
 #' @return List of class `quality_limits`.
 #' @section Errors: of class `crestline_error`: a name is not that of a limit, or two values are in
 #'   the wrong order.
