@@ -220,7 +220,7 @@ warn_alignment <- function(rounds, moved) {
 
 #' @rdname align
 #' @param x An `aligned`.
-#' @param row.names,optional,... Ignored.
+#' @template as-data-frame
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

@@ -95,7 +95,7 @@
 #' @param n_boot Number of bootstrap samples for the intervals of effects.
 #' @param scale,weights,missing As in [align()]. "area" applies to levels with triangles; other
 #'   levels have equal weights. Not used for an `aligned`.
-#' @param progress Whether to show a progress bar.
+#' @template progress
 #' @return Object of class `group_comparison`, a list:
 #'   * `tests`: data frame with a row for each level and test:
 #'     * `level`, `test`, `statistic` (see the table above);
@@ -365,7 +365,7 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 
 #' @rdname compare_groups
 #' @param x,object A `group_comparison`.
-#' @param row.names,optional,... Ignored.
+#' @template as-data-frame
 #' @export
 as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

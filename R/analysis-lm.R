@@ -260,7 +260,7 @@ validate.shape_lm <- function(x) {
 
 #' @rdname shape_lm
 #' @param x,object A `shape_lm`.
-#' @param row.names,optional,... Ignored.
+#' @template as-data-frame
 #' @export
 as.data.frame.shape_lm <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

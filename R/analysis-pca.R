@@ -172,7 +172,7 @@ thin_svd <- function(x, tolerance, most = NULL, share = 0.1) {
 
 #' @rdname shape_pca
 #' @param x A `shape_pca`.
-#' @param row.names,optional,... Ignored.
+#' @template as-data-frame
 #' @export
 as.data.frame.shape_pca <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

@@ -233,7 +233,7 @@ validate.symmetry_parts <- function(x) {
 
 #' @rdname symmetry_parts
 #' @param x A `symmetry_parts`.
-#' @param row.names,optional,... Ignored.
+#' @template as-data-frame
 #' @export
 as.data.frame.symmetry_parts <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

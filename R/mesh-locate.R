@@ -18,10 +18,10 @@ frame_of <- function(columns, ..., class = NULL) {
 #' @param xyz Points in the unit of the mesh: n x 3 matrix, three co-ordinates, or a data frame with
 #'   columns `x`, `y`, `z`. A row with `NA` gives a row of `NA`.
 #' @return Data frame with a row for each point, and the row names of `xyz`. Columns: `face` (column
-#'   of `mesh$it`); `w1`, `w2`, `w3` (weights of its corners, from 0 to 1, with sum 1); `x`, `y`,
-#'   `z` (the place); `distance` (from the point, in the unit of the mesh). If several triangles are
-#'   equally close, the one with the lowest number is given. A triangle without area is given only
-#'   if the mesh has no others.
+#'   of `mesh$it`); `w1`, `w2`, `w3` (weights of its corners, 0 to 1, with sum 1); `x`, `y`, `z`
+#'   (the place); `distance` (unit of the mesh). If several triangles are equally close, the one
+#'   with the lowest number is given. A triangle without area is given only if the mesh has no
+#'   others.
 #' @section Errors: of class `crestline_error`: the mesh has no triangles; `xyz` has not three
 #'   columns, or holds infinite numbers.
 #' @template glossary

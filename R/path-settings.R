@@ -2,7 +2,7 @@
 #'
 #' All tuning constants of [reference_path()]. Numbers have no unit, but for angles.
 #'
-#' @param ... Nothing: settings are given by name, and an unknown name is an error.
+#' @template setting-names
 #' @param reach Greatest distance of a cut from the straight line between the landmarks, as a share
 #'   of that line's length (the paper: 1/2). `Inf`: no limit.
 #' @param longest Greatest length of a cut, as a multiple of the shortest. `Inf`: no limit.

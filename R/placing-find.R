@@ -12,10 +12,10 @@
 #' scan's pose, nor on the orientation of its triangles. The scan may show more than the object, or
 #' lack parts of it. [crestline-package] has a glossary.
 #'
-#' @param mesh A `mesh3d`, or a [specimen()] whose own landmarks are ignored.
+#' @template bare-mesh
 #' @param template A [landmark_template()], or a [specimen()] with landmarks, of which one is made.
 #'   Default: the template of the face.
-#' @param id Name of the specimen, one string, if `mesh` is not a specimen.
+#' @template bare-id
 #' @param settings Of [find_settings()].
 #' @param unit Factor from the mesh's unit to the template's. `NULL`: the power of ten that brings
 #'   their diagonals closest to each other. This is wrong if the scan is more than three times as
@@ -47,14 +47,15 @@
 #'     * `doubtful`: TRUE if the share of found landmarks with low confidence is above the setting
 #'       `wrong`;
 #'     * `template`.
-#' @section Errors: of class `crestline_error`, stage "landmarks": nothing in the scan resembles the
-#'   template (the score is above the setting `refuse`), or the scan is no face (`agree` is below
-#'   the first limit).
-#' @section Warnings: of class `crestline_doubtful_placing`: the scan is perhaps no face; or `agree`
-#'   is below the first limit with a template of your own; or most landmarks have low confidence
-#'   (settings `low`, `wrong`). Most likely the scan does not show the object, or not enough of it.
-#'   [quality()] then grades nothing green. A single landmark with low confidence gives no warning.
-#'   `print()` names it, and [quality()] grades it, and the curves that end there, amber.
+#' @section Errors: of class `crestline_error`, stage "landmarks". Either nothing in the scan
+#'   resembles the template (the score is above the setting `refuse`), or the scan is no face
+#'   (`agree` is below the first limit).
+#' @section Warnings: of class `crestline_doubtful_placing`, for three reasons. The scan is perhaps
+#'   no face; or `agree` is below the first limit with a template of your own; or most landmarks
+#'   have low confidence (settings `low`, `wrong`). Most likely the scan does not show the object,
+#'   or not enough of it. [quality()] then grades nothing green. A single landmark with low
+#'   confidence gives no warning. `print()` names it, and [quality()] grades it, and the curves that
+#'   end there, amber.
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
 #' @section Keeping the result: `saveRDS(specimen, file)` keeps the specimen with its states and

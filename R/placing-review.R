@@ -88,8 +88,8 @@ review_landmarks <- function(specimen, scheme = face_scheme(),
 }
 
 #' @rdname review_landmarks
-#' @param mesh A `mesh3d`, or a [specimen()] whose own landmarks are ignored.
-#' @param id Name of the specimen, one string, if `mesh` is not a specimen.
+#' @template bare-mesh
+#' @template bare-id
 #' @export
 place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
   check_given()

@@ -20,12 +20,12 @@
 #' @param start Name of the landmark that [find_landmarks()] places on every prominent part of a
 #'   scan. Choose one on the most prominent part of the object, as the nose tip of a face. `NULL`:
 #'   the most prominent position of the template.
-#' @return Object of class `landmark_template`, a list of `id`, `specimen`, `landmarks` (k x 3
-#'   matrix of those that are found), `predicted` (k x 3 matrix), `unit`, `mirror`, `start` (the
-#'   position of that landmark, or NULL), and `judged`. `judged` is TRUE if the setting `agree` of
-#'   [find_settings()] was measured for the template, as for the face. All positions are in the
-#'   template's own frame. With `mirror`, left is at positive x, and the mirror plane is x = 0.
-#'   Lengths are in the unit of `specimen`.
+#' @return Object of class `landmark_template`, a list of `id`, `specimen`, `landmarks`,
+#'   `predicted`, `unit`, `mirror`, `start` (the position of that landmark, or NULL), and `judged`.
+#'   `landmarks` and `predicted` are k x 3 matrices of the landmarks that are found and predicted.
+#'   `judged` is TRUE if the setting `agree` of [find_settings()] was measured for the template, as
+#'   for the face. All positions are in the template's own frame. With `mirror`, left is at positive
+#'   x, and the mirror plane is x = 0. Lengths are in the unit of `specimen`.
 #' @section Errors: of class `crestline_error`: the specimen has fewer than four landmarks, or
 #'   `predicted` names others.
 #' @template glossary

@@ -7,11 +7,11 @@
 #' the triangles of its surface. Buttons hide each layer of the scene.
 #'
 #' @param x A [specimen()].
-#' @param file Path of the page, ending in ".html".
+#' @template page-file
 #' @param curves One curve of [ridge_curve()], or a list of curves, whose names are in the table. Or
 #'   a `shape`, as [fit_shape()] returns it.
 #' @param table Data frame that is shown below the picture. NULL: none.
-#' @param title Heading of the page.
+#' @template page-title
 #' @param caption A sentence below the picture.
 #' @param surface,colour,width As in [plot_curves()].
 #' @param selfcontained TRUE: the page is one file. FALSE: a folder named after the file, ending in

@@ -113,11 +113,11 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
 #' slider that moves it along the component.
 #'
 #' @param x A `shape_pca` of a level with a surface.
-#' @param file Path of the page, ending in ".html".
+#' @template page-file
 #' @param component Numbers of the components.
 #' @param sd Range of the sliders on either side of the mean, in standard deviations.
 #' @param colour Colour of the surface.
-#' @param title Heading of the page.
+#' @template page-title
 #' @param size Width and height of each picture, two numbers, in pixels of the browser.
 #' @param view First direction of view, as in [draw_surface()].
 #' @param selfcontained As in [write_page()].

@@ -5,7 +5,7 @@
 #' Draws the curves and landmarks of a shape on its specimen, with bands of two standard errors at
 #' their points. Or draws the points of its patches as a surface with the edges of its triangles.
 #'
-#' @param x A `shape`, as [fit_shape()] returns it.
+#' @template shape
 #' @param specimen The [specimen()] that the shape was measured on. NULL: the shape's own surface is
 #'   drawn.
 #' @param parts Parts of the surface, as in [shape_mesh()].

@@ -36,10 +36,11 @@
 #'     places orange, with lines between. Of the arguments above `view`, `labels` and `main` have an
 #'     effect.
 #'   * `"cuts"`: paths that planes through two landmarks cut from the surface, one path for each
-#'     plane (Fig. 2 of the paper). [reference_path()] chooses among such paths. Further arguments:
-#'     `from` and `to`, the names of the two landmarks; `colours`, one for each cut; `width` of the
-#'     lines; `angles` of the planes about the axis, in radians, as in [plane_path()]. The default
-#'     of `angles` is `c(-pi / 6, 0, pi / 6)`. `colour` is "plain" by default.
+#'     plane (Fig. 2 of the paper). [reference_path()] chooses among such paths. Further arguments
+#'     are `from` and `to`, the names of the two landmarks, `colours`, one for each cut, and `width`
+#'     of the lines. `angles` are those of the planes about the axis, in radians, as in
+#'     [plane_path()]. The default of `angles` is `c(-pi / 6, 0, pi / 6)`. `colour` is "plain" by
+#'     default.
 #' @return Invisibly: the scene of [draw_surface()], for [draw_lines()] and similar functions.
 #'   "placing": the specimen. "cuts": a list with a `mesh_path` for each angle that has a path.
 #' @section Errors: of class `crestline_error`: the landmarks were not found by [find_landmarks()]

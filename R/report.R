@@ -10,10 +10,10 @@
 #' * the table of [quality()] with the reasons, which can be sorted and filtered.
 #'
 #' @inheritParams quality
-#' @param file Path of the page, ending in ".html".
+#' @template page-file
 #' @param specimens Specimens of the shapes, for the pictures: one [specimen()], or a list in any
 #'   order (matched by `id`). A shape without a specimen is drawn as its own surface.
-#' @param title Heading of the page.
+#' @template page-title
 #' @param pictures Number of specimens that are drawn, the worst first.
 #' @param size Width and height of a specimen's picture in pixels.
 #' @return The path of the file, invisibly.

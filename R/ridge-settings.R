@@ -8,7 +8,7 @@
 #' of a scheme ([curve_scheme()]).
 #'
 #' @param preset `"crestline"`, `"one pass"` or `"paper"`.
-#' @param ... Nothing: settings are given by name, and an unknown name is an error.
+#' @template setting-names
 #' @param order Polynomial of the curvature fit, as in [curvature()].
 #' @param strength Curvature that gives the strength: `"across"` (normal curvature perpendicular to
 #'   the path) or `"principal"`.

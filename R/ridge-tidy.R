@@ -22,9 +22,9 @@
 #'   curve), `estimate` (d), `std.error`, and with `conf.int` `conf.low` and `conf.high`.
 #'
 #'   `glance()`: data frame with one row: `type`, `length`, `strength` (mean along the curve),
-#'   `std.error` (median), `nobs` (number of vertices in the smooth surface of curvature), `df`,
-#'   `sigma` (residual standard deviation of strength), `converged`, `determined`. Lengths and
-#'   standard errors are in the unit of the mesh, strengths in 1 / unit.
+#'   `std.error` (median), `nobs`, `df`, `sigma` (residual standard deviation of strength),
+#'   `converged`, `determined`. `nobs` is the number of vertices in the smooth surface of curvature.
+#'   Lengths and standard errors are in the unit of the mesh, strengths in 1 / unit.
 #'
 #'   `augment()`: data frame with a row for each vertex in that surface: `vertex`, `s`, `d`,
 #'   `strength`, `.fitted`, `.resid` (1 / unit).

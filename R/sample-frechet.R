@@ -23,8 +23,8 @@
 #'   and `variance`. `variance` is the weighted mean of squared geodesic distances from the vertex
 #'   with the least sum, in the squared unit of the mesh. If several places have the least sum, one
 #'   of them is given.
-#' @section Errors: of class `crestline_error`: `points` is not a k x 3 matrix of numbers, or its
-#'   points are on separate pieces of the mesh; `weights` are negative, all 0, or not k numbers.
+#' @section Errors: of class `crestline_error`: `points` is not a k x 3 matrix of numbers, or is on
+#'   separate pieces of the mesh; `weights` are negative, all 0, or not k numbers.
 #' @template glossary
 #' @templateVar where section 3
 #' @template paper

@@ -39,7 +39,7 @@
 #'   mean's RMS radius (2e-4: about 0.01 mm on a face).
 #' @param rounds Greatest number of rounds. 0: the shapes slide against the given template, which is
 #'   not changed. Use 0 for new specimens of an old sample.
-#' @param progress Whether to show a progress bar.
+#' @template progress
 #' @param red Treatment of parts that [quality()] grades red. "warn": they are used, and a warning
 #'   names the parts and their specimens. "keep": they are used without a warning. "leave out":
 #'   their points are missing from the start. So are the patch points that depend on a red curve;
@@ -53,8 +53,8 @@
 #'     shape again;
 #'   * `convergence`: data frame with a row for each round; lengths in the unit of the mesh. Columns
 #'     are `round`, `movement` and `largest` (RMS and largest movement of the template's points),
-#'     `energy` (mean over specimens of the sum over curves), and `slide` (RMS distance that curve
-#'     points have slid);
+#'     `energy`, and `slide` (RMS distance that curve points have slid). `energy` is the mean over
+#'     specimens of the sum over curves;
 #'   * `missing`: data frame with a row for each specimen and part that has missing points: `id`,
 #'     `level`, `part`, `points` (their number);
 #'   * `provenance`: versions, scheme, specimens and settings, see [summary.shape_sample()].

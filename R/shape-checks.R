@@ -158,14 +158,14 @@ damage_distance <- function(places, damage, count, inner = FALSE) {
 #' Lists the triangles of a shape's surface that face into the specimen, that are double, or that
 #' cross one another.
 #'
-#' @param x A `shape`, as [fit_shape()] returns it.
-#' @param specimen The [specimen()] that the shape was measured on.
+#' @template shape
+#' @template measured-on
 #' @param parts Parts of the surface, as in [shape_mesh()].
 #' @return Data frame with a row for each fault; without faults it has no row. Columns: `fault`
-#'   ("flipped", "doubled" or "crossing"), `group` (the patch or strip of the triangle), `v1`, `v2`,
-#'   `v3` (rows of the surface points), and `other` (for a crossing, the group of the other
-#'   triangle). A triangle is flipped if its normal is more than 90 degrees from the specimen's
-#'   normals at its corners.
+#'   ("flipped", "doubled" or "crossing"), `group` (patch or strip of the triangle), `v1`, `v2`,
+#'   `v3` (rows of the surface points), `other` (group of the other triangle of a crossing). A
+#'   triangle is flipped if its normal is more than 90 degrees from the specimen's normals at its
+#'   corners.
 #' @section Errors: those of [shape_mesh()]; of class `crestline_wrong_mesh`: the specimen has
 #'   another mesh.
 #' @template glossary

@@ -26,13 +26,13 @@
 #' @param settings [ridge_settings()] of all curves. `ridge_settings(error = FALSE)` omits standard
 #'   errors and saves their time.
 #' @param passes As in [ridge_curve()].
-#' @param curves Curves that were drawn by hand or found by other software. A named list, with names
-#'   of the scheme's curves, of n x 3 matrices, data frames with columns `x`, `y`, `z`, or values of
-#'   [ridge_curve()]; in the unit of the mesh. [read_curves()] gives such a list. The curves may run
-#'   in either direction. They are moved onto the mesh: closest points, joined by cuts. Their ends
-#'   are moved to their landmarks. They are not trimmed. A curve with the number of points of the
-#'   scheme keeps its points; any other curve gets points at equal chords. Curves that are not in
-#'   the list are found by curvature or cuts as usual.
+#' @param curves Curves that were drawn by hand or found by other software. A list with names of the
+#'   scheme's curves, in the unit of the mesh. Its elements are n x 3 matrices, data frames with
+#'   columns `x`, `y`, `z`, or values of [ridge_curve()]. [read_curves()] gives such a list. The
+#'   curves may run in either direction. They are moved onto the mesh: closest points, joined by
+#'   cuts. Their ends are moved to their landmarks. They are not trimmed. A curve with the number of
+#'   points of the scheme keeps its points; any other curve gets points at equal chords. Curves that
+#'   are not in the list are found by curvature or cuts as usual.
 #' @param cut_scale Multiplies the length at which trimmed curves are cut (no unit). Use one value
 #'   below 1 for all specimens if some scans are too short. It is reduced for a specimen with a
 #'   shorter curve.
@@ -48,7 +48,7 @@
 #'   metres and [face_scheme()]. The co-ordinates of the shape stay in the mesh's unit. To bring one
 #'   specimen to the unit of the others, use `rescale` of [read_specimen()] instead. NULL: the
 #'   factor of [find_landmarks()] if it found the landmarks, else 1.
-#' @param progress Whether to show a progress bar.
+#' @template progress
 #' @inheritParams curvature
 #' @return Object of class `shape`, a list:
 #'   * `id`: of the specimen;

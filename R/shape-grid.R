@@ -7,8 +7,8 @@
 #' [fit_shape()], and every cut gets points at equal chords. Columns and rows that the scheme leaves
 #' to neighbouring patches are included. See [shape_mesh()] for denser patches that fit together.
 #'
-#' @param x A `shape`, as [fit_shape()] returns it.
-#' @param specimen The [specimen()] that the shape was measured on.
+#' @template shape
+#' @template measured-on
 #' @param patch Name of a patch of the scheme.
 #' @param columns Number of points on each bounding curve. NULL: as in the scheme.
 #' @param rows Number of points in each column, both ends included. NULL: as in the scheme.

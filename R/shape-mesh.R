@@ -13,7 +13,7 @@
 #' surface has no further borders. See [patch_mesh()] for one patch with any number of columns and
 #' rows.
 #'
-#' @param x A `shape`, as [fit_shape()] returns it.
+#' @template shape
 #' @param parts Triangles of the scheme: "model", or names of optional parts, or both.
 #' @param specimen The [specimen()] that the shape was measured on. Needed if `dense` is above 1.
 #' @param dense Number of pieces into which every side of a quad is divided; a whole number.

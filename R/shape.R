@@ -101,7 +101,7 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' Gives the points of one level as a matrix. `subset(as.data.frame(x), level == "curves" & part ==
 #' "philtrum ridge left")` gives the points of one curve, with their standard errors.
 #'
-#' @param x A `shape`, as [fit_shape()] returns it.
+#' @template shape
 #' @param level Kind of points: "curves", "landmarks" or "surface".
 #' @param ... Ignored.
 #' @return k x 3 matrix with columns `x`, `y`, `z`, in the unit of the mesh. Row names are "part

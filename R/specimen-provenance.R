@@ -187,7 +187,7 @@ printed_lines <- function(x, ...) utils::capture.output(print(x, ...))
 #'   * `lines`: the text (character);
 #'   * `provenance`: a list of `package` and `r` (versions). If the object has them, it also has
 #'     `scheme` (`name`, `hash`, `unit`), `mesh` (`id`, `key`, `file`), `template` (`id`, `hash`)
-#'     and `settings`, and the data frames `landmarks` (`landmark`, `how`, `file`, `time`) and
+#'     and `settings`. Two data frames are `landmarks` (`landmark`, `how`, `file`, `time`) and
 #'     `specimens` (`id`, `file`, `key`, `landmarks`).
 #'
 #'   For a `shape_pca`: the summary of `prcomp`, with a field `provenance`.

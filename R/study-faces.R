@@ -38,9 +38,8 @@
 #' @param size_sd Standard deviation of log size within groups.
 #' @param waves Number of waves whose sum is a random field.
 #' @param scan [scan_settings()]. `NULL`: no specimens, only the truth, which takes milliseconds.
-#' @param seed A whole number; the random stream of the session is then not changed. `NULL`: the
-#'   session's stream is used.
-#' @param progress Whether to show a progress bar.
+#' @template seed
+#' @template progress
 #' @return Object of class `simulated_faces`, a list:
 #'   * `specimens`: the [specimen()]s, named by id, for [fit_shapes()];
 #'   * `covariates`: data frame with a row for each face: `id`, `group` (factor), `size` (s);

@@ -23,8 +23,7 @@
 #' @param spacing Side of the grid's squares; the side of the surface is 2.
 #' @param noise Standard deviation of the noise in the heights, in the unit of the mesh. The noise
 #'   is normal; the paper's is uniform.
-#' @param seed A whole number; the random stream of the session is then not changed. `NULL`: the
-#'   session's stream is used.
+#' @template seed
 #' @param jitter Vertices move by up to this share of the spacing along x and y; 0: a regular grid,
 #'   as in the paper.
 #' @param correlation Standard deviation of the Gaussian kernel that smooths the noise, in grid

@@ -23,7 +23,7 @@
 #' the values of `"crestline"`.
 #'
 #' @param preset `"crestline"` or `"paper"`.
-#' @param ... Nothing: settings are given by name, and an unknown name is an error.
+#' @template setting-names
 #' @param energy Points that share a bending energy. `"landmarks"`: each curve with all landmarks,
 #'   which do not move. `"own"`: the points of each curve (the paper, which describes one curve).
 #'   `"all"`: all landmarks and curves.

@@ -33,7 +33,7 @@
 #'   specimens of the sample were. The other scans are not needed.
 #' @param settings [slide_settings()]. If `template` is a sample, the default are the settings of
 #'   the sample.
-#' @param specimen The [specimen()] that the shape was measured on.
+#' @template measured-on
 #' @return The `shape` with slid points (`se` is interpolated along the curve), and
 #'   * column `offset` of `points`, after the joint step: distance of a curve's point from the
 #'     measured curve, across it, in the unit of the mesh. It is positive to the curve's left as

@@ -1,0 +1,1 @@
+#' @param row.names,optional,... Ignored.

@@ -1,0 +1,1 @@
+#' @param id Name of the specimen, one string, if `mesh` is not a specimen.

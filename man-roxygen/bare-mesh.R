@@ -1,0 +1,1 @@
+#' @param mesh A `mesh3d`, or a [specimen()] whose own landmarks are ignored.

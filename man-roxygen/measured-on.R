@@ -1,0 +1,1 @@
+#' @param specimen The [specimen()] that the shape was measured on.

@@ -1,0 +1,1 @@
+#' @param file Path of the page, ending in ".html".

@@ -1,0 +1,1 @@
+#' @param title Heading of the page.

@@ -1,0 +1,1 @@
+#' @param progress Whether to show a progress bar.

@@ -1,0 +1,1 @@
+#' @param ... Nothing: settings are given by name, and an unknown name is an error.

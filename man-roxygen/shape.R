@@ -1,0 +1,1 @@
+#' @param x A `shape`, as [fit_shape()] returns it.
