@@ -61,6 +61,7 @@
 #'   * `crestline_far`: a specimen is far from the others;
 #'   * `crestline_point`: some points of a specimen are far from those of the others;
 #'   * `crestline_size`: sizes differ as between two units;
+#'   * `crestline_twin`: two specimens have the same co-ordinates;
 #'   * `crestline_estimated`: a point is estimated for too many specimens, or too many points for
 #'     one specimen;
 #'   * `crestline_beyond`: points are estimated far from those that the specimen has.

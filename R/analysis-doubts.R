@@ -53,7 +53,7 @@ print.sample_limits <- function(x, ...) {
 #' @noRd
 warn_of_doubts <- function(aligned, limits) {
   check_class(limits, "sample_limits", "limits", "sample_limits()")
-  said <- c(said_of_sizes(aligned, limits), said_of_distances(aligned, limits),
+  said <- c(said_of_twins(aligned), said_of_sizes(aligned, limits), said_of_distances(aligned, limits),
             said_of_gaps(aligned, limits))
   for (kind in names(said)) {
     crestline_warn(sprintf("%s: %s", aligned$level, said[[kind]]), sample_remedies[[kind]],
@@ -63,6 +63,8 @@ warn_of_doubts <- function(aligned, limits) {
 }
 
 sample_remedies <- c(
+  twin = paste("One scan may be there twice, and counts twice in every test. Leave one out,",
+                "x[names(x) != \"id\"], unless that is meant."),
   size = paste("Are they in another unit? Read them with `rescale`, see read_specimen():",
                "fit_shapes(reading = list(rescale = c(id = 1000)))."),
   far = "Look at them: are landmarks exchanged, or is it another object? Leave out what is wrong.",
@@ -71,6 +73,19 @@ sample_remedies <- c(
                     "others' mean."),
   beyond = "Use missing = \"drop\", or leave them out: so far out, an estimate is the others' mean."
 )
+
+#' @param alike Co-ordinates that differ by less than this share of the shapes' size are equal.
+#' @noRd
+said_of_twins <- function(aligned, alike = 1e-9) {
+  x <- aligned$coords
+  like <- apply(round(x / (alike * sqrt(sum(aligned$mean^2)))) + 0, 3, rlang::hash)
+  ids <- dimnames(x)[[3]]
+  groups <- Filter(function(same) length(same) > 1, split(ids, factor(like, unique(like))))
+  # All alike: copies that were made on purpose
+  if (!length(groups) || length(unique(like)) == 1) return(NULL)
+  list(twin = sprintf("the same shape under two names: %s.",
+                       shorten(vapply(groups, paste, "", collapse = " and "), 5)))
+}
 
 said_of_sizes <- function(aligned, limits) {
   ratio <- aligned$size / stats::median(aligned$size)

@@ -21,6 +21,11 @@
 #' To read results in a new session, call `fit_shapes()` again with the same arguments. `saveRDS()`
 #' of a batch with `dir` stores only the paths of its files.
 #'
+#' Results of other settings, schemes or ways of reading are never overwritten. The new result of
+#' such a specimen gets a file beside the old one, with a part of a hash in its name, and a message
+#' says so. A result of the same scan by other landmarks is replaced, with a message. `saveRDS()` of
+#' a batch stores only the paths of its results. [read_batch()] opens a folder of results.
+#'
 #' The file of a result has a checksum, which is compared before the file is read. A damaged or
 #' truncated result is measured again. Several runs may share a folder. A run deletes only its own
 #' unfinished files. Unfinished files of a run that was killed (`part-*.tmp`) remain. They are never
@@ -35,10 +40,14 @@
 #' then saved in `dir`, or in R's temporary folder. `print()` and `summary()` show which specimens
 #' have found landmarks.
 #'
-#' @param x Mesh files, or a list of [specimen()]s. Files are given by their paths, each once, such
-#'   as `list.files("scans", "[.]ply$", full.names = TRUE)`; see [read_specimen()]. The id of a file
-#'   is its name without the extension. If several files share that name, their folders are added:
-#'   "visit 1/anna", "visit 2/anna".
+#' @param x One of the following:
+#'   * mesh files (paths, see [read_specimen()]). The id of a file is its name without the
+#'     extension. If several files share that name, their folders are added: "visit 1/anna",
+#'     "visit 2/anna";
+#'   * a folder: the mesh files in it;
+#'   * a list of [specimen()]s;
+#'   * a `shape_batch` of this function: its failed specimens are measured again. Arguments that you
+#'     give are changed for them, all others are those of the run that failed.
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param dir Folder for the results; it is created if it does not exist. `NULL`: results are kept
 #'   in memory.
@@ -67,14 +76,14 @@
 #' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
 #'   such parts. With small parts workers are started more often; with large ones they wait longer
 #'   at the end.
-#' @param progress Whether to show a progress bar, see [progressr::with_progress()]. In a script
-#'   that `Rscript` runs, set `options(progressr.enable = TRUE)` too.
+#' @param progress Whether to show progress: a bar in a session with a user, see
+#'   [progressr::with_progress()], otherwise a line a minute to the standard error.
 #' @return Object of class `shape_batch`: a named list with a shape for each id, or `NULL` for a
 #'   specimen that failed. With `dir`, a shape is read from its file when you use it.
 #'   * `x[["id"]]`, `x$id`, `x[[i]]`: one shape; an unknown id is an error;
 #'   * `x[i]`, `rev(x)`, `head(x)`: a batch of some specimens. `c(x, y)` joins two batches of one
-#'     scheme. If a specimen failed in one of them and was measured in the other, the result is
-#'     taken;
+#'     scheme. If one has a failure and the other a result of an id, the result is taken, with a
+#'     message. Two results of one id are an error;
 #'   * `length(x)`, `names(x)`: all specimens, failed ones too;
 #'   * `for (shape in x)` has one shape in memory at a time; `lapply(x, f)` and `as.list(x)` have
 #'     all in memory;
@@ -85,8 +94,11 @@
 #' @section Errors: of class `crestline_error`: an argument is wrong for every specimen. Errors of
 #'   single specimens do not stop the batch, see [failures()].
 #' @section Warnings: of class `crestline_keeping_warning`: the file of a result is damaged or
-#'   missing, or has another result now. The value is then `NULL`.
-#' @seealso [failures()], [warnings_of()], [homologise()]
+#'   missing, or has another result now. The value is then `NULL`. Of class `crestline_twin`: two
+#'   ids have one mesh with the same landmarks. Of class `crestline_unit_warning`: `c()` joins
+#'   specimens in different units.
+#' @seealso [read_batch()] for the results in a folder; [failures()], [warnings_of()],
+#'   [homologise()]
 #' @examplesIf rlang::is_installed(c("future", "progressr"))
 #' ball <- Rvcg::vcgSphere(4)
 #' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
@@ -100,50 +112,37 @@
 #' @export
 fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL,
                        doubtful = 0, ...,
-                       found = NULL, reading = list(), chunk = NULL, progress = interactive()) {
+                       found = NULL, reading = list(), chunk = NULL, progress = TRUE) {
   check_given()
   check_flags(progress)
   if (!is.null(template)) template <- check_template(template)
   rlang::check_installed(c("future", "progressr"), "to measure many specimens.")
-  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
   settings <- check_fit_arguments(list(...))
   if (is.list(reading) && !is.null(reading[["unit"]])) {
     settings <- with_unit(settings, reading$unit)
     reading$unit <- NULL
   }
-  jobs <- batch_jobs(x, landmarks, reading)
   if (!is.null(dir)) dir <- results_folder(dir)
-  jobs <- with_finder(jobs, dir, template, doubtful, scheme, found)
-  tasks <- batch_tasks(jobs, dir, scheme, settings)
-  results <- if (is.null(dir)) vector("list", length(tasks)) else lapply(tasks, kept_result)
-  open <- vapply(results, is.null, NA)
-  if (!is.null(dir)) say_kept(tasks, open)
-  refusal <- if (any(open) && !is.null(dir)) unwritable(dir)
-  if (!is.null(refusal)) {
-    results[open] <- list(failure_of(refusal))
-    open[] <- FALSE
+  run <- list(settings = settings, dir = dir, template = template, doubtful = doubtful,
+              found = found)
+  if (inherits(x, "shape_batch")) {
+    if (!missing(scheme)) refuse_other_scheme(rlang::current_env())
+    given <- c("settings", names(match.call()))
+    return(fit_again(x, run[intersect(names(run), given)], landmarks, reading, chunk, progress))
   }
-  run <- function() measure_tasks(tasks[open], scheme, settings, chunk)
-  if (any(open)) results[open] <- if (isTRUE(progress)) progressr::with_progress(run()) else run()
-  batch_of(stats::setNames(results, names(jobs)), scheme)
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  jobs <- batch_jobs(x, landmarks, reading)
+  batch <- fit_jobs(jobs, rlang::as_environment(c(run, list(scheme = scheme))), chunk, progress,
+                    call = rlang::current_env())
+  tell_twins(batch, "batch")
+  batch
 }
 
-#' Say how many results the folder has already, and how many of other settings are replaced
-#' @noRd
-say_kept <- function(tasks, open) {
-  kept <- sum(!open)
-  other <- vapply(tasks[open], function(task) !is.na(peek_kept(task$file)$key), NA)
-  if (kept) {
-    crestline_inform(sprintf("%d of %s are read from the folder; %d to measure.", kept,
-                             amount(length(tasks), "result"), sum(open)))
-  }
-  if (any(other)) {
-    crestline_inform(sprintf(paste(
-      "Replaced in the folder: %s of other settings, landmarks or meshes (%s).",
-      "Use another `dir` to keep both."
-    ), amount(sum(other), "result"), shorten(vapply(tasks[open][other], `[[`, "", "name"))))
-  }
+refuse_other_scheme <- function(call) {
+  crestline_abort("`scheme` goes with meshes or specimens, but `x` is a batch.",
+                  "Its failed specimens are measured again by its own scheme: leave it out.",
+                  stage = "arguments", call = call)
 }
 
 #' Arguments for fit_shape() with the unit of what is read
@@ -175,116 +174,4 @@ check_fit_arguments <- function(settings, call = rlang::caller_env()) {
     } else sprintf("Further arguments: %s.", shorten(takes, 20)),
     stage = "arguments", call = call
   )
-}
-
-#' All tasks: what is measured, where it is kept, and the key that tells whether it is kept already
-#' @noRd
-batch_tasks <- function(jobs, dir, scheme, settings) {
-  tasks <- lapply(jobs, function(job) list(job = job, name = job$id))
-  if (is.null(dir)) return(tasks)
-  contents <- lapply(jobs, job_content, scheme, settings)
-  keys <- vapply(contents, `[[`, "", "key")
-  files <- result_files(dir, names(jobs), keys, vapply(contents, `[[`, "", "mesh"))
-  Map(function(task, content, file) c(task, content, list(file = file)), tasks, contents, files)
-}
-
-#' The files of results: where a result of that key is; else one of the id's name, if what is there
-#' is of the same mesh and of no use to another specimen of the batch; else one of the id's and the
-#' mesh's
-#' @noRd
-result_files <- function(dir, ids, keys, meshes) {
-  files <- file.path(dir, paste0(file_stems(ids), ".shape"))
-  there <- list.files(dir, "[.]shape$", full.names = TRUE)
-  inside <- lapply(there, peek_kept)
-  kept <- vapply(inside, `[[`, "", "key")
-  for (i in which(!is.na(keys))) {
-    own <- match(files[i], there)
-    if (is.na(own) && !keys[i] %in% kept || !is.na(own) && kept[own] %in% keys[i]) next
-    if (keys[i] %in% kept) {
-      files[i] <- there[match(keys[i], kept)]
-    } else if (!inside[[own]]$own || !inside[[own]]$mesh %in% c(NA, meshes[i]) ||
-               kept[own] %in% keys) {
-      files[i] <- sub("[.]shape$", sprintf("-%s.shape", substr(meshes[i], 1, 8)), files[i])
-    }
-  }
-  files
-}
-
-#' The result of a task from its file; NULL where that has not its key or is not whole
-#' @noRd
-kept_result <- function(task) {
-  if (is.na(task$key) || !identical(peek_kept(task$file)$key, task$key)) return(NULL)
-  opened <- open_kept(task$file)
-  if (opened$state == "whole") kept_shape(task, opened$about)
-}
-
-#' All tasks, by the user's plan; what a fault of the machine has cost is tried once more, each
-#' alone
-#' @return List of what [measure_task()] returns, a `shape_failure` for a task that was lost.
-#' @noRd
-measure_tasks <- function(tasks, scheme, settings, chunk) {
-  if (is.null(chunk)) chunk <- ceiling(length(tasks) / (2 * future::nbrOfWorkers()))
-  arguments <- list(scheme = scheme, settings = settings)
-  results <- run_tasks(tasks, measure_task, arguments, chunk)
-  again <- vapply(results, function(result) inherits(result, "lost_task") || isTRUE(result$fault),
-                  NA)
-  if (any(again)) {
-    results[again] <- run_tasks(tasks[again], measure_task, arguments, 1, alone = TRUE)
-  }
-  lapply(results,
-         function(result) if (inherits(result, "lost_task")) lost_failure(result) else result)
-}
-
-#' One specimen measured
-#'
-#' @return A `shape`, or a `kept_shape` where it is in its file; or a `shape_failure`.
-#' @noRd
-measure_task <- function(task, scheme, settings) {
-  if (!is.null(task$file)) {
-    kept <- kept_result(task)
-    if (!is.null(kept)) return(kept)
-  }
-  ear <- new_ear()
-  shape <- tryCatch(fit_job(task$job, scheme, settings, ear),
-                    error = function(e) failure_of(e, ear$heard))
-  if (is.null(task$file) || !inherits(shape, "shape")) return(shape)
-  about <- c(list(key = task$key, mesh = task$mesh, id = task$name, warnings = shape$warnings),
-             told_of(shape))
-  tryCatch({
-    keep(shape, about, task$file)
-    kept_shape(task, about)
-  }, crestline_keeping_error = function(e) failure_of(e, ear$heard, fault = TRUE))
-}
-
-fit_job <- function(job, scheme, settings, ear) {
-  one <- hear(job_specimen(job), "reading", ear)
-  if (!is.null(job$finder)) one <- hear(found_specimen(one, job$finder), "landmarks", ear)
-  settings <- utils::modifyList(list(progress = FALSE), settings)
-  shape <- hear(do.call(fit_shape, c(list(one, scheme), settings)), "shape", ear)
-  shape$warnings <- unique(rbind(shape$warnings, ear$heard))
-  shape
-}
-
-#' @param fault Whether it is one of the machine, so that it is worth trying once more.
-#' @noRd
-failure_of <- function(e, heard = no_warnings(), fault = FALSE) {
-  own <- inherits(e, "crestline_error")
-  new_failure(if (own) e$stage else "unforeseen", if (own) e$problem else conditionMessage(e),
-              if (own) e$remedy else "Please report it, with the specimen if you may.",
-              heard, fault)
-}
-
-lost_failure <- function(lost) {
-  new_failure("worker",
-              sprintf("the worker that measured it died, and again when it measured it alone: %s.",
-                      sub("[.]$", "", first_line(lost$message))),
-              "Is there memory enough? Run it again with fewer workers, or decimate the mesh.",
-              fault = TRUE)
-}
-
-#' The first line of a text, not longer than that
-#' @noRd
-first_line <- function(text, most = 200) {
-  line <- strsplit(text[1], "\n", fixed = TRUE)[[1]][1]
-  if (nchar(line) > most) paste0(substr(line, 1, most), "...") else line
 }

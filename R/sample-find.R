@@ -4,11 +4,13 @@
 #' Jobs without landmarks, with what finds them, or refused
 #'
 #' @param dir Folder of the results, NULL for memory: pictures of refused specimens go there.
+#' @param placed Number of further specimens of the batch that have landmarks.
 #' @return The jobs; those without landmarks with `finder`: list of `shared` (environment with
 #'   `template`, which all jobs of a worker have in common), `doubtful`, `picture` (path) and `key`;
 #'   or with `refusal`.
 #' @noRd
-with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rlang::caller_env()) {
+with_finder <- function(jobs, dir, template, doubtful, scheme, found, placed = 0,
+                        call = rlang::caller_env()) {
   doubtful <- check_number(doubtful, "doubtful", 0, 1, call = call)
   if (!is.null(found) && !(is.logical(found) && length(found) == 1 && !is.na(found))) {
     crestline_abort(sprintf("`found` is %s.", describe_value(found)), "Give TRUE, FALSE or NULL.",
@@ -17,8 +19,9 @@ with_finder <- function(jobs, dir, template, doubtful, scheme, found, call = rla
   }
   bare <- vapply(jobs, is_bare, NA)
   if (!any(bare)) return(jobs)
-  if (isFALSE(found) || is.null(found) && !all(bare)) {
-    jobs[bare] <- lapply(jobs[bare], refused_bare, sum(!bare), isFALSE(found))
+  placed <- placed + sum(!bare)
+  if (isFALSE(found) || is.null(found) && placed > 0) {
+    jobs[bare] <- lapply(jobs[bare], refused_bare, placed, isFALSE(found))
     return(jobs)
   }
   template <- batch_template(template, scheme)

@@ -187,25 +187,9 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
          "Give every specimen an `id` of its own.")
   }
   for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
-  warn_twins(shapes, ids)
-  stats::setNames(shapes, ids)
-}
-
-#' The same scan with the same landmarks under two ids counts twice in every test
-#' @noRd
-warn_twins <- function(shapes, ids) {
-  key <- vapply(shapes, function(shape) {
-    if (is.null(shape_key(shape))) NA_character_ else
-      content_hash(list(shape_key(shape), unname(coords(shape, "landmarks"))))
-  }, "")
-  twin <- !is.na(key) & duplicated(key)
-  if (!any(twin)) return(invisible())
-  crestline_warn(
-    sprintf("specimens with the same mesh and the same landmarks: %s.",
-            shorten(sprintf("%s and %s", ids[match(key[twin], key)], ids[twin]))),
-    "Leave out the copies: they count twice in every test.",
-    stage = "homologise", class = "crestline_twin"
-  )
+  shapes <- stats::setNames(shapes, ids)
+  tell_twins(shapes, "homologise")
+  shapes
 }
 
 #' The shapes of a batch; of one in files without their specimens, which are read again when they

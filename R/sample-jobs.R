@@ -16,17 +16,22 @@ batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
                     stage = "arguments", call = call)
   }
   for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()", call)
-  if (!is.null(landmarks) || length(reading)) {
-    crestline_abort(sprintf("`%s` goes with mesh files, but `x` holds specimens.",
-                            if (is.null(landmarks)) "reading" else "landmarks"),
-                    "Give the specimens their landmarks first, or give the paths of the meshes.",
-                    stage = "arguments", call = call)
-  }
+  refuse_for_specimens(landmarks, reading, call)
   ids <- specimen_ids(x)
   stats::setNames(Map(function(one, id) {
     one$id <- id
     list(id = id, specimen = one)
   }, unname(x), ids), ids)
+}
+
+#' Specimens have their landmarks, and are read already
+#' @noRd
+refuse_for_specimens <- function(landmarks, reading, call) {
+  if (is.null(landmarks) && !length(reading)) return(invisible())
+  crestline_abort(sprintf("`%s` goes with mesh files, but `x` holds specimens.",
+                          if (is.null(landmarks)) "reading" else "landmarks"),
+                  "Give the specimens their landmarks first, or give the paths of the meshes.",
+                  stage = "arguments", call = call)
 }
 
 #' Ids of specimens; of those that share one, the names of the list where these are each another,
@@ -41,27 +46,19 @@ specimen_ids <- function(x) {
 }
 
 #' @noRd
-file_jobs <- function(files, landmarks, reading, call) {
+file_jobs <- function(files, landmarks, reading, call, ids = NULL) {
   none <- !vapply(files, is_path, NA)
   if (any(none)) {
     crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(none))),
                     "Give paths of meshes.",
                     stage = "arguments", call = call)
   }
-  folder <- dir.exists(files)
-  if (any(folder)) {
-    crestline_abort(sprintf("`x` is a folder, not a mesh file: %s.", shorten(files[folder])),
-                    sprintf("Give its files: list.files(\"%s\", \"[.]ply$\", full.names = TRUE).",
-                            files[folder][1]),
-                    stage = "arguments", call = call)
-  }
-  twice <- duplicated(normalizePath(files, winslash = "/", mustWork = FALSE))
-  if (any(twice)) {
-    crestline_abort(sprintf("`x` has a file twice: %s.", shorten(unique(files[twice]))),
-                    "Give each file once: unique(x).", stage = "arguments", call = call)
-  }
   reading <- check_reading(reading, call)
-  ids <- file_ids(files)
+  files <- mesh_files(files, call)
+  if (is.null(ids)) {
+    refuse_twice(files, landmarks, call)
+    ids <- file_ids(files)
+  }
   readings <- reading_by_id(reading, ids, call)
   own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else
     given_landmarks(landmarks, ids, reading$landmarks)
@@ -69,9 +66,35 @@ file_jobs <- function(files, landmarks, reading, call) {
   stats::setNames(Map(function(mesh, id, at, reading, wanting) {
     failed <- inherits(at, "condition")
     list(id = id, mesh = mesh, landmarks = if (!failed) at, reading = reading,
-         refusal = if (failed) at,
+         refusal = if (failed) at, beside = is.null(landmarks),
          wanting = if (!is.na(wanting)) wanting)
   }, files, ids, own, readings, wanting, USE.NAMES = FALSE), ids)
+}
+
+#' The meshes of a folder or of a pattern, or files as they are; files of landmarks are refused
+#' @noRd
+mesh_files <- function(files, call) {
+  known <- sprintf("[.](%s)([.]gz)?$", paste(names(mesh_readers()), collapse = "|"))
+  folder <- dir.exists(files)
+  files <- unlist(Map(function(file, folder) {
+    if (folder) return(list.files(file, known, full.names = TRUE, ignore.case = TRUE))
+    if (file.exists(file) || !grepl("[*?]", file)) return(file)
+    found <- Sys.glob(file)
+    if (length(found)) found else file
+  }, files, folder), use.names = FALSE)
+  one <- "list.files(folder, \"[.]ply$\", full.names = TRUE)"
+  if (!length(files)) {
+    crestline_abort("the folder of `x` has no mesh files.",
+                    sprintf("Give the folder of the meshes, or their paths: %s.", one),
+                    stage = "arguments", call = call)
+  }
+  marks <- sprintf("[.](%s|json)$", paste(names(landmark_formats()), collapse = "|"))
+  wrong <- files[grepl(marks, files, ignore.case = TRUE)]
+  if (length(wrong)) {
+    crestline_abort(sprintf("`x` has landmark files: %s.", shorten(basename(wrong))),
+                    sprintf("Give the meshes only: %s.", one), stage = "arguments", call = call)
+  }
+  files
 }
 
 #' Arguments of reading for each specimen: `rescale` may name the specimens that it is for
@@ -98,7 +121,12 @@ reading_by_id <- function(reading, ids, call) {
 #' tell them apart, else with the extension
 #' @noRd
 file_ids <- function(files) {
-  parts <- strsplit(normalizePath(files, winslash = "/", mustWork = FALSE), "/", fixed = TRUE)
+  paths <- normalizePath(files, winslash = "/", mustWork = FALSE)
+  if (anyDuplicated(paths)) {
+    own <- file_ids(files[!duplicated(paths)])
+    return(make.unique(own[match(paths, unique(paths))], sep = " "))
+  }
+  parts <- strsplit(paths, "/", fixed = TRUE)
   ids <- sub("(.)[.][^.]*$", "\\1", basename(files))
   for (depth in seq_len(max(lengths(parts)))) {
     twins <- ids %in% ids[duplicated(ids)]
@@ -187,10 +215,12 @@ job_specimen <- function(job) {
 
 #' What the answers of a job depend on: its content, not the names of its files
 #'
-#' @return List: `mesh`, `key`, hashes; NA and "" where a file cannot be read.
+#' @return List of strings: `mesh` and `key`, hashes; `setting`, a hash of all but mesh, landmarks
+#'   and version; `words`, what differs from a plain run. NA, "" where a file cannot be read.
 #' @noRd
 job_content <- function(job, scheme, settings) {
   named <- sort(setdiff(as.character(names(settings)), c("threads", "progress")))
+  words <- run_words(job, scheme, settings[named])
   settings <- list(named, lapply(unname(settings[named]), unclass))
   tryCatch({
     mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key
@@ -201,8 +231,21 @@ job_content <- function(job, scheme, settings) {
       c(unclass(job$specimen)[c("landmarks", "placing", "match")], job$specimen$mesh["material"])
     }
     about <- list(mesh, input, unclass(scheme), settings, job$finder$key, answers_version)
-    list(mesh = mesh, key = content_hash(about))
-  }, error = function(e) list(mesh = NA_character_, key = NA_character_))
+    way <- list(unclass(scheme), settings, job$finder$key, job$reading)
+    list(mesh = mesh, key = content_hash(about), setting = content_hash(way), words = words)
+  }, error = function(e) {
+    list(mesh = NA_character_, key = NA_character_, setting = NA_character_, words = words)
+  })
+}
+
+#' How a job is measured, in words
+#' @noRd
+run_words <- function(job, scheme, settings) {
+  given <- c(settings, unlist(unname(job$reading), recursive = FALSE))
+  each <- vapply(names(given), function(name) paste(name, "=", setting_word(given[[name]])), "")
+  hash <- substr(scheme_hash(scheme), 1, 8)
+  paste(c(sprintf("scheme %s (hash %s)", scheme$name, hash), each,
+          if (!is.null(job$finder)) "landmarks found by a template"), collapse = ", ")
 }
 
 #' The formats of a job's files, which say how their bytes are read

@@ -80,8 +80,8 @@ file_stem <- function(id, capitals, longest) {
 
 #' Write a value with what it is of; under another name until all of it is there
 #'
-#' @param about List: `key` and `mesh`, strings without a blank, and what else is to be known
-#'   without reading the value.
+#' @param about List: `key`, `mesh` and, perhaps, `setting`, strings without a blank, and what else
+#'   is to be known without reading the value.
 #' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five
 #'   times as long.
 #' @return Nothing; an error of class `crestline_keeping_error` where it cannot be written.
@@ -112,7 +112,7 @@ write_whole <- function(bytes, file) {
 #' A value's file: two lines of text, a line of JSON, and the value, serialised and compressed
 #' @noRd
 kept_bytes <- function(value, about, compression) {
-  first <- charToRaw(paste(kept_layout, about$key, about$mesh))
+  first <- charToRaw(paste(c(kept_layout, about$key, about$mesh, about$setting), collapse = " "))
   about <- charToRaw(enc2utf8(jsonlite::toJSON(
     about, auto_unbox = TRUE, null = "null", na = "null"
   )))
@@ -149,11 +149,11 @@ read_raw <- function(file, most = file.size(file)) {
 }
 
 #' What a result's file says of itself in its first line, unproven
-#' @return List: `key`, `mesh`, NA where it has none; `own`: whether the file is one of ours,
-#'   perhaps cut short.
+#' @return List: `key`, `mesh`, `setting`, NA where it has none; `own`: whether the file is one of
+#'   ours, perhaps cut short.
 #' @noRd
 peek_kept <- function(file, most = 200) {
-  none <- list(key = NA_character_, mesh = NA_character_, own = FALSE)
+  none <- list(key = NA_character_, mesh = NA_character_, setting = NA_character_, own = FALSE)
   start <- read_raw(file, most)
   if (is.null(start)) return(none)
   layout <- charToRaw(kept_layout)
@@ -164,7 +164,7 @@ peek_kept <- function(file, most = 200) {
   line <- start[seq_len(end - 1)]
   if (!all(line >= as.raw(0x20) & line < as.raw(0x7f))) return(none)
   words <- strsplit(rawToChar(line), " ", fixed = TRUE)[[1]]
-  list(key = words[3], mesh = words[4], own = TRUE)
+  list(key = words[3], mesh = words[4], setting = words[5], own = TRUE)
 }
 
 #' The former layout: two values, serialised and compressed

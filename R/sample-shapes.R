@@ -6,9 +6,10 @@
 #' @param failed Named list of `shape_failure`s, for those that are NULL.
 #' @param scheme List: `name`, `key` (hash) of the scheme that all were measured by; NULL where it
 #'   is not known.
+#' @param read Ids of those whose results were in the folder already.
 #' @noRd
-new_shape_batch <- function(shapes, failed = list(), scheme = NULL) {
-  structure(shapes, failed = failed, scheme = scheme, class = "shape_batch")
+new_shape_batch <- function(shapes, failed = list(), scheme = NULL, read = character()) {
+  structure(shapes, failed = failed, scheme = scheme, read = read, class = "shape_batch")
 }
 
 validate_shape_batch <- function(x, call = rlang::caller_env()) {
@@ -38,12 +39,12 @@ validate_shape_batch <- function(x, call = rlang::caller_env()) {
 
 #' A batch of results: shapes, and failures by themselves
 #' @noRd
-batch_of <- function(results, scheme) {
+batch_of <- function(results, scheme, read = character()) {
   failed <- vapply(results, inherits, NA, "shape_failure")
   shapes <- results
   shapes[failed] <- list(NULL)
   about <- list(name = scheme$name, key = content_hash(unclass(scheme)))
-  validate_shape_batch(new_shape_batch(shapes, results[failed], about))
+  validate_shape_batch(new_shape_batch(shapes, results[failed], about, read))
 }
 
 #' A batch as former versions made it: results in files are an attribute there, failures stand among
@@ -76,44 +77,34 @@ kept_shape <- function(task, about) {
     if (length(value) != length(none)) return(none)
     storage.mode(value) <- storage.mode(none)
     value
-  }, about[names(nothing_told)], nothing_told)
+  }, as.list(about)[names(nothing_told)], nothing_told)
   names(told) <- names(nothing_told)
   do.call(structure, c(list(list(), file = task$file, key = task$key, id = task$name,
                             warnings = warnings), told, list(class = c("kept_shape", "shape"))))
 }
-
-#' What a batch tells of a shape without reading it
-#'
-#' @return List: `found`, whether its landmarks were; `lacking`, how many of the scheme's landmarks
-#'   are missing, and of how many; `unit` as of [shape_unit()]; `surface`, the key of its mesh;
-#'   `marks`, a hash of its landmarks. What is not known is NA.
-#' @noRd
-told_of <- function(shape) {
-  if (is.null(shape)) return(nothing_told)
-  if (inherits(shape, "kept_shape")) return(attributes(shape)[names(nothing_told)])
-  landmarks <- shape$status$ok[shape$status$level == "landmarks"]
-  list(found = has_found(shape), lacking = c(sum(!landmarks), length(landmarks)),
-       unit = shape_unit(shape), surface = c(shape$key, NA_character_)[1],
-       marks = content_hash(unname(coords(shape, "landmarks"))))
-}
-
-nothing_told <- list(found = FALSE, lacking = c(0L, NA), unit = NA_real_, surface = NA_character_,
-                     marks = NA_character_)
 
 #' What keeps a shape from being read from its file: a failure, or NULL
 #' @noRd
 kept_fault <- function(x, opened = open_kept(attr(x, "file"))) {
   file <- attr(x, "file")
   if (opened$state == "whole" && identical(opened$about$key, attr(x, "key"))) return(NULL)
+  own <- identical(opened$about$id, attr(x, "id")) &&
+    identical(opened$about$surface, attr(x, "surface"))
   problem <- switch(opened$state, absent = "its file %s is not there.",
                     damaged = "its file %s is damaged or cut short.",
                     former = "its file %s is of a former version, which has no checksum.",
-                    whole = "its file %s has another result now.")
+                    whole = if (own) "its file %s has a result of other landmarks or settings now."
+                    else "its file %s has another's result now.")
   remedy <- if (opened$state == "whole") {
-    "Run fit_shapes() again. Use one `dir` for each set of settings."
+    paste("Measure it again by fit_shapes(), or read what is there:", read_remedy(file))
+  } else if (opened$state == "absent") {
+    paste("If the folder was moved, read it where it is:",
+          read_remedy(file, "path of the folder"), "Else run fit_shapes() again.")
   } else "Run fit_shapes() again: it is measured again."
   new_failure("keeping", sprintf(problem, file), remedy, attr(x, "warnings"))
 }
+
+read_remedy <- function(file, dir = dirname(file)) sprintf("read_batch(\"%s\").", dir)
 
 #' A kept shape as a shape; the last one that was read is in memory still
 #' @return The `shape`, or a `shape_failure`.
@@ -236,7 +227,8 @@ refuse_place <- function(i, ids, call) {
   }
   shapes <- unclass(x)[at]
   validate_shape_batch(new_shape_batch(
-    shapes, attr(x, "failed")[intersect(names(shapes), names(attr(x, "failed")))], attr(x, "scheme")
+    shapes, attr(x, "failed")[intersect(names(shapes), names(attr(x, "failed")))],
+    attr(x, "scheme"), intersect(attr(x, "read"), names(shapes))
   ))
 }
 
@@ -253,16 +245,33 @@ c.shape_batch <- function(...) {
                     "Measure all by one scheme: fit_shapes(..., scheme = ).", stage = "batch")
   }
   shapes <- do.call(c, lapply(given, plain_list))
-  # A specimen that failed in one batch and was measured in another is taken as measured.
-  none <- vapply(shapes, is.null, NA)
-  shapes <- shapes[!(none & names(shapes) %in% names(shapes)[!none])]
   failed <- do.call(c, lapply(given, attr, "failed"))
+  failed <- failed[!duplicated(names(failed), fromLast = TRUE)]
+  keep <- with_results(shapes)
   joined <- validate_shape_batch(new_shape_batch(
-    shapes, failed[intersect(names(shapes)[vapply(shapes, is.null, NA)], names(failed))],
-    schemes[[1]]
+    shapes[keep], failed[!names(failed) %in% names(which(!vapply(shapes[keep], is.null, NA)))],
+    if (length(schemes)) schemes[[1]], unlist(lapply(given, attr, "read"))
   ))
   warn_units(joined)
+  tell_twins(joined, "batch")
   joined
+}
+
+#' Which elements of joined batches stay: where an id failed in one and was measured in another, the
+#' result, with a message
+#' @noRd
+with_results <- function(shapes) {
+  ids <- names(shapes)
+  there <- !vapply(shapes, is.null, NA)
+  mended <- unique(ids[!there & ids %in% ids[there]])
+  if (length(mended)) {
+    crestline_inform(sprintf("Failures are replaced by results of: %s.", shorten(mended)))
+  }
+  # The last of several failures
+  again <- !there & !duplicated(ids, fromLast = TRUE) | there
+  stay <- again & (there | !ids %in% mended)
+  # In the order in which the ids come first
+  order(match(ids, ids))[stay[order(match(ids, ids))]]
 }
 
 #' Tell of specimens of a batch that were measured in different units
@@ -278,13 +287,6 @@ warn_units <- function(batch) {
             shorten(odd), if (length(odd) == 1) "is" else "are"),
     unit_remedy(odd[1], unit[[odd[1]]] / usual), stage = "batch", class = "crestline_unit_warning"
   )
-}
-
-#' The elements of a batch as they are, without what makes it one
-#' @noRd
-plain_list <- function(x) {
-  attributes(x) <- list(names = names(x))
-  x
 }
 
 #' @export
@@ -316,6 +318,11 @@ print.shape_batch <- function(x, most = 8, ...) {
     cat("<shape_batch> ", amount(length(x), "specimen"), ": ", length(x) - nrow(failed),
         " measured, ", nrow(failed), " failed",
         if (length(files)) paste0(", in ", shorten(unique(dirname(files)), 2)), "\n", sep = "")
+    read <- length(intersect(attr(x, "read"), names(x)))
+    if (read) {
+      cat("  ", read, " read from the folder, ", length(x) - nrow(failed) - read,
+          " measured now\n", sep = "")
+    }
     told <- sprintf("%s, %s: %s %s", failed$id, failed$stage, failed$message, failed$remedy)
     print_items(c(landmark_lines(plain_list(x)[setdiff(names(x), failed$id)]),
                   warning_lines(attr(failed, "warnings"))),
@@ -348,9 +355,12 @@ print_items <- function(lines, most, where) {
   if (length(lines) > most) cat("- and", length(lines) - most, "more", where, "\n")
 }
 
-new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault = FALSE) {
+#' @param job,run What was to be measured and how, as in [fit_jobs()]; NULL where that is not known.
+#' @noRd
+new_failure <- function(stage, message, remedy, warnings = no_warnings(), fault = FALSE,
+                        job = NULL, run = NULL) {
   structure(list(stage = stage, message = message, remedy = remedy, warnings = warnings,
-                 fault = fault),
+                 fault = fault, job = job, run = run),
             class = "shape_failure")
 }
 

@@ -281,6 +281,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                                  pictures = 0, size = c(300, 200)),
                            x = "list", file = "object", specimens = "any", limits = "object",
                            others = "any", title = "text", pictures = "count", size = "size"),
+    read_batch = entry(given(x = made_result(made, path("s.shape"))), x = "object"),
     read_curves = entry(given(file = system.file("extdata", "demo_curves.csv",
                                                  package = "crestline"), curves = NULL),
                         file = "object", curves = "any"),
@@ -457,6 +458,12 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                            colour = "colour", title = "text", size = "size", view = "numbers",
                            selfcontained = "flag")
   )
+}
+
+# A result of fit_shapes(), without futures.
+made_result <- function(made, file) {
+  keep(made$shapes[[1]], list(key = "k", mesh = "m", id = "one", words = "plain"), file)
+  file
 }
 
 made_batch <- function(made) {

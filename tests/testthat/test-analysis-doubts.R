@@ -9,6 +9,9 @@ test_that("a good sample is aligned without a word, of whatever size and poses",
   expect_no_warning(align(alike()))
   for (seed in 1:3) expect_no_warning(align(posed_sample(sd = 0.1, seed = seed)))
   expect_no_warning(align(alike(sd = 0)))
+  twice <- alike()
+  twice[, , 7] <- twice[, , 3]
+  expect_warning(align(twice), "under two names: s3 and s7", class = "crestline_twin")
   growing <- alike(function(x) x * rep(seq(0.5, 2, length.out = 20), each = 30))
   expect_no_warning(align(growing))
 })

@@ -64,15 +64,17 @@ test_that("results are kept as they come, and measured again only when something
   same_points(again[[2]], first[[2]])
   # Another landmark file, then another scheme.
   write_landmarks(batch_specimens()[[1]]$landmarks + 0.1, file.path(dir, "ball 1.csv"))
-  run()
+  expect_message(run(), "1 result .* replaced, of ball 1", class = "crestline_message")
   expect_identical(format(file.mtime(kept()), "%Y") == "2001", c(FALSE, FALSE, TRUE))
-  run(function(tables) {
+  expect_message(run(function(tables) {
     tables$curves$n[1:2] <- 7
     tables$patches$rows <- 5
     tables$landmarks$where <- "somewhere"
     tables
-  })
-  expect_false(any(format(file.mtime(kept()), "%Y") == "2001"))
+  }), "3 results .* measured in another way: kept", class = "crestline_message")
+  # Results of another scheme stand beside those that are there.
+  expect_identical(format(file.mtime(kept()), "%Y") == "2001", c(FALSE, FALSE, TRUE))
+  expect_length(list.files(out, "[.]shape$"), 6)
   # A file that is not ours is left alone; one that is cut short is told, and measured again.
   writeLines("rubbish", kept()[3])
   last <- run()
@@ -238,8 +240,10 @@ test_that("a result that cannot be written costs one specimen", {
   on.exit(unlink(out, recursive = TRUE))
   three <- batch_specimens()
   # Folders stand where the second result could go.
-  taken <- file.path(out,
-                     paste0("ball 2", c("", paste0("-", substr(three[[2]]$key, 1, 8))), ".shape"))
+  content <- job_content(batch_jobs(three, NULL, list())[[2]], edge_scheme(), list())
+  mesh <- paste0("-", substr(content$mesh, 1, 8))
+  ends <- c("", mesh, paste0(mesh, "-", substr(content$setting, 1, 8)))
+  taken <- file.path(out, paste0("ball 2", ends, ".shape"))
   for (folder in taken) dir.create(folder, recursive = TRUE)
   shapes <- fit_shapes(three, edge_scheme(), out)
   expect_identical(failures(shapes)[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
@@ -316,24 +320,4 @@ test_that("a specimen that was measured later takes the place of its failure", {
   expect_named(both, c(two[[1]]$id, two[[2]]$id))
   expect_identical(nrow(failures(both)), 0L)
   expect_crestline_error(c(both, both), "twice")
-})
-
-test_that("a run names what it reads from the folder and what it replaces", {
-  skip_without_futures()
-  out <- tempfile("out-")
-  on.exit(unlink(out, recursive = TRUE))
-  two <- batch_specimens(2)
-  expect_no_message(fit_shapes(two[1], edge_scheme(), out))
-  expect_message(fit_shapes(two, edge_scheme(), out), "1 of 2 results are read .*; 1 to measure")
-  expect_message(fit_shapes(two, edge_scheme(), out, cut_scale = 0.9),
-                 "Replaced in the folder: 2 results of other settings.*Use another `dir`")
-})
-
-test_that("a folder of meshes, and a mesh given twice, are refused by name", {
-  skip_without_futures()
-  dir <- batch_folder()
-  on.exit(unlink(dir, recursive = TRUE))
-  expect_crestline_error(fit_shapes(dir, quad_scheme()), c("folder", "list.files"))
-  files <- meshes_in(dir)
-  expect_crestline_error(fit_shapes(c(files, files[2]), quad_scheme()), c("twice", "ball 2"))
 })

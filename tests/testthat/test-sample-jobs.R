@@ -96,3 +96,17 @@ test_that("a path that is empty, and a file that is not there, are named as such
   absent <- file.path(tempdir(), "absent.ply")
   expect_crestline_error(check_stored(absent, "reading"), c("absent.ply", "there is no such file"))
 })
+
+test_that("a folder and a pattern stand for their meshes, landmark files are no meshes", {
+  skip_without_futures()
+  dir <- batch_folder(batch_specimens(2))
+  on.exit(unlink(dir, recursive = TRUE))
+  ids <- c("ball 1", "ball 2")
+  expect_named(fit_shapes(dir, edge_scheme()), ids)
+  expect_named(batch_jobs(file.path(dir, "*.ply"), NULL, list()), ids)
+  expect_crestline_error(fit_shapes(list.files(dir, full.names = TRUE), edge_scheme()),
+                         c("landmark files", "ball 1.csv"))
+  empty <- file.path(dir, "empty")
+  dir.create(empty)
+  expect_crestline_error(fit_shapes(empty, edge_scheme()), "no mesh files")
+})

@@ -29,7 +29,8 @@ test_that("what is kept is read back, and its first line tells what it is of", {
   expect_identical(opened$state, "whole")
   expect_identical(opened$about[c("key", "id")], list(key = "k1", id = "\u00e9"))
   expect_identical(kept_value(opened), value)
-  expect_identical(peek_kept(file), list(key = "k1", mesh = "m1", own = TRUE))
+  expect_identical(peek_kept(file),
+                   list(key = "k1", mesh = "m1", setting = NA_character_, own = TRUE))
   expect_identical(open_kept(tempfile())$state, "absent")
 })
 

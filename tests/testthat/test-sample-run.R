@@ -41,3 +41,18 @@ test_that("a worker that dies costs its tasks, and those that end it again are t
   expect_s3_class(again[[1]], "lost_task")
   expect_identical(again[[2]], 5L)
 })
+
+test_that("without a user, progress is a line now and then", {
+  skip_without_futures()
+  work <- function() {
+    tick <- progressr::progressor(steps = 3)
+    for (i in 1:3) tick("one")
+    "done"
+  }
+  said <- capture.output(expect_identical(with_told_progress(work(), TRUE, 2, every = 0), "done"),
+                         type = "message")
+  expect_match(said, "3 of 3 measured (2 read)", fixed = TRUE, all = FALSE)
+  quiet <- capture.output(with_told_progress(work(), TRUE), type = "message")
+  expect_length(quiet, 0)
+  expect_length(capture.output(with_told_progress(work(), FALSE, every = 0), type = "message"), 0)
+})

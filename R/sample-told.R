@@ -1,0 +1,26 @@
+# What is told of a shape in a batch without reading it from its file.
+
+#' What a batch tells of a shape without reading it
+#'
+#' @return List: `found`, whether its landmarks were; `lacking`, how many of the scheme's landmarks
+#'   are missing, and of how many; `unit` as of [shape_unit()]; `surface`, the key of its mesh;
+#'   `marks`, a hash of its landmarks. What is not known is NA.
+#' @noRd
+told_of <- function(shape) {
+  if (is.null(shape)) return(nothing_told)
+  if (inherits(shape, "kept_shape")) return(attributes(shape)[names(nothing_told)])
+  landmarks <- shape$status$ok[shape$status$level == "landmarks"]
+  list(found = has_found(shape), lacking = c(sum(!landmarks), length(landmarks)),
+       unit = shape_unit(shape), surface = c(shape$key, NA_character_)[1],
+       marks = content_hash(unname(coords(shape, "landmarks"))))
+}
+
+nothing_told <- list(found = FALSE, lacking = c(0L, NA), unit = NA_real_, surface = NA_character_,
+                     marks = NA_character_)
+
+#' The elements of a batch as they are, without what makes it one
+#' @noRd
+plain_list <- function(x) {
+  attributes(x) <- list(names = names(x))
+  x
+}
