@@ -94,7 +94,7 @@ kept_fault <- function(x, opened = open_kept(attr(x, "file"))) {
                     damaged = "its file %s is damaged or cut short.",
                     former = "its file %s is of a former version, which has no checksum.",
                     whole = if (own) "its file %s has a result of other landmarks or settings now."
-                    else "its file %s has another's result now.")
+                    else "its file %s has another result now.")
   remedy <- if (opened$state == "whole") {
     paste("Measure it again by fit_shapes(), or read what is there:", read_remedy(file))
   } else if (opened$state == "absent") {
