@@ -189,7 +189,11 @@ cpp_permuted_forms <- function(gram, own, whole, orders) {
     .Call(`_crestline_cpp_permuted_forms`, gram, own, whole, orders)
 }
 
-cpp_permuted_squares <- function(residuals, basis, df, orders) {
-    .Call(`_crestline_cpp_permuted_squares`, residuals, basis, df, orders)
+cpp_common_form_t2 <- function(x, labels, groups, count, rounds, least, rounding) {
+    .Call(`_crestline_cpp_common_form_t2`, x, labels, groups, count, rounds, least, rounding)
+}
+
+cpp_permuted_squares <- function(y, basis, without, fitted, own, orders) {
+    .Call(`_crestline_cpp_permuted_squares`, y, basis, without, fitted, own, orders)
 }
 

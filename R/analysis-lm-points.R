@@ -1,38 +1,60 @@
 # Where a term of a linear model acts: a test at every point and of every part, the family held.
 
-#' Tests of a term at every point, and of every part
+#' Tests of all terms at every point, and of every part
 #'
 #' Points: on a surface the displacement along the mean's normal, elsewhere all co-ordinates of the
 #' point together. Parts: the sums of squares of their points together; parts differ in their number
 #' of points, so that they are compared by p, not by F.
 #'
 #' @param aligned An `aligned`.
-#' @param span Of [term_spans()].
+#' @param spans Of [term_spans()].
 #' @param part The part of each point, or NULL.
-#' @param block Permutations at a time: a block needs block x k numbers a co-ordinate.
-#' @return List of two data frames, `points` and `parts` (NULL where points have no parts).
+#' @param block Permutations at a time: a block needs block x k numbers a co-ordinate and term.
+#' @return List by term of two data frames, `points` and `parts` (NULL where points have no parts).
 #' @noRd
-lm_points <- function(aligned, term, span, orders, part = NULL, block = 250) {
+lm_points <- function(aligned, spans, orders, part = NULL, block = 250) {
   along <- !is.null(aligned$triangles)
   y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
-  as_great <- 0
-  family <- numeric()
-  of_parts <- NULL
+  absent <- is.na(y[[1]][1, ])
+  found <- lapply(spans, function(span) list(as_great = 0))
   for (columns in permutation_blocks(ncol(orders), block)) {
-    found <- column_squares(y, span, orders[, columns, drop = FALSE])
-    f <- (found$own / span$df) / (found$left / span$left)
-    f[, is.na(y[[1]][1, ])] <- NA
-    if (1 %in% columns) {
-      observed <- f[1, ]
-      own <- found$own[1, ]
-    }
-    as_great <- as_great + colSums(f >= rep(observed * (1 - 1e-10), each = nrow(f)))
-    family <- c(family, do.call(pmax, c(as.data.frame(f), na.rm = TRUE)))
-    if (!is.null(part)) {
-      sums <- function(x) t(rowsum(t(x), part, na.rm = TRUE, reorder = FALSE))
-      of_parts <- rbind(of_parts, sums(found$own) / span$df / (sums(found$left) / span$left))
-    }
+    squares <- column_squares(y, spans, orders[, columns, drop = FALSE])
+    found <- Map(add_block, found, squares, spans, list(absent), list(part))
   }
+  lapply(stats::setNames(nm = names(spans)), function(term) {
+    own <- found[[term]]
+    list(points = lm_point_table(aligned, term, spans[[term]], own, along, ncol(orders)),
+         parts = if (!is.null(part)) tests_of_parts(term, spans[[term]], own$of_parts, part))
+  })
+}
+
+#' What is kept of the permutations so far, and of some more
+#'
+#' @param kept List: `observed` (F by point), `own` (squares), `as_great` (counts), `family`
+#'   (greatest F by permutation), `of_parts` (F by permutation and part).
+#' @param squares Of [column_squares()], for one term.
+#' @noRd
+add_block <- function(kept, squares, span, absent, part) {
+  f <- (squares$own / span$df) / (squares$left / span$left)
+  f[, absent] <- NA
+  if (is.null(kept$observed)) {
+    kept$observed <- f[1, ]
+    kept$own <- squares$own[1, ]
+  }
+  kept$as_great <- kept$as_great +
+    colSums(f >= rep(kept$observed * (1 - 1e-10), each = nrow(f)))
+  kept$family <- c(kept$family, do.call(pmax, c(as.data.frame(f), na.rm = TRUE)))
+  if (!is.null(part)) {
+    sums <- function(x) t(rowsum(t(x), part, na.rm = TRUE, reorder = FALSE))
+    kept$of_parts <- rbind(kept$of_parts, sums(squares$own) / span$df /
+                             (sums(squares$left) / span$left))
+  }
+  kept
+}
+
+#' @param found Of [add_block()].
+#' @noRd
+lm_point_table <- function(aligned, term, span, found, along, permutations) {
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
   at <- as.data.frame(aligned$mean * size)
   names(at) <- c("x", "y", "z")[seq_along(at)]
@@ -40,15 +62,17 @@ lm_points <- function(aligned, term, span, orders, part = NULL, block = 250) {
   signed <- along && !is.null(span$column)
   distance <- if (signed) rowSums(effect * point_normals(aligned$mean, aligned$triangles)) else
     NA_real_
-  points <- data.frame(
+  observed <- found$observed
+  data.frame(
     term = term, point = rownames(aligned$mean), at, distance = unname(distance),
-    displacement = size * sqrt(unname(own) / length(aligned)),
+    displacement = size * sqrt(unname(found$own) / length(aligned)),
     statistic = if (signed) sqrt(observed) * sign(distance) else observed,
-    p_value = as_great / ncol(orders),
-    p_adjusted = vapply(observed, function(value) mean(family >= value * (1 - 1e-10)), 0),
+    p_value = found$as_great / permutations,
+    p_adjusted = vapply(observed, function(value) {
+      mean(found$family >= value * (1 - 1e-10))
+    }, 0),
     row.names = NULL
   )
-  list(points = points, parts = if (!is.null(part)) tests_of_parts(term, span, of_parts, part))
 }
 
 #' What one unit of a term's only column moves the points by, k x d; NULL where it has more columns

@@ -9,12 +9,11 @@
 #' @return List by term: `squares`, `f`, each of B.
 #' @noRd
 shape_scores <- function(y, spans, orders) {
-  # What costs less for each permutation: n^2 inner products, or n x q x p projections.
-  if (nrow(y) > ncol(y) * ncol(spans[[1]]$basis)) {
-    return(lapply(spans, function(span) {
-      found <- permuted_squares(y, span, orders)
-      as_scores(rowSums(found$own), rowSums(found$whole), sum(found$total), span)
-    }))
+  # What costs less for each permutation: n^2 inner products a term, or n x q x p projections.
+  if (nrow(y) * length(spans) > ncol(y) * ncol(spans[[1]]$basis)) {
+    return(Map(function(found, span) {
+      as_scores(found$own, found$whole, found$total, span)
+    }, summed_squares(y, spans, orders), spans))
   }
   gram <- tcrossprod(y)
   lapply(spans, function(span) {
@@ -26,28 +25,57 @@ shape_scores <- function(y, spans, orders) {
   })
 }
 
-#' Sums of squares of every column
-#' @return List: `own`, `whole` (B x q, in the span of the term and of the model), `total` (q).
+#' Sums of squares of every column, for all terms at once
+#'
+#' The variables are permuted once for all terms: what permuted residuals have on the model is that
+#' of the permuted variables less that of their fitted values.
+#'
+#' @return List by term: `own`, `whole` (B x q, in the span of the term and of the model), `total`
+#'   (q).
 #' @noRd
-permuted_squares <- function(y, span, orders) {
-  left <- y - span$without %*% crossprod(span$without, y)
-  c(cpp_permuted_squares(t(left), span$basis, span$df, orders), list(total = colSums(left^2)))
+permuted_squares <- function(y, spans, orders) {
+  basis <- spans[[1]]$basis
+  without <- lapply(spans, `[[`, "without")
+  fitted <- lapply(without, function(x) crossprod(y, x))
+  own <- lapply(spans, function(span) {
+    crossprod(basis, span$basis[, seq_len(span$df), drop = FALSE])
+  })
+  found <- cpp_permuted_squares(t(y), basis, without, fitted, own, orders)
+  squares <- colSums(y^2)
+  stats::setNames(Map(function(one, fit) c(one, list(total = pmax(squares - rowSums(fit^2), 0))),
+                      found, fitted),
+                  names(spans))
+}
+
+#' The same summed over all columns, some columns at a time
+#' @param block Columns at a time: a block needs block x B numbers a term.
+#' @return List by term: `own`, `whole` (B), `total`.
+#' @noRd
+summed_squares <- function(y, spans, orders, block = 500) {
+  each <- lapply(permutation_blocks(ncol(y), block), function(columns) {
+    lapply(permuted_squares(y[, columns, drop = FALSE], spans, orders), function(found) {
+      list(own = rowSums(found$own), whole = rowSums(found$whole), total = sum(found$total))
+    })
+  })
+  Reduce(function(a, b) Map(function(x, y) Map(`+`, x, y), a, b), each)
 }
 
 as_scores <- function(own, whole, total, span) {
   list(squares = own, f = own / span$df / (pmax(total - whole, 0) / span$left))
 }
 
-#' F of every column of y, some permutations at a time
+#' Sums of squares of every column of y, for all terms
 #'
 #' @param y List of n x q matrices over which squares are summed (the co-ordinates of points).
-#' @return List: `own`, `left` (B x q: sums of squares of the term and of the residuals).
+#' @return List by term: `own`, `left` (B x q: sums of squares of the term and of the residuals).
 #' @noRd
-column_squares <- function(y, span, orders) {
-  each <- lapply(y, permuted_squares, span, orders)
-  add <- function(part) Reduce(`+`, lapply(each, `[[`, part))
-  own <- add("own")
-  list(own = own, left = pmax(rep(add("total"), each = nrow(own)) - add("whole"), 0))
+column_squares <- function(y, spans, orders) {
+  each <- lapply(y, permuted_squares, spans, orders)
+  lapply(stats::setNames(nm = names(spans)), function(term) {
+    add <- function(part) Reduce(`+`, lapply(each, function(one) one[[term]][[part]]))
+    own <- add("own")
+    list(own = own, left = pmax(rep(add("total"), each = nrow(own)) - add("whole"), 0))
+  })
 }
 
 #' Pillai's trace of the first components, for all permutations, and its approximate p

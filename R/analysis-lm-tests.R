@@ -23,36 +23,49 @@ lm_rows <- function(term, test, span, scores, total, parametric = NA_real_) {
 #' @return List: `tests`, `points`, `parts`, `pca`.
 #' @noRd
 lm_level <- function(aligned, spans, orders, tests, components, part, tick) {
+  wants <- function(test) test %in% tests
   flat <- matrix(aligned$coords, length(aligned$mean))
   y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
-  whole <- if ("shape" %in% tests) shape_scores(y, spans, orders)
-  pca <- if (any(c("components", "manova") %in% tests)) shape_pca(aligned)
-  scores <- if (!is.null(pca)) {
-    left <- spans[[1]]$left
-    count <- if (components < 1) which(cumsum(pca$share) >= components - 1e-12)[1] else components
-    pca$x[, seq_len(max(1, min(count, length(pca$sdev), left))), drop = FALSE]
+  total <- sum(y^2)
+  whole <- if (wants("shape")) shape_scores(y, spans, orders)
+  rm(flat, y)
+  pca <- if (wants("components") || wants("manova")) {
+    shape_pca(aligned, components = if (components >= 1) components)
   }
+  scores <- if (!is.null(pca)) model_scores(pca, components, spans[[1]]$left)
+  size <- cbind(size = aligned$size - mean(aligned$size))
+  single <- cbind(if (wants("size")) size, if (wants("components")) scores)
+  of_single <- if (!is.null(single)) column_squares(list(single), spans, orders)
+  at <- if (wants("points")) lm_points(aligned, spans, orders, part)
   each <- lapply(names(spans), function(term) {
     span <- spans[[term]]
     tick()
     row <- function(...) lm_rows(term, span = span, ...)
-    by_column <- function(test, y) {
-      found <- column_squares(list(y), span, orders)
-      f <- found$own / span$df / (found$left / span$left)
-      row(test, scores = list(squares = found$own, f = f), total = colSums(y^2),
+    by_column <- function(names) {
+      own <- of_single[[term]]$own[, match(names, colnames(single)), drop = FALSE]
+      left <- of_single[[term]]$left[, match(names, colnames(single)), drop = FALSE]
+      f <- own / span$df / (left / span$left)
+      row(names, scores = list(squares = own, f = f),
+          total = colSums(single[, names, drop = FALSE]^2),
           parametric = stats::pf(f[1, ], span$df, span$left, lower.tail = FALSE))
     }
-    trace <- if ("manova" %in% tests) pillai_scores(scores, span, orders)
-    at <- if ("points" %in% tests) lm_points(aligned, term, span, orders, part)
-    rows <- list(if ("shape" %in% tests) row("shape", scores = whole[[term]], total = sum(y^2)),
-                 if ("size" %in% tests) by_column("size", cbind(aligned$size - mean(aligned$size))),
-                 if ("manova" %in% tests) {
+    trace <- if (wants("manova")) pillai_scores(scores, span, orders)
+    rows <- list(if (wants("shape")) row("shape", scores = whole[[term]], total = total),
+                 if (wants("size")) by_column("size"),
+                 if (wants("manova")) {
                    row("manova", scores = list(f = trace$trace), total = 1,
                        parametric = trace$parametric)
                  },
-                 if ("components" %in% tests) by_column(colnames(scores), scores))
-    list(tests = do.call(rbind, rows), points = at$points, parts = at$parts)
+                 if (wants("components")) by_column(colnames(scores)))
+    list(tests = do.call(rbind, rows), points = at[[term]]$points, parts = at[[term]]$parts)
   })
   bound <- function(what) do.call(rbind, lapply(each, `[[`, what))
   list(tests = bound("tests"), points = bound("points"), parts = bound("parts"), pca = pca)
+}
+
+#' Scores on as many components as leave a degree of freedom
+#' @noRd
+model_scores <- function(pca, components, left) {
+  count <- if (components < 1) which(cumsum(pca$share) >= components - 1e-12)[1] else components
+  pca$x[, seq_len(max(1, min(count, length(pca$sdev), left))), drop = FALSE]
 }

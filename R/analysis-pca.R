@@ -148,6 +148,15 @@ turn_components <- function(pca, which) {
   pca
 }
 
+#' The first components alone
+#' @noRd
+first_components <- function(pca, count) {
+  own <- seq_len(count)
+  for (part in c("sdev", "share")) pca[[part]] <- pca[[part]][own]
+  for (part in c("x", "rotation", "direction")) pca[[part]] <- pca[[part]][, own, drop = FALSE]
+  pca
+}
+
 #' Singular values and right vectors of a matrix by the smaller of its two cross-products, or the
 #' greatest ones by Lanczos' method
 #' @param most How many; `NULL`: all.

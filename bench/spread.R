@@ -1,19 +1,21 @@
 # Level and power of the tests of groups, where groups differ in size and spread.
 #
-#   nice Rscript bench/spread.R [samples] [file] [level|power|designs]
+#   nice Rscript bench/spread.R [samples] [file] [variants|level|form|power|designs]
 #
 # A sample: shapes of 20 points about one mean, of eight modes of falling variance and noise, all
 # in the space tangent to the shapes at the mean, so that means are equal whatever the spread;
 # normal centroid sizes. Groups after the first have `ratio` times the first one's spread. 99
 # permutations. Adds a row a sample to `file` as it goes (columns: what, sizes, ratio, spread, seed,
 # and the p-values), goes on where it stopped, and prints the shares of p-values up to 0.05.
+# form: the spreads differ in the first mode only, or in the noise only. variants: of one variable,
+# what raising a group's variance costs and gains, 100,000 samples.
 
 library(crestline)
 
 argument <- commandArgs(TRUE)
 samples <- if (length(argument) > 0) as.integer(argument[1]) else 500L
 file <- if (length(argument) > 1) argument[2] else file.path(tempdir(), "spread.csv")
-wanted <- if (length(argument) > 2) argument[3] else c("level", "power", "designs")
+wanted <- if (length(argument) > 2) argument[3] else c("variants", "level", "form", "power", "designs")
 
 # Deviations in the tangent space at `mean` (k x 3, centred, of unit size).
 tangent_to <- function(mean) {
@@ -28,7 +30,8 @@ tangent_to <- function(mean) {
 }
 
 # `effect`: of shape at four points (unit of centroid size), and of size (share).
-draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k = 20) {
+# `form`: of what differs by `ratio`.
+draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k = 20, form = "all") {
   set.seed(seed)
   mean <- scale(matrix(rnorm(3 * k), k), scale = FALSE)
   mean <- mean / sqrt(sum(mean^2))
@@ -41,8 +44,11 @@ draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k =
   own <- c(1, rep_len(ratio, length(sizes) - 1))[group]
   shapes <- lapply(seq_along(group), function(i) {
     noise <- 0.7 * sd * tangent(matrix(rnorm(3 * k), k))
-    off <- Reduce(`+`, Map(`*`, modes, rnorm(8))) + noise
-    shape <- mean + own[i] * off + effect[1] * (group[i] == 2) * bump
+    if (form != "first") noise <- own[i] * noise
+    of_modes <- rep(if (form == "noise") 1 else own[i], 8)
+    if (form == "first") of_modes[-1] <- 1
+    off <- Reduce(`+`, Map(`*`, modes, of_modes * rnorm(8))) + noise
+    shape <- mean + off + effect[1] * (group[i] == 2) * bump
     size <- 1 + 0.04 * own[i] * rnorm(1) + effect[2] * (group[i] == 2)
     size * shape / sqrt(sum(shape^2))
   })
@@ -51,7 +57,8 @@ draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k =
 
 p_values <- function(data, seed, ...) {
   compared <- suppressMessages(suppressWarnings(
-    compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = seed, progress = FALSE, ...)
+    compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = seed, progress = FALSE,
+                   n_boot = 1, ...)
   ))
   tests <- compared$tests
   p <- function(test) c(tests$p_value[tests$test %in% test], NA)[1]
@@ -75,10 +82,34 @@ cell <- function(what, sizes, ratio, equal, p_of) {
   message(what, " ", key$sizes, " ratio ", ratio, " ", key$spread, " done")
 }
 
-of_groups <- function(what, sizes, ratio, equal, effect = c(0, 0)) {
+of_groups <- function(what, sizes, ratio, equal, effect = c(0, 0), form = "all") {
   cell(what, sizes, ratio, equal, function(seed) {
-    p_values(draw_groups(sizes, ratio, seed, effect), seed, equal_spread = equal)
+    p_values(draw_groups(sizes, ratio, seed, effect, form = form), seed, equal_spread = equal)
   })
+}
+
+# One variable, 24 and 6: t whose variances are raised to the pooled one, at most `most` times.
+# Critical values are those at ratio 1, as regroupings have them.
+raising <- function(most, sizes = c(24, 6), effect = 1.25, n = 1e5) {
+  set.seed(1)
+  score <- function(ratio, effect = 0) {
+    df <- sizes - 1
+    off <- rnorm(n) * sqrt(1 / sizes[1] + ratio^2 / sizes[2]) + effect
+    own <- cbind(rchisq(n, df[1]) / df[1], ratio^2 * rchisq(n, df[2]) / df[2])
+    pooled <- drop(own %*% df) / sum(df)
+    own <- pmax(own, pmin(pooled, most * own))
+    part <- own / rep(sizes, each = n)
+    count <- rowSums(part)^2 / drop(part^2 %*% (1 / df))
+    count * log1p(off^2 / rowSums(part) / count)
+  }
+  least <- quantile(score(1), 0.95)
+  ratio <- c(1 / 3, 1 / 2, 2 / 3, 1.5, 2, 3)
+  level <- vapply(ratio, function(r) mean(score(r) > least), 0)
+  round(c(most = most, power = mean(score(1, effect) > least), setNames(level, signif(ratio, 2))), 3)
+}
+if ("variants" %in% wanted) {
+  cat("raising variances, 24:6, level by ratio\n")
+  print(t(vapply(c(1, 1.2, 1.5, 2, 3, Inf), raising, numeric(8))))
 }
 
 two <- list(c(15, 15), c(24, 6), c(6, 24))
@@ -88,6 +119,11 @@ if ("level" %in% wanted) {
   for (ratio in c(3, 1)) for (sizes in three) of_groups("level", sizes, ratio, FALSE)
   of_groups("level", c(24, 6), 1.5, FALSE)
   of_groups("level", c(24, 6), 3, TRUE)
+}
+if ("form" %in% wanted) {
+  for (form in c("first", "noise")) for (sizes in two) {
+    of_groups(paste("form", form), sizes, 3, FALSE, form = form)
+  }
 }
 if ("power" %in% wanted) {
   for (sizes in two) for (equal in c(FALSE, TRUE)) {
@@ -135,6 +171,7 @@ if ("designs" %in% wanted) {
   }
 }
 
+if (!file.exists(file)) quit()
 found <- read.csv(file, colClasses = c(sizes = "character"))
 key <- found[c("what", "sizes", "ratio", "spread")]
 rate <- aggregate(found[6:12] <= 0.05, key, mean)

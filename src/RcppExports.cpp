@@ -694,17 +694,36 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_permuted_squares
-List cpp_permuted_squares(NumericMatrix residuals, NumericMatrix basis, int df, IntegerMatrix orders);
-RcppExport SEXP _crestline_cpp_permuted_squares(SEXP residualsSEXP, SEXP basisSEXP, SEXP dfSEXP, SEXP ordersSEXP) {
+// cpp_common_form_t2
+List cpp_common_form_t2(NumericMatrix x, IntegerMatrix labels, int groups, int count, int rounds, double least, double rounding);
+RcppExport SEXP _crestline_cpp_common_form_t2(SEXP xSEXP, SEXP labelsSEXP, SEXP groupsSEXP, SEXP countSEXP, SEXP roundsSEXP, SEXP leastSEXP, SEXP roundingSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type residuals(residualsSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type x(xSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type labels(labelsSEXP);
+    Rcpp::traits::input_parameter< int >::type groups(groupsSEXP);
+    Rcpp::traits::input_parameter< int >::type count(countSEXP);
+    Rcpp::traits::input_parameter< int >::type rounds(roundsSEXP);
+    Rcpp::traits::input_parameter< double >::type least(leastSEXP);
+    Rcpp::traits::input_parameter< double >::type rounding(roundingSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_common_form_t2(x, labels, groups, count, rounds, least, rounding));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_permuted_squares
+List cpp_permuted_squares(NumericMatrix y, NumericMatrix basis, List without, List fitted, List own, IntegerMatrix orders);
+RcppExport SEXP _crestline_cpp_permuted_squares(SEXP ySEXP, SEXP basisSEXP, SEXP withoutSEXP, SEXP fittedSEXP, SEXP ownSEXP, SEXP ordersSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type y(ySEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type basis(basisSEXP);
-    Rcpp::traits::input_parameter< int >::type df(dfSEXP);
+    Rcpp::traits::input_parameter< List >::type without(withoutSEXP);
+    Rcpp::traits::input_parameter< List >::type fitted(fittedSEXP);
+    Rcpp::traits::input_parameter< List >::type own(ownSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type orders(ordersSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_permuted_squares(residuals, basis, df, orders));
+    rcpp_result_gen = Rcpp::wrap(cpp_permuted_squares(y, basis, without, fitted, own, orders));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -757,7 +776,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {"_crestline_cpp_permuted_forms", (DL_FUNC) &_crestline_cpp_permuted_forms, 4},
-    {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 4},
+    {"_crestline_cpp_common_form_t2", (DL_FUNC) &_crestline_cpp_common_form_t2, 7},
+    {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 6},
     {NULL, NULL, 0}
 };
 

@@ -13,7 +13,7 @@ namespace {
 // Variables taken at a time: their sums stay in the first cache.
 constexpr int kChunk = 256;
 
-// sums: p x width, of basis' times the permuted residuals of some variables. Four specimens at a time: a sum is read and
+// sums: p x width, of basis' times some permuted variables. Four specimens at a time: a sum is read and
 // written once for all of them.
 void project(const double* residuals, int q, int n, int width, const double* basis, int p, const int* order, double* sums) {
   std::fill(sums, sums + static_cast<std::size_t>(p) * width, 0.0);
@@ -35,6 +35,48 @@ void project(const double* residuals, int q, int n, int width, const double* bas
       double* sum = sums + static_cast<std::size_t>(l) * width;
       for (int j = 0; j < width; ++j) sum[j] += c * e[j];
     }
+  }
+}
+
+// By term, p x without_count x b: basis' times the permuted basis of the model without the term.
+std::vector<std::vector<double>> permuted_products(int n, const double* basis, int p, const std::vector<PermutedTerm>& terms,
+                                                   const int* orders, int b) {
+  std::vector<std::vector<double>> laid;
+  for (const PermutedTerm& term : terms) {
+    std::vector<double> each(static_cast<std::size_t>(p) * term.without_count * b);
+    double* at = each.data();
+    for (int k = 0; k < b; ++k) {
+      const int* order = orders + static_cast<std::size_t>(k) * n;
+      for (int r = 0; r < term.without_count; ++r) {
+        const double* own = term.without + static_cast<std::size_t>(r) * n;
+        for (int l = 0; l < p; ++l, ++at) {
+          const double* c = basis + static_cast<std::size_t>(l) * n;
+          double sum = 0;
+          for (int i = 0; i < n; ++i) sum += c[i] * own[order[i]];
+          *at = sum;
+        }
+      }
+    }
+    laid.push_back(std::move(each));
+  }
+  return laid;
+}
+
+// left: p x width, on the basis, of permutation k and the variables from `from`.
+void add_squares(const double* left, int width, int p, const PermutedTerm& term, int b, int k, int from) {
+  for (int j = 0; j < width; ++j) {
+    double in_own = 0, in_whole = 0;
+    for (int d = 0; d < term.df; ++d) {
+      double sum = 0;
+      for (int l = 0; l < p; ++l) sum += term.own[l + static_cast<std::size_t>(p) * d] * left[static_cast<std::size_t>(l) * width + j];
+      in_own += sum * sum;
+    }
+    for (int l = 0; l < p; ++l) {
+      const double value = left[static_cast<std::size_t>(l) * width + j];
+      in_whole += value * value;
+    }
+    term.in_own[k + static_cast<std::size_t>(b) * (from + j)] = in_own;
+    term.in_whole[k + static_cast<std::size_t>(b) * (from + j)] = in_whole;
   }
 }
 
@@ -65,23 +107,29 @@ void permuted_forms(const double* gram, const double* own, const double* whole, 
   }
 }
 
-void permuted_squares(const double* residuals, int q, int n, const double* basis, int p, int df, const int* orders, int b,
-                      double* own, double* whole, const std::function<void()>& between) {
+void permuted_squares(const double* y, int q, int n, const double* basis, int p, const std::vector<PermutedTerm>& terms,
+                      const int* orders, int b, const std::function<void()>& between) {
   Patience patience(between);
-  std::vector<double> sums(static_cast<std::size_t>(p) * kChunk);
+  std::vector<double> sums(static_cast<std::size_t>(p) * kChunk), left(sums.size());
+  const std::vector<std::vector<double>> laid = permuted_products(n, basis, p, terms, orders, b);
   for (int from = 0; from < q; from += kChunk) {
     const int width = std::min(kChunk, q - from);
     for (int k = 0; k < b; ++k) {
       if (patience.over()) patience.finish();
-      project(residuals + from, q, n, width, basis, p, orders + static_cast<std::size_t>(k) * n, sums.data());
-      for (int j = 0; j < width; ++j) {
-        double in_own = 0, rest = 0;
+      project(y + from, q, n, width, basis, p, orders + static_cast<std::size_t>(k) * n, sums.data());
+      for (std::size_t t = 0; t < terms.size(); ++t) {
+        const PermutedTerm& term = terms[t];
+        const double* product = laid[t].data() + static_cast<std::size_t>(k) * p * term.without_count;
+        std::copy(sums.begin(), sums.end(), left.begin());
         for (int l = 0; l < p; ++l) {
-          const double value = sums[static_cast<std::size_t>(l) * width + j];
-          (l < df ? in_own : rest) += value * value;
+          double* rest = left.data() + static_cast<std::size_t>(l) * width;
+          for (int r = 0; r < term.without_count; ++r) {
+            const double share = product[l + static_cast<std::size_t>(p) * r];
+            const double* fitted = term.fitted + static_cast<std::size_t>(r) * q + from;
+            for (int j = 0; j < width; ++j) rest[j] -= share * fitted[j];
+          }
         }
-        own[k + static_cast<std::size_t>(b) * (from + j)] = in_own;
-        whole[k + static_cast<std::size_t>(b) * (from + j)] = in_own + rest;
+        add_squares(left.data(), width, p, term, b, k, from);
       }
     }
   }

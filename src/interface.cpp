@@ -7,6 +7,7 @@
 
 #include "analysis_align.h"
 #include "analysis_lm.h"
+#include "analysis_spread.h"
 #include "curvature.h"
 #include "placing_match.h"
 #include "placing_rigid.h"
@@ -766,12 +767,33 @@ NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericM
   return out;
 }
 
-// residuals: q x n. basis: n x p. orders: n x b, from 1.
+// x: m x n. labels: n x b, from 1. Gives t2 (b) and scale (groups x b).
 // [[Rcpp::export]]
-List cpp_permuted_squares(NumericMatrix residuals, NumericMatrix basis, int df, IntegerMatrix orders) {
+List cpp_common_form_t2(NumericMatrix x, IntegerMatrix labels, int groups, int count, int rounds,
+                        double least, double rounding) {
+  std::vector<int> label = from_zero(labels);
+  NumericVector t2(labels.ncol());
+  NumericMatrix scale(groups, labels.ncol());
+  crestline::common_form_t2(x.begin(), x.nrow(), x.ncol(), label.data(), labels.ncol(), groups,
+                            count, rounds, least, rounding, t2.begin(), scale.begin(),
+                            [] { checkUserInterrupt(); });
+  return List::create(_["t2"] = t2, _["scale"] = scale);
+}
+
+// y: q x n. basis: n x p. without (n x r), fitted (q x r), own (p x df): lists by term. orders: n x b, from 1. Gives a list
+// by term of own, whole (b x q).
+// [[Rcpp::export]]
+List cpp_permuted_squares(NumericMatrix y, NumericMatrix basis, List without, List fitted, List own, IntegerMatrix orders) {
   std::vector<int> order = from_zero(orders);
-  NumericMatrix own(orders.ncol(), residuals.nrow()), whole(orders.ncol(), residuals.nrow());
-  crestline::permuted_squares(residuals.begin(), residuals.nrow(), residuals.ncol(), basis.begin(), basis.ncol(), df,
-                              order.data(), orders.ncol(), own.begin(), whole.begin(), [] { checkUserInterrupt(); });
-  return List::create(_["own"] = own, _["whole"] = whole);
+  std::vector<crestline::PermutedTerm> terms;
+  List out;
+  for (R_xlen_t t = 0; t < own.size(); ++t) {
+    NumericMatrix w = without[t], f = fitted[t], o = own[t];
+    NumericMatrix in_own(orders.ncol(), y.nrow()), in_whole(orders.ncol(), y.nrow());
+    terms.push_back({w.begin(), w.ncol(), f.begin(), o.begin(), o.ncol(), in_own.begin(), in_whole.begin()});
+    out.push_back(List::create(_["own"] = in_own, _["whole"] = in_whole));
+  }
+  crestline::permuted_squares(y.begin(), y.nrow(), y.ncol(), basis.begin(), basis.ncol(), terms, order.data(),
+                              orders.ncol(), [] { checkUserInterrupt(); });
+  return out;
 }
