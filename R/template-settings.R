@@ -12,10 +12,11 @@
 #'
 #' Is a measured crest the homologous line? Two populations give two answers for the brow. In one
 #' population the crest is the best place for the points. In the other the corresponding line moves
-#' across the crest by 2 mm from face to face. The default is a compromise: with `floor` the points
-#' of broad ridges (brow, mandible) can leave the crest by some 1 mm. For a study of the crests
-#' themselves give `floor = 0`. Points then stay on their ridge within its standard error. Give
-#' `curves = "held"` to keep all curve points exactly on the measured curves.
+#' across the crest by 2 mm from face to face. The default is a compromise. On two real faces the
+#' points of ridges are 0.35 and 0.18 mm (root mean square) from their ridge, on the brow 0.5 mm.
+#' With a larger `pull` they are nearer, with a smaller one points vary less on the second
+#' population. For a study of the crests themselves give `floor = 0`. Give `curves = "held"` to keep
+#' all curve points exactly on the measured curves.
 #'
 #' Lengths are in radii, so nothing depends on the unit. A radius is the root mean square distance
 #' of the template's landmarks and curve points from their centre. The energy of the joint step has

@@ -234,7 +234,17 @@ procrustes_distances <- function(at, scale) {
   as.vector(dist(t(apply(laid$rotated, 3, c))))
 }
 
-# Correlation of distances between faces with those of the dense mesh about the points.
+# Points of every face where the mean face has them, by the dense correspondence: what points would
+# be that are homologous without error. Places x 3 x faces.
+perfect_places <- function(case, middle) {
+  it <- if (isTRUE(case$dense_mesh)) case$it else case$it[[1]]
+  on <- structure(list(vb = rbind(t(case$mean), 1), it = it), class = "mesh3d")
+  near <- Rvcg::vcgClostKD(middle, on, barycentric = TRUE, threads = 1)
+  vapply(case$dense, function(x) corners_at(it, near$faceptr, t(near$barycoords), x), middle)
+}
+
+# Correlation of distances between faces, in shape and in shape and size, with those of the dense
+# mesh about the points; and, in shape, with those of the same points without error (`own`).
 distance_rows <- function(case, stores, carried, scheme) {
   if (is.null(case$dense)) return(NULL)
   middle <- apply(carried, 1:2, mean, na.rm = TRUE)
@@ -243,18 +253,23 @@ distance_rows <- function(case, stores, carried, scheme) {
   cell <- apply(round(case$mean[near, ] / 4), 1, paste, collapse = " ")
   dense <- vapply(case$dense, function(x) x[near[!duplicated(cell)], ],
                   case$mean[near[!duplicated(cell)], ])
-  places <- list(curves = unique(with(scheme$points, place[level == "curves"])),
-                 surface = unique(with(scheme$points, place[level == "surface"])))
-  found <- lapply(c(shape = TRUE, form = FALSE), function(scale) {
-    truth <- procrustes_distances(dense, scale)
-    vapply(places, function(place) {
-      vapply(stores, function(store) {
-        cor(procrustes_distances(vapply(store, function(x) x[place, 1:3], store[[1]][place, 1:3]),
-                                 scale), truth)
-      }, 0)
-    }, numeric(length(stores)))
+  truth <- list(shape = procrustes_distances(dense, TRUE),
+                form = procrustes_distances(dense, FALSE))
+  apart <- function(store, place, scale) {
+    x <- vapply(store, function(x) x[place, 1:3], store[[1]][place, 1:3])
+    procrustes_distances(x, scale)
+  }
+  columns <- lapply(c(curves = "curves", surface = "surface"), function(level) {
+    place <- unique(scheme$points$place[scheme$points$level == level])
+    place <- place[complete.cases(middle[place, ])]
+    own <- procrustes_distances(perfect_places(case, middle[place, ]), TRUE)
+    t(vapply(stores, function(store) {
+      shape <- apart(store, place, TRUE)
+      c(shape = cor(shape, truth$shape), form = cor(apart(store, place, FALSE), truth$form),
+        own = cor(shape, own))
+    }, numeric(3)))
   })
-  data.frame(what = names(stores), found$shape, found$form)
+  data.frame(what = names(stores), columns)
 }
 
 # What quality() says of curves that are off, before (held) and by their offset.

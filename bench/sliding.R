@@ -1,16 +1,16 @@
 # Sliding: does it make points homologous, does it keep its promises, what does it cost.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/sliding.R [random] [mean] [starts] [spread]
-#   [noise] [morpho] [morpho-noise]
-#     [slider3d] [gpagen FILE]
+#     [noise] [variants] [morpho] [morpho-noise] [slider3d] [gpagen FILE]
 #
 # random: 1,000 random curves against random templates. mean: geodesic distances and frechet_mean()
 # on spheres. The others use the 23 simpop faces, in dense correspondence: every point is carried to
 # the shared topology, and its RMS distance from the mean over faces taken, along its curve and in
-# all; noise: with noise and moved landmarks. morpho (relaxLM) and slider3d need Morpho, and so does
-# the warp. gpagen writes what geomorph is to slide into FILE (with .rds), or measures what it has
-# made of it: bench/sliding-gpagen.R runs between the two, on R 4.5 (tools/chroot.sh).
-# bench/homology.R has more populations.
+# all; noise: with noise and moved landmarks; variants: settings of held curves. morpho (relaxLM)
+# and slider3d need Morpho, and so does the warp. gpagen writes what geomorph is to slide into FILE
+# (with .rds), or measures what it has made of it: bench/sliding-gpagen.R runs between the two, on
+# R 4.5 (tools/chroot.sh). bench/homology.R has more populations; its FOLDER, as
+# CRESTLINE_BENCH=FOLDER, saves measuring the faces again.
 
 library(crestline)
 
@@ -18,7 +18,8 @@ inner <- function(name) getFromNamespace(name, "crestline")
 shared <- Sys.getenv("CRESTLINE_SHARED")
 wanted <- commandArgs(TRUE)
 if (!length(wanted))
-  wanted <- c("random", "mean", "starts", "spread", "noise", "morpho", "morpho-noise", "slider3d")
+  wanted <- c("random", "mean", "starts", "spread", "noise", "variants", "morpho", "morpho-noise",
+              "slider3d")
 
 # ---- random curves ----
 
@@ -158,6 +159,13 @@ fitted <- function(faces, scale = 0.82) {
     suppressWarnings(fit_shape(face, face_scheme(), cut_scale = scale, progress = FALSE)))
 }
 
+# The same faces as bench/homology.R, which may have kept them.
+measured_faces <- function(noise = 0, moved = 0) {
+  file <- file.path(Sys.getenv("CRESTLINE_BENCH"),
+                    paste0("shapes-simpop", if (noise) "-noise", ".rds"))
+  if (file.exists(file)) readRDS(file)$shapes else fitted(specimens(noise, moved))
+}
+
 # Matrix by place: x, y, z, face, w1, w2, w3.
 store_of <- function(shape) {
   first <- !duplicated(shape$scheme$points$place)
@@ -217,22 +225,20 @@ warped <- function(shape, template) {
   store
 }
 
-spread_table <- function(shapes, label) {
+# rows: function of `slid(name, ...)`, which homologises by settings, that gives more rows.
+spread_table <- function(shapes, label, rows) {
   scheme <- shapes[[1]]$scheme
   it <- shapes[[1]]$specimen$mesh$it
   mean <- mean_mesh()
   before <- curve_spread(carried(stores(shapes), it, mean), scheme)
-  sockets <- grepl("socket", before$curve)
   whole <- before$curve %in% with(scheme$curves, curve[is.na(cut_share)])
   line <- function(name, stores, seconds = NA) {
     at <- carried(stores, it, mean)
     curves <- curve_spread(at, scheme)
-    rest <- curves[!sockets, ]
     ends <- curves[whole, ]
     data.frame(what = name, along = pooled(curves$along, curves$points),
                across = pooled(curves$across, curves$points),
                total = pooled(sqrt(curves$along^2 + curves$across^2), curves$points),
-               along_without_sockets = pooled(rest$along, rest$points),
                along_uncut = pooled(ends$along, ends$points),
                better = sum(curves$along < before$along), surface = surface_spread(at, scheme),
                seconds = seconds)
@@ -244,11 +250,20 @@ spread_table <- function(shapes, label) {
     list(line = line(name, stores(sample$shapes), time[["user.self"]]), sample = sample)
   }
   ours <- slid("default: free curve points")
-  table <- rbind(
-    line("as fitted, equal chords", stores(shapes)), slid("the paper's energies", "paper")$line,
-    line("warp on the landmarks", lapply(shapes, warped, ours$sample$template)), ours$line,
-    slid("crests kept, floor 0", floor = 0)$line,
-    slid("held", curves = "held")$line,
+  table <- rbind(line("as fitted, equal chords", stores(shapes)),
+                 line("warp on the landmarks", lapply(shapes, warped, ours$sample$template)),
+                 ours$line, rows(slid))
+  cat("\n", label, "\n", sep = "")
+  print(format(table, digits = 3), row.names = FALSE, width = 200)
+}
+
+main_rows <- function(slid) {
+  rbind(slid("crests kept, floor 0", floor = 0)$line, slid("held", curves = "held")$line,
+        slid("the paper's energies", "paper")$line)
+}
+
+held_rows <- function(slid) {
+  rbind(
     slid("held, cut ends stay", curves = "held", cut_ends = "stay")$line,
     slid("held, no nugget, no strain", curves = "held", nugget = 0, strain = 0)$line,
     slid("held, one energy of all curves", curves = "held", energy = "all")$line,
@@ -256,18 +271,18 @@ spread_table <- function(shapes, label) {
     slid("held, surface between slid curves, not slid", curves = "held", surface = "between")$line,
     slid("held, surface along transects, one energy", curves = "held", surface = "transect")$line
   )
-  cat("\n", label, "\n", sep = "")
-  print(format(table, digits = 3), row.names = FALSE, width = 200)
-  by_curve <- merge(before, curve_spread(carried(stores(ours$sample$shapes), it, mean), scheme),
-                    by = c("curve", "points"), suffixes = c("", "_slid"), sort = FALSE)
-  print(format(by_curve, digits = 2), row.names = FALSE)
-  ours$sample
 }
 
-spread <- function() spread_table(fitted(specimens()), "Spread over 23 faces, mm")
+spread <- function() spread_table(measured_faces(), "Spread over 23 faces, mm", main_rows)
 
 noise <- function() {
-  spread_table(fitted(specimens(0.2, 1)), "Spread with 0.2 mm noise and landmarks moved by 1 mm")
+  spread_table(measured_faces(0.2, 1), "Spread with 0.2 mm noise and landmarks moved by 1 mm",
+               main_rows)
+}
+
+variants <- function() {
+  spread_table(measured_faces(), "Settings of held curves, 23 faces, mm", held_rows)
+  spread_table(measured_faces(0.2, 1), "The same with noise", held_rows)
 }
 
 # Convergence, time, and whether the answer depends on the start.
@@ -293,7 +308,7 @@ starts <- function() {
 # What both comparisons with Morpho begin with: shapes with curves slid and surface points between
 # them; which of the surface model's places are free.
 morpho_start <- function(noise, moved) {
-  shapes <- fitted(specimens(noise, moved))
+  shapes <- measured_faces(noise, moved)
   sample <- homologise(shapes, settings = slide_settings(curves = "held"), progress = FALSE)
   scheme <- sample$template$scheme
   place <- unique(with(scheme$points, place[level == "surface"]))
@@ -442,6 +457,6 @@ against_gpagen <- function(file) {
 }
 
 sections <- list(random = random, mean = means, starts = starts, spread = spread, noise = noise,
-                 morpho = morpho, "morpho-noise" = function() morpho(0.2, 1),
+                 variants = variants, morpho = morpho, "morpho-noise" = function() morpho(0.2, 1),
                  slider3d = against_slider3d)
 if (wanted[1] == "gpagen") against_gpagen(wanted[2]) else for (name in wanted) sections[[name]]()
