@@ -26,12 +26,14 @@
 #'   hand, on a page: [place_landmarks()], [review_landmarks()]; a template of your own:
 #'   [landmark_template()], [face_template()], [calibrate_template()], with [find_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].
-#' * *One curve*: [ridge_curve()] with [ridge_settings()], [keep_away()], [keep_side()]; its stages:
-#'   [reference_path()] with [path_settings()], [path_coordinates()], [curvature_surface()],
-#'   [ridge_line()], [lift()]; another path: [plane_path()].
+#' * *One curve*: [ridge_curve()] with [ridge_settings()], [keep_away()], [keep_side()] and, for the
+#'   noise of a scanner, [scan_noise()]; its stages: [reference_path()] with [path_settings()],
+#'   [path_coordinates()], [curvature_surface()], [ridge_line()], [lift()]; another path:
+#'   [plane_path()].
 #' * *Places on a mesh*: [locate()] (the closest one), [frechet_mean()].
 #' * *A whole specimen*: [fit_shape()] by a scheme ([face_scheme()], [read_scheme()],
-#'   [curve_scheme()]); its parts: [coords()], [shape_mesh()], [patch_mesh()], [write_mesh()].
+#'   [curve_scheme()], [write_scheme()], [learn_tracks()]); its parts: [coords()], [shape_mesh()],
+#'   [patch_mesh()], [write_mesh()].
 #' * *How far to trust it*: [quality()], [quality_report()], [quality_limits()], [surface_faults()].
 #' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()].
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],

@@ -27,3 +27,23 @@ test_that("no page points at a file that is not in the package", {
   outside <- grepl("bench/|tools/|data-raw/|CONTRIBUTING|[.][.]/", gsub("man/figures/", "", pages))
   expect_identical(names(pages)[outside], character())
 })
+
+test_that("README and the package's page name every vignette", {
+  files <- list.files(testthat::test_path("..", "..", "vignettes"), "[.]Rmd$")
+  readme <- testthat::test_path("..", "..", "README.md")
+  testthat::skip_if(!length(files) || !file.exists(readme), "sources not here")
+  names <- paste0("`", sub("[.]Rmd$", "", files), "`")
+  page <- gsub("\\code{", "`", gsub("}", "`", help_pages()[["crestline-package.Rd"]]), fixed = TRUE)
+  said <- paste(readLines(readme, encoding = "UTF-8"), collapse = "\n")
+  listed <- function(text) names[!vapply(names, grepl, NA, text, fixed = TRUE)]
+  expect_identical(listed(said), character())
+  expect_identical(listed(page), character())
+})
+
+test_that("the package's page names every function that is exported", {
+  page <- help_pages()[["crestline-package.Rd"]]
+  names <- setdiff(getNamespaceExports("crestline"),
+                   c("plot_cuts", "plot_panel", "plot_placing", "plot_refinement"))
+  named <- vapply(paste0(names, "()"), grepl, NA, page, fixed = TRUE)
+  expect_identical(sort(names[!named]), character())
+})
