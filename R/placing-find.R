@@ -5,12 +5,11 @@
 #'
 #' Finds the landmarks of a template on a scan. The scan is brought to the template's unit (a power
 #' of ten). The template's nose tip is placed on every prominent part of the scan, in many
-#' rotations. The starts that match best are fitted. If no fit is good, starts at the strongest caps and cups
-#' follow. The template is then deformed onto the scan, by points that are closest in position and
-#' curvature.
-#' Each of its landmarks moves to the closest point of the mesh. The result does not depend on the
-#' scan's pose, nor on the orientation of its triangles. The scan may show more than the object, or
-#' lack parts of it. [crestline-package] has a glossary.
+#' rotations. The starts that match best are fitted. If no fit is good, starts at the strongest caps
+#' and cups follow. The template is then deformed onto the scan, by points that are closest in
+#' position and curvature. Each of its landmarks moves to the closest point of the mesh. The result
+#' does not depend on the scan's pose, nor on the orientation of its triangles. The scan may show
+#' more than the object, or lack parts of it. [crestline-package] has a glossary.
 #'
 #' @template bare-mesh
 #' @param template A [landmark_template()], or a [specimen()] with landmarks, of which one is made.

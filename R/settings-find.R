@@ -75,9 +75,9 @@
 #' @param start_angle,start_gap Starts count as equal if their rotations differ by less than this
 #'   angle (degrees), and their positions by less than this length.
 #' @param start_reach Greatest distance of a match at the first step of the fit of a start (length).
-#' @param good,unlike A pose is accepted if its score is at most the first number of `good`. Up to the
-#'   second number it is accepted if at most the share `unlike` of the template differs from the scan
-#'   in position or curvature.
+#' @param good,unlike A pose is accepted if its score is at most the first number of `good`. Up to
+#'   the second number it is accepted if at most the share `unlike` of the template differs from the
+#'   scan in position or curvature.
 #' @param agree Limits of the agreement of curvature (-1 to 1), see [find_landmarks()]. Below the
 #'   first the scan is no face. From the second on it is a face. 54 faces and smiles have 0.48 to
 #'   0.89, incomplete faces 0.55 to 0.82, 15 other objects at most 0.29.

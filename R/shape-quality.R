@@ -49,8 +49,8 @@
 #'     [fit_shape()];
 #'   * `offset`: root mean square distance of a curve from its homologous points, across it, in
 #'     radii of the template. NA if the shape was not slid with free curve points;
-#'   * `track`: greatest distance of a curve from its expected track, in spreads. NA if the scheme has
-#'     no tracks, see [learn_tracks()];
+#'   * `track`: greatest distance of a curve from its expected track, in spreads. NA if the scheme
+#'     has no tracks, see [learn_tracks()];
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
 #'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
