@@ -35,7 +35,7 @@
 #'   [curve_scheme()], [write_scheme()], [learn_tracks()]); its parts: [coords()], [shape_mesh()],
 #'   [patch_mesh()], [write_mesh()].
 #' * *How far to trust it*: [quality()], [quality_report()], [quality_limits()], [surface_faults()].
-#' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()].
+#' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()], [read_batch()].
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],
 #'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample].
 #' * *Statistics*: generalised Procrustes analysis [align()], with warnings by [sample_limits()];
