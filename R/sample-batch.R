@@ -15,16 +15,13 @@
 #' result in `dir` is used again if mesh, landmarks, scheme, settings, template and `reading` are
 #' the same, and if the version of the package gives the same answers. File names do not matter. A
 #' scan that was renamed is not measured again, and two scans of one name in different folders are
-#' kept apart. A message gives the number of results that are read, and the number of results of
-#' other settings that are replaced. Use one folder for each set of settings.
+#' kept apart. A message gives the numbers of results that are read, replaced, or kept beside new
+#' ones.
 #'
-#' To read results in a new session, call `fit_shapes()` again with the same arguments. `saveRDS()`
+#' Results of other settings, schemes or ways of reading are never overwritten. The new result gets
+#' a file beside the old one, with a part of a hash in its name. A result of the same scan by other
+#' landmarks is replaced. [read_batch()] opens a folder of results in another session. `saveRDS()`
 #' of a batch with `dir` stores only the paths of its files.
-#'
-#' Results of other settings, schemes or ways of reading are never overwritten. The new result of
-#' such a specimen gets a file beside the old one, with a part of a hash in its name, and a message
-#' says so. A result of the same scan by other landmarks is replaced, with a message. `saveRDS()` of
-#' a batch stores only the paths of its results. [read_batch()] opens a folder of results.
 #'
 #' The file of a result has a checksum, which is compared before the file is read. A damaged or
 #' truncated result is measured again. Several runs may share a folder. A run deletes only its own

@@ -2,14 +2,14 @@
 
 #' Read the results in a folder
 #'
-#' Opens the results that [fit_shapes()] has kept in a folder, as a batch. No mesh is needed, nor
-#' the arguments of the run, so that it works in another session and after the folder was moved.
-#' Shapes are read when they are used. Specimens that failed have no file and are not in the batch.
+#' Opens the results that [fit_shapes()] has written to a folder, as a batch. It needs neither the
+#' meshes nor the arguments of the run. It works in another session, and after the folder was moved.
+#' Shapes are read when they are used. Specimens that failed have no file, and are not in the batch.
 #'
 #' @param x Path of the folder (`dir` of [fit_shapes()]), or paths of `.shape` files.
 #' @return A `shape_batch`, as of [fit_shapes()], in the order of the files' names.
 #' @section Errors: of class `crestline_error`: there is no folder or file of that name, it has no
-#'   results, or its results are of several schemes.
+#'   results, or its results have several schemes.
 #' @section Messages: if a specimen has several results, the newest is taken, and the message names
 #'   the others. If the specimens were measured with different settings, the message counts them.
 #'   Give the paths of the files that you want instead.
