@@ -250,6 +250,7 @@ draw_refinement <- function(specimen, view, labels, main, ...) {
   }
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
+  view <- posed_view(view, specimen$landmarks)
   scene <- draw_surface(specimen$mesh, "#E3CDB8", view, "picture", ...)
   table <- table[table$state == "found", ]
   given <- as.matrix(table[paste0("given_", c("x", "y", "z"))])

@@ -37,6 +37,9 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
 #' @noRd
 draw_map <- function(points, value, signed, triangles, significance, limits, palette, engine, view,
                      legend, title, length_unit, ...) {
+  at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
+  rownames(at) <- points$point
+  view <- posed_view(view, at)
   if (is.null(limits)) limits <- c(-signed, 1) * max(abs(value), na.rm = TRUE)
   if (limits[2] <= limits[1]) limits <- limits[1] + c(0, 1)
   if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))

@@ -2,6 +2,7 @@
 
 plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
   aligned <- x$aligned[[level]]
+  view <- posed_view(view, aligned$mean)
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
   means <- lapply(stats::setNames(nm = levels(x$group)),
                   function(g) size * mean_shape_of(aligned, x$group == g))

@@ -86,6 +86,7 @@ normal_ellipse <- function(xy, share, n = 100) {
 }
 
 plot_ends <- function(pca, component, colour, sd, view, ...) {
+  view <- posed_view(view, pca$mean)
   if (is.null(pca$triangles)) {
     shapes <- lapply(c(0, -sd, sd), function(at) shape_at(pca, component, at))
     names(shapes) <- c("mean", sprintf("%+g sd", c(-sd, sd)))
@@ -148,7 +149,7 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
   title <- check_text(title, "title")
   size <- check_size(size)
   check_flags(selfcontained)
-  view_rotation(view)
+  view <- posed_view(view, validate(x)$mean)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(turned$file)
   check_class(x, "shape_pca", "x", "shape_pca()")

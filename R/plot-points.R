@@ -87,7 +87,7 @@ plot.aligned <- function(x, most = 3, colour = grDevices::hcl.colors(most, "Dark
   shapes <- lapply(seq_len(dim(x$coords)[3]), function(i) {
     matrix(x$coords[, , i], nrow(x$mean), dimnames = dimnames(x$mean))
   })
-  seen <- seen_configurations(c(shapes, list(x$mean)), view)
+  seen <- seen_configurations(c(shapes, list(x$mean)), posed_view(view, x$mean))
   old <- configuration_window(seen)
   on.exit(graphics::par(old))
   rows <- curve_rows(rownames(x$mean), x$level)

@@ -35,7 +35,9 @@ plot.repeatability <- function(x, view = "front", most = 40,
   })
   graphics::layout(t(1:2), widths = c(1.15, 1))
   plot_part_errors(x, most, palette, ...)
-  plot_point_errors(x, view_rotation(view), palette, size)
+  at <- as.matrix(x$points[c("x", "y", "z")])
+  rownames(at) <- x$points$point
+  plot_point_errors(x, posed_view(view, at), palette, size)
   invisible(x)
 }
 

@@ -42,6 +42,7 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
                        points = TRUE, patches = points, width = 2, legend = TRUE,
                        engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
   check_class(x, "shape", "x", "fit_shape()")
+  view <- posed_view(view, coords(x, "landmarks"), x$scheme)
   scene <- if (is.null(specimen)) {
     model <- shape_mesh(x, parts)
     # Values of all surface points, as write_mesh() takes them: those that have triangles.

@@ -16,7 +16,8 @@
 #'   1/25 of the diagonal of the mesh's bounding box, is about 10 mm on a face.
 #' @param engine "rgl" for an interactive scene, "picture" for base graphics on the current device.
 #'   See [draw_surface()].
-#' @param view Direction of view, see [draw_surface()].
+#' @param view Direction of view, see [draw_surface()]: from the front of the face, if it has face
+#'   landmarks.
 #' @param landmarks Whether to draw the landmarks.
 #' @param labels Whether to write the names of the landmarks. TRUE by default for "refinement".
 #' @param legend Whether to draw the scale of colours ("picture" only).
@@ -89,7 +90,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
     old <- graphics::par(mar = c(0.5, 0.5, if (is.null(main)) 0.5 else 2, if (legend) 7 else 0.5))
     on.exit(graphics::par(old))
   }
-  scene <- draw_surface(x$mesh, scale$colours, view, engine, ...)
+  scene <- draw_surface(x$mesh, scale$colours, posed_view(view, x$landmarks), engine, ...)
   placed <- x$landmarks[stats::complete.cases(x$landmarks), , drop = FALSE]
   if (landmarks && nrow(placed) > 0) {
     scene <- draw_points(scene, placed, "black", halo = "white",
