@@ -95,8 +95,8 @@ find_reference <- function(ends, type, strength, radius, search, weight = functi
     return(no_result(
       sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1],
               ends$names[2], measure(0, 0L)$end),
-      paste("Look for a hole between the landmarks: ridge_curve() crosses none, fit_shape() bridges",
-            "small ones. Raise `reach` if the feature bends far out."),
+      paste("Look for a hole between the landmarks: ridge_curve() crosses none, fit_shape()",
+            "bridges small ones. Raise `reach` if the feature bends far out."),
       "reference path", ends$scan$id, "crestline_path_error"
     ))
   }

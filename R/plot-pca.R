@@ -60,7 +60,7 @@ draw_scores <- function(at, group, colour, names, labels, ellipse, ...) {
   reach <- rbind(at, do.call(rbind, rings))
   given <- list(...)
   given <- utils::modifyList(
-    list(xlim = range(reach[, 1]), ylim = range(reach[, 2]), asp = 1, pch = 16, las = 1,
+    list(xlim = range(reach[, 1]), ylim = range(reach[, 2]), asp = 1, pch = 16,
          xlab = names[1], ylab = names[length(names)],
          col = grDevices::adjustcolor(colour[as.integer(group)], 0.8)),
     given
@@ -149,11 +149,12 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
   title <- check_text(title, "title")
   size <- check_size(size)
   check_flags(selfcontained)
-  view <- posed_view(view, validate(x)$mean)
+  view_rotation(view)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(turned$file)
   check_class(x, "shape_pca", "x", "shape_pca()")
   check_component(component, x)
+  view <- posed_view(view, x$mean)
   sd <- check_number(sd, "sd", lower = 0, open = TRUE)
   blocks <- lapply(component, component_block, x, sd, colour, size, view)
   tags <- htmltools::tags

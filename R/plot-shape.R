@@ -13,8 +13,8 @@
 #'   black.
 #' @param surface With a specimen: quantity that its colours show, as `colour` of [plot.specimen()].
 #'   For the shape's own surface: one colour; a colour or a number for each surface point, or for
-#'   each vertex of [shape_mesh()]; or "patch" for one colour for each patch. Numbers are drawn
-#'   without a scale.
+#'   each vertex of [shape_mesh()]; or "patch" for one colour for each patch. Numbers have a scale
+#'   of colours in the right margin ("picture" only).
 #' @param edges Colour of the edges of the shape's own surface, NA for none.
 #' @param band Whether to draw the bands.
 #' @param points Whether to draw the points of the curves.
@@ -48,7 +48,7 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
     # Values of all surface points, as write_mesh() takes them: those that have triangles.
     every <- length(surface) > 1 && length(surface) == sum(x$points$level == "surface")
     if (every) surface <- surface[attr(model, "row")]
-    draw_model(model, surface, edges, engine, view, ...)
+    draw_values(model, surface, edges, engine, view, legend, ...)
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
     check_shape_on(x, specimen)
@@ -79,6 +79,19 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
     ))
   }
   invisible(scene)
+}
+
+#' The surface of a shape, with the scale of its colours where these stand for numbers
+#' @noRd
+draw_values <- function(model, surface, edges, engine, view, legend, ...) {
+  scaled <- legend && engine == "picture" && is.numeric(surface) && any(is.finite(surface))
+  if (!scaled) return(draw_model(model, surface, edges, engine, view, ...))
+  old <- graphics::par(mar = c(0.5, 0.5, 0.5, 6))
+  on.exit(graphics::par(old))
+  scene <- draw_model(model, surface, edges, engine, view, ...)
+  limits <- range(surface[is.finite(surface)])
+  if (limits[2] <= limits[1]) limits <- limits[1] + 0:1
+  on_scene(scene, map_legend(grDevices::hcl.colors(11, "Viridis"), limits))
 }
 
 #' The surface of a shape with the edges of its triangles

@@ -65,6 +65,7 @@
 #'   two shapes have one id; a specimen is missing, or has another mesh than its shape. Of class
 #'   `crestline_unit_error`: the shapes have different units (`unit` of [fit_shape()]).
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
+#'   Of class `crestline_other_radius`: curves were measured with different radii, widths or kinds.
 #'   Of class `crestline_red_parts`: parts are red, see `red`. Of class `crestline_twin`: two
 #'   specimens have the same mesh and the same landmarks. Of class
 #'   `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning gives the one
@@ -105,6 +106,7 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
   shapes <- check_shapes(shapes)
   warn_cut_scales(shapes, "homologise")
+  warn_curve_tables(shapes)
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   tolerance <- check_number(tolerance, "tolerance", lower = 0, open = TRUE)
   rounds <- check_count(rounds, "rounds", lower = 0)

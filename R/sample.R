@@ -261,8 +261,9 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 
 #' Co-ordinates of a sample
 #'
-#' @param x A `shape_sample`, as [homologise()] returns it.
-#' @param level Kind of points: "landmarks", "curves" or "surface".
+#' @param x A `shape_sample`, as [homologise()] returns it, or one `shape` (n = 1).
+#' @param level Kind of points: "landmarks" (the default, as of [align()] and [as_geomorph()]),
+#'   "curves" or "surface". [coords()] of one shape gives "curves" by default.
 #' @param ... Ignored.
 #' @return k x 3 x n array in the unit of the meshes; each specimen keeps its position. The
 #'   dimension names are the points ("part point", or the names of landmarks), `x`, `y`, `z`, and
@@ -292,6 +293,15 @@ as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface")
   like <- coords(x$template, level)
   each <- lapply(x$shapes, coords, level)
   array(as.numeric(unlist(each)), c(dim(like), length(each)), c(dimnames(like), list(names(each))))
+}
+
+#' @rdname as.array.shape_sample
+#' @exportS3Method
+as.array.shape <- function(x, level = c("landmarks", "curves", "surface"), ...) {
+  check_method_dots(..., known = "level")
+  check_class(x, "shape", "x", "fit_shape()")
+  own <- coords(x, check_choice(level, c("landmarks", "curves", "surface"), "level"))
+  array(own, c(dim(own), 1), c(dimnames(own), list(x$id)))
 }
 
 #' @rdname as.array.shape_sample

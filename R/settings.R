@@ -45,12 +45,24 @@ changed_settings <- function(settings, change, former = character(), noun = "set
       sprintf("there is no %s %s.", noun,
               if (any(nzchar(unknown))) paste0("\"", unknown[nzchar(unknown)], "\"", collapse = ", ")
               else "without a name"),
-      sprintf("%ss are: %s.", tools::toTitleCase(noun), paste(names(settings), collapse = ", ")),
+      paste0(scheme_column_words(unknown),
+             sprintf("%ss are: %s.", tools::toTitleCase(noun),
+                     paste(names(settings), collapse = ", "))),
       stage = "arguments", call = call
     )
   }
   settings[names(change)] <- change
   settings
+}
+
+#' What to do about names that are columns of a scheme's curves, in words
+#' @noRd
+scheme_column_words <- function(names) {
+  own <- intersect(names, c("radius", "width", "n", "kind"))
+  if (!length(own)) return("")
+  sprintf(paste("`%s` belongs to the curves of a scheme: scheme <- face_scheme();",
+                "scheme$curves$%s[scheme$curves$curve == \"...\"] <- ..., or is an argument of",
+                "ridge_curve(). "), own[1], own[1])
 }
 
 #' Settings with fields that a call gives as arguments of their own, as was usual formerly

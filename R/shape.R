@@ -98,15 +98,17 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 
 #' Co-ordinates of a shape
 #'
-#' Gives the points of one level as a matrix. `subset(as.data.frame(x), level == "curves" & part ==
-#' "philtrum ridge left")` gives the points of one curve, with their standard errors.
+#' Gives the points of one level as a matrix, or those of a `curve` of [ridge_curve()].
+#' `subset(as.data.frame(x), level == "curves" & part == "philtrum ridge left")` gives the points of one curve, with their standard errors.
 #'
 #' @template shape
 #' @param level Kind of points: "curves", "landmarks" or "surface".
+#' @param part Names of curves, landmarks or patches of that level. NULL: all.
 #' @param ... Ignored.
 #' @return k x 3 matrix with columns `x`, `y`, `z`, in the unit of the mesh. Row names are "part
 #'   point", or the names of landmarks. Missing points are NA.
-#' @section Errors: of class `crestline_error`: `x` is not a shape, or there is no such level.
+#' @section Errors: of class `crestline_error`: `x` is not a shape, or there is no such level or
+#'   part.
 #' @template glossary
 #' @seealso [fit_shape()]
 #' @examples
@@ -117,21 +119,32 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' shape <- fit_shape(specimen(Rvcg::vcgSphere(4), corners, id = "ball"), scheme, progress = FALSE)
 #' coords(shape, "landmarks")
 #' head(coords(shape), 3)
+#' coords(shape, part = "bc")
 #' @export
 coords <- function(x, level = "curves", ...) {
   check_given()
-  check_class(x, "shape", "x", "fit_shape()")
+  if (!inherits(x, "curve")) check_class(x, "shape", "x", "fit_shape()")
   UseMethod("coords")
 }
 
 #' @rdname coords
 #' @export
-coords.shape <- function(x, level = "curves", ...) {
-  check_method_dots(..., known = "level")
+coords.shape <- function(x, level = "curves", part = NULL, ...) {
+  check_method_dots(..., known = c("level", "part"))
   level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
   points <- x$points[x$points$level == level, ]
+  if (!is.null(part)) {
+    points <- points[points$part %in% check_choices(part, unique(points$part), "part"), ]
+  }
   names <- if (level == "landmarks") points$part else paste(points$part, points$point)
   structure(as.matrix(points[c("x", "y", "z")]), dimnames = list(names, c("x", "y", "z")))
+}
+
+#' @rdname coords
+#' @export
+coords.curve <- function(x, ...) {
+  check_method_dots(...)
+  as.matrix(as.data.frame(x)[c("x", "y", "z")])
 }
 
 #' @export
@@ -163,10 +176,23 @@ print.shape <- function(x, most = 8, ...) {
     }
     if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
     unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
+    cat(absent_lines(x), sep = "")
     if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
     if (length(unused)) cat(unused, sep = "\n")
     invisible(x)
   })
+}
+
+#' What to do about landmarks that the specimen of a shape has not, as lines; none if it has all
+#' @noRd
+absent_lines <- function(x) {
+  if (!inherits(x$specimen, "specimen")) return(character())
+  absent <- setdiff(x$scheme$landmarks$landmark, rownames(x$specimen$landmarks))
+  if (!length(absent)) return(character())
+  said <- paste0("- the specimen has no ", shorten(absent), ". To add one: specimen$landmarks <- ",
+                 "rbind(specimen$landmarks, ", absent[1], " = c(x, y, z)). On a face: rbind(..., ",
+                 "find_landmarks(specimen)$landmarks[\"", absent[1], "\", , drop = FALSE])")
+  paste0(strwrap(said, width = 80, exdent = 4), "\n")
 }
 
 #' @exportS3Method
