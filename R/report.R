@@ -41,7 +41,7 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
   file <- check_page_file(file)
   pictures <- check_count(pictures, "pictures", lower = 0)
   shapes <- named_shapes(x)
-  table <- quality(shapes, limits, others)
+  table <- quality(if (inherits(x, "shape_batch")) x else shapes, limits, others)
   specimens <- specimens_of(specimens, shapes)
   counts <- summary(table)
   counts$grade <- ifelse(counts$red > 0, "red", ifelse(counts$amber > 0, "amber", "green"))

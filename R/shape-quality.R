@@ -62,6 +62,36 @@
 #'   not placed by hand; `as.data.frame()` shows the rows. `summary()` gives a data frame with a row
 #'   for each specimen: `specimen`, `green`, `amber`, `red` (numbers of parts), and `landmarks`
 #'   ("found" or "placed"; NA if it could not be measured).
+#' @section Reasons and what to do: `print()` of several specimens counts the parts by kind of reason:
+#'
+#'   * not measured: See [failures()]. Then `fit_shapes(batch, ...)` measures it again.
+#'   * a landmark looks exchanged with another: Rename the two landmarks, and measure again.
+#'   * a landmark was found with doubt, or predicted: Look at it, and move it:
+#'     [review_landmarks()].
+#'   * a curve that bounds the patch is not green: Look at that curve; the patch follows it.
+#'   * cut short: The scan or a curve is too short for the trimmed length. Nothing, if you slide
+#'     points afterwards; see `cut_scale` of [fit_shape()].
+#'   * points or landmarks are missing: Place the landmark, or scan again. The other parts are not
+#'     affected.
+#'   * uncertain across the curve: The ridge is broad or the scan is noisy there. Look at the
+#'     curve; average it over specimens, or leave it out.
+#'   * no clear ridge or valley: The surface is flat there. The curve is a straight cut, and is
+#'     not a feature of its own.
+#'   * another path is nearly as good: Look whether the curve follows the feature that you mean.
+#'   * hardly stronger than beside it: As above.
+#'   * length unlike the others': Look at its two landmarks first, then at the curve.
+#'   * unlike the other side: Look at both sides. The face may be asymmetric.
+#'   * the surface is rough: Hair, noise or folds. Leave the part out, or scan again.
+#'   * the mesh is coarse: Use the scan before it was decimated.
+#'   * runs over a hole; beside a border or hole; beside a spike: Look whether the scan is sound
+#'     there.
+#'   * along another feature than in the sample: Look at it beside the others; leave it out if it
+#'     is another feature.
+#'   * off its expected track: As above.
+#'   * flipped, doubled or crossing triangles: Take care with areas and volumes of the patch.
+#'
+#'   Distances in radii are shares of the curve's radius in the scheme (mm for
+#'   [face_scheme()]). `se` and `length` are in the unit of the mesh.
 #' @section Errors: of class `crestline_error`: `x` has no shapes.
 #' @seealso [quality_report()] for a page with pictures.
 #' @examples
@@ -89,13 +119,26 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
   failed <- attr(x, "failed")
   lost <- lapply(setdiff(names(shapes), names(measured)), function(name) {
-    lost_specimen(name, failed[[name]]$message)
+    lost_specimen(name, failed[[name]]$message, failed[[name]]$remedy)
   })
   table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
   rownames(table) <- NULL
   found <- vapply(measured, has_found, NA)
   structure(table, found = names(measured)[found], class = c("shape_quality", "data.frame"))
+}
+
+#' Lines of what is not green: each part of one specimen; of several each specimen as a whole, and
+#' each kind of reason with its count
+#' @noRd
+worst_lines <- function(x, several) {
+  worst <- x[x$grade > "green", ]
+  whole <- worst$level == "specimen"
+  worst <- worst[order(!whole, -as.integer(worst$grade)), ]
+  of <- if (several) paste0(" of ", worst$specimen) else ""
+  lines <- sprintf("%s: %s%s: %s", worst$grade, worst$part, of, worst$why)
+  if (!several) return(lines)
+  c(lines[seq_len(sum(whole))], reason_lines(worst[worst$level != "specimen", ]))
 }
 
 #' Whether landmarks of a shape were found by [find_landmarks()], and not all corrected by hand
@@ -173,10 +216,10 @@ sample_scores <- function(shapes, others, limits) {
 }
 
 #' A specimen that could not be measured
-#' @param reason What a batch says of its failure; NULL where nothing is known.
+#' @param reason,remedy What a batch says of its failure; NULL where nothing is known.
 #' @noRd
-lost_specimen <- function(name, reason) {
-  why <- if (!is.null(reason)) paste0(": ", sub("[.]$", "", reason))
+lost_specimen <- function(name, reason, remedy) {
+  why <- if (!is.null(reason)) sub("[.]$", "", paste0(": ", reason, " ", remedy))
   specimen_row(name, "red", paste0("it was not measured", why))
 }
 
@@ -244,14 +287,11 @@ print.shape_quality <- function(x, most = 10, ...) {
       cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
       if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
     }
-    worst <- x[x$grade > "green", ]
-    worst <- worst[order(worst$level != "specimen", -as.integer(worst$grade)), ]
-    for (i in utils::head(seq_len(nrow(worst)), most)) {
-      of <- if (nrow(counts) > 1) paste0(" of ", worst$specimen[i])
-      line <- paste0("- ", worst$grade[i], ": ", worst$part[i], of, ": ", worst$why[i])
-      cat(strwrap(line, width = 80, exdent = 4), sep = "\n")
+    lines <- worst_lines(x, nrow(counts) > 1)
+    for (line in utils::head(lines, most)) {
+      cat(strwrap(paste("-", line), width = 80, exdent = 4), sep = "\n")
     }
-    if (nrow(worst) > most) cat("- and", nrow(worst) - most, "more that are not green\n")
+    if (length(lines) > most) cat("- and", length(lines) - most, "more that are not green\n")
     invisible(x)
   })
 }

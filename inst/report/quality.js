@@ -89,12 +89,16 @@
     thead.append(head);
     specimens.forEach(specimen => {
       const line = element("tr");
+      const lost = rows.find(row => row.specimen === specimen && row.level === "specimen" && row.grade === "red");
       line.append(element("th", "", specimen));
       parts.forEach(part => {
-        const row = cells.get(specimen + "\n" + part), made = element("td", row ? row.grade + (gone(row) ? " gone" : "") : "");
+        const row = cells.get(specimen + "\n" + part), made = element("td", row ? row.grade + (gone(row) ? " gone" : "") : lost ? "red gone" : "");
         if (row) {
           made.title = specimen + ", " + part + ": " + row.grade + (row.why ? "\n" + row.why : "");
           made.onclick = () => list(specimen, part);
+        } else if (lost) {
+          made.title = specimen + ": " + lost.why;
+          made.onclick = () => list(specimen, "");
         }
         line.append(made);
       });

@@ -338,3 +338,34 @@ test_that("without pairs, or with landmarks that do not fix the image, it is NA"
   shape$points$x[3:4] <- NA
   expect_true(all(is.na(curve_asymmetry(shape))))
 })
+
+test_that("print counts reasons by kind, and every check has a kind", {
+  shape <- quad_shape()
+  shape$status$reason[5:6] <- "cut at 0.865 of the scheme's share, as curves are short"
+  shape$checks$cut[5:6] <- c(0.865, 0.9)
+  graded <- quality(list(one = shape, two = shape))
+  expect_output(print(graded), "amber: cut short: 4 parts of 2 specimens, such as bottom of one")
+  expect_identical(sum(grepl("cut short", capture.output(print(graded)))), 1L)
+  # What the checks say is of a kind that the help explains.
+  value <- as.data.frame(quality(shape))
+  said <- said_of_parts(cbind(value, se_max = 1, track = 3), value$z, shape$scheme)
+  for (name in names(said)) expect_true(reason_kind(said[[name]][5]) %in% reason_kinds)
+  source <- test_path("..", "..", "R", "shape-quality.R")
+  skip_if_not(file.exists(source), "sources not here")
+  help <- paste(readLines(source), collapse = "\n")
+  for (kind in reason_kinds) expect_match(help, kind, fixed = TRUE)
+})
+
+test_that("a batch's failures are in its quality and on the page, with the remedy", {
+  skip_without_futures()
+  testthat::skip_if_not_installed("htmltools")
+  two <- batch_specimens(2)
+  two[[2]]$landmarks <- two[[2]]$landmarks[0, ]
+  shapes <- fit_shapes(two, edge_scheme())
+  why <- quality(shapes)$why[quality(shapes)$specimen == "ball 2"]
+  expect_match(why, "it was not measured: it has no landmarks.*found = TRUE")
+  file <- tempfile(fileext = ".html")
+  on.exit(unlink(file))
+  quality_report(shapes, file, pictures = 0)
+  expect_match(paste(readLines(file), collapse = "\n"), "it has no landmarks", fixed = TRUE)
+})
