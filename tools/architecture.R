@@ -61,9 +61,9 @@ longest <- vapply(unique(chain$name), function(name) {
   1 + max(vapply(unique(own$from), depth_below, 0, own))
 }, 0)
 callers <- table(factor(calls$to, unique(names(defined))))
-internal <- setdiff(names(Filter(function(one) is_function(one$value), defined)),
-                    c(exports, methods))
-lines <- vapply(defined, function(one) one$lines, 0)
+functions <- Filter(function(one) is_function(one$value), defined)
+internal <- setdiff(names(functions), c(exports, methods))
+lines <- vapply(functions, function(one) one$lines, 0)
 
 cat(sprintf("functions and values %d in %d files, %d lines of R\n", length(defined),
             length(unique(vapply(defined, `[[`, "", "file"))),

@@ -144,7 +144,7 @@ test_that("the order of specimens changes nothing", {
   for (id in names(sample)) expect_identical(other[[id]]$points, sample[[id]]$points)
 })
 
-test_that("a half, and one without the landmarks of its cut ends, come to where the whole has its points", {
+test_that("a half, and one without landmarks of cut ends, come to where the whole has its points", {
   whole <- sample$shapes$ball2
   for (gone in list(c("lowL", "highL"), "highR")) {
     corners <- paired_corners()
