@@ -15,7 +15,8 @@ library(crestline)
 argument <- commandArgs(TRUE)
 samples <- if (length(argument) > 0) as.integer(argument[1]) else 500L
 file <- if (length(argument) > 1) argument[2] else file.path(tempdir(), "spread.csv")
-wanted <- if (length(argument) > 2) argument[3] else c("variants", "level", "form", "power", "designs")
+wanted <- if (length(argument) > 2) argument[3] else
+  c("variants", "level", "form", "power", "designs")
 
 # Deviations in the tangent space at `mean` (k x 3, centred, of unit size).
 tangent_to <- function(mean) {
@@ -105,7 +106,8 @@ raising <- function(most, sizes = c(24, 6), effect = 1.25, n = 1e5) {
   least <- quantile(score(1), 0.95)
   ratio <- c(1 / 3, 1 / 2, 2 / 3, 1.5, 2, 3)
   level <- vapply(ratio, function(r) mean(score(r) > least), 0)
-  round(c(most = most, power = mean(score(1, effect) > least), setNames(level, signif(ratio, 2))), 3)
+  round(c(most = most, power = mean(score(1, effect) > least), setNames(level, signif(ratio, 2))),
+        3)
 }
 if ("variants" %in% wanted) {
   cat("raising variances, 24:6, level by ratio\n")
