@@ -1,7 +1,8 @@
 # Linear models, discriminants and scores: level and power of tests and maps with covariates,
 # allometry, leaving one out, new faces, speed. bench/models.md has the tables.
 #
-#   Rscript bench/models.R [maps] [allometry] [out] [new] [speed] [published] [samples]
+#   Rscript bench/models.R [maps] [allometry] [out] [new] [signs] [speed] [published]
+#     [samples]
 #
 # samples: a number, 500 by default (200 for `out`). Results are kept in CRESTLINE_BENCH (a folder)
 # as they come, where it is set. new: CRESTLINE_SHARED. published: geomorph.
@@ -183,6 +184,28 @@ new <- function() {
         "; left out, median |difference| in sd of PC1 to PC5, and share outside:\n")
     print(round(apply(off, 2, median), 3))
   }
+}
+
+# ---- signs: each face of simpop left out, which of the first five components turn round ----
+
+signs <- function() {
+  folder <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
+  ids <- unique(read.csv(file.path(folder, "landmarks.csv"))$id)
+  faces <- simplify2array(lapply(ids, function(id) {
+    mesh <- Rvcg::vcgImport(file.path(folder, paste0(id, ".ply")), readcolor = FALSE, silent = TRUE)
+    t(mesh$vb[1:3, round(seq(1, ncol(mesh$vb), length.out = 1500))])
+  }))
+  dimnames(faces) <- list(NULL, c("x", "y", "z"), ids)
+  whole <- shape_pca(quiet(align(faces)))
+  found <- lapply(seq_along(ids), function(i) {
+    part <- shape_pca(quiet(align(faces[, , -i])))
+    r <- cor(part$x[, 1:8], whole$x[-i, 1:5])
+    # Another component is nearer: exchanged. The same with the other sign: turned.
+    c(exchanged = sum(apply(abs(r), 2, which.max) != 1:5),
+      turned = sum(apply(abs(r), 2, which.max) == 1:5 & diag(r[1:5, ]) < 0))
+  })
+  cat("\nsigns, of", 5 * length(ids), "components:\n")
+  print(Reduce(`+`, found))
 }
 
 # ---- speed ----
