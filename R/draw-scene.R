@@ -12,16 +12,16 @@
 #' @param colour One colour, or one for each vertex.
 #' @param view Direction of view, in one of three forms. A name: "front" (from +z, with y up),
 #'   "left" and "right" (the subject's own), "three-quarter" (from the subject's left and a little
-#'   above), "below", "above", "back". Two angles in radians: of the viewer towards the subject's left, and
-#'   upwards. A 3 x 3 rotation matrix that turns the mesh so that x points right, y up and z to the
-#'   viewer; `diag(3)` is the mesh as it lies.
+#'   above), "below", "above", "back". Two angles in radians: of the viewer towards the subject's
+#'   left, and upwards. A 3 x 3 rotation matrix that turns the mesh so that x points right, y up and
+#'   z to the viewer; `diag(3)` is the mesh as it lies.
 #'
 #'   In `draw_surface()` names and angles refer to the axes of the mesh. In `plot()` they refer to
-#'   the object's own front, if at least four of its landmarks have typical places (columns `x`, `y` and
-#'   `z` of the scheme's landmarks, see [curve_scheme()]). These are the places of [face_scheme()]
-#'   for a specimen, an alignment and the results of an analysis, and of its own scheme for a shape.
-#'   The landmarks are laid on these places first. So a face with landmarks is shown from the front,
-#'   in whatever pose it was scanned.
+#'   the object's own front, if at least four of its landmarks have typical places (columns `x`, `y`
+#'   and `z` of the scheme's landmarks, see [curve_scheme()]). These are the places of
+#'   [face_scheme()] for a specimen, an alignment and the results of an analysis, and of its own
+#'   scheme for a shape. The landmarks are laid on these places first. So a face with landmarks is
+#'   shown from the front, in whatever pose it was scanned.
 #' @param engine "picture" or "rgl".
 #' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
 #'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].

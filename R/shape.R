@@ -99,7 +99,8 @@ check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
 #' Co-ordinates of a shape
 #'
 #' Gives the points of one level as a matrix, or those of a `curve` of [ridge_curve()].
-#' `subset(as.data.frame(x), level == "curves" & part == "philtrum ridge left")` gives the points of one curve, with their standard errors.
+#' `subset(as.data.frame(x), level == "curves" & part == "philtrum ridge left")` gives the points of
+#' one curve, with their standard errors.
 #'
 #' @template shape
 #' @param level Kind of points: "curves", "landmarks" or "surface".
