@@ -23,7 +23,12 @@ principal_axes <- function(xyz) {
 #' @param vertex n x 3.
 #' @return Indices of the vertices nearest to the middles of their cells.
 #' @noRd
-cell_vertices <- function(vertex, cell) {
+cell_vertices <- function(vertex, cell) cell_groups(vertex, cell)$vertex
+
+#' The same, with the number of the cell of each vertex
+#' @return List: `vertex` (indices), `number` (n, indices among these).
+#' @noRd
+cell_groups <- function(vertex, cell) {
   axes <- principal_axes(vertex)
   turned <- sweep(vertex, 2, axes$centre) %*% axes$rotation
   at <- round(turned / cell)
@@ -33,7 +38,8 @@ cell_vertices <- function(vertex, cell) {
   key <- at[, 1] + span[1] * (at[, 2] + span[2] * at[, 3])
   group <- match(key, unique(key))
   sorted <- order(group, off)
-  sorted[!duplicated(group[sorted])]
+  first <- sorted[!duplicated(group[sorted])]
+  list(vertex = first, number = group)
 }
 
 #' The cloud that a scan is matched by
@@ -76,15 +82,39 @@ corner_means <- function(x, corners) {
 
 #' A cloud with the curvature of its points: `k1`, `k2`, in balls of `feature`, 0 where there is
 #' none
+#'
+#' Of a mesh that has very many vertices in such a ball, one for each cell stands for all.
 #' @noRd
 with_curvature <- function(cloud, settings, threads) {
-  vertex <- unique(c(cloud$corners))
-  fine <- curvature(cloud$mesh, settings$feature, "adaptive cubic", threads, vertex)
-  both <- corner_means(rbind(fine$k1, fine$k2), cloud$corners)
+  mesh <- cloud$mesh
+  corners <- cloud$corners
+  area <- sum(row_lengths(face_normals(mesh))) / 2
+  full <- pi * settings$feature^2 * ncol(mesh$vb) / area / settings$ball_points
+  if (full > 1) {
+    cell <- settings$feature * sqrt(2 * pi / settings$ball_points)
+    group <- cell_groups(t(mesh$vb[1:3, ]), cell)
+    mesh <- thinned_mesh(mesh, group)
+    corners[] <- group$number[corners]
+  }
+  vertex <- unique(c(corners))
+  fine <- curvature(mesh, settings$feature, "adaptive cubic", threads, vertex)
+  both <- corner_means(rbind(fine$k1, fine$k2), corners)
   both[is.na(both)] <- 0
   cloud$k1 <- both[1, ]
   cloud$k2 <- both[2, ]
   cloud
+}
+
+#' A mesh with one vertex for each cell, and the triangles whose corners are in three of them
+#' @param group Of [cell_groups()].
+#' @noRd
+thinned_mesh <- function(mesh, group) {
+  it <- matrix(group$number[mesh$it], 3)
+  it <- it[, it[1, ] != it[2, ] & it[2, ] != it[3, ] & it[3, ] != it[1, ], drop = FALSE]
+  it <- it[, !duplicated(t(apply(it, 2, sort))), drop = FALSE]
+  structure(list(vb = mesh$vb[, group$vertex, drop = FALSE],
+                 normals = mesh$normals[, group$vertex, drop = FALSE], it = it),
+            class = "mesh3d")
 }
 
 #' A cloud with `anchors`: its strongest caps and cups, apart from each other

@@ -17,8 +17,9 @@
 #' @template bare-id
 #' @param settings Of [find_settings()].
 #' @param unit Factor from the mesh's unit to the template's. `NULL`: the power of ten that brings
-#'   their diagonals closest to each other. This is wrong if the scan is more than three times as
-#'   large as the object, or less than a third of it.
+#'   their diagonals closest to each other. If the scan does not agree with the template in that
+#'   unit, other units are tried. `match$unit_known` is then FALSE, and `match$unit` makes the object
+#'   as large as the template, which is right to about 10 % for faces.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:
@@ -37,10 +38,11 @@
 #'   * `match`: a list:
 #'     * `score`: 0 if the undeformed template fits the scan, 1 if it fits nowhere;
 #'     * `agree`: mean correlation of the deformed template's curvature with the scan's (1: equal,
-#'       0: unrelated);
+#'       0: unrelated), lowered if the scan's curvature varies less;
 #'     * `verdict`: "face" or "perhaps", by `agree` and the setting of that name. NA for a template
 #'       of your own, as the limits were measured on faces;
-#'     * `unit`: factor to the template's unit; `scale`: factor of the template;
+#'     * `unit`: factor to the template's unit; `unit_known`: FALSE if that is a guess, see the
+#'       argument `unit`; `scale`: factor of the template;
 #'     * `rotation`: 3 x 3, from the template to the scan;
 #'     * `inverted`: TRUE if the triangles faced inwards;
 #'     * `doubtful`: TRUE if the share of found landmarks with low confidence is above the setting
@@ -49,7 +51,8 @@
 #' @section Errors: of class `crestline_error`, stage "landmarks". Either nothing in the scan
 #'   resembles the template (the score is above the setting `refuse`), or the scan is no face
 #'   (`agree` is below the first limit).
-#' @section Warnings: of class `crestline_doubtful_placing`, for three reasons. The scan is perhaps
+#' @section Warnings: of class `crestline_guessed_unit`: `match$unit` is a guess. Also of class
+#'   `crestline_doubtful_placing`, for three reasons. The scan is perhaps
 #'   no face; or `agree` is below the first limit with a template of your own; or most landmarks
 #'   have low confidence (settings `low`, `wrong`). Most likely the scan does not show the object,
 #'   or not enough of it. [quality()] then grades nothing green. A single landmark with low
@@ -82,16 +85,20 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   }
   prepared <- prepared_template(template, settings, threads)
   laid <- laid_template(prepared, template, scan, settings, threads, unit)
-  placed <- carried_landmarks(prepared, template, scan, laid)
+  expressed <- expressed_pose(prepared, laid, prepared$settings)
+  laid <- expressed$laid
+  placed <- carried_landmarks(expressed$template, template, scan, laid)
   if (laid$inverted) {
     turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id,
                        outward = "keep")
     scan <- with_fields(turned, file = scan$file)
   }
   doubt <- placing_doubt(placed, settings$low)
-  match <- laid[c("score", "agree", "verdict", "unit")]
+  size <- if (laid$unit_known) laid$pose[13] else 1
+  match <- c(laid[c("score", "agree", "verdict")],
+             list(unit = laid$unit * size / laid$pose[13], unit_known = laid$unit_known))
   found <- with_placing(scan, placed, c(match, list(
-    scale = laid$pose[13], rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
+    scale = size, rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
     doubtful = doubt$share > settings$wrong, template = template$id
   )))
   warn_doubtful(found, doubt, settings)
@@ -103,12 +110,16 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
 #' @return List as of [settled_pose()], with `verdict` (NA for a template without one).
 #' @noRd
 laid_template <- function(prepared, template, scan, settings, threads, unit = NULL) {
-  unit <- if (is.null(unit)) {
+  given <- !is.null(unit)
+  unit <- if (!given) {
     10^round(log10(specimen_size(template$specimen) / specimen_size(scan)))
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }
-  laid <- settled_pose(prepared, scan, unit, prepared$settings, threads)
+  laid <- c(settled_pose(prepared, scan, unit, prepared$settings, threads), unit_known = TRUE)
+  if (!given && laid$agree < settings$agree[2]) {
+    laid <- swept_pose(prepared, scan, laid, prepared$settings, threads)
+  }
   laid$verdict <- if (template$judged) verdict_of(laid$agree, settings$agree) else NA_character_
   remedy <- sprintf(
     paste0("Is it the object, and whole enough? Its lengths were multiplied by ",
@@ -131,6 +142,13 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
 #' @noRd
 warn_doubtful <- function(found, doubt, settings) {
   match <- found$match
+  if (isFALSE(match$unit_known)) {
+    crestline_warn(
+      sprintf("its unit is a guess: its lengths were multiplied by %.3g.", match$unit),
+      "The object is then as large as the template, faces to about 10 %. Better give `unit`.",
+      stage = "landmarks", id = found$id, class = "crestline_guessed_unit"
+    )
+  }
   remedy <- paste("Is it the object, and whole enough? Look at plot(specimen, what = \"placing\");",
                   "place the landmarks by hand (place_landmarks()),",
                   "or calibrate the template (calibrate_template()).")

@@ -20,8 +20,12 @@
 #' @param start Name of the landmark that [find_landmarks()] places on every prominent part of a
 #'   scan. Choose one on the most prominent part of the object, as the nose tip of a face. `NULL`:
 #'   the most prominent position of the template.
+#' @param hinge,moves,slit Names of landmarks by which an open mouth is tried. `hinge`: on the axis
+#'   that the jaw turns about. `moves`: those that go with the jaw. `slit`: the corners and the
+#'   middle of the mouth. Without a `slit` no expressions are tried. They need a `mirror`.
 #' @return Object of class `landmark_template`, a list of `id`, `specimen`, `landmarks`,
-#'   `predicted`, `unit`, `mirror`, `start` (the position of that landmark, or NULL), and `judged`.
+#'   `predicted`, `unit`, `mirror`, `start` (the position of that landmark, or NULL), `modes` (what
+#'   expressions move), and `judged`.
 #'   `landmarks` and `predicted` are k x 3 matrices of the landmarks that are found and predicted.
 #'   `judged` is TRUE if the setting `agree` of [find_settings()] was measured for the template, as
 #'   for the face. All positions are in the template's own frame. With `mirror`, left is at positive
@@ -39,7 +43,8 @@
 #' @export
 landmark_template <- function(specimen, predicted = character(),
                               unit = mesh_diagonal(specimen$mesh) / 280, mirror = NA,
-                              start = NULL) {
+                              start = NULL, hinge = character(), moves = character(),
+                              slit = character()) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   predicted <- check_names(predicted, "predicted")
@@ -61,6 +66,11 @@ landmark_template <- function(specimen, predicted = character(),
   }
   pairs <- side_pairs(rownames(at))
   if (is.na(mirror)) mirror <- nrow(pairs) >= 2
+  if (length(slit)) {
+    check_choices(slit, rownames(at), "slit")
+    check_choices(hinge, rownames(at), "hinge")
+    check_choices(moves, rownames(at), "moves")
+  }
   if (mirror && !nrow(pairs)) {
     refuse_landmarks("it has no pair of landmarks whose names end in L and R.",
                      "Name the sides so, or give mirror = FALSE.",
@@ -69,9 +79,10 @@ landmark_template <- function(specimen, predicted = character(),
   if (mirror) specimen <- turned_specimen(specimen, at, pairs)
   at <- specimen$landmarks[rownames(at), , drop = FALSE]
   found <- !rownames(at) %in% predicted
+  modes <- if (length(slit)) template_modes(at, hinge, moves, slit)
   structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE],
                  predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror,
-                 start = if (!is.null(start)) at[start, ], judged = FALSE),
+                 start = if (!is.null(start)) at[start, ], modes = modes, judged = FALSE),
             class = "landmark_template")
 }
 
@@ -152,7 +163,7 @@ prepared_template <- function(template, settings, threads) {
     last_template$prepared <- with_landmarks(cloud, template$landmarks)
     last_template$asked <- asked
   }
-  c(last_template$prepared, template["judged"])
+  c(last_template$prepared, template[c("judged", "modes")])
 }
 
 last_template <- new.env(parent = emptyenv())
@@ -185,7 +196,9 @@ read_face_template <- function() {
     classes = "crestline_seam"
   )
   face$landmarks <- at
-  template <- landmark_template(face, ears, unit = 1, start = "pn")
+  template <- landmark_template(face, ears, unit = 1, start = "pn",
+                                hinge = c("tL", "tR"), moves = c("li", "sl", "gn"),
+                                slit = c("chL", "st", "chR"))
   template$judged <- TRUE
   template
 }

@@ -86,6 +86,18 @@
 #' @param rest,rest_steps The best pose is fitted further: `rest_steps[1]` steps with a decreasing
 #'   reach, then at most `rest_steps[2]` until a step moves the template by less than `rest` (root
 #'   mean square, length).
+#' @param diagonals,size_apart If nothing agrees and no unit is given, units are tried that bring the
+#'   scan to these sizes (five lengths). A size within this factor of the first is left out.
+#' @param score_apart A second unit is fitted if its score is greater by at most this.
+#' @param ball_points Greatest mean number of vertices in a ball of radius `feature`: a mesh with more
+#'   is thinned out before its curvature is estimated.
+#' @param expressive Expressions are tried if the share of the template that differs from the scan is
+#'   at least this.
+#' @param jaw,jaw_gain Angles of the jaw that are tried (four, radians). The best is used if it lowers
+#'   the misfit of the pose by at least `jaw_gain`.
+#' @param smile,smile_gain Distances by which the mouth's corners are drawn outwards and up (two, as
+#'   shares of half the mouth's width). The best is used if it lowers the energy of the warp by at
+#'   least the share `smile_gain`.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is not
 #'   numeric.
@@ -110,7 +122,11 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
                           start_angle = 25, start_gap = 12, start_reach = 25,
                           start_scales = c(0.85, 1.15), good = c(0.45, 0.55), unlike = 0.38,
                           agree = c(0.3, 0.45), unsure = 0.4, clip = 0.15,
-                          rest = 0.02, rest_steps = c(24, 100)) {
+                          rest = 0.02, rest_steps = c(24, 100),
+                          diagonals = c(200, 290, 420, 600, 870), size_apart = 1.1,
+                          score_apart = 0.03, ball_points = 300, expressive = 0.22,
+                          jaw = c(0.1, 0.2, 0.3, 0.4), jaw_gain = 0.03, smile = c(0.2, 0.4),
+                          smile_gain = 0.04) {
   sizes <- lengths(lapply(formals(find_settings)[-1], eval))
   former <- c(kept = "trim_share", kernel_length = "length_scale", kernel_sd = "length_scale_sd",
               robust = "robust_scale")
@@ -147,7 +163,7 @@ scaled_settings <- function(settings, unit) {
   lengths <- c("cluster", "coarse", "bend", "feature", "apart", "reach", "saturation",
                "length_scale", "length_scale_sd", "affine", "warp_reach", "error",
                "robust_scale", "moved", "off", "vague", "near", "step", "ball", "look_up",
-               "start_gap", "start_reach", "rest")
+               "start_gap", "start_reach", "rest", "diagonals")
   settings[lengths] <- lapply(settings[lengths], `*`, unit)
   settings[c("cap", "clip")] <- lapply(settings[c("cap", "clip")], `/`, unit)
   settings$weight <- settings$weight * unit^2

@@ -169,6 +169,10 @@ print.specimen <- function(x, ...) {
                 exdent = 2), sep = "\n")
     if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
     print_placing(x$placing)
+    if (isFALSE(x$match$unit_known)) {
+      cat(sprintf("- unit unknown: about %.3g mm to 1, as if it were as large as the template\n",
+                  x$match$unit))
+    }
     # What print() says of exchanged landmarks
     words <- exchange_words(x$geometry$slips)
     if (length(words))

@@ -7,6 +7,9 @@ test_that("a template agrees with itself, not with its negative", {
   # Without matches, or on a sphere, nothing speaks for it.
   expect_equal(agreement(own, own, list(index = rep(NA, 100)), settings), 0)
   expect_equal(agreement(own, list(k1 = rep(0.1, 100), k2 = rep(0.1, 100)), plain, settings), 0)
+  # Curvature of the same pattern at half the strength speaks half as much; at double, no more.
+  expect_equal(agreement(own, lapply(own, `/`, 2), plain, list(fewest = 1, clip = Inf)), 0.5)
+  expect_equal(agreement(own, lapply(own, `*`, 2), plain, list(fewest = 1, clip = Inf)), 1)
   # One curvature beyond the clip counts as the clip.
   far <- own
   far$k1[3] <- far$k2[3] <- 100

@@ -1,0 +1,32 @@
+test_that("a face in no unit is found as in mm, and its unit is said to be a guess", {
+  face <- humface_scan()
+  face$vb[1:3, ] <- face$vb[1:3, ] * 3.7
+  settings <- quick_settings()
+  expect_warning(found <- find_landmarks(face, id = "big", settings = settings),
+                 "specimen big.*its unit is a guess", class = "crestline_guessed_unit")
+  expect_false(found$match$unit_known)
+  expect_equal(found$match$unit * 3.7, 1, tolerance = 0.12)
+  expect_equal(found$match$scale, 1)
+  expect_output(print(found), "unit unknown: about", fixed = TRUE)
+  inner <- setdiff(rownames(humface_landmarks()), ear_names)
+  off <- row_lengths(found$landmarks[inner, ] / 3.7 - humface_landmarks()[inner, ])
+  expect_lt(mean(off), 2)
+})
+
+test_that("a mesh with very many vertices in a ball is thinned before its curvature", {
+  ball <- Rvcg::vcgSphere(5)
+  ball$vb[1:3, ] <- 50 * ball$vb[1:3, ]
+  settings <- scaled_settings(find_settings(ball_points = 60), 1)
+  cloud <- scan_cloud(specimen(ball), 1, settings)
+  group <- cell_groups(t(ball$vb[1:3, ]), 3)
+  thin <- thinned_mesh(cloud$mesh, group)
+  expect_equal(ncol(thin$vb), length(group$vertex))
+  expect_lt(ncol(thin$vb), ncol(ball$vb) / 2)
+  expect_true(all(thin$it[1, ] != thin$it[2, ] & thin$it[2, ] != thin$it[3, ]))
+  # Still a closed surface: every edge in two triangles, Euler's number 2.
+  edge <- apply(cbind(thin$it[1:2, ], thin$it[2:3, ], thin$it[c(3, 1), ]), 2, sort)
+  expect_equal(unique(c(table(paste(edge[1, ], edge[2, ])))), 2)
+  curved <- with_curvature(cloud, settings, 1)
+  expect_equal(stats::median(curved$k1), -1 / 50, tolerance = 0.05)
+  expect_equal(stats::median(curved$k2), -1 / 50, tolerance = 0.05)
+})
