@@ -18,8 +18,8 @@
 #' @param settings Of [find_settings()].
 #' @param unit Factor from the mesh's unit to the template's. `NULL`: the power of ten that brings
 #'   their diagonals closest to each other. If the scan does not agree with the template in that
-#'   unit, other units are tried. `match$unit_known` is then FALSE, and `match$unit` makes the object
-#'   as large as the template, which is right to about 10 % for faces.
+#'   unit, other units are tried. `match$unit_known` is then FALSE, and `match$unit` makes the
+#'   object as large as the template, which is right to about 10 % for faces.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:

@@ -8,8 +8,8 @@
 #' face without a nose; for templates on which the limits were not measured they are tried always.
 #'
 #' @param unit Factor on the scan's lengths.
-#' @return List: `pose`, `score`, `misfit`, `rests` as of [best_pose()], `inverted`, `cloud`, `unit`,
-#'   `plain` (the bend without curvature, see [fit_warp()]), `agree` (see [agreement()]).
+#' @return List: `pose`, `score`, `misfit`, `rests` as of [best_pose()], `inverted`, `cloud`,
+#'   `unit`, `plain` (the bend without curvature, see [fit_warp()]), `agree` (see [agreement()]).
 #' @noRd
 settled_pose <- function(template, scan, unit, settings, threads) {
   cloud <- in_context(with_curvature(scan_cloud(scan, unit, settings), settings, threads), scan$id,

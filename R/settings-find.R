@@ -86,15 +86,15 @@
 #' @param rest,rest_steps The best pose is fitted further: `rest_steps[1]` steps with a decreasing
 #'   reach, then at most `rest_steps[2]` until a step moves the template by less than `rest` (root
 #'   mean square, length).
-#' @param diagonals,size_apart If nothing agrees and no unit is given, units are tried that bring the
-#'   scan to these sizes (five lengths). A size within this factor of the first is left out.
+#' @param diagonals,size_apart If nothing agrees and no unit is given, units are tried that bring
+#'   the scan to these sizes (five lengths). A size within this factor of the first is left out.
 #' @param score_apart A second unit is fitted if its score is greater by at most this.
-#' @param ball_points Greatest mean number of vertices in a ball of radius `feature`: a mesh with more
-#'   is thinned out before its curvature is estimated.
-#' @param expressive Expressions are tried if the share of the template that differs from the scan is
-#'   at least this.
-#' @param jaw,jaw_gain Angles of the jaw that are tried (four, radians). The best is used if it lowers
-#'   the misfit of the pose by at least `jaw_gain`.
+#' @param ball_points Greatest mean number of vertices in a ball of radius `feature`. A mesh with
+#'   more is thinned out before its curvature is estimated.
+#' @param expressive Expressions are tried if the share of the template that differs from the scan
+#'   is at least this.
+#' @param jaw,jaw_gain Angles of the jaw that are tried (four, radians). The best is used if it
+#'   lowers the misfit of the pose by at least `jaw_gain`.
 #' @param smile,smile_gain Distances by which the mouth's corners are drawn outwards and up (two, as
 #'   shares of half the mouth's width). The best is used if it lowers the energy of the warp by at
 #'   least the share `smile_gain`.

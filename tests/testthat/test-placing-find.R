@@ -94,7 +94,7 @@ test_that("if most landmarks have little confidence, a warning; the match is dou
   )
   expect_s3_class(error, "crestline_landmark_error")
   lenient <- do.call(find_settings, c(quick, list(agree = c(-1, 0.45))))
-  expect_warning(behind <- find_landmarks(head, id = "behind", settings = lenient),
+  expect_warning(behind <- find_landmarks(head, id = "behind", settings = lenient, unit = 1),
                  "specimen behind.*perhaps it is no face", class = "crestline_doubtful_placing")
   expect_equal(behind$match$verdict, "perhaps")
   expect_true(behind$match$doubtful)
