@@ -62,7 +62,8 @@
 #'   not placed by hand; `as.data.frame()` shows the rows. `summary()` gives a data frame with a row
 #'   for each specimen: `specimen`, `green`, `amber`, `red` (numbers of parts), and `landmarks`
 #'   ("found" or "placed"; NA if it could not be measured).
-#' @section Reasons and what to do: `print()` of several specimens counts the parts by kind of reason:
+#' @section Reasons and what to do: `print()` of several specimens counts the parts by kind of
+#'   reason:
 #'
 #'   * not measured: See [failures()]. Then `fit_shapes(batch, ...)` measures it again.
 #'   * a landmark looks exchanged with another: Rename the two landmarks, and measure again.
