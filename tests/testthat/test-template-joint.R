@@ -161,6 +161,20 @@ test_that("a half, and one without landmarks of cut ends, come to where the whol
   }
 })
 
+test_that("the stronger the curves' pull, the nearer points stay to them", {
+  ridged <- lapply(shapes, function(shape) {
+    shape$scheme <- ridged_scheme()
+    shape$points$se[shape$points$level == "curves" & shape$points$part == "middle"] <- 0.3
+    shape
+  })
+  off <- vapply(c(0, 4, 100), function(pull) {
+    slid <- homologise(ridged, settings = slide_settings(pull = pull), progress = FALSE)
+    middle <- slid[[2]]$checks$level == "curves" & slid[[2]]$checks$part == "middle"
+    slid[[2]]$checks$offset[middle]
+  }, 0)
+  expect_true(all(diff(off) < 0))
+})
+
 test_that("the energy's scale is a variance about the sample's own mean", {
   starts <- list(list(energy = 1), list(energy = 2), list(energy = 6))
   expect_equal(energy_scale(starts, own_mean = TRUE), 9 / 2)
@@ -222,6 +236,7 @@ test_that("what does not go together is refused", {
   expect_crestline_error(slide_settings("paper", curves = "free"), "held")
   expect_crestline_error(slide_settings(relaxation = 2), "relaxation")
   expect_crestline_error(slide_settings(floor = -1), "floor")
+  expect_crestline_error(slide_settings(pull = -1), "pull")
   bare <- lapply(shapes, function(shape) {
     shape$scheme <- ridged_scheme()
     shape
