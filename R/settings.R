@@ -43,8 +43,11 @@ changed_settings <- function(settings, change, former = character(), noun = "set
   if (length(unknown) || (length(change) && is.null(names(change)))) {
     crestline_abort(
       sprintf("there is no %s %s.", noun,
-              if (any(nzchar(unknown))) paste0("\"", unknown[nzchar(unknown)], "\"", collapse = ", ")
-              else "without a name"),
+              if (any(nzchar(unknown))) {
+                paste0("\"", unknown[nzchar(unknown)], "\"", collapse = ", ")
+              } else {
+                "without a name"
+              }),
       paste0(scheme_column_words(unknown),
              sprintf("%ss are: %s.", tools::toTitleCase(noun),
                      paste(names(settings), collapse = ", "))),
@@ -89,7 +92,8 @@ print_settings <- function(x, header) {
       value <- if (is.character(value)) dQuote(value, FALSE) else format(value, trim = TRUE)
       if (length(value) == 1) value else sprintf("c(%s)", paste(value, collapse = ",\r"))
     }, "")
-    lines <- strwrap(paste(names(x), written, sep = "\r=\r", collapse = ", "), indent = 2, exdent = 2)
+    lines <- strwrap(paste(names(x), written, sep = "\r=\r", collapse = ", "), indent = 2,
+                     exdent = 2)
     # No line is broken within a setting.
     cat(gsub("\r", " ", lines), sep = "\n")
     invisible(x)

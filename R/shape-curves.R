@@ -211,7 +211,8 @@ touched_curves <- function(curves, moved, whole, tracked = NULL) {
                "keep_side_towards")
   named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved))
   unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.na(fit$followed), NA)
-  touched <- named | unsettled & !is.na(curves$cut_share) | curves$curve %in% tracked & length(moved)
+  touched <- named | unsettled & !is.na(curves$cut_share) |
+    curves$curve %in% tracked & length(moved)
   for (i in fitting_order(curves)) {
     if (curves$side_of[i] %in% curves$curve[touched]) touched[i] <- TRUE
   }
