@@ -59,7 +59,8 @@ test_that("long work in C++ ends within two seconds of an interrupt", {
        ball$normals <- NULL
        function() for (i in 1) draw_surface(ball, resolution = 600, samples = 3)",
     "points slid together without end" =
-      "face <- specimen(ball, rbind(a = ball$vb[1:3, 1]), id = 'ball'); on <- crestline:::walkable(face)
+      "face <- specimen(ball, rbind(a = ball$vb[1:3, 1]), id = 'ball')
+       on <- crestline:::walkable(face)
        at <- as.matrix(crestline:::surface_points(face$mesh, t(face$mesh$vb[1:3, 1:500])))
        rows <- cbind(1:500, matrix(0, 500, 14), NA); chain <- crossprod(diff(diag(500)))
        set <- list(scale = 1, reach = 5, relaxation = 1, gap = 0, tolerance = 0, halvings = 0,
