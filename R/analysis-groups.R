@@ -39,7 +39,7 @@
 #'
 #' The tests are exact if the groups have one distribution. If only their means agree, they are
 #' approximate (Janssen 1997; Chung and Romano 2016). With 30 specimens and spreads that differ up
-#' to threefold they reject 3 to 8 % of true null hypotheses at a level of 5 % if the forms agree.
+#' to threefold they reject 3 to 9 % of true null hypotheses at a level of 5 % if the forms agree.
 #'
 #' With `equal_spread = TRUE` variances are pooled: Student's t, Goodall's F, Hotelling's T2,
 #' Hotelling and Lawley's trace times (n - groups). The null hypothesis is then that the groups have
@@ -49,7 +49,7 @@
 #'
 #' If spreads are equal and group sizes very unequal, pooled tests have more power. With 24 and 6
 #' specimens the default found a difference in size in 0.04 of samples less, and one in components
-#' in 0.1 less. T2, mean shape and points lost next to nothing. Decide before the p-values are seen.
+#' in 0.03 less. T2, mean shape and points lost next to nothing. Decide before the p-values are seen.
 #' `print()` says where it matters.
 #'
 #' **Few regroupings.** A p-value by permutation is at least 1 / (`n_perm` + 1), and with all
