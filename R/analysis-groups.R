@@ -49,8 +49,8 @@
 #'
 #' If spreads are equal and group sizes very unequal, pooled tests have more power. With 24 and 6
 #' specimens the default found a difference in size in 0.04 of samples less, and one in components
-#' in 0.03 less. T2, mean shape and points lost next to nothing. Decide before the p-values are seen.
-#' `print()` says where it matters.
+#' in 0.03 less. T2, mean shape and points lost next to nothing. Decide before the p-values are
+#' seen. `print()` says where it matters.
 #'
 #' **Few regroupings.** A p-value by permutation is at least 1 / (`n_perm` + 1), and with all
 #' regroupings at least 1 over their number. With five specimens in each of two groups there are 252
