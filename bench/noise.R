@@ -1,0 +1,175 @@
+# The ridge curve under noise: how well it repeats on a real scan, and what its band covers.
+#
+#   CRESTLINE_SHARED=../shared/data Rscript bench/noise.R FOLDER repeat 1:20
+#   CRESTLINE_SHARED=../shared/data Rscript bench/noise.R FOLDER coverage 1:30
+#   Rscript bench/noise.R FOLDER report
+#
+# The numbers are seeds; a run adds its rows to FOLDER, so that it may be cut into pieces. "repeat": the ridges and valleys
+# of scan_a that have more points than their ends, the mesh moved along its normals (0.1 and 0.3 mm, independent; 0.1 mm,
+# smoothed nine times over the mesh, some three steps), or every landmark moved by 1 mm; RMS distance (mm) of the middle
+# 60 % of each curve from the same estimator's curve on the scan as it is, and whether it lies within two of its median
+# standard errors. "known": the noise is given as scan_noise() measures it in two such scans. "coverage": share of the
+# inner points of simulated ridges within two standard errors of the crest, with the noise factor, with scan_noise() of
+# two simulated scans, and with the true noise; and how many curves count as determined.
+
+library(crestline)
+
+arguments <- commandArgs(TRUE)
+folder <- arguments[1]
+section <- arguments[2]
+seeds <- if (length(arguments) > 2) eval(parse(text = arguments[3]))
+dir.create(folder, showWarnings = FALSE, recursive = TRUE)
+rms <- function(x) sqrt(mean(x^2, na.rm = TRUE))
+keep <- function(rows) {
+  saveRDS(rows, file.path(folder, sprintf("%s-%s.rds", section, paste(range(seeds), collapse = "-"))))
+}
+kept <- function(section) {
+  files <- list.files(folder, paste0("^", section, "-.*rds$"), full.names = TRUE)
+  unique(do.call(rbind, lapply(files, readRDS)))
+}
+
+# scan_a again: noise (mm), how often it is smoothed over the mesh, and how far landmarks are moved (mm).
+spoilt <- list("0.1 mm" = c(0.1, 0, 0), "0.3 mm" = c(0.3, 0, 0), "0.1 mm, 3 steps" = c(0.1, 9, 0),
+               "landmarks 1 mm" = c(0, 0, 1))
+
+neighbours_of <- function(it, n) {
+  from <- c(it, it)
+  to <- c(it[c(2, 3, 1), ], it[c(3, 1, 2), ])
+  pairs <- unique(cbind(from, to))
+  count <- tabulate(pairs[, 1], n)
+  function(x) (x + as.vector(rowsum(x[pairs[, 2]], pairs[, 1])) / count) / 2
+}
+
+again <- function(face, how, seed, smoother) {
+  set.seed(seed)
+  mesh <- face$mesh
+  if (how[1] > 0) {
+    noise <- stats::rnorm(ncol(mesh$vb))
+    for (i in seq_len(how[2])) noise <- smoother(noise)
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] * rep(how[1] * noise / stats::sd(noise), each = 3)
+  }
+  marks <- face$landmarks
+  if (how[3] > 0) {
+    step <- matrix(stats::rnorm(length(marks)), ncol = 3)
+    marks <- marks + how[3] * step / sqrt(rowSums(step^2))
+  }
+  marks[] <- as.matrix(crestline:::surface_points(mesh, marks)[c("x", "y", "z")])
+  suppressWarnings(specimen(structure(list(vb = mesh$vb, it = mesh$it), class = "mesh3d"), marks, id = face$id))
+}
+
+middle <- function(path, n = 61) {
+  s <- path$s / max(path$s)
+  vapply(c("x", "y", "z"), function(a) stats::approx(s, path[[a]], seq(0.2, 0.8, length.out = n))$y, numeric(n))
+}
+
+off <- function(path, line) {
+  crestline:::nearest_on_polyline(middle(path), as.matrix(as.data.frame(line)[c("x", "y", "z")]))$distance
+}
+
+repeated <- function() {
+  from <- file.path(Sys.getenv("CRESTLINE_SHARED"), "scan_a")
+  face <- suppressWarnings(read_specimen(file.path(from, "surface.ply"), file.path(from, "landmarks.csv"), id = "scan_a"))
+  table <- face_scheme()$curves
+  table <- table[table$kind != "plane" & table$n > 2, ]
+  scheme <- curve_scheme(face_scheme()$landmarks, table)
+  smoother <- neighbours_of(face$mesh$it, ncol(face$mesh$vb))
+  fit <- function(one, settings) suppressWarnings(fit_shape(one, scheme, settings, progress = FALSE))
+  ways <- list("one pass" = ridge_settings("one pass", error = FALSE), default = ridge_settings())
+  still <- lapply(ways, function(settings) fit(face, settings))
+  rows <- list()
+  for (seed in seeds) for (name in names(spoilt)) {
+    how <- spoilt[[name]]
+    one <- again(face, how, seed, smoother)
+    own <- ways
+    if (how[1] > 0) {
+      own$known <- ridge_settings(noise = scan_noise(one, again(face, how, seed + 1000, smoother)))
+    }
+    for (way in names(own)) {
+      shape <- fit(one, own[[way]])
+      before <- if (way == "known") still$default else still[[way]]
+      for (curve in table$curve) {
+        if (is.null(shape$paths[[curve]]) || is.null(before$paths[[curve]])) next
+        away <- off(shape$paths[[curve]], before$paths[[curve]])
+        se <- shape$status$se[shape$status$part == curve & shape$status$level == "curves"]
+        rows[[length(rows) + 1]] <- data.frame(
+          seed, noise = name, way, curve, away = rms(away), se, within = rms(away) <= 2 * se,
+          determined = shape$checks$determined[shape$checks$part == curve & shape$checks$level == "curves"]
+        )
+      }
+    }
+  }
+  keep(do.call(rbind, rows))
+}
+
+report_repeated <- function(rows) {
+  cat(sprintf("scan_a again, %d draws\n", length(unique(rows$seed))))
+  by <- function(x, f) tapply(x, list(rows$noise, rows$way), f)
+  cat("RMS over curves and draws, mm\n")
+  print(round(by(rows$away, rms), 3))
+  each <- stats::aggregate(away ~ seed + noise + way, rows, function(x) mean(x^2))
+  pair <- merge(each[each$way == "default", ], each[each$way == "one pass", ], by = c("seed", "noise"))
+  change <- sqrt(pair$away.x) - sqrt(pair$away.y)
+  cat("default less one pass, by draw: mean and its standard error, mm\n")
+  print(round(cbind(mean = tapply(change, pair$noise, mean),
+                    error = tapply(change, pair$noise, function(x) stats::sd(x) / sqrt(length(x)))), 3))
+  cat("share of curves within two median standard errors of the curve on the scan as it is\n")
+  print(round(by(rows$within, function(x) mean(x)), 3))
+  cat("median standard error, mm; share determined\n")
+  print(round(by(rows$se, stats::median), 3))
+  print(round(by(rows$determined, mean), 3))
+}
+
+covered <- function(spacing = 0.05) {
+  cells <- rbind(expand.grid(b = c(1, 2), noise = 0.01, correlation = 0:3, error = 0),
+                 expand.grid(b = c(1, 2), noise = 0.05, correlation = 0, error = 0),
+                 expand.grid(b = c(1, 2), noise = 0.01, correlation = 0, error = 0.1),
+                 expand.grid(b = c(0.25, 0.5), noise = 0.01, correlation = 0, error = 0))
+  rows <- list()
+  for (i in seq_len(nrow(cells))) for (a in c(0, 0.25, 0.5)) for (seed in seeds) {
+    cell <- cells[i, ]
+    scan <- function(seed) {
+      simulate_ridge(a, cell$b, spacing, cell$noise, seed, correlation = cell$correlation, landmark_error = cell$error)
+    }
+    surface <- scan(seed)
+    ways <- list(factor = NA)
+    if (cell$correlation > 0) {
+      # Compared by the ridge, as on a face by its curves: the noise is along z, and less of it along the normal of a slope.
+      first <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 21, settings = ridge_settings("one pass")))
+      ways$known <- tryCatch(scan_noise(surface, scan(seed + 1000), near = first$points[c("x", "y", "z")], reach = 0.2),
+                             error = function(e) NULL)
+      ways$true <- c(0, cell$noise, sqrt(2) * cell$correlation * spacing)
+    }
+    for (way in names(ways)) {
+      curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 21,
+                                            settings = ridge_settings(noise = ways[[way]])))
+      inner <- curve$points[2:20, ]
+      away <- abs(crestline:::ridge_offset(inner, attr(surface, "truth")))
+      rows[[length(rows) + 1]] <- data.frame(
+        cell, a, seed, way, covered = mean(away <= 2 * inner$se), away = rms(away) / spacing,
+        se = stats::median(inner$se) / spacing, determined = isTRUE(curve$determined), noise_factor = curve$noise_factor,
+        sd = if (way == "known") ways$known$sd / cell$noise else NA,
+        range = if (way == "known") ways$known$range / ways$true[3] else NA
+      )
+    }
+  }
+  keep(do.call(rbind, rows))
+}
+
+report_covered <- function(rows) {
+  cat(sprintf("simulated ridges, three bends, %d seeds\n", length(unique(rows$seed))))
+  cell <- with(rows, list(b, noise, correlation, error, way))
+  cells <- stats::aggregate(rows[c("covered", "away", "se", "determined", "noise_factor", "sd", "range")], cell, mean,
+                            na.rm = TRUE)
+  names(cells)[1:5] <- c("b", "noise", "correlation", "landmarks", "way")
+  cells$curves <- stats::aggregate(rows$covered, cell, length)$x
+  cells[6:12] <- round(cells[6:12], 3)
+  print(cells, row.names = FALSE)
+}
+
+if (section == "repeat") repeated()
+if (section == "coverage") covered()
+if (section == "report") {
+  options(width = 150)
+  if (length(list.files(folder, "^repeat"))) report_repeated(kept("repeat"))
+  if (length(list.files(folder, "^coverage"))) report_covered(kept("coverage"))
+}
