@@ -76,7 +76,8 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
 #' @param strength As of [path_strength()]; not used for planes.
 #' @param radius Of the curvature.
 #' @param search As of [path_settings()].
-#' @param weight Function of angles: what the criterion of ridges and valleys is multiplied by.
+#' @param weight Function of angles: what the criterion of optima is multiplied by before they are
+#'   compared. It does not move them.
 #' @return As [reference_path()].
 #' @noRd
 find_reference <- function(ends, type, strength, radius, search, weight = function(angle) 1) {
@@ -84,13 +85,10 @@ find_reference <- function(ends, type, strength, radius, search, weight = functi
   rate <- if (type == "plane") {
     function(found) -found$length
   } else {
-    function(found) {
-      weight(found$angle) *
-        cut_strength(ends, found, search$reach, search$spacing * radius, strength)
-    }
+    function(found) cut_strength(ends, found, search$reach, search$spacing * radius, strength)
   }
   measure <- function(angle, side) measure_cuts(ends, angle, side, search$reach)
-  optima <- cut_optima(measure, rate, search)
+  optima <- cut_optima(measure, rate, search, weight)
   if (nrow(optima) == 0) {
     return(no_result(
       sprintf("no plane cut joins %s and %s (at angle 0 it ends: %s).", ends$names[1],
@@ -169,10 +167,11 @@ cut_strength <- function(ends, found, reach, step, strength) {
 #'
 #' @param measure Function of angles and sides, as [measure_cuts()].
 #' @param rate Function of measured cuts that gives their criterion.
+#' @param weight As in [find_reference()].
 #' @param digits Criteria that agree to this many significant digits are equal: on a straight
 #'   feature many planes cut one line. Of equal cuts the shortest counts, then the straightest in.
 #' @noRd
-cut_optima <- function(measure, rate, search, digits = 8) {
+cut_optima <- function(measure, rate, search, weight = function(angle) 1, digits = 8) {
   angles <- search$angles
   step <- pi / angles
   coarse <- measure(rep(-pi / 2 + step * seq_len(angles), 2), rep(0:1, each = angles))
@@ -190,6 +189,7 @@ cut_optima <- function(measure, rate, search, digits = 8) {
   of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = search$refined))
   best <- vapply(split(seq_along(of_peak), of_peak), function(near) best_cut(all, near), 0L)
   all$angle <- wrap_angle(all$angle)
+  all[c("criterion", "level")] <- lapply(all[c("criterion", "level")], `*`, weight(all$angle))
   tied <- all$level[best] >= max(all$level[best]) - search$tie * abs(max(all$level[best]))
   best <- best[order(!tied, ifelse(tied, 0, -all$level[best]), all$extent[best], -all$level[best],
                      abs(all$angle[best]))]

@@ -16,46 +16,57 @@
 #' @noRd
 fit_passes <- function(scan, path, job) {
   settings <- job$settings
-  trusted <- attr(path, "trusted") / attr(path, "length")
   window <- ridge_window(scan, path, job)
   if (is.null(window$surface)) return(window)
-  kernel <- 0
   window$line <- highest_line(window$surface, window$scale, job$radius, settings)
   if (failed(window$line)) return(window$line)
   edge <- window$line$at_bound
-  if (settings$kernel > 0) kernel <- kernel_width(scan, window, job$radius, settings)
-  mix <- min(1, kernel / (settings$mix * job$radius))
-  if (mix > 0) window <- ridge_window(scan, path, job, mix)
-  with_line <- function(window) {
-    if (is.null(window$surface)) return(window)
-    if (is.null(window$line) || kernel > 0) {
-      window$line <- highest_line(window$surface, window$scale, job$radius, settings, kernel)
-    }
-    if (failed(window$line)) return(window$line)
-    # Neither kernel nor passes widen the window: what ran along its edge once is in doubt.
-    window$line$at_bound <- edge <<- edge || window$line$at_bound
-    with_curve(scan, window)
+  job$kernel <- if (settings$kernel > 0) kernel_width(scan, window, job$radius, settings) else 0
+  job$mix <- min(1, job$kernel / (settings$mix * job$radius))
+  if (job$mix > 0) window <- ridge_window(scan, path, job, job$mix)
+  fit <- one_pass(scan, window, job, edge)
+  if (!is.null(job$passes)) {
+    for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- next_pass(scan, fit, job)
+    return(fit)
   }
-  fit <- with_line(window)
-  again <- function(fit) {
-    path <- fit$path
-    if (length(trusted)) attr(path, "trusted") <- trusted * attr(path, "length")
-    for (name in c("type", "criterion", "optima", "competing")) {
-      attr(path, name) <- attr(fit$reference, name)
-    }
-    with_line(ridge_window(scan, path, job, mix))
+  second <- if (isTRUE(fit$found) && settings$second > 0) next_pass(scan, fit, job)
+  if (!isTRUE(second$found)) return(fit)
+  strength <- path_strength(job$source, job$type, job$regions, scan)
+  second$share <- second_share(scan, fit, second, strength, job$kernel / job$radius, settings)
+  if (second$share > 0) second else fit
+}
+
+#' A window with its line under the kernel, on the mesh
+#'
+#' @param job With `kernel`, its half width, in the unit of the mesh.
+#' @param edge Whether the line of a pass before ran along the edge of its window: neither kernel
+#'   nor passes widen the window, and what ran along its edge once is in doubt.
+#' @noRd
+one_pass <- function(scan, window, job, edge) {
+  if (is.null(window$surface)) return(window)
+  if (is.null(window$line) || job$kernel > 0) {
+    window$line <- highest_line(window$surface, window$scale, job$radius, job$settings, job$kernel)
   }
-  if (is.null(job$passes)) {
-    second <- if (isTRUE(fit$found) && settings$second > 0) again(fit)
-    if (isTRUE(second$found)) {
-      strength <- path_strength(job$source, job$type, job$regions, scan)
-      second$share <- second_share(scan, fit, second, strength, kernel / job$radius, settings)
-      if (second$share > 0) fit <- second
-    }
-  } else {
-    for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- again(fit)
+  if (failed(window$line)) return(window$line)
+  window$line$at_bound <- edge || window$line$at_bound
+  with_curve(scan, window)
+}
+
+#' The pass about the curve of the one before
+#'
+#' @param job With `kernel` and `mix`, the share of the principal curvature in the strength.
+#' @noRd
+next_pass <- function(scan, fit, job) {
+  path <- fit$path
+  before <- fit$reference
+  trusted <- attr(before, "trusted")
+  if (length(trusted)) {
+    attr(path, "trusted") <- trusted / attr(before, "length") * attr(path, "length")
   }
-  fit
+  for (name in c("type", "criterion", "optima", "competing")) {
+    attr(path, name) <- attr(before, name)
+  }
+  one_pass(scan, ridge_window(scan, path, job, job$mix), job, fit$line$at_bound)
 }
 
 #' A window with its line lifted onto the mesh

@@ -64,7 +64,7 @@ curve_record <- function(job) {
     strength = curve$strength, contrast = curve_contrast(curve), se = curve$se,
     se_max = largest(curve$points$se),
     competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined,
-    reason = curve$reason
+    reason = curve$reason, noise_factor = curve$noise_factor
   )
   if (is.null(problem)) return(record)
   record$reason <- paste("the shortest cut instead:", problem)

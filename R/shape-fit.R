@@ -67,6 +67,8 @@
 #'     * `se`, `se_max`: median and largest standard error at its points, in the unit of the mesh;
 #'     * `competing`: criterion of the best other reference path, as a share of the chosen path's.
 #'       Near 1: a rival. NA: no other path;
+#'     * `noise_factor`: of [ridge_curve()]. The median over the curves describes the scan:
+#'       `print()` and [quality()] give it;
 #'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Lengths
 #'     are in the unit of the mesh. Columns for all parts are `part`, `level` and `missing` (share
 #'     of the points). Columns for curves only:
@@ -260,12 +262,12 @@ shape_status <- function(scan, fits, problems) {
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
                contrast = rep(NA_real_, length(part)), se = rep(NA_real_, length(part)),
                competing = rep(NA_real_, length(part)),
-               se_max = rep(NA_real_, length(part)))
+               se_max = rep(NA_real_, length(part)), noise_factor = rep(NA_real_, length(part)))
   }
   whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
   curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole,
                   vapply(fits, `[[`, "", "reason"))
-  measures <- c("length", "strength", "contrast", "se", "competing", "se_max")
+  measures <- c("length", "strength", "contrast", "se", "competing", "se_max", "noise_factor")
   curves[measures] <- lapply(measures, of_curve)
   status <- rbind(
     lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)),

@@ -164,5 +164,6 @@ grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
 quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
                      "competing", "z",
                      "asymmetry", "missing", "cut", "bridged", "faults", "roughness", "coarse",
-                     "border", "spike", "offset", "track", "grade",
+                     "border", "spike", "offset", "track", "noise_factor",
+                     "grade",
                      "why")

@@ -51,6 +51,7 @@
 #'     radii of the template. NA if the shape was not slid with free curve points;
 #'   * `track`: greatest distance of a curve from its expected track, in spreads. NA if the scheme
 #'     has no tracks, see [learn_tracks()];
+#'   * `noise_factor`: as in `status` of [fit_shape()];
 #'   * `coarse`: mean edge of the triangles along a curve in radii of its curvature estimate;
 #'     `border`, `spike`: distances as shares of the part's size;
 #'   * `grade`: ordered factor green < amber < red;
@@ -58,10 +59,16 @@
 #'
 #'   A specimen that could not be measured has one row with level "specimen", red, with the reason
 #'   of the failure. A specimen with warnings (see [warnings_of()]) has such a row too, amber.
-#'   `print()` gives the counts, the worst parts, and the specimens whose landmarks were found and
-#'   not placed by hand; `as.data.frame()` shows the rows. `summary()` gives a data frame with a row
-#'   for each specimen: `specimen`, `green`, `amber`, `red` (numbers of parts), and `landmarks`
-#'   ("found" or "placed"; NA if it could not be measured).
+#'   `print()` gives the counts, the worst parts, the specimens whose landmarks were found and not
+#'   placed by hand, and the noise factor F with its meaning. `as.data.frame()` shows the rows.
+#'   `summary()` gives a data frame with a row for each specimen: `specimen`, `green`, `amber`, `red`
+#'   (numbers of parts), `landmarks` ("found" or "placed"; NA if it could not be measured), and
+#'   `noise_factor`: F of the specimen, the median over its ridges and valleys.
+#'
+#'   F near 1: the noise is independent from vertex to vertex. F = 9: the noise is correlated along
+#'   the mesh, or fine relief counts as noise. The standard errors are then 3 times those of
+#'   independent noise. On good faces F is 3 to 79 (three real scans: 24, 49 and 79). F is no fault
+#'   and has no grade.
 #' @section Reasons and what to do: `print()` of several specimens counts the parts by kind of
 #'   reason:
 #'
@@ -181,6 +188,7 @@ part_measures <- function(shape, name) {
     coarse = checks$edge / radius, border = checks$border / checks$size,
     spike = checks$spike / checks$size, offset = recorded(checks, "offset", NA_real_),
     track = recorded(checks, "track", NA_real_),
+    noise_factor = recorded(status, "noise_factor", NA_real_),
     reason = status$reason, checks[c("determined", "guessed", "size")],
     free = shape$scheme$curves$n[row] > 2,
     radius = radius, se_max = recorded(status, "se_max", NA_real_),
@@ -257,6 +265,9 @@ summary.shape_quality <- function(object, ...) {
                         amber = as.vector(counts[, "amber"]), red = as.vector(counts[, "red"]))
   found <- attr(object, "found")
   if (!is.null(found)) counted$landmarks <- landmarks_came(counted$specimen, object)
+  if (!is.null(object$noise_factor)) {
+    counted$noise_factor <- as.vector(tapply(object$noise_factor, specimen, specimen_noise))
+  }
   counted
 }
 
@@ -282,6 +293,14 @@ print.shape_quality <- function(x, most = 10, ...) {
       cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s",
                           amount(length(found), "specimen"),
                           shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
+    }
+    noise <- counts$noise_factor[!is.na(counts$noise_factor)]
+    if (length(noise)) {
+      said <- noise_text(stats::median(noise))
+      if (length(noise) > 1) {
+        said <- sprintf("%s (median; %.2g to %.2g over the specimens)", said, min(noise), max(noise))
+      }
+      cat(strwrap(said, indent = 2, exdent = 4, width = 80), sep = "\n")
     }
     if (nrow(counts) > 1) {
       shown <- utils::head(counts, most)

@@ -170,6 +170,10 @@ print.shape <- function(x, most = 8, ...) {
       }, "\n", sep = "")
     }
     print_placing(x$placing)
+    noise <- specimen_noise(x$status$noise_factor)
+    if (!is.na(noise)) {
+      cat(strwrap(noise_text(noise), width = 80, indent = 2, exdent = 4), sep = "\n")
+    }
     said <- x$status[!is.na(x$status$reason), ]
     for (i in utils::head(seq_len(nrow(said)), most)) {
       cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4),

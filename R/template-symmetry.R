@@ -156,7 +156,8 @@ template_shape <- function(shape, xyz, id, se = NA_real_) {
   there <- tapply(!is.na(points$x), paste(points$level, points$part), all)
   status$ok <- as.vector(there[paste(status$level, status$part)])
   status$reason <- NA_character_
-  status[c("length", "strength", "se", "se_max", "competing")] <- NA_real_
+  measured <- c("length", "strength", "se", "se_max", "competing", "noise_factor")
+  status[intersect(measured, names(status))] <- NA_real_
   new_shape(id, points, status, shape$scheme, provenance = shape$provenance)
 }
 

@@ -28,9 +28,9 @@ middle_of <- function(shape, curve) {
 test_that("a good shape is green throughout, with nothing to say", {
   graded <- quality(quad_shape())
   expect_s3_class(graded, c("shape_quality", "data.frame"), exact = TRUE)
-  expect_equal(names(graded)[c(1:10, 21:23)],
+  expect_equal(names(graded)[c(1:10, 21:24)],
                c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
-                "competing", "z", "track", "grade", "why"))
+                "competing", "z", "track", "noise_factor", "grade", "why"))
   expect_equal(graded$part, c("a", "b", "c", "d", "bottom", "top", "left", "right", "quad"))
   expect_equal(levels(graded$grade), c("green", "amber", "red"))
   expect_true(is.ordered(graded$grade) && all(graded$grade == "green"))
