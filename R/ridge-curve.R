@@ -69,7 +69,8 @@
 #'   2 the figures are 96, 92 and 92 %. On blunt ridges the factor sees only part of such noise.
 #'
 #'   Fine relief counts as noise too. On three clean real scans the median factor of the curves is
-#'   24, 49 and 79, and the band is too wide. Two scans of one subject separate noise from relief. With [ridge_settings()]`(noise =
+#'   24, 49 and 79, and the band is too wide. Two scans of one subject separate
+#'   noise from relief. With [ridge_settings()]`(noise =
 #'   )` of [scan_noise()] the standard error follows the measured noise. A wider radius adds a bias
 #'   that the standard error does not include. `vignette("how-good", "crestline")` has the tables.
 #' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,

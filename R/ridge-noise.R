@@ -36,10 +36,12 @@
 #'   * `points`: number of vertices compared;
 #'   * `converged`, `rounds`: of the registration.
 #'
-#'   A registration takes part of smooth noise away; the fit accounts for that. On simulated scans, 40
+#'   A registration takes part of smooth noise away; the fit accounts for that. On simulated scans,
+#'   40
 #'   spacings wide and nearly level, the median of `sd` is 0.8 to 0.9 times the true value, and that
 #'   of `range` 1 to 1.2 times. The distance is taken along the normal: where the noise is in one
-#'   direction, as in depth, less of it is seen on slopes. Give places `near` the curves, and a small
+#'   direction, as in depth, less of it is seen on slopes. Give places `near` the curves, and a
+#'   small
 #'   `reach`.
 #' @section Errors: of class `crestline_error`: fewer than 100 vertices can be compared, or the
 #'   scans lie more than a mean edge length apart.

@@ -61,7 +61,8 @@
 #'   of the failure. A specimen with warnings (see [warnings_of()]) has such a row too, amber.
 #'   `print()` gives the counts, the worst parts, the specimens whose landmarks were found and not
 #'   placed by hand, and the noise factor F with its meaning. `as.data.frame()` shows the rows.
-#'   `summary()` gives a data frame with a row for each specimen: `specimen`, `green`, `amber`, `red`
+#'   `summary()` gives a data frame with a row for each specimen: `specimen`, `green`, `amber`,
+#'   `red`
 #'   (numbers of parts), `landmarks` ("found" or "placed"; NA if it could not be measured), and
 #'   `noise_factor`: F of the specimen, the median over its ridges and valleys.
 #'
@@ -298,7 +299,8 @@ print.shape_quality <- function(x, most = 10, ...) {
     if (length(noise)) {
       said <- noise_text(stats::median(noise))
       if (length(noise) > 1) {
-        said <- sprintf("%s (median; %.2g to %.2g over the specimens)", said, min(noise), max(noise))
+        said <- sprintf("%s (median; %.2g to %.2g over the specimens)", said, min(noise),
+                        max(noise))
       }
       cat(strwrap(said, indent = 2, exdent = 4, width = 80), sep = "\n")
     }
