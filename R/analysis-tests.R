@@ -333,8 +333,7 @@ testable_components <- function(pca, components, n, groups, spread) {
 #' to 12 % of samples (`bench/spread.md`).
 #'
 #' @param x n x m scores on the leading components, among which those of T2 are sought.
-#' @param rounds How often scales and components are found from each other. After three the scales
-#'   of 15 to 30 specimens change by less than 1 %.
+#' @param rounds How often scales and components are found from each other.
 #' @param least Least scale of a group, as a share of the mean one.
 #' @param rounding Root of the share of a component that may lie between the means by rounding:
 #'   exact duplicates then tie.

@@ -5,14 +5,16 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/noise.R FOLDER limits
 #   Rscript bench/noise.R FOLDER report
 #
-# The numbers are seeds; a run adds its rows to FOLDER, so that it may be cut into pieces. "repeat": the ridges and valleys
-# of scan_a that have more points than their ends, the mesh moved along its normals (0.1 and 0.3 mm, independent; 0.1 mm,
-# smoothed nine times over the mesh, some three steps), or every landmark moved by 1 mm; RMS distance (mm) of the middle
-# 60 % of each curve from the same estimator's curve on the scan as it is, and whether it lies within two of its median
-# standard errors. "known": the noise is given as scan_noise() measures it in two such scans. "coverage": share of the
-# inner points of simulated ridges within two standard errors of the crest, with the noise factor, with scan_noise() of
-# two simulated scans, and with the true noise; and how many curves count as determined. "limits": standard errors of the
-# ridges and valleys of good faces in radii, and how many are beyond the limits of quality_limits().
+# The numbers are seeds; a run adds its rows to FOLDER, so that it may be cut into pieces. "repeat":
+# the ridges and valleys of scan_a that have more points than their ends, the mesh moved along its
+# normals (0.1 and 0.3 mm, independent; 0.1 mm, smoothed nine times over the mesh, some three
+# steps), or every landmark moved by 1 mm; RMS distance (mm) of the middle 60 % of each curve from
+# the same estimator's curve on the scan as it is, and whether it lies within two of its median
+# standard errors. "known": the noise is given as scan_noise() measures it in two such scans.
+# "coverage": share of the inner points of simulated ridges within two standard errors of the crest,
+# with the noise factor, with scan_noise() of two simulated scans, and with the true noise; and how
+# many curves count as determined. "limits": standard errors of the ridges and valleys of good faces
+# in radii, and how many are beyond the limits of quality_limits().
 
 library(crestline)
 
@@ -23,14 +25,16 @@ seeds <- if (length(arguments) > 2) eval(parse(text = arguments[3]))
 dir.create(folder, showWarnings = FALSE, recursive = TRUE)
 rms <- function(x) sqrt(mean(x^2, na.rm = TRUE))
 keep <- function(rows) {
-  saveRDS(rows, file.path(folder, sprintf("%s-%s.rds", section, paste(range(seeds), collapse = "-"))))
+  saveRDS(rows,
+          file.path(folder, sprintf("%s-%s.rds", section, paste(range(seeds), collapse = "-"))))
 }
 kept <- function(section) {
   files <- list.files(folder, paste0("^", section, "-.*rds$"), full.names = TRUE)
   unique(do.call(rbind, lapply(files, readRDS)))
 }
 
-# scan_a again: noise (mm), how often it is smoothed over the mesh, and how far landmarks are moved (mm).
+# scan_a again: noise (mm), how often it is smoothed over the mesh, and how far landmarks are moved
+# (mm).
 spoilt <- list("0.1 mm" = c(0.1, 0, 0), "0.3 mm" = c(0.3, 0, 0), "0.1 mm, 3 steps" = c(0.1, 9, 0),
                "landmarks 1 mm" = c(0, 0, 1))
 
@@ -48,7 +52,8 @@ again <- function(face, how, seed, smoother) {
   if (how[1] > 0) {
     noise <- stats::rnorm(ncol(mesh$vb))
     for (i in seq_len(how[2])) noise <- smoother(noise)
-    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] * rep(how[1] * noise / stats::sd(noise), each = 3)
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + mesh$normals[1:3, ] *
+      rep(how[1] * noise / stats::sd(noise), each = 3)
   }
   marks <- face$landmarks
   if (how[3] > 0) {
@@ -56,26 +61,32 @@ again <- function(face, how, seed, smoother) {
     marks <- marks + how[3] * step / sqrt(rowSums(step^2))
   }
   marks[] <- as.matrix(crestline:::surface_points(mesh, marks)[c("x", "y", "z")])
-  suppressWarnings(specimen(structure(list(vb = mesh$vb, it = mesh$it), class = "mesh3d"), marks, id = face$id))
+  suppressWarnings(specimen(structure(list(vb = mesh$vb, it = mesh$it), class = "mesh3d"), marks,
+                            id = face$id))
 }
 
 middle <- function(path, n = 61) {
   s <- path$s / max(path$s)
-  vapply(c("x", "y", "z"), function(a) stats::approx(s, path[[a]], seq(0.2, 0.8, length.out = n))$y, numeric(n))
+  vapply(c("x", "y", "z"), function(a) stats::approx(s, path[[a]], seq(0.2, 0.8, length.out = n))$y,
+         numeric(n))
 }
 
 off <- function(path, line) {
-  crestline:::nearest_on_polyline(middle(path), as.matrix(as.data.frame(line)[c("x", "y", "z")]))$distance
+  crestline:::nearest_on_polyline(middle(path),
+                                  as.matrix(as.data.frame(line)[c("x", "y", "z")]))$distance
 }
 
 repeated <- function() {
   from <- file.path(Sys.getenv("CRESTLINE_SHARED"), "scan_a")
-  face <- suppressWarnings(read_specimen(file.path(from, "surface.ply"), file.path(from, "landmarks.csv"), id = "scan_a"))
+  face <- suppressWarnings(read_specimen(file.path(from, "surface.ply"),
+                                         file.path(from, "landmarks.csv"), id = "scan_a"))
   table <- face_scheme()$curves
   table <- table[table$kind != "plane" & table$n > 2, ]
   scheme <- curve_scheme(face_scheme()$landmarks, table)
   smoother <- neighbours_of(face$mesh$it, ncol(face$mesh$vb))
-  fit <- function(one, settings) suppressWarnings(fit_shape(one, scheme, settings, progress = FALSE))
+  fit <- function(one, settings) {
+    suppressWarnings(fit_shape(one, scheme, settings, progress = FALSE))
+  }
   ways <- list("one pass" = ridge_settings("one pass", error = FALSE), default = ridge_settings())
   still <- lapply(ways, function(settings) fit(face, settings))
   rows <- list()
@@ -95,7 +106,8 @@ repeated <- function() {
         se <- shape$status$se[shape$status$part == curve & shape$status$level == "curves"]
         rows[[length(rows) + 1]] <- data.frame(
           seed, noise = name, way, curve, away = rms(away), se, within = rms(away) <= 2 * se,
-          determined = shape$checks$determined[shape$checks$part == curve & shape$checks$level == "curves"]
+          determined = shape$checks$determined[shape$checks$part == curve &
+                                               shape$checks$level == "curves"]
         )
       }
     }
@@ -109,11 +121,13 @@ report_repeated <- function(rows) {
   cat("RMS over curves and draws, mm\n")
   print(round(by(rows$away, rms), 3))
   each <- stats::aggregate(away ~ seed + noise + way, rows, function(x) mean(x^2))
-  pair <- merge(each[each$way == "default", ], each[each$way == "one pass", ], by = c("seed", "noise"))
+  pair <- merge(each[each$way == "default", ], each[each$way == "one pass", ],
+                by = c("seed", "noise"))
   change <- sqrt(pair$away.x) - sqrt(pair$away.y)
   cat("default less one pass, by draw: mean and its standard error, mm\n")
   print(round(cbind(mean = tapply(change, pair$noise, mean),
-                    error = tapply(change, pair$noise, function(x) stats::sd(x) / sqrt(length(x)))), 3))
+                    error = tapply(change, pair$noise, function(x) stats::sd(x) / sqrt(length(x)))),
+              3))
   cat("share of curves within two median standard errors of the curve on the scan as it is\n")
   print(round(by(rows$within, function(x) mean(x)), 3))
   cat("median standard error, mm; share determined\n")
@@ -130,14 +144,18 @@ covered <- function(spacing = 0.05) {
   for (i in seq_len(nrow(cells))) for (a in c(0, 0.25, 0.5)) for (seed in seeds) {
     cell <- cells[i, ]
     scan <- function(seed) {
-      simulate_ridge(a, cell$b, spacing, cell$noise, seed, correlation = cell$correlation, landmark_error = cell$error)
+      simulate_ridge(a, cell$b, spacing, cell$noise, seed, correlation = cell$correlation,
+                     landmark_error = cell$error)
     }
     surface <- scan(seed)
     ways <- list(factor = NA)
     if (cell$correlation > 0) {
-      # Compared by the ridge, as on a face by its curves: the noise is along z, and less of it along the normal of a slope.
-      first <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 21, settings = ridge_settings("one pass")))
-      ways$known <- tryCatch(scan_noise(surface, scan(seed + 1000), near = first$points[c("x", "y", "z")], reach = 0.2),
+      # Compared by the ridge, as on a face by its curves: the noise is along z, and less of it
+      # along the normal of a slope.
+      first <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 21,
+                                            settings = ridge_settings("one pass")))
+      ways$known <- tryCatch(scan_noise(surface, scan(seed + 1000),
+                                        near = first$points[c("x", "y", "z")], reach = 0.2),
                              error = function(e) NULL)
       ways$true <- c(0, cell$noise, sqrt(2) * cell$correlation * spacing)
     }
@@ -148,8 +166,9 @@ covered <- function(spacing = 0.05) {
       away <- abs(crestline:::ridge_offset(inner, attr(surface, "truth")))
       rows[[length(rows) + 1]] <- data.frame(
         cell, a, seed, way, covered = mean(away <= 2 * inner$se), away = rms(away) / spacing,
-        se = stats::median(inner$se) / spacing, determined = isTRUE(curve$determined), noise_factor = curve$noise_factor,
-        sd = if (way == "known") ways$known$sd / cell$noise else NA,
+        se = stats::median(inner$se) / spacing, determined = isTRUE(curve$determined),
+        noise_factor = curve$noise_factor, sd = if (way == "known")
+          ways$known$sd / cell$noise else NA,
         range = if (way == "known") ways$known$range / ways$true[3] else NA
       )
     }
@@ -160,7 +179,8 @@ covered <- function(spacing = 0.05) {
 report_covered <- function(rows) {
   cat(sprintf("simulated ridges, three bends, %d seeds\n", length(unique(rows$seed))))
   cell <- with(rows, list(b, noise, correlation, error, way))
-  cells <- stats::aggregate(rows[c("covered", "away", "se", "determined", "noise_factor", "sd", "range")], cell, mean,
+  cells <- stats::aggregate(rows[c("covered", "away", "se", "determined", "noise_factor", "sd",
+                                   "range")], cell, mean,
                             na.rm = TRUE)
   names(cells)[1:5] <- c("b", "noise", "correlation", "landmarks", "way")
   cells$curves <- stats::aggregate(rows$covered, cell, length)$x
@@ -168,11 +188,13 @@ report_covered <- function(rows) {
   print(cells, row.names = FALSE)
 }
 
-# Good faces: three scans, 23 of simpop, 19 simulated ones as scanned (without the one of bench/tracks.R whose brow is wrong).
+# Good faces: three scans, 23 of simpop, 19 simulated ones as scanned (without the one of
+# bench/tracks.R whose brow is wrong).
 limits <- function() {
   shared <- Sys.getenv("CRESTLINE_SHARED")
   of_folder <- function(id) {
-    suppressWarnings(read_specimen(file.path(shared, id, "surface.ply"), file.path(shared, id, "landmarks.csv"), id = id))
+    suppressWarnings(read_specimen(file.path(shared, id, "surface.ply"),
+                                   file.path(shared, id, "landmarks.csv"), id = id))
   }
   utils::data("humface", package = "Rvcg", envir = environment())
   marks <- read_landmarks(system.file("extdata", "humface_landmarks.csv", package = "crestline"))
@@ -180,19 +202,21 @@ limits <- function() {
   simpop <- lapply(unique(placed$id), function(id) {
     rows <- placed[placed$id == id, ]
     landmarks <- as.matrix(data.frame(rows[c("x", "y", "z")], row.names = rows$landmark))
-    suppressWarnings(read_specimen(file.path(shared, "simpop", paste0(id, ".ply")), landmarks, id = id))
+    suppressWarnings(read_specimen(file.path(shared, "simpop", paste0(id, ".ply")),
+                                   landmarks, id = id))
   })
   scan <- scan_settings(noise = 0.1, landmark_error = 0.3)
   made <- simulate_faces(20, effect = 3, size_effect = 0.03, scan = scan, seed = 1)$specimens[-19]
-  sets <- list(scans = list(of_folder("scan_a"), of_folder("template_male"), specimen(humface, marks, id = "humface")),
+  sets <- list(scans = list(of_folder("scan_a"), of_folder("template_male"),
+                            specimen(humface, marks, id = "humface")),
                simpop = simpop, simulated = made)
   each <- lapply(names(sets), function(set) do.call(rbind, lapply(sets[[set]], function(face) {
     shape <- suppressWarnings(fit_shape(face, progress = FALSE))
     own <- shape$status[shape$status$level == "curves", ]
     curves <- shape$scheme$curves
     kept <- curves$kind != "plane" & curves$n > 2
-    table <- data.frame(set, id = face$id, own[c("part", "noise_factor")], se = own$se / curves$radius,
-                        se_max = own$se_max / curves$radius)
+    table <- data.frame(set, id = face$id, own[c("part", "noise_factor")],
+                        se = own$se / curves$radius, se_max = own$se_max / curves$radius)
     table[kept & !is.na(own$se), ]
   })))
   rows <- do.call(rbind, c(each, list(make.row.names = FALSE)))
@@ -200,14 +224,17 @@ limits <- function() {
   cat(sprintf("%d curves of %d good faces\n", nrow(rows), length(unique(rows$id))))
   for (set in c(names(sets), "all")) {
     own <- rows[set == "all" | rows$set == set, ]
-    cat(sprintf("%-9s F %.3g (%.2g to %.3g); se above %g: %.1f %%, above %g: %.1f %%; se_max above 0.8: %.1f %%, above %g: %.1f %%\n",
+    cat(sprintf(paste("%-9s F %.3g (%.2g to %.3g); se above %g: %.1f %%, above %g: %.1f %%; se_max",
+                      "above 0.8: %.1f %%, above %g: %.1f %%\n"),
                 set, stats::median(own$noise_factor), stats::quantile(own$noise_factor, 0.05),
-                stats::quantile(own$noise_factor, 0.95), allowed$se[1], 100 * mean(own$se > allowed$se[1]), allowed$se[2],
+                stats::quantile(own$noise_factor, 0.95), allowed$se[1],
+                100 * mean(own$se > allowed$se[1]), allowed$se[2],
                 100 * mean(own$se > allowed$se[2]), 100 * mean(own$se_max > 0.8), allowed$se_max[1],
                 100 * mean(own$se_max > allowed$se_max[1])))
   }
   median_of <- tapply(rows$noise_factor, rows$id, stats::median)
-  cat(sprintf("F of a face: %.2g to %.3g, median %.3g; scans: %s\n", min(median_of), max(median_of), stats::median(median_of),
+  cat(sprintf("F of a face: %.2g to %.3g, median %.3g; scans: %s\n", min(median_of), max(median_of),
+              stats::median(median_of),
               paste(round(median_of[c("scan_a", "template_male", "humface")], 1), collapse = ", ")))
 }
 
