@@ -64,7 +64,7 @@
 #'   multiplied by `noise_factor`.
 #'
 #'   Coverage was measured on simulated ridges with noise 0.01 (b = 1 and 2; 36 curves each). With
-#'   independent noise the crest lies within two standard errors at 99 % of the places and more. With
+#'   independent noise the crest lies within two standard errors at 99 % or more of the places. With
 #'   noise correlated over one, two and three spacings it does at 79, 64 and 62 % for b = 1. For b =
 #'   2 the figures are 97, 94 and 94 %. On blunt ridges the factor sees only part of such noise.
 #'
