@@ -60,8 +60,8 @@ result_paths <- function(x, call = rlang::caller_env()) {
   files <- if (folder) list.files(x, "[.]shape$", full.names = TRUE) else x
   gone <- files[!file.exists(files)]
   if (length(files) && !length(gone)) return(normalizePath(files))
-  crestline_abort(if (folder) sprintf("the folder %s has no results.", x) else
-                    sprintf("there is no folder or file %s.", shorten(gone, 3)),
+  crestline_abort(if (folder) sprintf("`x`: the folder %s has no results.", x) else
+                    sprintf("`x`: there is no folder or file %s.", shorten(gone, 3)),
                   "Give the `dir` of fit_shapes(), or paths of its .shape files.",
                   stage = "batch", call = call)
 }

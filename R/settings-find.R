@@ -141,7 +141,8 @@ check_find_settings <- function(settings, sizes) {
     value <- settings[[name]]
     size <- sizes[[name]]
     low <- if (name == "agree") -1 else if (name %in% may_be_none) 0 else .Machine$double.xmin
-    if (!is.numeric(value) || length(value) != size || any(!is.finite(value) | value < low)) {
+    if (!is.numeric(value) || !is.null(dim(value)) || length(value) != size ||
+        any(!is.finite(value) | value < low)) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(value)),
                       sprintf("Give %d finite number%s %s.", size, if (size > 1) "s" else "",
                               if (low > 0) "above 0" else paste("of at least", low)),

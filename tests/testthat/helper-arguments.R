@@ -442,7 +442,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                             x = "list", file = "object", curves = "any", frame = "choice",
                             missing = "any"),
     write_scheme = entry(given(scheme = made$scheme, dir = path("scheme")), scheme = "object",
-                         dir = "object"),
+                         dir = "text"),
     write_mesh = entry(given(x = one$mesh, file = path("o.ply"), colour = NULL, parts = "model",
                              palette = c("red", "blue"), limits = NULL, missing = "#BEBEBE",
                              ascii = FALSE),
@@ -465,7 +465,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
 
 # A result of fit_shapes(), without futures.
 made_result <- function(made, file) {
-  keep(made$shapes[[1]], list(key = "k", mesh = "m", id = "one", words = "plain"), file)
+  crestline:::keep(made$shapes[[1]], list(key = "k", mesh = "m", id = "one", words = "plain"), file)
   file
 }
 
