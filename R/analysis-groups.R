@@ -176,9 +176,8 @@
 #' head(compared$points)
 #' @export
 compare_groups <- function(sample, group, level = c("landmarks", "curves", "surface"),
-                           n_perm = 1000, components = 10,
-                           seed = NULL, tests = c("size", "shape", "T2", "components", "points",
-                                                  "dispersion"),
+                           n_perm = 1000, components = 10, seed = NULL,
+                           tests = c("size", "shape", "T2", "components", "points", "dispersion"),
                            exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
                            missing = c("estimate", "drop", "stop"), progress = interactive(),
                            block = NULL, equal_spread = FALSE, n_boot = 200) {
@@ -195,19 +194,10 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
   design <- comparison_design(group, block)
   dealt <- design_regroupings(design, n_perm, exact, permutations, seed)
-  # A block of point-wise tests needs 250 x k numbers.
-  blocks <- permutation_blocks(ncol(dealt$labels), 250)
-  tick <- comparison_ticks(progress, length(aligned) * (1 + length(blocks) * ("points" %in% tests)))
-  spread <- list(equal = equal_spread,
-                 lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
-  counts <- bootstrap_counts(dealt$labels[, 1], n_boot, seed)
   if (design$kind == "within") tests <- setdiff(tests, "dispersion")
-  each <- lapply(aligned, function(one) {
-    tick()
-    compare_level(in_design(one, design), dealt$labels, components, tests, spread, blocks,
-                  counts, tick)
-  })
-  each <- signs_of_first(each, nlevels(group) == 2)
+  counts <- bootstrap_counts(dealt$labels[, 1], n_boot, seed)
+  each <- compare_levels(aligned, design, dealt$labels, components, tests, equal_spread, counts,
+                         progress)
   count <- vapply(each, function(one) as.integer(one$components), 0L)
   compared <- structure(
     list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
@@ -251,6 +241,23 @@ validate.group_comparison <- function(x) {
   }
   for (one in c(x$aligned, pca)) validate(one)
   invisible(x)
+}
+
+#' The tests of all levels, on the same regroupings
+#' @return List by level, see [compare_level()].
+#' @noRd
+compare_levels <- function(aligned, design, labels, components, tests, equal_spread, counts,
+                           progress) {
+  # A block of point-wise tests needs 250 x k numbers.
+  blocks <- permutation_blocks(ncol(labels), 250)
+  tick <- comparison_ticks(progress, length(aligned) * (1 + length(blocks) * ("points" %in% tests)))
+  spread <- list(equal = equal_spread,
+                 lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
+  each <- lapply(aligned, function(one) {
+    tick()
+    compare_level(in_design(one, design), labels, components, tests, spread, blocks, counts, tick)
+  })
+  signs_of_first(each, nlevels(design$group) == 2)
 }
 
 #' The tests of one level

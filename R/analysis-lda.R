@@ -64,16 +64,7 @@ shape_lda <- function(sample, group, components = 1:10, level = "landmarks", pri
                     "Give every group three or more: one is left out.", stage = "comparison")
   }
   prior <- check_prior(prior, group)
-  tick <- comparison_ticks(progress, length(group))
-  raw <- raw_configurations(aligned)
-  each <- lapply(seq_along(group), function(i) {
-    tick()
-    fit <- fit_lda(aligned[-i], group[-i], components, prior)
-    one <- raw[, , i, drop = FALSE]
-    found <- suppressMessages(classes_of(fit, one), "crestline_message")
-    list(class = as.character(found$class), posterior = found$posterior[1, ],
-         components = fit$components)
-  })
+  each <- left_out(aligned, group, components, prior, progress)
   posterior <- t(vapply(each, `[[`, numeric(nlevels(group)), "posterior"))
   dimnames(posterior) <- list(names(group), levels(group))
   predicted <- factor(vapply(each, `[[`, "", "class"), levels(group))
@@ -92,6 +83,22 @@ shape_lda <- function(sample, group, components = 1:10, level = "landmarks", pri
                      aligned$provenance, "lda", list(components = components)
                    ))),
             class = "shape_lda")
+}
+
+#' Each specimen assigned by an alignment, components and discriminants that never had it
+#' @return List by specimen: `class`, `posterior`, `components` (number chosen).
+#' @noRd
+left_out <- function(aligned, group, components, prior, progress) {
+  tick <- comparison_ticks(progress, length(group))
+  raw <- raw_configurations(aligned)
+  lapply(seq_along(group), function(i) {
+    tick()
+    fit <- fit_lda(aligned[-i], group[-i], components, prior)
+    one <- raw[, , i, drop = FALSE]
+    found <- suppressMessages(classes_of(fit, one), "crestline_message")
+    list(class = as.character(found$class), posterior = found$posterior[1, ],
+         components = fit$components)
+  })
 }
 
 check_prior <- function(prior, group, call = rlang::caller_env()) {

@@ -122,41 +122,34 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
   if ("size" %in% all.vars(terms)) tests <- setdiff(tests, "size")
   design <- model_blocks(block, terms, columns, names(aligned[[1]]))
   units <- if (design$kind == "whole") lapply(aligned, in_design, design) else aligned
-  if (design$kind == "whole") {
-    first <- match(levels(design$block), design$block)
-    columns <- lapply(columns, function(x) {
-      if (length(dim(x)) == 2) x[first, , drop = FALSE] else x[first]
-    })
-  }
-  n <- length(units[[1]])
-  check_memory(n * as.numeric(n_perm), n_perm, "n_perm")
-  orders <- model_orders(n, design, n_perm, permutations, seed)
+  if (design$kind == "whole") columns <- of_first(columns, design$block)
+  orders <- model_orders(length(units[[1]]), design, n_perm, permutations, seed)
   here <- rlang::current_env()
-  models <- lapply(units, function(one) level_model(terms, columns, one$size, contrasts, here))
+  models <- lapply(units, function(one) level_model(terms, columns, one, contrasts, here))
   warn_contrasts(models[[1]], ss)
   spans <- lapply(models, term_spans, ss, here)
   warn_few_orders(least_of_orders(orders, design), "model")
   tick <- comparison_ticks(progress, length(units) * length(spans[[1]]))
   each <- Map(function(one, span, name) {
-    part <- parts_of_points(sample, one, name)
-    lm_level(one, span, orders, tests, components, part, tick)
+    lm_level(one, span, orders, tests, components, parts_of_points(sample, one, name), tick)
   }, units, spans, names(units))
-  models <- Map(function(model, one) {
-    y <- t(matrix(one$coords, length(one$mean)))
-    c(model, list(coefficients = qr.coef(qr(model$matrix, tol = 1e-7), y)))
-  }, models, units)
   found <- structure(
     list(tests = with_level(each, "tests"), points = with_level(each, "points"),
          parts = with_level(each, "parts"), aligned = units, pca = lapply(each, `[[`, "pca"),
          models = models, left = spans[[1]][[1]]$left, formula = formula, ss = ss,
          n_perm = ncol(orders) - 1L, block = design$block, exchange = design$kind, seed = seed,
-         provenance = with_settings(
-           aligned[[1]]$provenance, "model",
-           list(formula = deparse1(formula), ss = ss, n_perm = n_perm, exchange = design$kind)
-         )),
-    class = "shape_lm"
-  )
+         provenance = with_settings(aligned[[1]]$provenance, "model", list(
+           formula = deparse1(formula), ss = ss, n_perm = n_perm, exchange = design$kind
+         ))),
+    class = "shape_lm")
   without_constant_terms(found, spans, design)
+}
+
+#' Variables of the first specimen of each block
+#' @noRd
+of_first <- function(columns, block) {
+  first <- match(levels(block), block)
+  lapply(columns, function(x) if (length(dim(x)) == 2) x[first, , drop = FALSE] else x[first])
 }
 
 #' What is exchanged: all specimens, those of a block, or whole blocks
@@ -178,6 +171,7 @@ model_blocks <- function(block, terms, columns, ids, call = rlang::caller_env())
 #' Orders of the units, the observed one first
 #' @noRd
 model_orders <- function(n, design, n_perm, permutations, seed, call = rlang::caller_env()) {
+  check_memory(n * as.numeric(n_perm), n_perm, "n_perm", call)
   random <- if (!is.null(permutations)) check_permutations(permutations, n, call) else
     with_seed(seed, if (design$kind == "within") {
       block <- as.integer(design$block)

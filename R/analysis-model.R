@@ -49,14 +49,14 @@ model_data <- function(terms, data, ids, call = rlang::caller_env()) {
 #' The model of one level
 #'
 #' @param columns As of [model_data()].
-#' @param size Centroid sizes, named.
+#' @param aligned Alignment of the level.
 #' @return List: `terms` (with what prediction needs), `frame`, `xlev`, `contrasts`, `matrix` (n x
-#'   p), `assign` (term of each column, 0 the intercept), `variables`, `ranges` (least and greatest
+#'   p), `assign` (term of each column, 0 the intercept), `coefficients` (p x dk), `variables`, `ranges` (least and greatest
 #'   value of each variable that is a number).
 #' @noRd
-level_model <- function(terms, columns, size, contrasts = NULL, call = rlang::caller_env()) {
-  ids <- names(size)
-  columns$size <- unname(size)
+level_model <- function(terms, columns, aligned, contrasts = NULL, call = rlang::caller_env()) {
+  ids <- names(aligned$size)
+  columns$size <- unname(aligned$size)
   used <- columns[intersect(names(columns), all.vars(terms))]
   used <- lapply(used, function(x) if (is.character(x)) factor(x) else x)
   say_single_levels(used, call)
@@ -77,6 +77,7 @@ level_model <- function(terms, columns, size, contrasts = NULL, call = rlang::ca
   rownames(x) <- ids
   list(terms = terms, frame = frame, xlev = stats::.getXlevels(terms, frame),
        contrasts = attr(x, "contrasts"), matrix = x, assign = attr(x, "assign"),
+       coefficients = qr.coef(qr(x, tol = 1e-7), t(matrix(aligned$coords, length(aligned$mean)))),
        variables = names(used), ranges = lapply(Filter(is_plain_number, used), range))
 }
 
@@ -204,12 +205,10 @@ term_spans <- function(model, ss, call = rlang::caller_env()) {
   spans
 }
 
-#' Matrix of a model at new values
-#'
-#' @return n x p, a row a row of `newdata`.
+#' That new values are there, and are numbers where the model has numbers; a warning of those
+#' outside of the sample's
 #' @noRd
-model_at <- function(model, newdata, call = rlang::caller_env()) {
-  terms <- stats::delete.response(model$terms)
+check_new_values <- function(model, newdata, call) {
   fail <- function(problem, remedy) {
     crestline_abort(problem, remedy, stage = "model", call = call)
   }
@@ -239,6 +238,15 @@ model_at <- function(model, newdata, call = rlang::caller_env()) {
       )
     }
   }
+}
+
+#' Matrix of a model at new values
+#'
+#' @return n x p, a row a row of `newdata`.
+#' @noRd
+model_at <- function(model, newdata, call = rlang::caller_env()) {
+  terms <- stats::delete.response(model$terms)
+  check_new_values(model, newdata, call)
   frame <- tryCatch(
     stats::model.frame(terms, newdata, na.action = stats::na.pass, xlev = model$xlev),
     error = function(e) refuse_formula(e, call)

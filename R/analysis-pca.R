@@ -58,7 +58,7 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
   coords <- aligned$coords
   dims <- dim(coords)
   weight <- rep(weights, dims[2])
-  x <- t(matrix(coords, dims[1] * dims[2], dims[3]))
+  x <- t(matrix(coords, ncol = dims[3]))
   center <- colMeans(x)
   y <- (x - rep(center, each = dims[3])) * rep(sqrt(weight), each = dims[3])
   parts <- thin_svd(y, tolerance, components)
@@ -74,10 +74,7 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
   rotation <- `dimnames<-`(axis * sqrt(weight), list(rows, names))
   variance <- parts$d^2 / (dims[3] - 1)
   scores <- sweep(x, 2, center) %*% rotation
-  # Points of weight 0 follow the scores too.
-  direction <- if (all(weight == 1)) rotation else
-    crossprod(sweep(x, 2, center), scores) / rep(parts$d^2, each = length(weight))
-  dimnames(direction) <- dimnames(rotation)
+  direction <- if (all(weight == 1)) rotation else followed(sweep(x, 2, center), scores, rotation)
   rownames(scores) <- names(aligned)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows),
                  scale = FALSE, x = scores, share = variance / total, direction = direction,
@@ -89,6 +86,13 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
                    aligned$provenance, "pca", list(tolerance = tolerance)
                  )),
             class = c("shape_pca", "prcomp"))
+}
+
+#' How all co-ordinates follow the scores, those of points of weight 0 too
+#' @noRd
+followed <- function(centred, scores, rotation) {
+  direction <- crossprod(centred, scores) / rep(colSums(scores^2), each = ncol(centred))
+  `dimnames<-`(direction, dimnames(rotation))
 }
 
 #' @exportS3Method

@@ -54,39 +54,10 @@ predict.shape_pca <- function(object, newdata = NULL, ...) {
 #' @return k x d x m array.
 #' @noRd
 new_configurations <- function(newdata, pca, call = rlang::caller_env()) {
+  if (inherits(newdata, c("shape", "shape_sample"))) check_comparable(newdata, pca, call)
+  coords <- configurations_of(newdata, pca$level, call)
   fail <- function(problem, remedy, id = NULL) {
     crestline_abort(problem, remedy, stage = "components", id = id, call = call)
-  }
-  measured <- inherits(newdata, c("shape", "shape_sample"))
-  if (measured && !pca$level %in% sample_levels) {
-    fail(sprintf("the components are of \"%s\", which is no level of a shape.", pca$level),
-         "Give an array of the same points.")
-  }
-  if (measured) {
-    validate(newdata)
-    own <- newdata$provenance$template
-    known <- pca$provenance$template
-    if (!is.null(known) && !identical(own$hash, known$hash)) {
-      fail(if (is.null(own)) "`newdata` was not slid." else
-        "`newdata` was slid against another template.",
-           "Use slide(shape, sample$template), or homologise(shapes, template, rounds = 0).")
-    }
-  }
-  if (inherits(newdata, "shape")) {
-    one <- if (pca$level == "model") places_of(newdata) else coords(newdata, pca$level)
-    coords <- array(one, c(dim(one), 1), c(dimnames(one), list(newdata$id)))
-  } else if (inherits(newdata, "shape_sample")) {
-    coords <- if (pca$level == "model") every_place(newdata) else as.array(newdata, pca$level)
-  } else if (inherits(newdata, "aligned")) {
-    validate(newdata)
-    coords <- raw_configurations(newdata)
-  } else {
-    if (is.matrix(newdata)) {
-      newdata <- array(newdata, c(dim(newdata), 1), c(
-        if (is.null(dimnames(newdata))) list(NULL, NULL) else dimnames(newdata), list("1")
-      ))
-    }
-    coords <- named_array(check_array(newdata, call, "newdata"))
   }
   points <- rownames(pca$mean)
   absent <- setdiff(points, dimnames(coords)[[1]])
@@ -96,18 +67,58 @@ new_configurations <- function(newdata, pca, call = rlang::caller_env()) {
   }
   coords <- coords[points, , , drop = FALSE]
   gap <- gaps(coords)
-  if (any(gap)) {
-    crestline_inform(sprintf(
-      "points are missing, and estimated from the mean: %s.",
-      shorten(sprintf("%d of %s", colSums(gap), colnames(gap))[colSums(gap) > 0])
-    ))
-    few <- which(colSums(!gap) <= dim(coords)[2] + 1)[1]
-    if (!is.na(few)) fail(sprintf("%s only.", amount(sum(!gap[, few]), "point")),
-                          "Leave this one out: too few to place the others by.",
-                          colnames(gap)[few])
-    coords <- with_spline_places(coords, pca$mean, gap, call)
+  if (!any(gap)) return(coords)
+  crestline_inform(sprintf(
+    "points are missing, and estimated from the mean: %s.",
+    shorten(sprintf("%d of %s", colSums(gap), colnames(gap))[colSums(gap) > 0])
+  ))
+  few <- which(colSums(!gap) <= dim(coords)[2] + 1)[1]
+  if (!is.na(few)) fail(sprintf("%s only.", amount(sum(!gap[, few]), "point")),
+                        "Leave this one out: too few to place the others by.",
+                        colnames(gap)[few])
+  with_spline_places(coords, pca$mean, gap, call)
+}
+
+#' That measured shapes have the components' level, and were slid against their template
+#' @noRd
+check_comparable <- function(newdata, pca, call) {
+  fail <- function(problem, remedy) {
+    crestline_abort(problem, remedy, stage = "components", call = call)
   }
-  coords
+  if (!pca$level %in% sample_levels) {
+    fail(sprintf("the components are of \"%s\", which is no level of a shape.", pca$level),
+         "Give an array of the same points.")
+  }
+  validate(newdata)
+  own <- newdata$provenance$template
+  known <- pca$provenance$template
+  if (!is.null(known) && !identical(own$hash, known$hash)) {
+    fail(if (is.null(own)) "`newdata` was not slid." else
+      "`newdata` was slid against another template.",
+         "Use slide(shape, sample$template), or homologise(shapes, template, rounds = 0).")
+  }
+}
+
+#' Configurations of a level, of a shape, a sample, an alignment, an array or a matrix
+#' @noRd
+configurations_of <- function(newdata, level, call) {
+  if (inherits(newdata, "shape")) {
+    one <- if (level == "model") places_of(newdata) else coords(newdata, level)
+    return(array(one, c(dim(one), 1), c(dimnames(one), list(newdata$id))))
+  }
+  if (inherits(newdata, "shape_sample")) {
+    return(if (level == "model") every_place(newdata) else as.array(newdata, level))
+  }
+  if (inherits(newdata, "aligned")) {
+    validate(newdata)
+    return(raw_configurations(newdata))
+  }
+  if (is.matrix(newdata)) {
+    newdata <- array(newdata, c(dim(newdata), 1), c(
+      if (is.null(dimnames(newdata))) list(NULL, NULL) else dimnames(newdata), list("1")
+    ))
+  }
+  named_array(check_array(newdata, call, "newdata"))
 }
 
 #' Each configuration laid onto a mean, as the alignment laid those of the sample

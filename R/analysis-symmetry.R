@@ -184,25 +184,7 @@ symmetry_tests <- function(parts, individual, n_perm, seed) {
   df <- c(length(count) - 1, 1, length(count) - 1, if (repeated) 2 * (n - length(count)))
   mean_squares <- squares / df
   f <- mean_squares / c(mean_squares[c(3, 3)], if (repeated) mean_squares[c(4, NA)] else NA)
-  # Exchange of sides turns an individual's asymmetry round; its length stays.
-  sums <- tcrossprod(rowsum(off, code))
-  p <- with_seed(seed, {
-    units <- length(count)
-    # All exchanges where they are few: the first individual's side may stay as it is.
-    sign <- if (2^(units - 1) <= n_perm) {
-      rbind(1, t(as.matrix(expand.grid(rep(list(c(1, -1)), units - 1)))))
-    } else cbind(1, matrix(sample(c(-1, 1), units * n_perm, TRUE), units))
-    directional <- permutation_p(cbind(colSums(sign * (sums %*% sign))))
-    fluctuating <- NA_real_
-    if (repeated) {
-      centred <- off - rep(colMeans(off), each = n)
-      labels <- cbind(code, replicate(n_perm, code[sample.int(n)]), deparse.level = 0)
-      gram <- tcrossprod(centred)
-      among <- apply(labels, 2, function(own) sum(gram * outer(own, own, `==`) / count[own]))
-      fluctuating <- permutation_p(cbind(among))
-    }
-    c(NA, directional, fluctuating, if (repeated) NA)
-  })
+  p <- c(NA, with_seed(seed, asymmetry_p(off, code, n_perm)), if (repeated) NA)
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)
   points <- nrow(aligned$mean)
   rms <- function(x) size * sqrt(rowSums(x^2) / points)
@@ -216,6 +198,26 @@ symmetry_tests <- function(parts, individual, n_perm, seed) {
          fluctuating = rms(off - rep(colMeans(off), each = n)), row.names = NULL
        ),
        directional = size * matrix(colMeans(parts$off), points, dimnames = dimnames(aligned$mean)))
+}
+
+#' p-values of directional and fluctuating asymmetry, the latter NA without repeats
+#' @noRd
+asymmetry_p <- function(off, code, n_perm) {
+  count <- tabulate(code)
+  units <- length(count)
+  n <- length(code)
+  # Exchange of sides turns an individual's asymmetry round; its length stays.
+  sums <- tcrossprod(rowsum(off, code))
+  # All exchanges where they are few: the first individual's side may stay as it is.
+  sign <- if (2^(units - 1) <= n_perm) {
+    rbind(1, t(as.matrix(expand.grid(rep(list(c(1, -1)), units - 1)))))
+  } else cbind(1, matrix(sample(c(-1, 1), units * n_perm, TRUE), units))
+  directional <- permutation_p(cbind(colSums(sign * (sums %*% sign))))
+  if (n == units) return(c(directional, NA))
+  labels <- cbind(code, replicate(n_perm, code[sample.int(n)]), deparse.level = 0)
+  gram <- tcrossprod(off - rep(colMeans(off), each = n))
+  among <- apply(labels, 2, function(own) sum(gram * outer(own, own, `==`) / count[own]))
+  c(directional, permutation_p(cbind(among)))
 }
 
 #' @exportS3Method

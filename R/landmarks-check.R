@@ -118,26 +118,7 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
                            tried = 6) {
   given <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
   if (nrow(given) < 2) return(NULL)
-  # The 47 ways to exchange axes and turn their signs, as matrices for points in rows
-  orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
-  signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
-  all <- unlist(lapply(orders, function(order) lapply(
-                  seq_len(8), function(i) diag(3)[, order] %*% diag(signs[i, ])
-                )),
-                recursive = FALSE)
-  turns <- all[-1]
-  turned <- vapply(turns, function(turn) det(turn) > 0, NA)
-  units <- lapply(c(factors, 1 / factors), diag, 3)
-  words <- c(paste("multiplied by", factors), paste("divided by", factors))
-  both <- expand.grid(unit = seq_along(units), turn = which(turned))
-  kinds <- list(
-    list(change = units, words = words),
-    list(change = turns[turned], words = turn_words(turns[turned])),
-    list(change = turns[!turned], words = turn_words(turns[!turned])),
-    list(change = Map(function(i, j) units[[i]] %*% turns[[j]], both$unit, both$turn),
-         words = paste(words[both$unit], "and", turn_words(turns)[both$turn]))
-  )
-  for (kind in kinds) {
+  for (kind in frame_changes(factors)) {
     # Median distance from the nearest centre of a triangle after each change, as a share of the
     # spread
     moved <- lapply(kind$change, function(change) given %*% change)
@@ -155,6 +136,31 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
     }, 0)
     if (any(is.finite(misfit))) return(kind$words[near[which.min(misfit)]])
   }
+}
+
+#' Changes of frame that landmarks may need, by kind, with words for each
+#' @return List of lists: `change` (3 x 3 matrices for points in rows), `words`.
+#' @noRd
+frame_changes <- function(factors) {
+  # The 47 ways to exchange axes and turn their signs, as matrices for points in rows
+  orders <- list(c(1, 2, 3), c(2, 3, 1), c(3, 1, 2), c(1, 3, 2), c(2, 1, 3), c(3, 2, 1))
+  signs <- as.matrix(expand.grid(c(1, -1), c(1, -1), c(1, -1)))
+  all <- unlist(lapply(orders, function(order) lapply(
+                  seq_len(8), function(i) diag(3)[, order] %*% diag(signs[i, ])
+                )),
+                recursive = FALSE)
+  turns <- all[-1]
+  turned <- vapply(turns, function(turn) det(turn) > 0, NA)
+  units <- lapply(c(factors, 1 / factors), diag, 3)
+  words <- c(paste("multiplied by", factors), paste("divided by", factors))
+  both <- expand.grid(unit = seq_along(units), turn = which(turned))
+  list(
+    list(change = units, words = words),
+    list(change = turns[turned], words = turn_words(turns[turned])),
+    list(change = turns[!turned], words = turn_words(turns[!turned])),
+    list(change = Map(function(i, j) units[[i]] %*% turns[[j]], both$unit, both$turn),
+         words = paste(words[both$unit], "and", turn_words(turns)[both$turn]))
+  )
 }
 
 turn_words <- function(turns) {

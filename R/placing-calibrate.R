@@ -51,8 +51,22 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
   prepared <- prepared_template(template, settings, threads)
   fits <- lapply(specimens, calibration_fit, prepared, template, settings, threads)
   before <- template
-  # The template with landmarks that only the specimens have: begun at its point that is carried
-  # nearest to them
+  template <- with_new_landmarks(template, prepared, fits)
+  for (round in seq_len(rounds)) {
+    off <- landmark_offsets(prepared, template, fits)
+    template$landmarks <- moved_landmarks(template, off)
+  }
+  template$predicted <- calibrated_prediction(template, fits)
+  template$calibration <- calibration_table(
+    before, template, landmark_offsets(prepared, template, fits)
+  )
+  template
+}
+
+#' The template with landmarks that only the specimens have: begun at its point that is carried
+#' nearest to them
+#' @noRd
+with_new_landmarks <- function(template, prepared, fits) {
   known <- c(rownames(template$landmarks), rownames(template$predicted))
   for (fit in fits) {
     new <- setdiff(rownames(fit$at), known)
@@ -64,14 +78,6 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
     }
     known <- c(known, new)
   }
-  for (round in seq_len(rounds)) {
-    off <- landmark_offsets(prepared, template, fits)
-    template$landmarks <- moved_landmarks(template, off)
-  }
-  template$predicted <- calibrated_prediction(template, fits)
-  template$calibration <- calibration_table(
-    before, template, landmark_offsets(prepared, template, fits)
-  )
   template
 }
 

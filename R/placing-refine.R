@@ -85,10 +85,7 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   specimen$refinement <- NULL
   curvature <- curvature_by_radius(specimen, curvature, order, threads)
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
-  places <- refined_places(
-    specimen, definitions, pairs, curvature, settings, check_number(tolerance, "tolerance", 0),
-    check_count(rounds, "rounds")
-  )
+  places <- refined_places(specimen, definitions, pairs, curvature, settings, tolerance, rounds)
   refinement <- refinement_table(specimen, definitions, places)
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
   for (i in which(refinement$moved)) {

@@ -51,16 +51,7 @@ landmark_template <- function(specimen, predicted = character(),
   if (!identical(mirror, NA)) check_flags(mirror)
   unit <- check_number(unit, "unit", lower = 0, open = TRUE)
   at <- specimen$landmarks[stats::complete.cases(specimen$landmarks), , drop = FALSE]
-  missing <- setdiff(predicted, rownames(at))
-  if (length(missing)) {
-    refuse_landmarks(sprintf("`predicted` names %s, which it does not have.", shorten(missing)),
-                     near_names(missing[1], rownames(at)), specimen$id)
-  }
-  if (nrow(at) - length(predicted) < 4) {
-    refuse_landmarks(sprintf("it has %d landmarks to be found.", nrow(at) - length(predicted)),
-                     "A template needs four or more: place them, or give fewer `predicted`.",
-                     specimen$id)
-  }
+  check_predicted(predicted, rownames(at), specimen$id)
   if (!is.null(start)) {
     start <- check_choice(start, setdiff(rownames(at), predicted), "start")
   }
@@ -84,6 +75,21 @@ landmark_template <- function(specimen, predicted = character(),
                  predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror,
                  start = if (!is.null(start)) at[start, ], modes = modes, judged = FALSE),
             class = "landmark_template")
+}
+
+#' That the landmarks that are only predicted are there, and leave four to be found
+#' @noRd
+check_predicted <- function(predicted, names, id) {
+  missing <- setdiff(predicted, names)
+  if (length(missing)) {
+    refuse_landmarks(sprintf("`predicted` names %s, which it does not have.", shorten(missing)),
+                     near_names(missing[1], names), id)
+  }
+  left <- length(names) - length(predicted)
+  if (left < 4) {
+    refuse_landmarks(sprintf("it has %d landmarks to be found.", left),
+                     "A template needs four or more: place them, or give fewer `predicted`.", id)
+  }
 }
 
 #' @export

@@ -57,20 +57,7 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
   if (patches && !is.null(specimen) &&
       nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
-  kind <- stats::setNames(x$scheme$curves$kind, x$scheme$curves$curve)
-  for (name in names(Filter(Negate(is.null), x$paths))) {
-    paint <- colour[[kind[[name]]]]
-    path <- x$paths[[name]]
-    own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
-    if (band && !is.null(specimen)) {
-      s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
-                          1e-6 * mesh_diagonal(specimen$mesh))
-      on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
-      scene <- draw_curve_band(scene, on_curve, specimen$mesh, paint)
-    }
-    scene <- draw_lines(scene, path, paint, width, halo = "white")
-    if (points) scene <- draw_points(scene, own, paint, 0.28 * width, "white")
-  }
+  scene <- draw_shape_curves(scene, x, if (band) specimen, colour, width, points)
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
   if (legend && engine == "picture" && !is.null(specimen)) {
@@ -79,6 +66,28 @@ plot.shape <- function(x, specimen = NULL, parts = "model",
     ))
   }
   invisible(scene)
+}
+
+#' The curves of a shape, by kind
+#'
+#' @param specimen The specimen on which bands of standard error are drawn; NULL: none are.
+#' @noRd
+draw_shape_curves <- function(scene, x, specimen, colour, width, points) {
+  kind <- stats::setNames(x$scheme$curves$kind, x$scheme$curves$curve)
+  for (name in names(Filter(Negate(is.null), x$paths))) {
+    paint <- colour[[kind[[name]]]]
+    path <- x$paths[[name]]
+    own <- x$points[x$points$level == "curves" & x$points$part == name & !is.na(x$points$x), ]
+    if (!is.null(specimen)) {
+      s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
+                          1e-6 * mesh_diagonal(specimen$mesh))
+      on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
+      scene <- draw_curve_band(scene, on_curve, specimen$mesh, paint)
+    }
+    scene <- draw_lines(scene, path, paint, width, halo = "white")
+    if (points) scene <- draw_points(scene, own, paint, 0.28 * width, "white")
+  }
+  scene
 }
 
 #' The surface of a shape, with the scale of its colours where these stand for numbers

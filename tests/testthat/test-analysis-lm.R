@@ -89,7 +89,7 @@ test_that("many specimens of few points come to the same values by the other alg
   data <- people(40)
   aligned <- modelled_sample(data, k = 4)
   y <- scale(flat_rows(aligned), scale = FALSE)
-  model <- level_model(model_terms(~ age + sex), as.list(data), aligned$size)
+  model <- level_model(model_terms(~ age + sex), as.list(data), aligned)
   spans <- term_spans(model, "I")
   orders <- cbind(1:40, with_seed(1, replicate(5, sample.int(40))))
   storage.mode(orders) <- "integer"
