@@ -18,8 +18,9 @@
 #' @param settings Of [find_settings()].
 #' @param unit Factor from the mesh's unit to the template's. `NULL`: the power of ten that brings
 #'   their diagonals closest to each other. If the scan does not agree with the template in that
-#'   unit, other units are tried. `match$unit_known` is then FALSE, and `match$unit` makes the
-#'   object as large as the template, which is right to about 10 % for faces.
+#'   unit, other units are tried. `match$unit_known` is then FALSE, and also if the object is much
+#'   larger or smaller than the template (setting `unit_apart`). `match$unit` then makes the object
+#'   as large as the template, which is right to about 10 % for faces.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:
@@ -120,6 +121,7 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
   if (!given && laid$agree < settings$agree[2]) {
     laid <- swept_pose(prepared, scan, laid, prepared$settings, threads)
   }
+  if (!given && abs(log(laid$pose[13])) > log(settings$unit_apart)) laid$unit_known <- FALSE
   laid$verdict <- if (template$judged) verdict_of(laid$agree, settings$agree) else NA_character_
   remedy <- sprintf(
     paste0("Is it the object, and whole enough? Its lengths were multiplied by ",

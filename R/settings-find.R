@@ -88,6 +88,8 @@
 #'   mean square, length).
 #' @param diagonals,size_apart If nothing agrees and no unit is given, units are tried that bring
 #'   the scan to these sizes (five lengths). A size within this factor of the first is left out.
+#' @param unit_apart If no unit is given and the object is larger or smaller than the template by
+#'   more than this factor, its unit is called a guess. Faces of adults differ by less than 1.2.
 #' @param score_apart A second unit is fitted if its score is greater by at most this.
 #' @param ball_points Greatest mean number of vertices in a ball of radius `feature`. A mesh with
 #'   more is thinned out before its curvature is estimated.
@@ -124,9 +126,9 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
                           agree = c(0.3, 0.45), unsure = 0.4, clip = 0.15,
                           rest = 0.02, rest_steps = c(24, 100),
                           diagonals = c(200, 290, 420, 600, 870), size_apart = 1.1,
-                          score_apart = 0.03, ball_points = 300, expressive = 0.22,
-                          jaw = c(0.1, 0.2, 0.3, 0.4), jaw_gain = 0.03, smile = c(0.2, 0.4),
-                          smile_gain = 0.04) {
+                          unit_apart = 1.3, score_apart = 0.03, ball_points = 300,
+                          expressive = 0.22, jaw = c(0.1, 0.2, 0.3, 0.4), jaw_gain = 0.03,
+                          smile = c(0.2, 0.4), smile_gain = 0.04) {
   sizes <- lengths(lapply(formals(find_settings)[-1], eval))
   former <- c(kept = "trim_share", kernel_length = "length_scale", kernel_sd = "length_scale_sd",
               robust = "robust_scale")

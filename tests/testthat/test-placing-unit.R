@@ -13,6 +13,18 @@ test_that("a face in no unit is found as in mm, and its unit is said to be a gue
   expect_lt(mean(off), 2)
 })
 
+test_that("a size between two powers of ten is told as a guess too, unless the unit is given", {
+  face <- humface_scan()
+  face$vb[1:3, ] <- face$vb[1:3, ] * 0.7
+  settings <- quick_settings()
+  expect_warning(found <- find_landmarks(face, id = "small", settings = settings),
+                 class = "crestline_guessed_unit")
+  expect_equal(found$match$unit * 0.7, 1, tolerance = 0.12)
+  known <- expect_no_warning(find_landmarks(face, settings = settings, unit = 1),
+                             class = "crestline_guessed_unit")
+  expect_true(known$match$unit_known)
+})
+
 test_that("a mesh with very many vertices in a ball is thinned before its curvature", {
   ball <- Rvcg::vcgSphere(5)
   ball$vb[1:3, ] <- 50 * ball$vb[1:3, ]
