@@ -96,14 +96,14 @@ check_separators <- function(text, file, line) {
 quote_names <- function(name) paste(quote_name(name), collapse = ",")
 quote_name <- function(name) paste0('"', gsub('"', '""', name, fixed = TRUE), '"')
 
-# The names in the comment `key: "a","b"`, or NULL where there is none; refused where their number
-# is another.
+# The names in the comments `key: "a","b"`, one after the other, or NULL where there is none;
+# refused where their number is another.
 commented_names <- function(comment, key, n, file) {
   start <- paste0("^", key, ': "')
   found <- comment[grepl(start, comment)]
   if (!length(found)) return(NULL)
   name <- suppressWarnings(scan(
-    text = sub(paste0("^", key, ": "), "", found[1]), what = "", sep = ",", quote = '"',
+    text = paste(sub(paste0("^", key, ": "), "", found), collapse = ","), what = "", sep = ",", quote = '"',
     quiet = TRUE, strip.white = FALSE, na.strings = character(), encoding = "UTF-8"
   ))
   if (length(name) != n) {
@@ -115,7 +115,13 @@ commented_names <- function(comment, key, n, file) {
 }
 
 name_comment <- function(name, key) {
-  if (!identical(name, as.character(seq_along(name)))) sprintf("%s: %s", key, quote_names(name))
+  if (!identical(name, as.character(seq_along(name)))) name_lines(name, key)
+}
+
+# Names as comments of about `width` characters each: other programs have short buffers.
+name_lines <- function(name, key, width = 200) {
+  line <- cumsum(nchar(name, "bytes") + 3) %/% (width - nchar(key) - 2)
+  unname(vapply(split(name, line), function(own) sprintf("%s: %s", key, quote_names(own)), ""))
 }
 
 # The landmarks of one specimen, with the curves where there are any. A point without one of its

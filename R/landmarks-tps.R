@@ -147,7 +147,7 @@ tps_lines <- function(x, id) {
   })),
     paste0("ID=", id),
     tps_comment(name_comment(rownames(x), "landmarks")),
-    tps_comment(if (length(curves)) sprintf("curves: %s", quote_names(names(curves)))),
+    tps_comment(if (length(curves)) name_lines(names(curves), "curves")),
     tps_comment(attr(x, "comments")))
 }
 

@@ -98,3 +98,14 @@ test_that("curves without landmarks have the co-ordinates that they have", {
   expect_equal(nrow(x), 0)
   expect_equal(unname(attr(x, "curves")[[1]][2, ]), c(4, 5, 6))
 })
+
+test_that("names of many points stand in short lines, and are read back", {
+  x <- matrix(1:600, 200, 3, dimnames = list(sprintf("brow ridge left %d", 1:200), NULL))
+  file <- tempfile(fileext = ".tps")
+  on.exit(unlink(file))
+  write_landmarks(x, file)
+  comments <- grep("^COMMENT=", readLines(file), value = TRUE)
+  expect_gt(length(comments), 15)
+  expect_lt(max(nchar(comments)), 250)
+  expect_equal(rownames(read_landmarks(file)), rownames(x))
+})
