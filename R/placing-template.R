@@ -198,7 +198,7 @@ read_face_template <- function() {
   ears <- c("tL", "tR", "oiL", "oiR")
   # Its lips and lids are slits, borders beside one another.
   face <- suppressWarnings(
-    read_specimen(file.path(folder, "mesh.ply"), at[!rownames(at) %in% ears, ], id = "face"),
+    read_specimen(file.path(folder, "mesh.ply.gz"), at[!rownames(at) %in% ears, ], id = "face"),
     classes = "crestline_seam"
   )
   face$landmarks <- at

@@ -110,7 +110,11 @@ landmarks <- landmarks %*% t(upright)
 folder <- extdata("face_template")
 dir.create(folder, showWarnings = FALSE)
 mesh <- specimen(mesh, id = "face")$mesh
-write_mesh(mesh, file.path(folder, "mesh.ply"))
+ply <- tempfile(fileext = ".ply")
+write_mesh(mesh, ply)
+packed <- gzfile(file.path(folder, "mesh.ply.gz"), "wb", compression = 9)
+writeBin(readBin(ply, "raw", file.size(ply)), packed)
+close(packed)
 colnames(landmarks) <- c("x", "y", "z")
 utils::write.csv(data.frame(name = rownames(landmarks), round(landmarks, 4)),
                  file.path(folder, "landmarks.csv"), row.names = FALSE, quote = FALSE)
