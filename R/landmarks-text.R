@@ -115,7 +115,7 @@ commented_names <- function(comment, key, n, file) {
 }
 
 name_comment <- function(name, key) {
-  if (!identical(name, as.character(seq_along(name)))) name_lines(name, key)
+  if (length(name) && !identical(name, as.character(seq_along(name)))) name_lines(name, key)
 }
 
 # Names as comments of about `width` characters each: other programs have short buffers.
