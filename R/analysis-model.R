@@ -51,8 +51,8 @@ model_data <- function(terms, data, ids, call = rlang::caller_env()) {
 #' @param columns As of [model_data()].
 #' @param aligned Alignment of the level.
 #' @return List: `terms` (with what prediction needs), `frame`, `xlev`, `contrasts`, `matrix` (n x
-#'   p), `assign` (term of each column, 0 the intercept), `coefficients` (p x dk), `variables`, `ranges` (least and greatest
-#'   value of each variable that is a number).
+#'   p), `assign` (term of each column, 0 the intercept), `coefficients` (p x dk), `variables`,
+#'   `ranges` (least and greatest value of each variable that is a number).
 #' @noRd
 level_model <- function(terms, columns, aligned, contrasts = NULL, call = rlang::caller_env()) {
   ids <- names(aligned$size)

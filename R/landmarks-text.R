@@ -103,7 +103,8 @@ commented_names <- function(comment, key, n, file) {
   found <- comment[grepl(start, comment)]
   if (!length(found)) return(NULL)
   name <- suppressWarnings(scan(
-    text = paste(sub(paste0("^", key, ": "), "", found), collapse = ","), what = "", sep = ",", quote = '"',
+    text = paste(sub(paste0("^", key, ": "), "", found), collapse = ","),
+    what = "", sep = ",", quote = '"',
     quiet = TRUE, strip.white = FALSE, na.strings = character(), encoding = "UTF-8"
   ))
   if (length(name) != n) {
