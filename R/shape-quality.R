@@ -78,8 +78,8 @@
 #'   * a landmark was found with doubt, or predicted: Look at it, and move it:
 #'     [review_landmarks()].
 #'   * a curve that bounds the patch is not green: Look at that curve; the patch follows it.
-#'   * cut short: The scan or a curve is too short for the trimmed length. Nothing, if you slide
-#'     points afterwards; see `cut_scale` of [fit_shape()].
+#'   * cut short: The scan or a curve is too short for the trimmed length. Measure all
+#'     specimens with one `cut_scale` of [fit_shape()].
 #'   * points or landmarks are missing: Place the landmark, or scan again. The other parts are not
 #'     affected.
 #'   * uncertain across the curve: The ridge is broad or the scan is noisy there. Look at the
