@@ -30,10 +30,10 @@
 #'   space at the mean.
 #' @param triangles Triangles of an array's surface, for pictures and areas: 3 x m matrix of row
 #'   numbers of points.
-#' @param tolerance The rounds end when no co-ordinate of the mean changes by more than this share
-#'   of its centroid size.
-#' @param rounds Greatest number of rounds.
 #' @param limits Limits above which [align()] warns, as of [sample_limits()].
+#' @param settings When the rounds end, as of [align_settings()].
+#' @param ... Fields of [align_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return Object of class `aligned`, a list:
 #'   * `coords`: k x 3 x n array of the aligned configurations, with the names of points and
 #'     specimens. Without unit if scaled, else in the unit of the meshes;
@@ -81,17 +81,16 @@
 #' head(as.data.frame(aligned))
 #' @export
 align <- function(sample, level = c("landmarks", "curves", "surface", "model"), scale = TRUE,
-                  weights = NULL,
-                  missing = c("estimate", "drop", "stop"), tangent = TRUE, triangles = NULL,
-                  tolerance = 1e-12,
-                  rounds = 200, limits = sample_limits()) {
+                  weights = NULL, missing = c("estimate", "drop", "stop"), tangent = TRUE,
+                  triangles = NULL, limits = sample_limits(), settings = align_settings(), ...) {
   check_given()
   check_flags(tangent)
   missing <- check_choice(missing, c("estimate", "drop", "stop"), "missing")
   check_scaling(scale)
+  check_class(settings, "align_settings", "settings", "align_settings()")
+  settings <- settings_with_former(settings, "align_settings", ...)
   settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
-                   tolerance = check_number(tolerance, "tolerance", lower = 0),
-                   rounds = check_count(rounds, "rounds"))
+                   tolerance = settings$tolerance, rounds = settings$rounds)
   aligned <- align_configurations(configurations(sample, level, triangles), settings)
   attr(aligned, "provenance") <- aligned_provenance(sample, settings)
   warn_of_doubts(aligned, limits)
@@ -115,15 +114,6 @@ align_configurations <- function(given, settings, call = rlang::caller_env()) {
     coords, fit$mean, fit$size, weight, whole$places, settings$scale, projected, given$level,
     whole$missing, fit$moved, whole$triangles, settings, whole$reference
   ))
-}
-
-check_scaling <- function(scale, call = rlang::caller_env()) {
-  if (isTRUE(scale)) return(1L)
-  if (isFALSE(scale)) return(0L)
-  if (identical(scale, "full")) return(2L)
-  crestline_abort(sprintf("`scale` is %s.", describe_value(scale)),
-                  "Choose TRUE, \"full\" or FALSE.", stage = "arguments",
-                  call = call)
 }
 
 #' Onto the plane that touches the sphere of unit size at the mean

@@ -78,7 +78,7 @@
 #'   order[c(turned, turned + 12)] <- c(turned + 12, turned)
 #'   order
 #' })
-#' compare_groups(sample, time, permutations = orders)
+#' compare_groups(sample, time, settings = comparison_settings(permutations = orders))
 #' ```
 #' These orders keep pairs together, but differences between persons stay in the statistics:
 #' `block` removes them and has more power.
@@ -95,23 +95,17 @@
 #'   the specimens, with a message.
 #' @param level Levels of a `shape_sample`, as in [align()].
 #' @param n_perm Number of random permutations.
-#' @param components Number of principal components: a whole number, or a share of the variance
-#'   below 1. At most n - groups - 1 are used.
 #' @param seed Seed of the random numbers, one number; the random stream of the session is then not
 #'   changed. `NULL`: the session's stream is used.
-#' @param tests Tests to make: "size", "shape", "T2", "components", "points", "dispersion" (not with
-#'   exchange within blocks).
-#' @param exact Greatest number of regroupings that are enumerated in place of random permutations.
-#' @param permutations Orders of the specimens to use in place of random ones: n x B matrix, or list
-#'   of B vectors (as of `RRPP:::perm.index()`).
 #' @param block Block of each specimen: a factor of length n, or a vector that can become one.
 #'   Specimens of one block are not independent of each other. Values with names are matched to the
 #'   specimens by name. `NULL`: all specimens are independent.
 #' @param equal_spread TRUE: the groups are assumed to have equal spread, and variances are pooled.
-#' @param n_boot Number of bootstrap samples for the intervals of effects.
-#' @param scale,weights,missing As in [align()]. "area" applies to levels with triangles; other
-#'   levels have equal weights. Not used for an `aligned`.
 #' @template progress
+#' @param settings Which tests are made, on how many components, how a sample is aligned, and the
+#'   like: as of [comparison_settings()].
+#' @param ... Fields of [comparison_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return Object of class `group_comparison`, a list:
 #'   * `tests`: data frame with a row for each level and test:
 #'     * `level`, `test`, `statistic` (see the table above);
@@ -165,39 +159,37 @@
 #'   Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest statistics); Phipson
 #'   and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in
 #'   Genetics and Molecular Biology* 9, 39.
-#' @seealso [plot.group_comparison()], [align()], [shape_pca()]
+#' @seealso [comparison_settings()], [plot.group_comparison()], [align()], [shape_pca()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 20), c(4, 3, 20))
 #' shapes <- shapes + rnorm(240, sd = 0.05)
 #' sex <- rep(c("F", "M"), each = 10)
 #' shapes[1, 3, sex == "M"] <- shapes[1, 3, sex == "M"] + 0.15
-#' compared <- compare_groups(shapes, sex, components = 3, seed = 1)
+#' compared <- compare_groups(shapes, sex, seed = 1,
+#'                            settings = comparison_settings(components = 3))
 #' compared
 #' head(compared$points)
 #' @export
 compare_groups <- function(sample, group, level = c("landmarks", "curves", "surface"),
-                           n_perm = 1000, components = 10, seed = NULL,
-                           tests = c("size", "shape", "T2", "components", "points", "dispersion"),
-                           exact = n_perm, permutations = NULL, scale = TRUE, weights = NULL,
-                           missing = c("estimate", "drop", "stop"), progress = interactive(),
-                           block = NULL, equal_spread = FALSE, n_boot = 200) {
+                           n_perm = 1000, block = NULL, seed = NULL, equal_spread = FALSE,
+                           progress = interactive(), settings = comparison_settings(), ...) {
   check_given()
   check_flags(progress, equal_spread)
   seed <- check_seed(seed)
   n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
-  n_boot <- check_count(n_boot, "n_boot", upper = argument_limits()$permutations)
-  exact <- check_number(exact, "exact", lower = 0)
-  components <- check_components(components)
-  tests <- check_tests(tests)
-  aligned <- aligned_levels(sample, level, scale, weights, missing)
+  check_class(settings, "comparison_settings", "settings", "comparison_settings()")
+  settings <- settings_with_former(settings, "comparison_settings", ...)
+  tests <- settings$tests
+  aligned <- aligned_levels(sample, level, settings$scale, settings$weights, settings$missing)
   group <- check_group(group, dimnames(aligned[[1]]$coords)[[3]])
   check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
   design <- comparison_design(group, block)
-  dealt <- design_regroupings(design, n_perm, exact, permutations, seed)
+  exact <- if (is.null(settings$exact)) n_perm else settings$exact
+  dealt <- design_regroupings(design, n_perm, exact, settings$permutations, seed)
   if (design$kind == "within") tests <- setdiff(tests, "dispersion")
-  counts <- bootstrap_counts(dealt$labels[, 1], n_boot, seed)
-  each <- compare_levels(aligned, design, dealt$labels, components, tests, equal_spread, counts,
-                         progress)
+  counts <- bootstrap_counts(dealt$labels[, 1], settings$n_boot, seed)
+  each <- compare_levels(aligned, design, dealt$labels, settings$components, tests, equal_spread,
+                         counts, progress)
   count <- vapply(each, function(one) as.integer(one$components), 0L)
   compared <- structure(
     list(tests = with_level(each, "tests"), points = with_level(each, "points"), aligned = aligned,
@@ -206,8 +198,8 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
          equal_spread = equal_spread, least = least_p(dealt$labels),
          provenance = with_settings(
            aligned[[1]]$provenance, "compare",
-           list(n_perm = n_perm, components = components, tests = tests, exchange = design$kind,
-                equal_spread = equal_spread, n_boot = n_boot)
+           list(n_perm = n_perm, components = settings$components, tests = tests,
+                exchange = design$kind, equal_spread = equal_spread, n_boot = settings$n_boot)
          )),
     class = "group_comparison"
   )
@@ -351,21 +343,6 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     return(aligned)
   }
   list(points = as_aligned(sample, "points"))
-}
-
-check_components <- function(components, call = rlang::caller_env()) {
-  components <- check_number(components, "components", lower = 0, call = call)
-  if (components == 0) {
-    crestline_abort("`components` is 0.",
-                    "Give a whole number, or a share of the variance below 1.", stage = "arguments",
-                    call = call)
-  }
-  if (components >= 1) check_count(components, "components", call = call) else components
-}
-
-check_tests <- function(tests, call = rlang::caller_env()) {
-  known <- c("size", "shape", "T2", "components", "points", "dispersion")
-  check_choices(tests, known, "tests", call)
 }
 
 #' A factor with the levels that occur, in the order of the specimens

@@ -37,17 +37,13 @@
 #' @param data Data frame of the variables with a row for each specimen, matched by name as in
 #'   [as_geomorph()]. Missing values are refused: leave the specimen out with
 #'   `sample[setdiff(names(sample), "anna")]`. Not needed if `size` is the only variable.
-#' @param level,n_perm,seed,scale,weights,missing,progress As in [compare_groups()].
-#' @param tests Tests to make: "shape", "size" (centroid size; not with `size` in the formula),
-#'   "manova" (Pillai's trace of the first components), "components" (each by itself), "points".
-#' @param components Number of principal components: a whole number, or a share of the variance
-#'   below 1.
-#' @param ss Type of the sums of squares: "I", "II" or "III".
+#' @param level,n_perm,seed,progress As in [compare_groups()].
 #' @param block Block of each specimen: a factor of length n, or a vector that can become one.
 #'   Values with names are matched to the specimens by name. `NULL`: all specimens are independent.
-#' @param permutations Orders to use in place of random ones, as in [compare_groups()]. The orders
-#'   of `RRPP:::perm.index()` give the p-values of RRPP.
-#' @param contrasts List of contrasts by factor, as in [stats::lm()].
+#' @param settings Which tests are made, the type of the sums of squares, how a sample is aligned,
+#'   and the like: as of [model_settings()].
+#' @param ... Fields of [model_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return Object of class `shape_lm`, a list:
 #'   * `tests`: data frame with a row for each level, term and test:
 #'     * `level`, `term`, `test` ("shape", "size", "manova", "PC1", ...), `df`;
@@ -94,44 +90,47 @@
 #'   data, *Heredity* 115, 357-365; Collyer and Adams (2018) RRPP, *Methods in Ecology and
 #'   Evolution* 9, 1772-1779; Winkler, Ridgway, Webster, Smith and Nichols (2014) Permutation
 #'   inference for the general linear model, *NeuroImage* 92, 381-397.
-#' @seealso [predict.shape_lm()], [plot.shape_lm()], [compare_groups()]; `vignette("covariates")`
+#' @seealso [model_settings()], [predict.shape_lm()], [plot.shape_lm()], [compare_groups()];
+#'   `vignette("covariates")`
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 20), c(4, 3, 20))
 #' shapes <- shapes + rnorm(240, sd = 0.05)
 #' people <- data.frame(id = 1:20, age = runif(20, 5, 40), sex = rep(c("F", "M"), 10))
 #' shapes[1, 3, ] <- shapes[1, 3, ] + people$age / 100
-#' model <- shape_lm(shapes, ~ age + sex, people, components = 3, n_perm = 199, seed = 1)
+#' model <- shape_lm(shapes, ~ age + sex, people, n_perm = 199, seed = 1,
+#'                   settings = model_settings(components = 3))
 #' model
 #' predict(model, data.frame(age = c(12, 40), sex = "F"))[1, , ]
 #' @export
 shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curves", "surface"),
-                     tests = c("shape", "size", "manova", "components", "points"), n_perm = 1000,
-                     components = 10, ss = c("I", "II", "III"), block = NULL, permutations = NULL,
-                     contrasts = NULL, seed = NULL, scale = TRUE, weights = NULL,
-                     missing = c("estimate", "drop", "stop"), progress = interactive()) {
+                     n_perm = 1000, block = NULL, seed = NULL, progress = interactive(),
+                     settings = model_settings(), ...) {
   check_given()
   check_flags(progress)
   seed <- check_seed(seed)
-  ss <- check_choice(ss, c("I", "II", "III"), "ss")
   n_perm <- check_count(n_perm, "n_perm", upper = argument_limits()$permutations)
-  components <- check_components(components)
-  tests <- check_choices(tests, c("shape", "size", "manova", "components", "points"), "tests")
+  check_class(settings, "model_settings", "settings", "model_settings()")
+  settings <- settings_with_former(settings, "model_settings", ...)
+  ss <- settings$ss
+  tests <- settings$tests
   terms <- model_terms(formula)
-  aligned <- aligned_levels(sample, level, scale, weights, missing)
+  aligned <- aligned_levels(sample, level, settings$scale, settings$weights, settings$missing)
   columns <- model_data(terms, data, names(aligned[[1]]))
   if ("size" %in% all.vars(terms)) tests <- setdiff(tests, "size")
   design <- model_blocks(block, terms, columns, names(aligned[[1]]))
   units <- if (design$kind == "whole") lapply(aligned, in_design, design) else aligned
   if (design$kind == "whole") columns <- of_first(columns, design$block)
-  orders <- model_orders(length(units[[1]]), design, n_perm, permutations, seed)
+  orders <- model_orders(length(units[[1]]), design, n_perm, settings$permutations, seed)
   here <- rlang::current_env()
-  models <- lapply(units, function(one) level_model(terms, columns, one, contrasts, here))
+  models <- lapply(units, function(one) level_model(terms, columns, one, settings$contrasts,
+                                                       here))
   warn_contrasts(models[[1]], ss)
   spans <- lapply(models, term_spans, ss, here)
   warn_few_orders(least_of_orders(orders, design), "model")
   tick <- comparison_ticks(progress, length(units) * length(spans[[1]]))
   each <- Map(function(one, span, name) {
-    lm_level(one, span, orders, tests, components, parts_of_points(sample, one, name), tick)
+    lm_level(one, span, orders, tests, settings$components, parts_of_points(sample, one, name),
+             tick)
   }, units, spans, names(units))
   found <- structure(
     list(tests = with_level(each, "tests"), points = with_level(each, "points"),

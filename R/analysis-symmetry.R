@@ -56,7 +56,8 @@
 #' shapes["left", 2, ] <- shapes["left", 2, ] + 0.2
 #' parts <- symmetry_parts(shapes, pairs = cbind("left", "right"), seed = 1)
 #' parts
-#' compare_groups(parts$asymmetric, gl(2, 6), n_perm = 99, components = 2)
+#' compare_groups(parts$asymmetric, gl(2, 6), n_perm = 99,
+#'                settings = comparison_settings(components = 2))
 #' @export
 symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), individual = NULL,
                            pairs = NULL, n_perm = 1000, seed = NULL, scale = TRUE, weights = NULL,

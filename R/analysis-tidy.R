@@ -28,7 +28,9 @@
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
 #' aligned <- align(shapes + rnorm(120, sd = 0.05))
 #' generics::tidy(shape_pca(aligned))
-#' generics::glance(compare_groups(aligned, rep(1:2, 5), n_perm = 99, components = 2))
+#' compared <- compare_groups(aligned, rep(1:2, 5), n_perm = 99,
+#'                            settings = comparison_settings(components = 2))
+#' generics::glance(compared)
 #' @name tidy.group_comparison
 NULL
 

@@ -40,7 +40,8 @@
 #'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample].
 #' * *Statistics*: generalised Procrustes analysis [align()], with warnings by [sample_limits()];
 #'   principal components [shape_pca()], [shape_at()]; groups [compare_groups()], [shape_lda()];
-#'   covariates and allometry [shape_lm()]; asymmetry [symmetry_parts()].
+#'   covariates and allometry [shape_lm()]; asymmetry [symmetry_parts()]; settings
+#'   [align_settings()], [comparison_settings()], [model_settings()].
 #' * *Other packages*: [as_geomorph()], [as_rrpp()], [as_morpho()], and back [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],

@@ -35,7 +35,8 @@
 #' people <- data.frame(id = paste0("s", 1:20), age = 1:20, sex = rep(c("F", "M"), 10))
 #' balls <- lapply(1:20, function(i) xyz * (1 + 0.03 * rnorm(1) * xyz[, 1]^2 + i / 200 * bump))
 #' aligned <- align(simplify2array(setNames(balls, people$id)), "ball", triangles = ball$it)
-#' model <- shape_lm(aligned, ~ sex + age, people, n_perm = 199, components = 3, seed = 1)
+#' model <- shape_lm(aligned, ~ sex + age, people, n_perm = 199, seed = 1,
+#'                   settings = model_settings(components = 3))
 #' plot(model, "map", "age", unit = 10, engine = "picture", view = c(0.4, 0.3))
 #' plot(model, "scores", "age")
 #' @export

@@ -89,6 +89,8 @@ print_settings <- function(x, header) {
   printed(x, {
     cat(header, "\n", sep = "")
     written <- vapply(x, function(value) {
+      if (is.null(value)) return("NULL")
+      if (is.list(value) || length(value) > 20) return(sprintf("<%s>", describe_value(value)))
       value <- if (is.character(value)) dQuote(value, FALSE) else format(value, trim = TRUE)
       if (length(value) == 1) value else sprintf("c(%s)", paste(value, collapse = ",\r"))
     }, "")

@@ -63,10 +63,12 @@ maps <- function() {
   face <- coarse_face()
   one <- function(seed) {
     made <- aged_faces(40, 6, seed, face)
-    model <- shape_lm(made$aligned, ~ age + sex, made$data, ss = "II", n_perm = 199, components = 5,
-                      seed = seed)
+    model <- shape_lm(made$aligned, ~ age + sex, made$data, n_perm = 199, seed = seed,
+                      settings = model_settings(ss = "II", components = 5))
     alone <- compare_groups(made$aligned, setNames(made$data$sex, made$data$id), n_perm = 199,
-                            components = 5, seed = seed, tests = c("shape", "points"))
+                            seed = seed,
+                            settings = comparison_settings(components = 5,
+                                                           tests = c("shape", "points")))
     of <- function(term, test) {
       model$tests$p_value[model$tests$term == term & model$tests$test == test]
     }
@@ -109,15 +111,16 @@ allometry <- function() {
     dimnames(x) <- list(NULL, NULL, paste0("s", seq_len(n)))
     aligned <- align(x)
     data <- data.frame(id = paste0("s", seq_len(n)), sex = sex)
-    given <- shape_lm(aligned, ~ log(size) + sex, data, n_perm = 199, tests = c("shape", "points"),
-                      seed = seed)
-    alone <- shape_lm(aligned, ~ sex, data, n_perm = 199, tests = "shape", seed = seed)
+    given <- shape_lm(aligned, ~ log(size) + sex, data, n_perm = 199, seed = seed,
+                      settings = model_settings(tests = c("shape", "points")))
+    alone <- shape_lm(aligned, ~ sex, data, n_perm = 199, seed = seed,
+                      settings = model_settings(tests = "shape"))
     # The wrong way: residuals of size as new shapes, tested as if size had never been there.
     y <- t(matrix(aligned$coords, length(aligned$mean)))
     rest <- array(t(resid(lm(y ~ log(aligned$size)))) + as.vector(aligned$mean),
                   dim(aligned$coords), dimnames(aligned$coords))
-    wrong <- shape_lm(as_aligned(rest), ~ sex, data, n_perm = 199, tests = c("shape", "points"),
-                      seed = seed)
+    wrong <- shape_lm(as_aligned(rest), ~ sex, data, n_perm = 199, seed = seed,
+                      settings = model_settings(tests = c("shape", "points")))
     c(alone = alone$tests$p_value, given_size = given$tests$p_value[2],
       given_size_points = min(given$points$p_adjusted[given$points$term == "sex"]),
       residuals = wrong$tests$p_value, residuals_points = min(wrong$points$p_adjusted))
@@ -231,7 +234,8 @@ speed <- function() {
   a <- shapes(250)
   data <- data.frame(id = names(a), age = runif(250), sex = rep(c("F", "M"), 125))
   fit <- function(aligned, tests, data) {
-    shape_lm(aligned, ~ age + sex + log(size), data, tests = tests, seed = 1)
+    shape_lm(aligned, ~ age + sex + log(size), data, seed = 1,
+             settings = model_settings(tests = tests))
   }
   cat("\nshape_lm(~ age + sex + log(size)), 1,000 permutations, processor seconds\n")
   row("250 x 922, whole shape", fit(a, "shape", data))
@@ -268,8 +272,9 @@ published <- function() {
     table <- anova(theirs)$table
     orders <- RRPP:::perm.index(dim(coords)[3], 999, seed = 1)
     rows <- data.frame(id = names(aligned), data)
-    ours <- quiet(shape_lm(aligned, formula, rows, tests = "shape", permutations = orders,
-                           ss = ss))$tests
+    ours <- quiet(shape_lm(aligned, formula, rows,
+                           settings = model_settings(tests = "shape", permutations = orders,
+                                                     ss = ss)))$tests
     k <- seq_len(nrow(ours))
     cat(sprintf("%-40s greatest relative difference: SS %.1e, F %.1e; Z %.1e, p %.1e\n", what,
                 max(abs(ours$squares / table$SS[k] - 1)), max(abs(ours$statistic / table$F[k] - 1)),

@@ -58,8 +58,8 @@ draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k =
 
 p_values <- function(data, seed, ...) {
   compared <- suppressMessages(suppressWarnings(
-    compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = seed, progress = FALSE,
-                   n_boot = 1, ...)
+    compare_groups(data$x, data$group, n_perm = 99, seed = seed, progress = FALSE, ...,
+                   settings = comparison_settings(exact = 0, n_boot = 1))
   ))
   tests <- compared$tests
   p <- function(test) c(tests$p_value[tests$test %in% test], NA)[1]

@@ -52,14 +52,15 @@ speed <- function() {
   flat <- t(matrix(aligned$coords, 3 * 922))
   rows <- list(seconds("align()", align(x)), seconds("shape_pca()", shape_pca(aligned)),
                seconds("compare_groups(), mean shape",
-                       compare_groups(aligned, group, tests = "shape", seed = 1,
-                                      equal_spread = TRUE)),
+                       compare_groups(aligned, group, seed = 1, equal_spread = TRUE,
+                                      settings = comparison_settings(tests = "shape"))),
                seconds("compare_groups(), size, T2, ten components",
-                       compare_groups(aligned, group, tests = c("size", "T2", "components"),
-                                      seed = 1, equal_spread = TRUE)),
+                       compare_groups(aligned, group, seed = 1, equal_spread = TRUE,
+                                      settings = comparison_settings(
+                                        tests = c("size", "T2", "components")))),
                seconds("compare_groups(), 922 points, all co-ordinates",
-                       compare_groups(aligned, group, tests = "points", seed = 1,
-                                      equal_spread = TRUE), 3))
+                       compare_groups(aligned, group, seed = 1, equal_spread = TRUE,
+                                      settings = comparison_settings(tests = "points")), 3))
   if (have("Morpho")) {
     rows <- c(rows, list(seconds("Morpho::procSym()", Morpho::procSym(x), 3),
                          seconds("Morpho::ProcGPA()", Morpho::ProcGPA(x, CSinit = TRUE), 3),
@@ -117,9 +118,10 @@ agree_on <- function(name, x) {
 agree_on_p <- function(name, x, group, iter = 999) {
   ours <- align(x)
   flat <- t(matrix(ours$coords, length(ours$mean)))
-  compared <- compare_groups(ours, group,
-                             permutations = RRPP:::perm.index(length(group), iter, seed = 1),
-                             tests = c("size", "shape"), equal_spread = TRUE)
+  compared <- compare_groups(ours, group, equal_spread = TRUE,
+                             settings = comparison_settings(
+                               permutations = RRPP:::perm.index(length(group), iter, seed = 1),
+                               tests = c("size", "shape")))
   frame <- list(y = flat, size = unname(ours$size), group = factor(group))
   shape <- anova(RRPP::lm.rrpp(y ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
   size <- anova(RRPP::lm.rrpp(size ~ group, data = frame, iter = iter, seed = 1))$table[1, "Pr(>F)"]
@@ -160,14 +162,16 @@ null_shapes <- function(n, k = 20) {
   })), c(k, 3, n))
 }
 
-null_p <- function(seed, sizes, ...) {
+null_p <- function(seed, sizes, n_perm = 1000, exact = n_perm) {
   set.seed(seed)
   x <- null_shapes(sum(sizes))
   group <- rep(c("a", "b", "c")[seq_along(sizes)], sizes)
   it <- rbind(1:18, 2:19, 3:20)
   surface <- align(x, triangles = it)
-  compared <- compare_groups(surface, group, components = 5, seed = seed, equal_spread = TRUE, ...)
-  vectors <- compare_groups(x, group, tests = "points", seed = seed, equal_spread = TRUE, ...)
+  compared <- compare_groups(surface, group, n_perm = n_perm, seed = seed, equal_spread = TRUE,
+                             settings = comparison_settings(components = 5, exact = exact))
+  vectors <- compare_groups(x, group, n_perm = n_perm, seed = seed, equal_spread = TRUE,
+                            settings = comparison_settings(tests = "points", exact = exact))
   tests <- compared$tests
   component <- grepl("^PC", tests$test)
   c(size = tests$p_value[1], "size, parametric" = tests$p_parametric[1],

@@ -106,11 +106,11 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
   }
   list(
     align = entry(given(sample = sample, level = "curves", scale = TRUE, weights = NULL,
-                        missing = "drop", tangent = TRUE, triangles = NULL, tolerance = 1e-6,
-                        rounds = 5, limits = sample_limits()),
-                  limits = "object", sample = "object", level = "choice", scale = "flag",
-                  weights = "object?", missing = "choice", tangent = "flag", triangles = "object?",
-                  tolerance = "number", rounds = "count"),
+                        missing = "drop", tangent = TRUE, triangles = NULL,
+                        limits = sample_limits(), settings = align_settings()),
+                  limits = "object", settings = "object", sample = "object", level = "choice",
+                  scale = "flag", weights = "object?", missing = "choice", tangent = "flag", triangles = "object?"),
+    align_settings = fields(align_settings, rounds = "count"),
     as_aligned = entry(given(x = aligned$coords, size = NULL, level = "points", triangles = NULL),
                        x = "object", size = "numbers?", level = "text", triangles = "object?"),
     as_geomorph = entry(given(sample = sample, level = "curves", data = NULL), sample = "object",
@@ -133,15 +133,15 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                           specimen = "object", least = "number", doubtful = "number",
                           picture = "any"),
     compare_groups = entry(given(sample = sample, group = rep(c("A", "B"), c(3, 4)),
-                                 level = "curves", n_perm = 5, components = 2, seed = 1,
-                                 tests = "size", exact = 5, permutations = NULL, scale = TRUE,
-                                 weights = NULL, missing = "drop", progress = FALSE, block = NULL,
-                                 equal_spread = TRUE, n_boot = 5),
-                           block = "any", equal_spread = "flag", n_boot = "count",
+                                 level = "curves", n_perm = 5, block = NULL, seed = 1,
+                                 equal_spread = TRUE, progress = FALSE,
+                                 settings = comparison_settings(tests = "size", exact = 5,
+                                                                n_boot = 5, missing = "drop")),
+                           block = "any", equal_spread = "flag", settings = "object",
                            sample = "object", group = "object", level = "choice", n_perm = "count",
-                           components = "number", seed = "number?", tests = "choice",
-                           exact = "number", permutations = "object?", scale = "flag",
-                           weights = "object?", missing = "choice", progress = "flag"),
+                           seed = "number?", progress = "flag"),
+    comparison_settings = fields(comparison_settings, n_boot = "count", exact = "number?",
+                                 permutations = "any", weights = "any", scale = "flag"),
     coords = entry(given(x = shape, level = "curves", part = NULL), x = "object",
                    level = "choice", part = "any"),
     curvature = entry(given(mesh = one, radius = 20, order = "adaptive", threads = 1L,
@@ -385,13 +385,13 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                       progress = "flag"),
     shape_lm = entry(given(sample = sample, formula = ~ w,
                            data = data.frame(id = names(sample), w = c(1, 3, 2, 5, 4, 7, 6)),
-                           level = "curves", tests = "size", n_perm = 5, components = 2, ss = "I",
-                           block = NULL, permutations = NULL, contrasts = NULL, seed = 1,
-                           scale = TRUE, weights = NULL, missing = "drop", progress = FALSE),
+                           level = "curves", n_perm = 5, block = NULL, seed = 1, progress = FALSE,
+                           settings = model_settings(tests = "size", missing = "drop")),
                      sample = "object", formula = "object", data = "object", level = "choice",
-                     tests = "choice", n_perm = "count", components = "number", ss = "choice",
-                     block = "any", permutations = "object?", contrasts = "any", seed = "number?",
-                     scale = "flag", weights = "object?", missing = "choice", progress = "flag"),
+                     n_perm = "count", block = "any", seed = "number?", progress = "flag",
+                     settings = "object"),
+    model_settings = fields(model_settings, permutations = "any", contrasts = "any",
+                            weights = "any"),
     shape_mesh = entry(c(given(x = shape, parts = "model", specimen = one, dense = 1), fitted),
                        x = "object", parts = "choice", specimen = "object?", dense = "count",
                        fitted_kinds),
@@ -477,7 +477,8 @@ made_batch <- function(made) {
 # Principal components of a surface, for a page.
 flat_pca <- function(made) {
   xyz <- simplify2array(lapply(made$specimens, function(one) t(one$mesh$vb[1:3, ])))
-  shape_pca(align(xyz, "ball", triangles = made$ball$it, rounds = 3, tolerance = 1e-3))
+  shape_pca(align(xyz, "ball", triangles = made$ball$it,
+                  settings = align_settings(rounds = 3, tolerance = 1e-3)))
 }
 
 # What a call gives: "returned", "refused", "refused without its name" (of the argument), or the

@@ -199,7 +199,8 @@ test_that("what cannot be aligned is refused", {
   nowhere <- x
   nowhere[3, , ] <- NA
   expect_crestline_error(align(nowhere, missing = "stop"), "points missing")
-  expect_warning(align(posed_sample(sd = 0.5), rounds = 1), class = "crestline_not_converged")
+  expect_warning(align(posed_sample(sd = 0.5),
+                       settings = align_settings(rounds = 1)), class = "crestline_not_converged")
 })
 
 test_that("points that every specimen lacks are left out, as if they had never been, and named", {

@@ -124,8 +124,10 @@ test_that("components and comparisons of a part are those of the part", {
   aligned <- align(x)
   expect_equal(shape_pca(aligned[-1])$sdev, shape_pca(align(x[, , -1]))$sdev, tolerance = 1e-8)
   sex <- stats::setNames(rep(c("F", "M"), length.out = 9), names(aligned))
-  ours <- compare_groups(aligned[-1], sex, components = 2, seed = 1, n_perm = 20, progress = FALSE)
-  theirs <- compare_groups(x[, , -1], sex, components = 2, seed = 1, n_perm = 20, progress = FALSE)
+  ours <- compare_groups(aligned[-1], sex, seed = 1, n_perm = 20, progress = FALSE,
+                         settings = comparison_settings(components = 2))
+  theirs <- compare_groups(x[, , -1], sex, seed = 1, n_perm = 20, progress = FALSE,
+                           settings = comparison_settings(components = 2))
   expect_equal(ours$tests$p_value, theirs$tests$p_value)
 })
 

@@ -13,7 +13,7 @@ paired_sample <- function(n = 12, effect = 0.03, seed = 1, k = 8) {
 }
 
 blocked <- function(data, ..., seed = 1) {
-  compare_groups(data$x, data$time, block = data$person, seed = seed, progress = FALSE, ...)
+  comparing(data$x, data$time, block = data$person, seed = seed, progress = FALSE, ...)
 }
 
 test_that("pairs are compared within persons: the paired t, and what differs is found", {
@@ -68,8 +68,8 @@ test_that("repeated scans of persons count once", {
   data <- paired_sample(10, 0)
   sex <- rep(rep(c("F", "M"), each = 5), 2)
   names(sex) <- NULL
-  compared <- compare_groups(data$x, sex, block = data$person, n_perm = 99, exact = 0, seed = 1,
-                             progress = FALSE)
+  compared <- compare_groups(data$x, sex, block = data$person, n_perm = 99, seed = 1,
+                             progress = FALSE, settings = comparison_settings(exact = 0))
   size <- align(data$x)$size
   mean <- (size[1:10] + size[11:20]) / 2
   theirs <- t.test(mean[1:5], mean[6:10], var.equal = TRUE)
@@ -81,7 +81,7 @@ test_that("repeated scans of persons count once", {
 
 test_that("blocks that cannot be are refused", {
   data <- paired_sample(6)
-  plainly <- function(...) compare_groups(data$x, data$time, n_perm = 19, progress = FALSE, ...)
+  plainly <- function(...) comparing(data$x, data$time, n_perm = 19, progress = FALSE, ...)
   expect_crestline_error(plainly(block = 1:3), "`block` has 3 values for 12")
   expect_crestline_error(plainly(block = replace(data$person, 2, NA)), "`block` is missing for 2")
   expect_crestline_error(plainly(block = data$person, permutations = diag(12)), "both given")

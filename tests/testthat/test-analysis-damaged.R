@@ -44,7 +44,7 @@ test_that("components and a comparison with parts that do not fit are refused", 
     }
   }
   compared <- compare_groups(aligned, stats::setNames(gl(2, 5), names(aligned)), n_perm = 49,
-                             components = 2)
+                             settings = comparison_settings(components = 2))
   for (part in c("tests", "points", "aligned", "group")) {
     damaged <- tampered(compared, function(x) replace(x, part, "x"))
     for (call in list(summary, as.data.frame, plot, generics::tidy, generics::glance)) {

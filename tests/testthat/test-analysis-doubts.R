@@ -43,7 +43,8 @@ test_that("sizes that differ as units do are told, with the ratio", {
     x
   })
   expect_warning(align(mixed), "s5 .0.00099 times", class = "crestline_size")
-  expect_warning(compare_groups(mixed, rep(1:2, 10), n_perm = 19, tests = "size", progress = FALSE),
+  expect_warning(compare_groups(mixed, rep(1:2, 10), n_perm = 19, progress = FALSE,
+                                settings = comparison_settings(tests = "size")),
                  class = "crestline_size")
 })
 
@@ -85,7 +86,8 @@ test_that("an alignment and a comparison print how many points were estimated, a
   aligned <- align(lacking, limits = sample_limits(beyond = Inf))
   expect_output(print(aligned), "missing and estimated: 4 points of s1, s2, s3; most, 2, of s2",
                 fixed = TRUE)
-  compared <- compare_groups(aligned, rep(1:2, 10), n_perm = 19, tests = "size", progress = FALSE)
+  compared <- compare_groups(aligned, rep(1:2, 10), n_perm = 19, progress = FALSE,
+                             settings = comparison_settings(tests = "size"))
   expect_output(print(compared), "missing and estimated: 4 points of s1, s2, s3", fixed = TRUE)
 })
 

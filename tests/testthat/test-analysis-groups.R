@@ -1,6 +1,6 @@
 # Closed forms here are those of pooled spread; test-analysis-spread.R has the others.
 compare_quietly <- function(..., progress = FALSE, equal_spread = TRUE) {
-  compare_groups(..., progress = progress, equal_spread = equal_spread)
+  comparing(..., progress = progress, equal_spread = equal_spread)
 }
 
 test_row_of <- function(compared, test) compared$tests[compared$tests$test == test, ]

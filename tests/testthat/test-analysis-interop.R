@@ -38,9 +38,10 @@ test_that("geomorph and RRPP take them, and test as we do where both do", {
   one <- covered()
   frame <- as_geomorph(one$x, data = one$data)
   fit <- geomorph::procD.lm(coords ~ sex, data = frame, iter = 199, seed = 2)
-  compared <- compare_groups(one$x, frame$sex, equal_spread = TRUE,
-                             permutations = RRPP:::perm.index(16, 199, seed = 2), tests = "shape",
-                             progress = FALSE)
+  compared <- compare_groups(one$x, frame$sex, equal_spread = TRUE, progress = FALSE,
+                             settings = comparison_settings(
+                               permutations = RRPP:::perm.index(16, 199, seed = 2),
+                               tests = "shape"))
   expect_equal(summary(fit)$table[1, "Pr(>F)"], compared$tests$p_value)
   expect_equal(summary(fit)$table[1, "Rsq"], compared$tests$share, tolerance = 1e-8)
   full <- RRPP::lm.rrpp(coords ~ log(size) + sex * age,

@@ -23,7 +23,8 @@ test_that("squares and F of the whole shape are those of a plain Freedman-Lane l
   aligned <- modelled_sample(data)
   y <- scale(flat_rows(aligned), scale = FALSE)
   orders <- with_seed(4, replicate(20, sample.int(24)))
-  model <- shape_lm(aligned, ~ age * sex, data, tests = "shape", permutations = orders)
+  model <- shape_lm(aligned, ~ age * sex, data,
+                    settings = model_settings(tests = "shape", permutations = orders))
   hat <- function(formula) {
     x <- model.matrix(formula, data)
     x %*% solve(crossprod(x), t(x))
@@ -49,8 +50,9 @@ test_that("squares and F of the whole shape are those of a plain Freedman-Lane l
 test_that("size and components are those of lm(), components together those of manova()", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(aligned, ~ site + poly(age, 2), data, components = 4, n_perm = 19,
-                    tests = c("size", "components", "manova"))
+  model <- shape_lm(aligned, ~ site + poly(age, 2), data, n_perm = 19,
+                    settings = model_settings(components = 4,
+                                              tests = c("size", "components", "manova")))
   scores <- shape_pca(aligned)$x[, 1:4]
   rows <- function(test) model$tests[model$tests$test == test, ]
   size <- anova(lm(aligned$size ~ site + poly(age, 2), data))
@@ -72,8 +74,9 @@ test_that("types II and III are those of nested and of one-term-less models", {
     sum(qr.resid(qr(model.matrix(formula, data)), y)^2)
   }
   fit <- function(ss) {
-    shape_lm(aligned, ~ age * sex, data, tests = "shape", n_perm = 19, ss = ss,
-             contrasts = list(sex = "contr.sum"))$tests$squares
+    shape_lm(aligned, ~ age * sex, data, n_perm = 19,
+             settings = model_settings(tests = "shape", ss = ss,
+                                       contrasts = list(sex = "contr.sum")))$tests$squares
   }
   second <- c(left(~ sex) - left(~ age + sex), left(~ age) - left(~ age + sex),
               left(~ age + sex) - left(~ age * sex))
@@ -81,7 +84,8 @@ test_that("types II and III are those of nested and of one-term-less models", {
   x <- model.matrix(~ age * sex, data, list(sex = "contr.sum"))
   without <- vapply(2:4, function(j) sum(qr.resid(qr(x[, -j]), y)^2), 0)
   expect_equal(fit("III"), without - left(~ age * sex), tolerance = 1e-8)
-  expect_warning(shape_lm(aligned, ~ age * sex, data, tests = "shape", n_perm = 19, ss = "III"),
+  expect_warning(shape_lm(aligned, ~ age * sex, data, n_perm = 19,
+                          settings = model_settings(tests = "shape", ss = "III")),
                  class = "crestline_contrasts")
 })
 
@@ -106,8 +110,9 @@ test_that("a size effect of two groups is no effect of group given size", {
   x[2, 1, ] <- x[2, 1, ] + size
   x <- x * rep(size, each = 30)
   aligned <- suppressWarnings(align(x))
-  alone <- shape_lm(aligned, ~ sex, data, tests = "shape", seed = 1)
-  given <- shape_lm(aligned, ~ log(size) + sex, data, tests = "shape", seed = 1)
+  alone <- shape_lm(aligned, ~ sex, data, seed = 1, settings = model_settings(tests = "shape"))
+  given <- shape_lm(aligned, ~ log(size) + sex, data, seed = 1,
+                    settings = model_settings(tests = "shape"))
   expect_lt(alone$tests$p_value, 0.01)
   expect_gt(given$tests$p_value[2], 0.05)
 })
@@ -115,7 +120,8 @@ test_that("a size effect of two groups is no effect of group given size", {
 test_that("a term is found at its place by point, and nowhere else", {
   data <- people(40)
   aligned <- modelled_sample(data, 0.01)
-  model <- shape_lm(aligned, ~ sex + age, data, tests = "points", seed = 1)
+  model <- shape_lm(aligned, ~ sex + age, data, seed = 1,
+                    settings = model_settings(tests = "points"))
   of_age <- model$points[model$points$term == "age", ]
   expect_equal(of_age$point[which.max(of_age$statistic)], "p1")
   expect_lte(of_age$p_adjusted[1], 0.01)
@@ -136,7 +142,7 @@ test_that("a map's distance is the regression coefficient along the normal, in t
   }))
   dimnames(balls)[[3]] <- data$id
   aligned <- align(balls, "ball", triangles = ball$it)
-  model <- shape_lm(aligned, ~ age, data, tests = "points", n_perm = 19)
+  model <- shape_lm(aligned, ~ age, data, n_perm = 19, settings = model_settings(tests = "points"))
   top <- which.max(xyz[, 1])
   normal <- point_normals(aligned$mean, aligned$triangles)[top, ]
   along <- colSums(aligned$coords[top, , ] * normal) * mean(aligned$size)
@@ -154,7 +160,8 @@ test_that("a map's distance is the regression coefficient along the normal, in t
 test_that("predicted shapes are those of lm() for factors, poly() and ns(), at any new value", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(aligned, ~ splines::ns(age, 3) + sex, data, tests = "shape", n_perm = 19)
+  model <- shape_lm(aligned, ~ splines::ns(age, 3) + sex, data, n_perm = 19,
+                    settings = model_settings(tests = "shape"))
   new <- data.frame(age = c(12, 39), sex = c("M", "F"), row.names = c("boy", "woman"))
   found <- predict(model, new, size = 1)
   own <- lm(aligned$coords[3, 2, ] ~ splines::ns(age, 3) + sex, data)
@@ -171,7 +178,8 @@ test_that("predicted shapes are those of lm() for factors, poly() and ns(), at a
 test_that("rows of data are matched by name, whatever their order", {
   data <- people()
   aligned <- modelled_sample(data)
-  fit <- function(data) shape_lm(aligned, ~ age, data, tests = "shape", n_perm = 49, seed = 1)$tests
+  fit <- function(data) shape_lm(aligned, ~ age, data, n_perm = 49, seed = 1,
+                                 settings = model_settings(tests = "shape"))$tests
   expect_equal(fit(data[24:1, ]), fit(data))
   age <- data$age
   expect_error(shape_lm(aligned, ~ age), "no column of `data`", class = "crestline_error")
@@ -199,8 +207,8 @@ test_that("blocks: exchange within them, means of whole ones, no p for what they
   data$visit <- rep(c("before", "after"), 12)
   data$born <- rep(1:12, each = 2)
   aligned <- modelled_sample(data)
-  within <- shape_lm(aligned, ~ person + visit, data, tests = "shape", block = data$person,
-                     seed = 1) |> suppressWarnings()
+  within <- shape_lm(aligned, ~ person + visit, data, block = data$person, seed = 1,
+                     settings = model_settings(tests = "shape")) |> suppressWarnings()
   expect_equal(within$exchange, "within")
   expect_true(is.na(within$tests$p_value[1]))
   # With pairs only the sign of a difference can change.
@@ -209,9 +217,11 @@ test_that("blocks: exchange within them, means of whole ones, no p for what they
   each <- rowSums((signs %*% difference)^2)
   exact <- mean(each >= sum(colSums(difference)^2) * (1 - 1e-10))
   expect_equal(within$tests$p_value[2], exact, tolerance = 0.2)
-  expect_warning(shape_lm(aligned, ~ born + visit, data, tests = "shape", block = data$person,
-                          n_perm = 19), class = "crestline_constant_term")
-  whole <- shape_lm(aligned, ~ born, data, tests = "shape", block = data$person, n_perm = 19)
+  expect_warning(shape_lm(aligned, ~ born + visit, data, block = data$person, n_perm = 19,
+                          settings = model_settings(
+                            tests = "shape")), class = "crestline_constant_term")
+  whole <- shape_lm(aligned, ~ born, data, block = data$person, n_perm = 19,
+                    settings = model_settings(tests = "shape"))
   expect_equal(whole$exchange, "whole")
   expect_equal(whole$left, 10)
 })
@@ -224,8 +234,9 @@ test_that("answers do not depend on pose, unit or order of the specimens", {
                  dimnames(x))
   mixed <- with_seed(6, sample.int(24))
   fit <- function(x) {
-    shape_lm(align(x), ~ age + sex, data, n_perm = 19, components = 3,
-             tests = c("shape", "components", "manova"))$tests
+    shape_lm(align(x), ~ age + sex, data, n_perm = 19,
+             settings = model_settings(components = 3,
+                                       tests = c("shape", "components", "manova")))$tests
   }
   columns <- c("term", "test", "df", "squares", "statistic")
   expect_equal(fit(moved)[columns], fit(x)[columns], tolerance = 1e-6)
@@ -245,8 +256,9 @@ test_that("squares, F, Z and p are those of RRPP on the same permutations", {
                             block = block, print.progress = FALSE)
     table <- anova(theirs)$table
     orders <- RRPP:::perm.index(30, 199, block = block, seed = 1)
-    ours <- suppressWarnings(shape_lm(aligned, formula[-2], data, tests = "shape", ss = ss,
-                                      permutations = orders))$tests
+    ours <- suppressWarnings(shape_lm(aligned, formula[-2], data,
+                                      settings = model_settings(tests = "shape", ss = ss,
+                                                                permutations = orders)))$tests
     of_terms <- seq_len(nrow(ours))
     expect_equal(ours$df, table$Df[of_terms])
     expect_equal(ours$squares, table$SS[of_terms], tolerance = 1e-8)
@@ -259,7 +271,8 @@ test_that("squares, F, Z and p are those of RRPP on the same permutations", {
 test_that("tables, print and summary fit", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(list(a = aligned, b = aligned), ~ age + sex, data, n_perm = 19, components = 2)
+  model <- shape_lm(list(a = aligned, b = aligned), ~ age + sex, data, n_perm = 19,
+                    settings = model_settings(components = 2))
   expect_equal(nrow(as.data.frame(model)), 2 * 2 * 5)
   expect_equal(names(summary(model)), c("term", "test", "a", "b"))
   expect_output(print(model), "whole shape")
@@ -272,8 +285,8 @@ test_that("curves and patches of a sample are tested with the family held", {
   made <- argument_objects()
   sample <- suppressWarnings(homologise(made$shapes, progress = FALSE))
   data <- data.frame(id = names(sample), w = c(1, 3, 2, 5, 4, 7, 6))
-  model <- suppressWarnings(shape_lm(sample, ~ w, data, c("curves", "surface"), tests = "points",
-                                     n_perm = 19))
+  model <- suppressWarnings(shape_lm(sample, ~ w, data, c("curves", "surface"), n_perm = 19,
+                                     settings = model_settings(tests = "points")))
   expect_setequal(model$parts$part[model$parts$level == "curves"], made$scheme$curves$curve)
   expect_true(all(model$parts$p_adjusted >= model$parts$p_value - 1e-12))
   expect_equal(sum(model$parts$points[model$parts$level == "curves"]),
@@ -288,7 +301,7 @@ test_that("curves and patches of a sample are tested with the family held", {
 test_that("a damaged model is refused by all its methods", {
   data <- people()
   aligned <- modelled_sample(data)
-  model <- shape_lm(aligned, ~ age, data, n_perm = 19, components = 2)
+  model <- shape_lm(aligned, ~ age, data, n_perm = 19, settings = model_settings(components = 2))
   calls <- list(as.data.frame, summary, plot, predict, generics::tidy, generics::glance)
   for (part in c("aligned", "models", "formula")) {
     damaged <- structure(unclass(model)[setdiff(names(model), part)], class = "shape_lm")
@@ -301,7 +314,8 @@ test_that("a damaged model is refused by all its methods", {
 test_that("predictions outside of the sample are told, wrong kinds and levels are named", {
   made <- grouped_sample(c(6, 6))
   data <- data.frame(age = 1:12, sex = rep(c("F", "M"), 6), visit = rep(1:3, 4))
-  model <- shape_lm(made$x, ~ log(size) + age, data, n_perm = 19, tests = "shape", seed = 1)
+  model <- shape_lm(made$x, ~ log(size) + age, data, n_perm = 19, seed = 1,
+                    settings = model_settings(tests = "shape"))
   inside <- data.frame(age = 6, size = mean(model$aligned[[1]]$size))
   expect_silent(predict(model, inside))
   expect_warning(predict(model, transform(inside, age = 40)), "age.*40; the sample has 1 to 12",
@@ -314,7 +328,8 @@ test_that("predictions outside of the sample are told, wrong kinds and levels ar
                class = "crestline_error")
   expect_error(shape_lm(made$x, ~ sex, transform(data, sex = "M")), "`sex` has one level only \\(M",
                class = "crestline_error")
-  expect_message(shape_lm(made$x, ~ visit, data, n_perm = 19, tests = "shape"), "factor\\(visit\\)",
+  expect_message(shape_lm(made$x, ~ visit, data, n_perm = 19,
+                          settings = model_settings(tests = "shape")), "factor\\(visit\\)",
                  class = "crestline_message")
 })
 

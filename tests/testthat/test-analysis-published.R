@@ -32,9 +32,10 @@ test_that("gorillas (shapes): mean, components and Hotelling's test", {
   expect_lt(max(abs(both - flat(theirs$mshape))) / sqrt(sum(theirs$mshape^2)), 1e-5)
   expect_equal(unname(aligned$size), theirs$size, tolerance = 1e-10)
   expect_equal(100 * shape_pca(aligned)$share[1:5], theirs$percent[1:5], tolerance = 1e-4)
-  compared <- compare_groups(gorilla$x, gorilla$sex, equal_spread = TRUE, components = 12,
-                             n_perm = 199, seed = 1, tests = c("size", "T2", "shape"),
-                             progress = FALSE)
+  compared <- compare_groups(gorilla$x, gorilla$sex, equal_spread = TRUE, n_perm = 199, seed = 1,
+                             progress = FALSE,
+                             settings = comparison_settings(components = 12,
+                                                            tests = c("size", "T2", "shape")))
   expect_equal(as.vector(tapply(compared$aligned[[1]]$size, gorilla$sex, mean)),
                c(mean(shapes::centroid.size(gorilla$x[, , 1:30])),
                  mean(shapes::centroid.size(gorilla$x[, , 31:59]))), tolerance = 1e-10)
@@ -59,7 +60,8 @@ test_that("skulls (Morpho's boneData): mean, sizes and components of their examp
   # Its skulls are of two populations, which differ, and two sexes.
   population <- substr(dimnames(bones)[[3]], 12, 13)
   compared <- compare_groups(bones, population, equal_spread = TRUE, n_perm = 199, seed = 1,
-                             tests = c("shape", "T2"), progress = FALSE)
+                             progress = FALSE,
+                             settings = comparison_settings(tests = c("shape", "T2")))
   expect_lt(max(compared$tests$p_value), 0.01)
 })
 
@@ -73,8 +75,7 @@ test_that("pupfish (geomorph): the table of variance of their example", {
   expect_equal(ours, theirs, tolerance = 1e-12)
   expect_equal(round(theirs$SS[1:4], 6), c(0.008993, 0.015917, 0.003453, 0.027970))
   compared <- compare_groups(aligned, pupfish$Sex, equal_spread = TRUE, n_perm = 19,
-                             tests = "shape",
-                             progress = FALSE)
+                             progress = FALSE, settings = comparison_settings(tests = "shape"))
   one <- anova(geomorph::procD.lm(coords ~ Sex, data = pupfish, iter = 9))$table
   expect_equal(compared$tests$share, one$Rsq[1], tolerance = 1e-10)
   # Aligned anew, their aligned shapes stay as they are.

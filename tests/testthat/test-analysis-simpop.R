@@ -17,8 +17,9 @@ simpop_dense <- function() {
 test_that("sex differs in the faces of simpop as it was found before", {
   faces <- simpop_dense()
   compared <- compare_groups(faces[c("landmarks", "dense")], faces$sex, equal_spread = TRUE,
-                             n_perm = 1999, seed = 1,
-                             tests = c("size", "shape", "T2", "components"), progress = FALSE)
+                             n_perm = 1999, seed = 1, progress = FALSE,
+                             settings = comparison_settings(
+                               tests = c("size", "shape", "T2", "components")))
   of <- function(level) compared$tests[compared$tests$level == level, ]
   p <- data.frame(test = of("dense")$test, landmarks = of("landmarks")$p_value,
                   dense = of("dense")$p_value)

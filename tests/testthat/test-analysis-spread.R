@@ -7,7 +7,7 @@ spread_sample <- function(n, ratio, seed, effect = 0, k = 8) {
   data
 }
 
-apart_quietly <- function(...) compare_groups(..., equal_spread = FALSE, progress = FALSE)
+apart_quietly <- function(...) comparing(..., equal_spread = FALSE, progress = FALSE)
 
 test_that("sizes and scores are tested by Welch's t, on Satterthwaite's degrees of freedom", {
   data <- spread_sample(c(14, 7), 3, 1)
@@ -141,9 +141,11 @@ test_that("if a small group varies most, pooled tests reject equal means, separa
   p <- vapply(1:100, function(seed) {
     data <- spread_sample(c(24, 6), 3, seed)
     of <- function(equal) {
-      found <- suppressWarnings(compare_groups(data$x, data$group, n_perm = 99, exact = 0,
-                                               seed = seed, progress = FALSE,
-                                               tests = c("shape", "points"), equal_spread = equal))
+      found <- suppressWarnings(compare_groups(data$x, data$group, n_perm = 99, seed = seed,
+                                               progress = FALSE, equal_spread = equal,
+                                               settings = comparison_settings(
+                                                 exact = 0,
+                                                 tests = c("shape", "points"))))
       c(found$tests$p_value[1], min(found$points$p_adjusted))
     }
     c(of(TRUE), of(FALSE))
@@ -172,8 +174,8 @@ test_that("unequal groups of unequal spread are warned of, and only these", {
 test_that("the loss of power with groups of unequal size is said where there is one", {
   said <- function(sizes, ...) {
     data <- spread_sample(sizes, 1, 1)
-    compared <- suppressWarnings(compare_groups(data$x, data$group, n_perm = 19, components = 2,
-                                                progress = FALSE, ...))
+    compared <- suppressWarnings(comparing(data$x, data$group, n_perm = 19, components = 2,
+                                           progress = FALSE, ...))
     any(grepl("unequal in size", capture.output(print(compared))))
   }
   expect_true(said(c(12, 6)))
@@ -196,7 +198,8 @@ test_that("exact duplicates do not differ", {
     alike <- x
     for (i in 1:12) alike[, , i] <- x[, , i] / sqrt(sum(scale(x[, , i], scale = FALSE)^2))
     size <- compare_groups(alike, rep(c("a", "b"), c(5, 7)), n_perm = 99, seed = 1,
-                           progress = FALSE, equal_spread = equal, tests = "size")$tests
+                           progress = FALSE, equal_spread = equal,
+                           settings = comparison_settings(tests = "size"))$tests
     expect_equal(size$p_value, 1)
   }
 })
@@ -204,8 +207,8 @@ test_that("exact duplicates do not differ", {
 test_that("dispersion is found where there is one, by its ratio", {
   p <- vapply(c(1, 3), function(ratio) {
     data <- spread_sample(c(15, 15), ratio, 4)
-    own <- compare_groups(data$x, data$group, n_perm = 99, exact = 0, seed = 1,
-                          progress = FALSE)$tests
+    own <- compare_groups(data$x, data$group, n_perm = 99, seed = 1, progress = FALSE,
+                          settings = comparison_settings(exact = 0))$tests
     own <- own[own$test == "dispersion", ]
     expect_equal(own$statistic, ratio, tolerance = 0.15)
     own$p_value

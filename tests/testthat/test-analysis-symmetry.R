@@ -78,7 +78,8 @@ test_that("answers do not depend on pose and unit; parts go into tests", {
   expect_equal(b$tests, a$tests, tolerance = 1e-6)
   expect_equal(b$specimens$asymmetry, 40 * a$specimens$asymmetry, tolerance = 1e-6)
   group <- stats::setNames(gl(2, 6), names(a$symmetric$points))
-  expect_s3_class(compare_groups(a$asymmetric, group, n_perm = 19, components = 2),
+  expect_s3_class(compare_groups(a$asymmetric, group, n_perm = 19,
+                                 settings = comparison_settings(components = 2)),
                   "group_comparison")
   expect_s3_class(shape_pca(a$symmetric$points), "shape_pca")
   expect_output(print(a), "directional")

@@ -1,8 +1,8 @@
 test_that("tidy tables have broom's names and the results' values", {
   skip_if_not_installed("generics")
   data <- grouped_sample(c(5, 6))
-  compared <- compare_groups(data$x, data$group, n_perm = 49, seed = 1, components = 2,
-                             progress = FALSE)
+  compared <- compare_groups(data$x, data$group, n_perm = 49, seed = 1, progress = FALSE,
+                             settings = comparison_settings(components = 2))
   tidied <- generics::tidy(compared)
   expect_named(tidied,
                c("level", "term", "statistic", "p.value", "adj.p.value", "p.value.parametric"))
@@ -19,6 +19,7 @@ test_that("tidy tables have broom's names and the results' values", {
   aligned <- compared$aligned[[1]]
   expect_equal(generics::tidy(aligned), as.data.frame(aligned))
   expect_equal(generics::glance(aligned)$size, mean(aligned$size))
-  without <- compare_groups(data$x, data$group, n_perm = 19, tests = "points", progress = FALSE)
+  without <- compare_groups(data$x, data$group, n_perm = 19, progress = FALSE,
+                            settings = comparison_settings(tests = "points"))
   expect_crestline_error(generics::tidy(without), "no tests")
 })

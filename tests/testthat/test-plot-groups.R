@@ -74,27 +74,30 @@ test_that("both turn in rgl", {
 
 test_that("what cannot be drawn is refused", {
   data <- grouped_sample(c(4, 4))
-  compared <- compare_groups(data$x, data$group, n_perm = 19, components = 2, progress = FALSE)
+  compared <- compare_groups(data$x, data$group, n_perm = 19, progress = FALSE,
+                             settings = comparison_settings(components = 2))
   ball <- bumped_balls()
   expect_crestline_error(plot(ball, level = "curves"), "`level`")
-  three <- compare_groups(ball$aligned, rep(1:4, 4), n_perm = 19, tests = "points",
-                             progress = FALSE)
+  three <- compare_groups(ball$aligned, rep(1:4, 4), n_perm = 19, progress = FALSE,
+                          settings = comparison_settings(tests = "points"))
   expect_crestline_error(plot(three, "means"), "4 groups")
-  without <- compare_groups(ball$aligned, ball$group, n_perm = 19, tests = "size", progress = FALSE)
+  without <- compare_groups(ball$aligned, ball$group, n_perm = 19, progress = FALSE,
+                            settings = comparison_settings(tests = "size"))
   expect_crestline_error(plot(without, "map"), "tests")
 })
 
 test_that("boxes without a test of size have no p-value in their title", {
   data <- grouped_sample(c(4, 4))
-  compared <- compare_groups(data$x, data$group, tests = "shape", n_perm = 19, progress = FALSE)
+  compared <- compare_groups(data$x, data$group, n_perm = 19, progress = FALSE,
+                             settings = comparison_settings(tests = "shape"))
   expect_null(p_value_of(compared, names(compared$aligned), NA))
 })
 
 test_that("boxes of whole blocks show the means of the blocks", {
   data <- grouped_sample(c(6, 6))
   person <- rep(1:6, each = 2)
-  compared <- compare_groups(data$x, data$group, n_perm = 19, components = 2, block = person,
-                             progress = FALSE)
+  compared <- compare_groups(data$x, data$group, n_perm = 19, block = person, progress = FALSE,
+                             settings = comparison_settings(components = 2))
   drawn <- plot(compared, components = 1)
   expect_equal(drawn[["centroid size"]]$n, c(3, 3))
 })
@@ -103,15 +106,16 @@ test_that("levels without a surface are drawn as points: means of all groups, a 
   data <- grouped_sample(c(6, 6), effect = 0.5, sd = 0.02)
   rownames(data$x) <- paste("rim", 1:12)
   aligned <- align(data$x, "curves")
-  compared <- compare_groups(aligned, data$group, n_perm = 99, seed = 1, components = 2,
-                             progress = FALSE)
+  compared <- compare_groups(aligned, data$group, n_perm = 99, seed = 1, progress = FALSE,
+                             settings = comparison_settings(components = 2))
   means <- draw_quietly(plot(compared, "means"))
   expect_named(means, c("a", "b"))
   size <- mean(aligned$size)
   expect_equal(means$b, size * apply(aligned$coords[, , 7:12], 1:2, mean), ignore_attr = TRUE)
   map <- draw_quietly(plot(compared, "map", engine = "picture", length_unit = "mm"))
   expect_equal(map$displacement, compared$points$displacement)
-  three <- compare_groups(aligned, rep(1:3, 4), n_perm = 19, tests = "shape", progress = FALSE)
+  three <- compare_groups(aligned, rep(1:3, 4), n_perm = 19, progress = FALSE,
+                          settings = comparison_settings(tests = "shape"))
   expect_length(draw_quietly(plot(three, "means")), 3)
   expect_crestline_error(plot(three, "map"), "3 groups")
   expect_equal(curve_rows(c("a 1", "a 2", "b c 1"), "curves"), list(a = 1:2, "b c" = 3))

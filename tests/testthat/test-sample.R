@@ -164,7 +164,7 @@ test_that("analyses take a part of a sample as they take a whole one", {
   expect_identical(frame$stretch, c(4L, 2L, 1L))
   sex <- c(ball1 = "F", ball2 = "F", ball3 = "M", ball4 = "M")
   compared <- compare_groups(sample[names(sex)[c(4, 3, 2, 1)]], sex, "curves", n_perm = 5,
-                             components = 1, progress = FALSE)
+                             progress = FALSE, settings = comparison_settings(components = 1))
   expect_identical(as.character(compared$group), c("M", "M", "F", "F"))
   repeats <- repeatability(part, c("a", "a", "b"), level = "curves")
   expect_equal(repeats$counts[["measurements"]], 3)

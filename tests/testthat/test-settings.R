@@ -38,10 +38,45 @@ test_that("settings print as they are written in a call", {
 
 test_that("fields are arguments of every maker of settings, so that editors complete them", {
   presets <- list(ridge_settings(), slide_settings(), find_settings(), path_settings(),
-                  quality_limits(), scan_settings())
+                  quality_limits(), scan_settings(), align_settings(), comparison_settings(),
+                  model_settings())
   for (one in presets) {
     maker <- getExportedValue("crestline", class(one)[1])
     expect_identical(setdiff(names(formals(maker)), c("preset", "...")), names(one))
     expect_crestline_error(maker(no_such_field = 1), "no_such_field")
   }
+})
+
+test_that("a setting may be NULL, a list or many numbers; it prints in few words", {
+  settings <- comparison_settings(weights = NULL, permutations = list(1:3, 3:1))
+  expect_null(settings$weights)
+  expect_named(settings, names(comparison_settings()))
+  printed <- paste(utils::capture.output(print(settings)), collapse = " ")
+  expect_match(printed, "weights = NULL")
+  expect_match(printed, "permutations = <")
+})
+
+test_that("former arguments of comparisons and models work with a message, and give the same", {
+  set.seed(1)
+  x <- array(rnorm(4 * 3 * 12), c(4, 3, 12))
+  group <- rep(1:2, 6)
+  rlang::reset_message_verbosity("crestline: tests =")
+  expect_message(
+    former <- compare_groups(x, group, n_perm = 19, seed = 1, tests = "size", progress = FALSE),
+    "settings = comparison_settings(tests = )", fixed = TRUE, class = "crestline_deprecated"
+  )
+  today <- compare_groups(x, group, n_perm = 19, seed = 1, progress = FALSE,
+                          settings = comparison_settings(tests = "size"))
+  expect_identical(former$tests, today$tests)
+  expect_crestline_error(compare_groups(x, group, "points", 19, 4), "`block`")
+  rlang::reset_message_verbosity("crestline: ss =")
+  data <- data.frame(id = 1:12, age = 1:12)
+  dimnames(x) <- list(NULL, NULL, 1:12)
+  expect_message(
+    former <- shape_lm(x, ~ age, data, n_perm = 19, seed = 1, ss = "II", progress = FALSE),
+    "settings = model_settings(ss = )", fixed = TRUE
+  )
+  expect_identical(former$ss, "II")
+  rlang::reset_message_verbosity("crestline: rounds =")
+  expect_message(align(x, rounds = 300), "settings = align_settings(rounds = )", fixed = TRUE)
 })

@@ -56,7 +56,9 @@ test_that("results carry what their sample carries, and their own settings", {
                   c(align(sample[1:2], "curves", scale = FALSE),
                     align(sample[3:4], "curves", scale = FALSE)),
                   shape_pca(aligned), compare_groups(sample, c("a", "a", "b", "b"), "curves",
-                                                     n_perm = 5, components = 1, progress = FALSE),
+                                                     n_perm = 5, progress = FALSE,
+                                                     settings = comparison_settings(
+                                                       components = 1)),
                   repeatability(sample, c("a", "a", "b", "b")))
   for (result in results) {
     known <- result$provenance
