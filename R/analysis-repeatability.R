@@ -71,7 +71,7 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
   if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
   failed <- failed_measurements(shapes)
   if (any(failed)) shapes <- shapes[!failed]
-  coords <- measurements(shapes, level)
+  coords <- measured_coords(shapes, level)
   n <- dim(coords)[3]
   ids <- measurement_names(shapes, n)
   specimen <- check_factor(without_failed(specimen, failed), ids, "specimen")
@@ -152,7 +152,7 @@ measurement_names <- function(shapes, n) {
 
 #' Measurements as a k x 3 x N array
 #' @noRd
-measurements <- function(shapes, level, call = rlang::caller_env()) {
+measured_coords <- function(shapes, level, call = rlang::caller_env()) {
   if (inherits(shapes, "shape_sample")) return(as.array(shapes, level))
   if (is.list(shapes) && length(shapes) && all(vapply(shapes, inherits, NA, "shape"))) {
     for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)

@@ -15,7 +15,8 @@
 #'
 #' # Lifecycle
 #' Functions are meant to stay as they are. Those that are *experimental* say so in their help:
-#' simulation ([simulate_ridge()], [simulate_faces()]) and drawing step by step ([draw_surface()]).
+#' simulation ([simulate_ridge()], [simulate_faces()], [simulate_cohort()]) and drawing step by step
+#' ([draw_surface()]).
 #' Former names are in [crestline-deprecated].
 #'
 #' # Functions by task
@@ -44,6 +45,8 @@
 #'   [align_settings()], [comparison_settings()], [model_settings()].
 #' * *Other packages*: [as_geomorph()], [as_rrpp()], [as_morpho()], and back [as_aligned()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
+#' * *Measurements*: [measurements()] of distances, angles, lengths, areas and volumes by a table
+#'   such as [face_measurements()].
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
 #'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].
@@ -51,7 +54,8 @@
 #' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
 #'   [visible_points()], [picture_settings()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]
-#'   and [scan_settings()], [true_points()], [true_effect()].
+#'   and [scan_settings()], [true_points()], [true_effect()];
+#'   [simulate_cohort()] with [cohort_settings()].
 #'
 #' # Vignettes
 #' `vignette(package = "crestline")` lists them. If the list is empty, the package was installed

@@ -64,6 +64,16 @@ argument_objects <- function() {
   list(ball = ball, corners = corners, scheme = scheme, specimens = specimens, shapes = shapes)
 }
 
+# Measurements of the ball of argument_objects().
+ball_measurements <- function() {
+  data.frame(measurement = c("width", "height", "corner", "index", "arc", "face", "dent", "room"),
+             kind = c("distance", "distance", "angle", "ratio", "length", "area", "depth",
+                      "volume"),
+             of = c("aL + aR", "n + sn", "aL + n + aR", "width + height", "top + bottom", "mid",
+                    "n", "mid"),
+             base = c(NA, NA, NA, NA, NA, NA, "aL + aR", "aL + aR + sn"))
+}
+
 # Arguments of a call that works, and the kind of each, by function. Kinds: names of
 # lawful_values(); with "?": NULL too.
 argument_calls <- function(made = argument_objects(), folder = tempfile()) {
@@ -219,6 +229,19 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                       from = "name", to = "name", radius = "number", extension = "number"),
     keep_side = entry(given(from = "aL", to = "aR", towards = "n"), from = "name", to = "name",
                       towards = "name"),
+    face_measurements = entry(given()),
+    measurements = entry(given(x = shape, table = ball_measurements(), error = 1, draws = 5,
+                               range = 5, seed = 1),
+                         x = "object", table = "object", error = "numbers?", draws = "count",
+                         range = "number?", seed = "number?"),
+    cohort_settings = fields(cohort_settings, variation = "object", holes = "count",
+                             population = "count"),
+    simulate_cohort = entry(given(n = 2, ages = c(5, 20), data = NULL, lesions = NULL, visits = 1,
+                                  template = symmetrise(shape), settings = cohort_settings(),
+                                  seed = 1),
+                            n = "count", ages = "numbers", data = "object?", lesions = "object?",
+                            visits = "count", template = "object?", settings = "object",
+                            seed = "number?"),
     landmark_template = entry(given(specimen = one, predicted = character(), unit = 1, mirror = NA,
                                     start = NULL, hinge = character(), moves = character(),
                                     slit = character()),

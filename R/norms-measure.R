@@ -1,0 +1,119 @@
+# Measurements of shapes, each with the standard error that follows from its points.
+
+#' Measure distances, angles, lengths, areas and volumes
+#'
+#' Takes the measurements of a table from a shape, or from all shapes of a sample. Each has the
+#' standard error that follows from the standard errors of its points.
+#'
+#' Standard errors of distances, angles, depths, and of ratios of these, are of first order (the
+#' delta method): \eqn{se^2 = J C J'}, where J are the derivatives by the points' co-ordinates and C
+#' the covariance of the points. Those of lengths, areas and volumes come from random draws of the
+#' points, since errors of neighbouring points of a curve are correlated: the errors across a curve
+#' are drawn with correlation \eqn{\exp(-d^2 / (2 range^2))} at distance d along the curve. A curve
+#' of kind "plane" has no error of its own; its points follow those of its two ends. Points inside
+#' of a patch do not move, as moves along the surface do not change an area.
+#'
+#' @param x A `shape`, as of [fit_shape()] or [slide()], or a `shape_sample`, as of [homologise()].
+#' @param table Data frame of measurements, as [face_measurements()] gives it.
+#' @param error Standard error of each co-ordinate of a landmark, in the unit of the mesh: one
+#'   number, or one for each landmark by name. It is used for landmarks without `se` in the table of
+#'   points. `NULL`: they have none, and measurements that need it have `se` NA.
+#' @param draws Number of random draws for lengths, areas and volumes. 0: these have `se` NA.
+#' @param range Distance along a curve over which its errors go together, in the unit of the mesh.
+#'   `NULL`: the radius of the curve in the scheme, within which its curvature was estimated.
+#' @param seed A whole number for the draws; the random stream of the session is not changed.
+#' @return Data frame with a row for each shape and measurement: `id`, `measurement`, `kind`,
+#'   `value`, `se` (standard error), `unit`, `reason` (why `value` or `se` is NA; otherwise NA). The
+#'   unit of distances, lengths and depths is "unit", the unit of the mesh; of areas and volumes
+#'   "unit^2" and "unit^3"; of angles "degrees"; of ratios "1".
+#' @section Errors: of class `crestline_error`: `x` is neither a shape nor a sample, the table has a
+#'   name that the scheme has not, or a number is out of its range.
+#' @template glossary
+#' @seealso [face_measurements()]
+#' @examples
+#' corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2)) / sqrt(6)
+#' curves <- data.frame(curve = c("ab", "bc", "ac"), from = c("a", "b", "a"),
+#'                      to = c("b", "c", "c"), kind = "plane", n = 5)
+#' scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "triangle")
+#' shape <- fit_shape(specimen(Rvcg::vcgSphere(4), corners, id = "ball"), scheme, progress = FALSE)
+#' table <- data.frame(measurement = c("base", "corner", "edge"),
+#'                     kind = c("distance", "angle", "length"),
+#'                     of = c("a + b", "a + b + c", "ab"))
+#' measurements(shape, table, error = 0.01)
+#' @export
+measurements <- function(x, table = face_measurements(), error = NULL, draws = 200, range = NULL,
+                         seed = 1) {
+  check_given()
+  if (!inherits(x, "shape_sample")) {
+    check_class(x, "shape", "x", "fit_shape() or homologise()")
+    x <- list(x)
+  } else {
+    validate(x)
+    x <- x$shapes
+  }
+  draws <- check_count(draws, "draws", lower = 0)
+  if (!is.null(range)) range <- check_number(range, "range", lower = 0)
+  seed <- check_seed(seed)
+  if (!length(x)) return(no_measurements())
+  scheme <- x[[1]]$scheme
+  plan <- measurement_plan(table, scheme)
+  error <- check_landmark_error(error, scheme)
+  each <- lapply(unname(x), function(shape) {
+    measured_shape(shape, plan, error, draws, range, seed)
+  })
+  rows <- do.call(rbind, each)
+  rownames(rows) <- NULL
+  rows
+}
+
+no_measurements <- function() {
+  data.frame(id = character(), measurement = character(), kind = character(), value = numeric(),
+             se = numeric(), unit = character(), reason = character())
+}
+
+#' @return Numbers by landmark, NA where unknown.
+#' @noRd
+check_landmark_error <- function(error, scheme, call = rlang::caller_env()) {
+  landmark <- scheme$landmarks$landmark
+  known <- stats::setNames(rep(NA_real_, length(landmark)), landmark)
+  if (is.null(error)) return(known)
+  names <- names(error)
+  many <- if (is.null(names)) 1 else NULL
+  error <- check_numbers(error, "error", many, lower = 0, call = call)
+  strange <- setdiff(names, landmark)
+  if (length(strange)) {
+    refuse_argument("error", error, "Name landmarks of the scheme.", call,
+                    sprintf("of a landmark \"%s\" that the scheme has not", strange[1]))
+  }
+  known[if (is.null(names)) landmark else names] <- error
+  known
+}
+
+#' The measurements of one shape with their standard errors
+#' @noRd
+measured_shape <- function(shape, plan, error, draws, range, seed) {
+  xyz <- places_of(shape)
+  value <- measure_places(plan, array(xyz, c(dim(xyz), 1)))[, 1]
+  spread <- place_errors(shape, error, range)
+  se <- delta_errors(plan, xyz, spread$se)
+  drawn <- plan_drawn(plan)
+  if (any(drawn) && draws > 0) se[drawn] <- drawn_errors(plan, xyz, spread, draws, seed)[drawn]
+  se[drawn & draws == 0] <- NA
+  reason <- rep(NA_character_, length(plan))
+  reason[is.na(se)] <- "no standard error of its points"
+  reason[drawn & draws == 0] <- "no draws"
+  reason[is.na(value)] <- "a point is missing"
+  data.frame(id = shape$id, measurement = names(plan), kind = plan_text(plan, "kind"),
+             value = value, se = ifelse(is.na(value), NA_real_, se), unit = plan_text(plan, "unit"),
+             reason = reason)
+}
+
+plan_text <- function(plan, name) vapply(plan, `[[`, "", name, USE.NAMES = FALSE)
+
+#' Which measurements need draws: lengths, areas, volumes, and ratios of them
+#' @noRd
+plan_drawn <- function(plan) {
+  drawn <- plan_text(plan, "kind") %in% c("length", "area", "volume")
+  for (i in seq_along(plan)) if (plan[[i]]$kind == "ratio") drawn[i] <- any(drawn[plan[[i]]$of])
+  drawn
+}
