@@ -51,6 +51,7 @@
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
 #'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].
 #' * *Pages for the browser*: [write_page()], [write_pca_page()], [quality_report()].
+#' * *From a shell, Python or Slicer*: [run_command()].
 #' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
 #'   [visible_points()], [picture_settings()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]

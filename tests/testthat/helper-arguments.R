@@ -213,6 +213,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     frechet_mean = entry(given(mesh = one, points = made$corners, weights = NULL, rings = 1),
                          mesh = "object", points = "object", weights = "any", rings = "count"),
     locate = entry(given(mesh = one, xyz = made$corners), mesh = "object", xyz = "object"),
+    run_command = entry(given(arguments = c("find", "--help")), arguments = "names"),
     sample_limits = entry(given(far = 8, point = 8, size = 5, estimated = 0.3, beyond = 0.5,
                                 fewest = 6), far = "reach",
                           point = "reach", size = "reach", estimated = "reach", beyond = "reach",

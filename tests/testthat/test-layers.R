@@ -3,8 +3,8 @@
 # The floors, first to last. A file's floor is the first word of its name.
 floors <- c("conditions", "text", "files", "geometry", "checks", "session", "settings",
             "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme",
-            "shape", "placing", "template", "sample", "analysis", "study", "norms", "plot", "report",
-            "crestline")
+            "shape", "placing", "template", "sample", "analysis", "study", "norms", "plot",
+            "report", "command", "crestline")
 
 # Circles of files that stay, each with its reason.
 circles <- list(

@@ -1,0 +1,134 @@
+# The shell's commands in this process: files in, files out, exit codes, one line for an error.
+
+# Exit code, output and standard error of a command.
+run <- function(...) {
+  error <- textConnection("said", "w", local = TRUE)
+  sink(error, type = "message")
+  on.exit({
+    sink(type = "message")
+    close(error)
+  })
+  out <- utils::capture.output(status <- run_command(c(...)))
+  sink(type = "message")
+  on.exit(close(error))
+  list(status = status, out = out, said = textConnectionValue(error))
+}
+
+# Five balls with a scheme, as files in a folder.
+ball_files <- function(n = 4, env = parent.frame()) {
+  dir <- withr_tempdir(env)
+  corners <- rbind(a = c(-1, -1, 2), b = c(1, -1, 2), c = c(0, 1.5, 2))
+  corners <- 50 * corners / sqrt(rowSums(corners^2))
+  curves <- data.frame(curve = c("ab", "bc"), from = c("a", "b"), to = c("b", "c"),
+                       kind = "plane", n = 5)
+  scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "corner")
+  write_scheme(scheme, file.path(dir, "scheme"))
+  scans <- file.path(dir, "scans")
+  dir.create(scans)
+  ball <- Rvcg::vcgSphere(3)
+  for (i in seq_len(n)) {
+    stretch <- c(1, 1 + 0.03 * i, 1 + 0.02 * i^2)
+    ball$vb[1:3, ] <- 50 * ball$vb[1:3, ] / rep(sqrt(colSums(ball$vb[1:3, ]^2)), each = 3)
+    mesh <- list(vb = rbind(ball$vb[1:3, ] * stretch, 1), it = ball$it)
+    write_mesh(structure(mesh, class = "mesh3d"), file.path(scans, sprintf("s%d.ply", i)))
+    write_landmarks(corners * rep(stretch, each = 3), file.path(scans, sprintf("s%d.csv", i)))
+  }
+  list(scheme = file.path(dir, "scheme"), scans = scans, dir = dir)
+}
+
+withr_tempdir <- function(env) {
+  dir <- tempfile("command-")
+  dir.create(dir)
+  do.call(on.exit, list(substitute(unlink(dir, recursive = TRUE), list(dir = dir)), add = TRUE),
+          envir = env)
+  dir
+}
+
+test_that("help lists every command, and the options of each", {
+  help <- run("--help")
+  expect_equal(help$status, 0L)
+  for (name in names(commands())) {
+    expect_true(any(startsWith(trimws(help$out), name)), label = name)
+    own <- run(name, "--help")
+    expect_equal(own$status, 0L)
+    for (one in commands()[[name]]$options) {
+      expect_true(any(startsWith(trimws(own$out), paste0("--", one$name))),
+                  label = paste(name, one$name))
+    }
+  }
+})
+
+test_that("a wrong line gives 2 and one line that names what is wrong", {
+  refused <- function(line, says) {
+    ran <- run(line)
+    expect_equal(ran$status, 2L)
+    expect_length(ran$said, 1)
+    expect_match(ran$said, says)
+  }
+  refused("fi", "no command of that name; fit is near")
+  refused("fit", "needs SCAN")
+  refused(c("fit", "x.ply"), "--out is missing")
+  refused(c("fit", "x.ply", "--ot", "y"), "no option --ot")
+  refused(c("fit", "x.ply", "--out"), "--out needs a value")
+  refused(c("fit", "x.ply", "--out", "y", "--workers", "two"), "--workers is \"two\"")
+  refused(c("quality", file.path(tempdir(), "nowhere")), "no folder or file")
+  refused(c("homologise", tempdir(), "--sample", "x.csv"), "ends in .rds")
+  refused(c("compare", "none.rds", "--groups", "none.csv"), "none.rds is not there")
+  expect_error(run_command(1), class = "crestline_error")
+})
+
+test_that("scans go through fit, quality, homologise and compare", {
+  skip_if_not_installed("future")
+  skip_if_not_installed("progressr")
+  at <- ball_files()
+  writeLines("no mesh", file.path(at$scans, "s9.ply"))
+  file <- function(...) file.path(at$dir, ...)
+  fitted <- run("fit", at$scans, "--scheme", at$scheme, "--out", file("results"))
+  expect_equal(fitted$status, 1L)
+  expect_match(tail(fitted$said, 1), "4 measured, 1 failed")
+  expect_match(tail(fitted$said, 2)[1], "^s9, reading: ")
+  expect_equal(read.csv(file("results", "failures.csv"))$id, "s9")
+  points <- read.csv(file("results", "points.csv"))
+  expect_equal(unique(points$id), paste0("s", 1:4))
+  kept <- read_batch(file("results"))
+  expect_equal(points$x[points$id == "s2"], kept[["s2"]]$points$x)
+
+  graded <- run("quality", file("results"), "--out", file("grades.json"))
+  expect_equal(graded$status, 0L)
+  expect_equal(jsonlite::fromJSON(file("grades.json"))$grade,
+               as.character(quality(kept)$grade))
+
+  slid <- run("homologise", file("results"), "--red=keep", "--out", file("points.csv"),
+              "--sample", file("sample.rds"))
+  expect_equal(slid$status, 0L)
+  sample <- readRDS(file("sample.rds"))
+  expect_equal(read.csv(file("points.csv"))$z, as.data.frame(sample)$z)
+
+  write.csv(data.frame(scan = paste0("s", 1:4), site = c("x", "y", "x", "y")), file("g.csv"),
+            row.names = FALSE)
+  compared <- run("compare", file("sample.rds"), "--groups", file("g.csv"), "--id", "scan",
+                  "--by", "site", "--level", "landmarks", "--seed", "2")
+  expect_equal(compared$status, 0L)
+  tests <- read.csv(text = compared$out)
+  own <- suppressWarnings(compare_groups(sample, c(s1 = "x", s2 = "y", s3 = "x", s4 = "y"),
+                                         "landmarks", seed = 2, progress = FALSE))
+  expect_equal(tests$p_value, own$tests$p_value)
+  column <- run("compare", file("sample.rds"), "--groups", file("g.csv"))
+  expect_equal(column$status, 2L)
+  expect_match(column$said, "has no column id, group; it has scan, site")
+})
+
+test_that("the script itself runs, from Python's subprocess too", {
+  script <- file.path(system.file("exec", package = "crestline"), "crestline")
+  skip_if_not(file.exists(script), "the package was loaded without its script")
+  rscript <- file.path(R.home("bin"), "Rscript")
+  ran <- suppressWarnings(system2(rscript, c(shQuote(script), "fit"), stdout = TRUE, stderr = TRUE))
+  expect_equal(attr(ran, "status"), 2L)
+  expect_match(paste(ran, collapse = " "), "crestline fit: it needs SCAN")
+  python <- unname(Sys.which("python3"))
+  skip_if_not(nzchar(python), "no Python here")
+  code <- sprintf(paste0("import subprocess; p = subprocess.run([%s, %s, 'find', '--help'], ",
+                         "capture_output=True, text=True); print(p.returncode, p.stdout[:14])"),
+                  dQuote(rscript, FALSE), dQuote(script, FALSE))
+  expect_equal(system2(python, c("-c", shQuote(code)), stdout = TRUE), "0 crestline find")
+})
