@@ -61,6 +61,12 @@ commands <- function() {
   )
 }
 
+#' What a command's option is: `value` names what it takes, NA of a switch
+#' @noRd
+command_option <- function(name, value, says, default = NULL, number = FALSE) {
+  list(name = name, value = value, says = says, default = default, number = number)
+}
+
 out_option <- function(what) {
   command_option("out", "FILE", paste(what, "as a table, .csv or .json; else to the output"))
 }

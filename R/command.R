@@ -63,12 +63,6 @@ tell_aside <- function(condition) {
   rlang::cnd_muffle(condition)
 }
 
-#' What a command's option is: `value` names what it takes, NA of a switch
-#' @noRd
-command_option <- function(name, value, says, default = NULL, number = FALSE) {
-  list(name = name, value = value, says = says, default = default, number = number)
-}
-
 find_command <- function(name) {
   known <- commands()
   if (name %in% names(known)) return(known[[name]])
