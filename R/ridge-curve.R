@@ -199,7 +199,7 @@ assembled_curve <- function(path, reference, job, fit = NULL) {
   placed <- resample_path(scan, path, job$n)
   along <- placed$s / attr(path, "length") * attr(reference, "length")
   on_line <- function(values) {
-    if (is.null(values) || !isTRUE(fit$found)) rep(NA_real_, job$n) else
+    if (!isTRUE(fit$found) || all(is.na(values))) rep(NA_real_, job$n) else
       stats::approx(fit$line$s, values, along, rule = 2)$y
   }
   d <- if (job$type == "plane") numeric(job$n) else on_line(fit$line$alpha)
@@ -285,6 +285,8 @@ judge_curve <- function(job, fit) {
   } else if (fit$scale * job$radius < job$settings$faint) {
     sprintf("the curvature by its reference path is faint: times the radius it is %.3g, below %.3g",
             fit$scale * job$radius, job$settings$faint)
+  } else if (is.na(se) && job$settings$error) {
+    "its window has too few vertices to know its standard error"
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
   } else {

@@ -61,7 +61,8 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
 #' @param live Rows of the surface's data whose strength depends on the heights.
 #' @param margins Designs there.
 #' @param covariance As of cpp_curvature_covariance().
-#' @return Sum of squares of the residuals over its expectation, at least 1.
+#' @return Sum of squares of the residuals over its expectation, at least 1; NA where that is 0, so that
+#'   the noise is not known.
 #' @noRd
 noise_factor <- function(surface, live, margins, covariance) {
   fitted <- rowSums(margins$across * tcrossprod(margins$along, surface$coefficients))
@@ -71,7 +72,7 @@ noise_factor <- function(surface, live, margins, covariance) {
   twice <- inverse %*% moments %*% inverse
   expected <- covariance$trace - 2 * sum(inverse * covariance$matrix) +
     sum(twice * covariance$matrix)
-  max(1, sum(residual^2) / expected, na.rm = TRUE)
+  if (isTRUE(expected > 0)) max(1, sum(residual^2) / expected) else NA_real_
 }
 
 #' Standard error of a ridge line

@@ -84,14 +84,14 @@ with_curve <- function(scan, window) {
 #'
 #' The peak is looked for no finer than `settings$kernel` standard errors of the line without a
 #' kernel: the median over its inner places, without inflation and bias, and without the noise
-#' factor, which on a clean scan takes fine relief for noise.
+#' factor, which on a clean scan takes fine relief for noise. Without a kernel where it is not known.
 #' @param window With its `line` without a kernel.
 #' @noRd
 kernel_width <- function(scan, window, radius, settings) {
   noise <- moment_noise(scan, window, radius, settings, settings$kernel_vertices)
   variance <- offset_variance(window, noise, radius, settings)
   half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
-  if (half < settings$kernel_least) 0 else half * radius
+  if (is.na(half) || half < settings$kernel_least) 0 else half * radius
 }
 
 #' Share of a second pass that is taken

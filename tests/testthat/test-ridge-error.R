@@ -217,3 +217,15 @@ test_that("near an end, which is fixed, the error is no larger than the way from
   expect_true(all(plain$se <= way))
   expect_lt(max(plain$se), max(way))
 })
+
+test_that("where no local fit has vertices to spare, the error is not known, and this is said", {
+  ridge <- simulate_ridge(0.25, 1, spacing = 0.2, noise = 0.01, seed = 1)
+  expect_warning(
+    curve <- ridge_curve(ridge, rownames(ridge$landmarks)[1], rownames(ridge$landmarks)[2], "ridge",
+                         radius = 0.25, width = 0.4, n = 9),
+    "too few vertices to know its standard error", class = "crestline_undetermined"
+  )
+  expect_true(all(is.na(curve$points$se)))
+  expect_identical(c(curve$se, curve$noise_factor), c(NA_real_, NA_real_))
+  expect_false(curve$determined)
+})
