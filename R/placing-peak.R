@@ -42,12 +42,8 @@ strongest_peak <- function(field, start, reach, apart, width, least) {
 #' @param steps Most steps.
 #' @return As [strongest_peak()]; NULL where the fits lead nowhere.
 #' @noRd
-settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200,
-                         slack = 1.3) {
-  # Half width of the fits: the one asked for, or wider where the points are far apart
-  gap <- row_lengths(field$at - rep(at, each = nrow(field$at)))
-  width <- max(width, slack *
-               sort(gap)[min(c(curve = 5, surface = 13)[[field$dimensions]], length(gap))])
+settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200) {
+  width <- fit_width(field, at, width)
   longest <- longest * width
   before <- numeric(3)
   for (step in seq_len(steps)) {
@@ -65,6 +61,13 @@ settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, step
     if (sqrt(sum(move^2)) < tolerance * width) return(list(at = at, value = fit$value))
   }
   NULL
+}
+
+#' Half width of local fits: the one asked for, or wider where the points are far apart
+#' @noRd
+fit_width <- function(field, at, width, slack = 1.3) {
+  gap <- row_lengths(field$at - rep(at, each = nrow(field$at)))
+  max(width, slack * sort(gap)[min(c(curve = 5, surface = 13)[[field$dimensions]], length(gap))])
 }
 
 #' Quadratic fits of a field, and of the points' offsets from a plane (or line), about a place

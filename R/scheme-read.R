@@ -30,8 +30,8 @@ read_scheme <- function(dir, name = basename(dir)) {
   tables <- names(scheme_columns)
   file <- vapply(tables, scheme_file, "", dir)
   warn_near_tables(dir, file)
-  build_scheme(lapply(file, read_scheme_table), name,
-               labels = stats::setNames(basename(file), tables))
+  assembled_scheme(lapply(file, read_scheme_table), name,
+                   labels = stats::setNames(basename(file), tables))
 }
 
 #' The file of a table, in any case of its letters

@@ -120,13 +120,13 @@ curve_scheme <- function(landmarks, curves, patches = NULL, pairs = NULL, strips
   check_given()
   tables <- list(landmarks = landmarks, curves = curves, patches = patches, pairs = pairs,
                  strips = strips, definitions = definitions, tracks = tracks)
-  build_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
+  assembled_scheme(tables, name, labels = stats::setNames(names(tables), names(tables)))
 }
 
 #' @param tables The seven tables, `NULL` where absent.
 #' @param labels What the tables are called in messages.
 #' @noRd
-build_scheme <- function(tables, name, labels) {
+assembled_scheme <- function(tables, name, labels) {
   scheme <- list(name = check_text(name, "name"))
   for (table in names(tables)) {
     typed <- typed_table(present_table(tables[[table]], table, labels[[table]]),
