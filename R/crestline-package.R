@@ -23,7 +23,7 @@
 #'
 #' * *Read a scan*: [read_specimen()], [specimen()]; landmarks and curves: [read_landmarks()],
 #'   [write_landmarks()], [read_curves()]; the source of each: `summary()`, see [provenance].
-#' * *Get landmarks without hands*: [find_landmarks()], [check_placing()], [refine_landmarks()]; by
+#' * *Get landmarks without hands*: [find_landmarks()], [check_placing()], [second_opinion()], [refine_landmarks()]; by
 #'   hand, on a page: [place_landmarks()], [review_landmarks()]; a template of your own:
 #'   [landmark_template()], [face_template()], [calibrate_template()], with [find_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].

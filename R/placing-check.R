@@ -32,7 +32,7 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
   placing <- placing_of(specimen)
   if (!is.null(picture)) check_path_to_write(picture, "picture", "png")
   found <- placing$state %in% c("found", "placed")
-  low <- placing$state == "found" & placing$confidence < least
+  low <- found & !is.na(placing$confidence) & placing$confidence < least
   if (any(found) && sum(low) <= doubtful * sum(found)) return(specimen)
   if (!is.null(picture)) write_placing(specimen, picture, least)
   named <- paste0(placing$landmark[low], " (", round(placing$confidence[low], 2), ")")
@@ -71,7 +71,8 @@ draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
   old <- graphics::par(mfrow = c(1, length(views)), mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
   at <- as.matrix(placing[c("x", "y", "z")])
-  sure <- placing$state == "placed" | placing$state == "found" & placing$confidence >= least
+  sure <- placing$state == "placed" & is.na(placing$confidence) |
+    placing$state %in% c("found", "placed") & placing$confidence >= least
   colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#108040", "#C02020"))
   for (round in views) {
     turn <- rbind(c(cos(round), 0, -sin(round)), c(0, 1, 0), c(sin(round), 0, cos(round)))

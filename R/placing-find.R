@@ -11,6 +11,11 @@
 #' does not depend on the scan's pose, nor on the orientation of its triangles. The scan may show
 #' more than the object, or lack parts of it. [crestline-package] has a glossary.
 #'
+#' Landmarks that a specimen has already are kept as they are. The others are found with them: three
+#' or more give a start of their own, and those that the template has take part in the deformation
+#' (setting `placed`). Landmarks that were found or predicted before are found again. To find all of
+#' them anew, give `specimen$mesh`.
+#'
 #' @template bare-mesh
 #' @param template A [landmark_template()], or a [specimen()] with landmarks, of which one is made.
 #'   Default: the template of the face.
@@ -25,15 +30,18 @@
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:
 #'     * `landmark`;
-#'     * `state`: "found"; "predicted" (the template marks it so: it is placed by the positions of
-#'       the others, perhaps off the mesh); or "absent" (the scan has no surface there);
+#'     * `state`: "found"; "placed" (the specimen had it already); "predicted" (the template marks it
+#'       so: it is placed by the positions of the others, perhaps off the mesh); or "absent" (the
+#'       scan has no surface there);
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
 #'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. If
 #'       the verdict is "perhaps", it is at most the setting `unsure`. With a template of your own
-#'       whose score is above the setting `poor`, it is multiplied by (1 - score) / (1 - `poor`);
+#'       whose score is above the setting `poor`, it is multiplied by (1 - score) / (1 - `poor`).
+#'       NA for a placed landmark, or 1 / (1 + (`residual` / b)^2) if it contradicts the others;
 #'     * `moved`: distance between the positions with and without curvature;
 #'     * `sd`: standard deviation that missing parts of the scan add;
-#'     * `residual`: mean distance of the deformed template from the scan near the landmark;
+#'     * `residual`: mean distance of the deformed template from the scan near the landmark. For a
+#'       placed landmark: its distance from where it would be found without it;
 #'     * `lost`: share of the template near the landmark that has no counterpart on the scan;
 #'     * `x`, `y`, `z`: the position, of absent landmarks too;
 #'   * `match`: a list:
@@ -52,7 +60,9 @@
 #' @section Errors: of class `crestline_error`, stage "landmarks". Either nothing in the scan
 #'   resembles the template (the score is above the setting `refuse`), or the scan is no face
 #'   (`agree` is below the first limit).
-#' @section Warnings: of class `crestline_guessed_unit`: `match$unit` is a guess. Also of class
+#' @section Warnings: of class `crestline_contrary_landmarks`: landmarks that the specimen has are
+#'   farther from where they are found than the setting `contrary`. They are named and kept, but have
+#'   no say. Of class `crestline_guessed_unit`: `match$unit` is a guess. Also of class
 #'   `crestline_doubtful_placing`, for three reasons. The scan is perhaps
 #'   no face; or `agree` is below the first limit with a template of your own; or most landmarks
 #'   have low confidence (settings `low`, `wrong`). Most likely the scan does not show the object,
@@ -63,7 +73,7 @@
 #' @template paper
 #' @section Keeping the result: `saveRDS(specimen, file)` keeps the specimen with its states and
 #'   confidences. [write_landmarks()] writes the positions only.
-#' @seealso [landmark_template()], [calibrate_template()], [check_placing()]
+#' @seealso [landmark_template()], [calibrate_template()], [check_placing()], [second_opinion()]
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -84,16 +94,13 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   if (!inherits(mesh, "specimen")) {
     scan <- suppressWarnings(specimen(mesh, id = id), classes = "crestline_warning")
   }
+  kept <- kept_landmarks(scan)
   prepared <- prepared_template(template, settings, threads)
-  laid <- laid_template(prepared, template, scan, settings, threads, unit)
+  laid <- laid_template(prepared, template, scan, settings, threads, unit, kept)
   expressed <- expressed_pose(prepared, laid, prepared$settings)
   laid <- expressed$laid
-  placed <- carried_landmarks(expressed$template, template, scan, laid)
-  if (laid$inverted) {
-    turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id,
-                       outward = "keep")
-    scan <- with_fields(turned, file = scan$file)
-  }
+  placed <- placed_landmarks(expressed$template, template, scan, laid, kept)
+  if (laid$inverted) scan <- turned_inside_out(scan)
   doubt <- placing_doubt(placed, settings$low)
   size <- if (laid$unit_known) laid$pose[13] else 1
   match <- c(laid[c("score", "agree", "verdict")],
@@ -101,23 +108,36 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   found <- with_placing(scan, placed, c(match, list(
     scale = size, rotation = matrix(laid$pose[1:9], 3), inverted = laid$inverted,
     doubtful = doubt$share > settings$wrong, template = template$id
-  )))
+  )), kept)
   warn_doubtful(found, doubt, settings)
+  warn_contrary(found)
   warn_bare_piece(found)
   found
 }
 
+#' A scan whose triangles faced inwards
+#' @noRd
+turned_inside_out <- function(scan) {
+  turned <- specimen(turn_faces(scan$mesh, seq_len(ncol(scan$mesh$it))), id = scan$id,
+                     outward = "keep")
+  with_fields(turned, file = scan$file, landmarks = scan$landmarks, origin = origin_of(scan))
+}
+
 #' The template laid on a scan, or an error where it does not fit
+#' @param kept As of [kept_landmarks()].
 #' @return List as of [settled_pose()], with `verdict` (NA for a template without one).
 #' @noRd
-laid_template <- function(prepared, template, scan, settings, threads, unit = NULL) {
+laid_template <- function(prepared, template, scan, settings, threads, unit = NULL,
+                          kept = scan$landmarks[0, , drop = FALSE]) {
   given <- !is.null(unit)
   unit <- if (!given) {
     10^round(log10(specimen_size(template$specimen) / specimen_size(scan)))
   } else {
     check_number(unit, "unit", lower = 0, open = TRUE)
   }
-  laid <- c(settled_pose(prepared, scan, unit, prepared$settings, threads), unit_known = TRUE)
+  start <- kept_start(template, kept * unit, prepared$settings)
+  laid <- c(settled_pose(prepared, scan, unit, prepared$settings, threads, start),
+            unit_known = TRUE)
   if (!given && laid$agree < settings$agree[2]) {
     laid <- swept_pose(prepared, scan, laid, prepared$settings, threads)
   }
@@ -174,29 +194,58 @@ warn_doubtful <- function(found, doubt, settings) {
   }
 }
 
-#' A specimen with landmarks as they were placed
+#' A specimen with landmarks as they were placed; those that are kept to the last digit
 #' @noRd
-with_placing <- function(scan, placing, match) {
+with_placing <- function(scan, placing, match,
+                         kept = scan$landmarks[0, , drop = FALSE]) {
   at <- as.matrix(placing[c("x", "y", "z")])
   at[placing$state == "absent", ] <- NA
   rownames(at) <- placing$landmark
   on <- placing$state == "found"
-  placed <- check_landmarks(at[on, , drop = FALSE], scan$mesh, scan$id, Inf, character())
+  found <- check_landmarks(at[on, , drop = FALSE], scan$mesh, scan$id, Inf, character())
+  at[on, ] <- found$landmarks
+  at[rownames(kept), ] <- kept
+  origin <- origin_of(scan)
   scan$landmarks <- at
-  scan$landmarks[on, ] <- placed$landmarks
-  scan$geometry[c("landmarks", "located")] <- placed[c("landmarks", "located")]
+  scan$geometry$landmarks <- rbind(found$landmarks, kept)
+  scan$geometry$located <- rbind(found$located, surface_points(scan$mesh, kept))
   scan$placing <- placing
   scan$match <- match
-  with_origin(scan, placing$landmark, ifelse(placing$state == "absent", NA, placing$state))
+  scan$origin <- origin
+  mine <- !placing$landmark %in% rownames(kept)
+  with_origin(scan, placing$landmark[mine],
+              ifelse(placing$state == "absent", NA, placing$state)[mine])
+}
+
+#' The landmarks of a scan: those that are kept, and with them the others
+#'
+#' What is kept is compared with what the surface alone gives. Those near it take part in the bend.
+#'
+#' @return Data frame as `placing` of [find_landmarks()].
+#' @noRd
+placed_landmarks <- function(prepared, template, scan, laid, kept) {
+  found <- carried_landmarks(prepared, template, scan, laid)
+  if (!nrow(kept)) return(found)
+  settings <- prepared$settings
+  length <- laid$unit / laid$pose[13]
+  alone <- kept_offsets(kept, found, settings, length)
+  good <- kept[!rownames(kept) %in% alone$contrary, , drop = FALSE]
+  pins <- warp_pins(prepared, good, laid)
+  if (!is.null(pins)) {
+    laid$plain <- fit_warp(prepared, cloud_in_frame(laid$cloud, laid$pose), settings, 0, pins)
+  }
+  found <- carried_landmarks(prepared, template, scan, laid, pins, good)
+  with_kept(found, kept, alone, settings, length)
 }
 
 #' The template's landmarks carried to a scan, with what speaks for each
+#' @param pins As of [warp_pins()]; `kept` (k x 3): what predicts others beside those that are found.
 #' @return Data frame as `placing` of [find_landmarks()].
 #' @noRd
-carried_landmarks <- function(prepared, template, scan, laid) {
+carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept = NULL) {
   settings <- prepared$settings
   local <- cloud_in_frame(laid$cloud, laid$pose)
-  bent <- fit_warp(prepared, local, settings, settings$weight)
+  bent <- fit_warp(prepared, local, settings, settings$weight, pins)
   n <- ncol(prepared$xyz)
   own <- prepared$landmarks
   to_scan <- function(xyz) from_frame(xyz, laid)
@@ -219,7 +268,7 @@ carried_landmarks <- function(prepared, template, scan, laid) {
                       x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
   found$confidence[found$state == "absent"] <- NA
   if (!nrow(template$predicted)) return(found)
-  rbind(found, predicted_landmarks(template, found, to_scan))
+  rbind(found, predicted_landmarks(template, found, to_scan, kept))
 }
 
 #' Confidence of landmarks, see [find_landmarks()]; lengths in the template's unit
@@ -255,43 +304,18 @@ local_evidence <- function(prepared, cloud, fit, settings) {
 
 #' Landmarks that the surface tells nothing about, by a similarity fitted to those that were found
 #' @noRd
-predicted_landmarks <- function(template, found, to_scan) {
+predicted_landmarks <- function(template, found, to_scan, kept = NULL) {
   own <- template$predicted
-  on <- found$state == "found"
+  to <- as.matrix(found[c("x", "y", "z")])
+  named <- intersect(found$landmark, rownames(kept))
+  to[match(named, found$landmark), ] <- kept[named, ]
+  on <- found$state == "found" | found$landmark %in% named
   at <- if (sum(on) < 4) to_scan(own) else {
-    to <- as.matrix(found[on, c("x", "y", "z")])
-    from <- template$landmarks[on, , drop = FALSE]
-    apply_similarity(own, similarity(from, to))
+    apply_similarity(own, similarity(template$landmarks[on, , drop = FALSE],
+                                     to[on, , drop = FALSE]))
   }
   data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_,
              sd = NA_real_,
              residual = NA_real_, lost = NA_real_, x = at[, 1], y = at[, 2], z = at[, 3],
              row.names = NULL)
-}
-
-#' Rotation, scale and shift that take points nearest to others
-#' @noRd
-similarity <- function(from, to) {
-  a <- sweep(from, 2, colMeans(from))
-  b <- sweep(to, 2, colMeans(to))
-  turn <- nearest_rotation(a, b)
-  rotation <- t(turn$rotation)
-  scale <- sum(turn$d) / sum(a^2)
-  list(rotation = rotation, scale = scale,
-       shift = colMeans(to) - scale * drop(rotation %*% colMeans(from)))
-}
-
-apply_similarity <- function(xyz, by) {
-  moved <- by$scale * xyz %*% t(by$rotation) + rep(by$shift, each = nrow(xyz))
-  dimnames(moved) <- dimnames(xyz)
-  moved
-}
-
-#' Points of the template's frame in that of a scan, and back
-#' @noRd
-from_frame <- function(xyz, laid) {
-  t(laid$pose[13] * matrix(laid$pose[1:9], 3) %*% t(xyz) + laid$pose[10:12]) / laid$unit
-}
-into_frame <- function(xyz, laid) {
-  t(crossprod(matrix(laid$pose[1:9], 3), t(xyz) * laid$unit - laid$pose[10:12])) / laid$pose[13]
 }

@@ -8,10 +8,11 @@
 #' face without a nose; for templates on which the limits were not measured they are tried always.
 #'
 #' @param unit Factor on the scan's lengths.
+#' @param start A further start, as of [kept_start()].
 #' @return List: `pose`, `score`, `misfit`, `rests` as of [best_pose()], `inverted`, `cloud`,
 #'   `unit`, `plain` (the bend without curvature, see [fit_warp()]), `agree` (see [agreement()]).
 #' @noRd
-settled_pose <- function(template, scan, unit, settings, threads) {
+settled_pose <- function(template, scan, unit, settings, threads, start = NULL) {
   cloud <- in_context(with_curvature(scan_cloud(scan, unit, settings), settings, threads), scan$id,
                       "looking for landmarks")
   laid <- c(no_pose(), list(inverted = FALSE, cloud = cloud, unit = unit))
@@ -19,7 +20,7 @@ settled_pose <- function(template, scan, unit, settings, threads) {
                 list(TRUE, c(0.9, 1.1)))
   for (one in tries) {
     seen <- if (one[[1]]) inverted_cloud(cloud) else cloud
-    starts <- proud_starts(template, seen, one[[2]], settings)
+    starts <- cbind(proud_starts(template, seen, one[[2]], settings), start)
     laid <- better_pose(laid, best_pose(template, seen, starts, settings$start_reach, settings),
                         one[[1]], seen)
     if (accepted_pose(template, laid, settings)) break

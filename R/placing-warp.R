@@ -78,13 +78,15 @@ joined_basis <- function(full, share, factor, rank) {
 #' the balance with the prior is kept; without curvature in the matches all steps do.
 #'
 #' @param weight Of curvature in the matches.
+#' @param pins Landmarks whose places are known, as of [warp_pins()]; NULL: none.
 #' @return List: `moved` (n + k x 3, all rows of the basis), `coefficients`, `sd` (of the k, see
 #'   [warp_sd()]); of the n points `index` (of the nearest in the cloud, or NA) and `residual` (the
 #'   distance to it).
 #' @noRd
-fit_warp <- function(template, cloud, settings, weight) {
+fit_warp <- function(template, cloud, settings, weight, pins = NULL) {
   xyz <- t(template$xyz)
   n <- nrow(xyz)
+  pinned <- pinned_system(template$basis, pins)
   basis <- lapply(template$basis, function(b) b[seq_len(n), , drop = FALSE])
   of <- function(x) weight * rbind(x$k1, x$k2)
   feature <- of(template)
@@ -102,7 +104,7 @@ fit_warp <- function(template, cloud, settings, weight) {
     on <- which(!is.na(found$index) & !cloud$border[found$index])
     if (length(on) < settings$fewest) break
     solved <- solved_warp(basis, own[on], xyz, moved, found$index[on], cloud,
-                          settings$error * sqrt(length(own) / n), settings)
+                          settings$error * sqrt(length(own) / n), pinned, settings)
     moved <- xyz + displaced(basis, solved$coefficients)
   }
   near <- match_points(moved, template$normal, 0 * feature, cloud, 0 * to_feature, ends[1],
@@ -119,9 +121,10 @@ fit_warp <- function(template, cloud, settings, weight) {
 #'
 #' @param used Numbers of the matched points, whose places were `xyz` and are `moved` (n x 3).
 #' @param to Their matches in the cloud. @param error Standard deviation of a match.
+#' @param pinned As of [pinned_system()].
 #' @return List: `coefficients`, `root` (see [warp_root()]).
 #' @noRd
-solved_warp <- function(basis, used, xyz, moved, to, cloud, error, settings) {
+solved_warp <- function(basis, used, xyz, moved, to, cloud, error, pinned, settings) {
   across_surface <- cloud$normal[, to, drop = FALSE]
   normal <- t(across_surface)
   place <- t(cloud$xyz[, to, drop = FALSE])
@@ -133,8 +136,26 @@ solved_warp <- function(basis, used, xyz, moved, to, cloud, error, settings) {
   right <- unlist(lapply(1:3, function(k) {
     crossprod(basis[[k]], replace(numeric(nrow(xyz)), used, pull[, k]))
   }))
-  root <- warp_root(basis, used, across_surface, weights, settings)
+  right <- right + pinned$right
+  root <- warp_root(basis, used, across_surface, weights, settings, pinned$precision)
   list(coefficients = drop(backsolve(root, backsolve(root, right, transpose = TRUE))), root = root)
+}
+
+#' What landmarks whose places are known add to the normal equations of a displacement
+#' @return List: `precision`, `right`; 0 where there are none.
+#' @noRd
+pinned_system <- function(basis, pins) {
+  if (is.null(pins)) return(list(precision = 0, right = 0))
+  own <- lapply(basis, function(b) b[pins$row, , drop = FALSE])
+  sizes <- vapply(own, ncol, 0L)
+  precision <- matrix(0, sum(sizes), sum(sizes))
+  end <- cumsum(sizes)
+  for (k in 1:3) {
+    block <- (end[k] - sizes[k] + 1):end[k]
+    precision[block, block] <- pins$weight * crossprod(own[[k]])
+  }
+  list(precision = precision,
+       right = pins$weight * unlist(lapply(1:3, function(k) crossprod(own[[k]], pins$by[, k]))))
 }
 
 match_points <- function(xyz, normal, feature, cloud, to_feature, reach, cosine) {
@@ -151,9 +172,11 @@ displaced <- function(basis, coefficients) {
 
 #' Cholesky factor of the precision of the coefficients
 #' @param used Numbers of the matched points; `normal` (3 x matches) and `weight`: theirs.
+#' @param pinned What pins add to the precision.
 #' @noRd
-warp_root <- function(basis, used, normal, weight, settings) {
-  precision <- cpp_warp_gram(basis, used, normal, weight, settings$along, 1 - settings$along)
+warp_root <- function(basis, used, normal, weight, settings, pinned = 0) {
+  precision <- pinned +
+    cpp_warp_gram(basis, used, normal, weight, settings$along, 1 - settings$along)
   diag(precision) <- diag(precision) + 1
   chol(precision)
 }

@@ -92,18 +92,20 @@ said_of_parts <- function(value, z, scheme) {
 judge_landmarks <- function(parts, limits, scheme) {
   marks <- parts$level == "landmarks"
   as_level <- function(bad, name) ifelse(bad, match(limits[[name]], grades) - 1, 0)
-  low <- level_beyond(parts$confidence, limits$confidence, TRUE) * (parts$state %in% "found")
+  low <- level_beyond(parts$confidence, limits$confidence, TRUE) *
+    (parts$state %in% c("found", "placed"))
   checks <- list(
     exchanged = list(level = as_level(!is.na(parts$exchanged), "exchanged"),
                      text = parts$exchanged),
     low = list(level = low,
-               text = sprintf("it was found with a confidence of %.2f only", parts$confidence)),
+               text = sprintf("it was %s with a confidence of %.2f only", parts$state,
+                              parts$confidence)),
     predicted = list(level = as_level(parts$state %in% "predicted", "predicted"),
                      text = rep("it is predicted by the other landmarks", nrow(parts)))
   )
   ends <- lapply(checks, judge_ends, parts, scheme)
   of <- sum(parts$state %in% c("found", "placed"))
-  share <- if (any(parts$state %in% "found")) sum(low > 0) / of else 0
+  share <- if (of) sum(low > 0) / of else 0
   all <- list(level = rep(level_beyond(share, limits$doubtful, FALSE), nrow(parts)),
               text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0),
                                  of),

@@ -23,7 +23,8 @@ current_placing <- function(specimen, tolerance = 1e-6) {
 moved_placing <- function(placing, name, at) {
   row <- match(name, placing$landmark, nrow(placing) + 1)
   placing[row, "landmark"] <- name
-  placing[row, c("confidence", "moved", "sd", "residual", "lost")] <- NA_real_
+  measured <- intersect(c("confidence", "moved", "sd", "residual", "lost", "apart"), names(placing))
+  placing[row, measured] <- NA_real_
   if (anyNA(at)) {
     placing[row, "state"] <- "absent"
   } else {
@@ -33,7 +34,7 @@ moved_placing <- function(placing, name, at) {
   placing
 }
 
-#' Which found landmarks have little confidence
+#' Which landmarks have little confidence; of placed ones those that have one at all
 #'
 #' @param placing Of a specimen.
 #' @param low Least confidence of a landmark that is not doubted.
@@ -41,7 +42,7 @@ moved_placing <- function(placing, name, at) {
 #'   placed), `share` (1 where there is none).
 #' @noRd
 placing_doubt <- function(placing, low = find_settings()$low) {
-  doubted <- which(placing$state == "found" & placing$confidence < low)
+  doubted <- which(placing$state %in% c("found", "placed") & placing$confidence < low)
   of <- sum(placing$state %in% c("found", "placed"))
   list(names = placing$landmark[doubted], confidence = placing$confidence[doubted], of = of,
        share = if (of) length(doubted) / of else 1)
@@ -55,6 +56,11 @@ print_placing <- function(placing, wrong = find_settings()$wrong) {
   states <- table(factor(placing$state, unique(placing$state)))
   line <- function(...) cat(strwrap(paste0(...), width = 80, exdent = 4), sep = "\n")
   line("landmarks by machine: ", paste(states, names(states), collapse = ", "))
+  apart <- placing$apart[!is.na(placing$apart)]
+  if (length(apart)) {
+    line(sprintf("- second opinion on %d: %.3g apart in the median, %.3g at most", length(apart),
+                 stats::median(apart), max(apart)))
+  }
   doubt <- placing_doubt(placing)
   if (!length(doubt$names) && doubt$of) return(invisible())
   if (doubt$share > wrong) {

@@ -74,6 +74,16 @@ ball_measurements <- function() {
              base = c(NA, NA, NA, NA, NA, NA, "aL + aR", "aL + aR + sn"))
 }
 
+# The ball as if its landmarks had been found.
+found_ball <- function(one) {
+  at <- one$landmarks
+  one$placing <- data.frame(landmark = rownames(at), state = "found", confidence = 0.9, moved = 0,
+                            sd = 0, residual = 0, lost = 0, x = at[, 1], y = at[, 2], z = at[, 3],
+                            row.names = NULL)
+  one$match <- list(unit = 1, doubtful = FALSE)
+  one
+}
+
 # Arguments of a call that works, and the kind of each, by function. Kinds: names of
 # lawful_values(); with "?": NULL too.
 argument_calls <- function(made = argument_objects(), folder = tempfile()) {
@@ -398,6 +408,10 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                           edge = "number?", edge_sd = "number", rounds = "count", crease = "number",
                           holes = "count", hole_radius = "numbers", landmark_error = "number",
                           turn = "number", shift = "number"),
+    second_opinion = entry(given(specimen = found_ball(one), landmarks = made$corners, agreed = 6,
+                                 tolerance = 0.1),
+                           specimen = "object", landmarks = "any", agreed = "number",
+                           tolerance = "number"),
     shape_at = entry(given(pca = shape_pca(aligned), component = 1, sd = 2,
                            as = "matrix", size = 1),
                      pca = "object", component = "some", sd = "number", as = "choice",

@@ -64,16 +64,6 @@ test_that("what is no face is refused, with name and remedy", {
                          c("nothing on it is like the template face", "by hand"), id = "ball")
 })
 
-test_that("similarities are found exactly", {
-  from <- with_seed(1, matrix(stats::rnorm(15), 5))
-  turn <- some_rotation(2)
-  to <- 1.7 * from %*% t(turn) + rep(c(3, 4, 5), each = 5)
-  by <- similarity(from, to)
-  expect_equal(by$rotation, turn)
-  expect_equal(by$scale, 1.7)
-  expect_equal(apply_similarity(from, by), to)
-})
-
 test_that("if most landmarks have little confidence, a warning; the match is doubtful", {
   face <- found_humface()
   expect_false(face$match$doubtful)
