@@ -30,7 +30,7 @@
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:
 #'     * `landmark`;
-#'     * `state`: "found"; "placed" (the specimen had it already); "predicted" (the template marks it
+#'     * `state`: "found"; "placed" (the specimen had it before); "predicted" (the template marks it
 #'       so: it is placed by the positions of the others, perhaps off the mesh); or "absent" (the
 #'       scan has no surface there);
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
@@ -61,8 +61,8 @@
 #'   resembles the template (the score is above the setting `refuse`), or the scan is no face
 #'   (`agree` is below the first limit).
 #' @section Warnings: of class `crestline_contrary_landmarks`: landmarks that the specimen has are
-#'   farther from where they are found than the setting `contrary`. They are named and kept, but have
-#'   no say. Of class `crestline_guessed_unit`: `match$unit` is a guess. Also of class
+#'   farther from where they are found than the setting `contrary`. They are named and kept, but
+#'   have no say. Of class `crestline_guessed_unit`: `match$unit` is a guess. Also of class
 #'   `crestline_doubtful_placing`, for three reasons. The scan is perhaps
 #'   no face; or `agree` is below the first limit with a template of your own; or most landmarks
 #'   have low confidence (settings `low`, `wrong`). Most likely the scan does not show the object,
@@ -239,7 +239,7 @@ placed_landmarks <- function(prepared, template, scan, laid, kept) {
 }
 
 #' The template's landmarks carried to a scan, with what speaks for each
-#' @param pins As of [warp_pins()]; `kept` (k x 3): what predicts others beside those that are found.
+#' @param pins As of [warp_pins()]; `kept` (k x 3): what predicts others too.
 #' @return Data frame as `placing` of [find_landmarks()].
 #' @noRd
 carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept = NULL) {

@@ -25,7 +25,7 @@
 #'   of the specimen's size. A point farther away has no say, and a warning names it.
 #' @return The specimen. Its `placing` has the new column `apart`: the distance (in the unit of the
 #'   mesh) between the landmark and the other finder's point, both projected onto the surface. It is
-#'   NA if there is no other point. `confidence` is now 1 / (1 / c + (`apart` / a)^2), where c is the
+#'   NA if there is no other point. `confidence` is now 1 / (1 / c + (`apart` / a)^2). Here c is the
 #'   former confidence (1 for a placed landmark) and a is `agreed`. `match$doubtful` is TRUE if the
 #'   share of landmarks with low confidence is above the setting `wrong` of [find_settings()]. A
 #'   second call replaces `apart`, and lowers the confidence again.

@@ -100,7 +100,7 @@
 #' @param smile,smile_gain Distances by which the mouth's corners are drawn outwards and up (two, as
 #'   shares of half the mouth's width). The best is used if it lowers the energy of the warp by at
 #'   least the share `smile_gain`.
-#' @param placed Weight of a landmark that the scan has already, as a number of matched points of the
+#' @param placed Weight of a landmark that the scan has before, as a number of matched points of the
 #'   template. 10 was best of 3, 10, 30 and 100 with four landmarks of 17 faces (the error of the
 #'   others is then lower by 0.03 to 0.09 mm in the mean).
 #' @param contrary Distance from which on such a landmark contradicts what is found without it (two
@@ -143,8 +143,8 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
 }
 
 check_find_settings <- function(settings, sizes) {
-  may_be_none <- c("placed", "cap", "affine", "uneven", "weight", "along", "left_over", "lost", "cosine",
-                   "low")
+  may_be_none <- c("placed", "cap", "affine", "uneven", "weight", "along", "left_over", "lost",
+                   "cosine", "low")
   for (name in names(settings)) {
     value <- settings[[name]]
     size <- sizes[[name]]
