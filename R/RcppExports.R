@@ -89,6 +89,10 @@ cpp_level_path <- function(vb, it, twin, from_face, to_face, level, towards) {
     .Call(`_crestline_cpp_level_path`, vb, it, twin, from_face, to_face, level, towards)
 }
 
+cpp_crest_path <- function(vb, it, twin, from, to, cost, angle, round) {
+    .Call(`_crestline_cpp_crest_path`, vb, it, twin, from, to, cost, angle, round)
+}
+
 cpp_equal_chords <- function(xyz, s, n, settings) {
     .Call(`_crestline_cpp_equal_chords`, xyz, s, n, settings)
 }
@@ -117,8 +121,8 @@ cpp_vertices_in_box <- function(vb, low, high) {
     .Call(`_crestline_cpp_vertices_in_box`, vb, low, high)
 }
 
-cpp_path_coordinates <- function(points, path, normals) {
-    .Call(`_crestline_cpp_path_coordinates`, points, path, normals)
+cpp_path_coordinates <- function(points, path, normals, closed = FALSE) {
+    .Call(`_crestline_cpp_path_coordinates`, points, path, normals, closed)
 }
 
 cpp_joined_to <- function(it, member, seeds) {

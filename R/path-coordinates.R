@@ -7,7 +7,7 @@
 #' Only vertices that are connected to the path within the window and its margin are kept. Beyond
 #' its ends the path is continued straight; vertices there have `s < 0` or `s` above the length.
 #' Vertices in the margin are not used in fits. [lift()] needs them for a curve near the edge or the
-#' ends of the window.
+#' ends of the window. A closed path has no ends: `s` runs from 0 to its length.
 #'
 #' @param specimen A [specimen()] or `mesh3d`.
 #' @param path A `mesh_path` on that mesh, as of [plane_path()] or [reference_path()].
@@ -46,7 +46,8 @@ near_path <- function(scan, path, width, margin) {
   track <- t(columns_of(clear, c("x", "y", "z")))
   box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
   near <- cpp_vertices_in_box(scan$vb, box[1, ], box[2, ])
-  found <- cpp_path_coordinates(scan$vb[1:3, near, drop = FALSE], track, path_normals(scan, clear))
+  found <- cpp_path_coordinates(scan$vb[1:3, near, drop = FALSE], track, path_normals(scan, clear),
+                                is_closed(path))
   kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") +
     margin
   member <- logical(ncol(scan$vb))
@@ -55,14 +56,16 @@ near_path <- function(scan, path, width, margin) {
   inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width
   columns <- list(vertex = near, s = found$s, d = found$d, inside = inside, tx = found$tangent[, 1],
                   ty = found$tangent[, 2], tz = found$tangent[, 3])
-  new_path_coordinates(lapply(columns, `[`, joined), attr(path, "length"), width, scan)
+  new_path_coordinates(lapply(columns, `[`, joined), attr(path, "length"), width, scan,
+                       if (is_closed(path)) TRUE)
 }
 
 #' @param columns List of the columns that [path_coordinates()] says.
 #' @param mesh As of [mesh_of()].
+#' @param closed TRUE of a closed path, else NULL.
 #' @noRd
-new_path_coordinates <- function(columns, length, width, mesh) {
-  frame_of(columns, length = length, width = width, key = mesh$key, id = mesh$id,
+new_path_coordinates <- function(columns, length, width, mesh, closed = NULL) {
+  frame_of(columns, length = length, width = width, key = mesh$key, id = mesh$id, closed = closed,
            class = "path_coordinates")
 }
 

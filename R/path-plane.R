@@ -74,10 +74,13 @@ walkable <- function(specimen) {
 }
 
 #' The ends of a path, from names of landmarks and positions as a user gives them
+#' @param via List of places on the way; NULL: none.
 #' @noRd
-located_ends <- function(specimen, scan, from, to) {
+located_ends <- function(specimen, scan, from, to, via = NULL) {
+  stops <- lapply(via, function(at) end_vector(specimen, scan, at, "via"))
   path_ends(scan, rbind(end_vector(specimen, scan, from, "from"),
-                        end_vector(specimen, scan, to, "to")), c(end_name(from), end_name(to)))
+                        end_vector(specimen, scan, to, "to")), c(end_name(from), end_name(to)),
+            do.call(rbind, stops))
 }
 
 #' What looks up the ends of regions, see [located_regions()]
@@ -91,20 +94,24 @@ region_locator <- function(specimen) {
 #'
 #' @param exact 2 x 7 matrix, columns as `mesh_columns`.
 #' @param names What the ends are called.
+#' @param via k x 7 matrix of places on the way, NULL where there is none. With it both ends may be
+#'   one place, of a closed path.
 #' @param inside Barycentric weight by which ends are kept off edges and corners, so
 #'   that a plane through an end always crosses its triangle. The path begins and
 #'   stops at the exact places.
 #' @return List: `scan`, `from`, `to` (face, w1, w2, w3, moved inside), `exact`, `names`; of the
 #'   axis between the moved ends `axis` and `across` (unit vectors; the plane at angle 0 contains
-#'   `axis` and is normal to `across`) and `span` (its length). Or a failure.
+#'   `axis` and is normal to `across`) and `span` (its length); `via` and `closed`. Or a failure.
 #' @noRd
-path_ends <- function(scan, exact, names, inside = 1e-6) {
+path_ends <- function(scan, exact, names, via = NULL, inside = 1e-6) {
   refuse <- function(said, remedy) {
     no_result(sprintf(said, names[1], names[2]), remedy, "path", scan$id, "crestline_path_error")
   }
   if (all(exact[1, 1:3] == exact[2, 1:3])) {
+    if (!is.null(via)) return(loop_ends(scan, exact, names, via))
     return(refuse("%s and %s are the same point.",
-                  "Choose two different landmarks, or correct the one that was misplaced."))
+                  paste("Choose two different landmarks, or correct the one that was misplaced.",
+                        "A closed ridge or valley has a `via`.")))
   }
   if (scan$piece[exact[1, "face"]] != scan$piece[exact[2, "face"]]) {
     return(refuse("%s and %s lie on different pieces of the mesh.",
@@ -118,8 +125,14 @@ path_ends <- function(scan, exact, names, inside = 1e-6) {
     return(refuse("%s and %s are too near to each other for the size of their triangle.",
                   "Check the mesh for huge triangles, and the two landmarks."))
   }
-  list(scan = scan, from = from, to = to, exact = exact, names = names, axis = axis$axis,
-       across = axis$across, span = axis$span)
+  list(scan = scan, from = from, to = to, exact = exact, names = names, via = via, closed = FALSE,
+       axis = axis$axis, across = axis$across, span = axis$span)
+}
+
+#' The ends of a closed path: one place, and those on the way
+#' @noRd
+loop_ends <- function(scan, exact, names, via) {
+  list(scan = scan, exact = exact, names = names, via = via, closed = TRUE)
 }
 
 #' Normals of the planes at given angles, 3 x k

@@ -19,6 +19,11 @@
 #' @param curvature A [curvature()] of the mesh at this radius. `NULL`: curvature is estimated in
 #'   the region of the cuts.
 #' @param settings Constants of the search, as of [path_settings()].
+#' @param path `"plane"`: the best plane cut. `"crest"`: the path of least cost along the feature,
+#'   for a ridge or valley that bows away from every plane through its ends (see below).
+#' @param via Places on the way, in order: names of landmarks, or positions (three co-ordinates, a k
+#'   x 3 matrix, or a list of both). With `via` the path is `"crest"`. If `from` and `to` are one
+#'   landmark, the path is closed, and needs a `via` on the other side.
 #' @inheritParams curvature
 #' @param ... Fields of [path_settings()], the former form. They give a message of class
 #'   `crestline_deprecated`.
@@ -29,7 +34,21 @@
 #'     of the criterion: `angle` (radians), `side`, `criterion`, `length`;
 #'   * `competing`: criterion of the best optimum that runs elsewhere, as a share of the path's (for
 #'     lengths the inverse); NA if there is none.
-#' @section Errors: of class `crestline_path_error`: no plane cut joins the points.
+#' @section Paths of least cost: The cost of a unit of length is f / (f + rho). Here rho is the
+#'   radius times the strength, and f is the setting `floor`. The path of least cost runs over the
+#'   edges and triangles of the mesh. It is then smoothed at a wavelength of 8 radii (`smoothing`).
+#'   With `via` it is found once more within 2 radii (`corridor`), without the stops: a `via` beside
+#'   the crest does no harm.
+#'
+#'   A closed path begins at its place nearest to `from`. It runs in the order of the stops. With
+#'   one `via` it runs anticlockwise as seen from outside. Give two `via` if the surface
+#'   along it faces all round, as on the rim of a torus.
+#'
+#'   On faces the plane cut is the better choice: a faint feature loses to stronger ones beside it.
+#'   `competing` is the cost of the path as a share of that of the best other path. `optima` and
+#'   `angle` are absent.
+#' @section Errors: of class `crestline_path_error`: no plane cut joins the points; a closed path
+#'   has no `via`.
 #' @section Warnings: of class `crestline_rival_path`: another optimum is nearly as good; the
 #'   warning names both angles.
 #' @template glossary
@@ -47,7 +66,8 @@
 reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"),
                            radius = attr(curvature, "radius"), keep_away = NULL, curvature = NULL,
                            settings = path_settings(),
-                           threads = getOption("crestline.threads", 1L), ...) {
+                           threads = getOption("crestline.threads", 1L),
+                           path = c("plane", "crest"), via = NULL, ...) {
   check_given()
   check_surface(specimen, "specimen")
   threads <- check_threads(threads)
@@ -56,6 +76,7 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   check_ends(from = from, to = to)
   keep_away <- check_regions(keep_away)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
+  route <- check_route(path, via, type)
   strength <- if (type != "plane") {
     check_number(radius, "radius", lower = 0, open = TRUE)
     source <- known_curvature(curvature, specimen, radius, threads, settings$order)
@@ -64,8 +85,9 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
     path_strength(source, type, regions, as_mesh(specimen))
   }
   scan <- walkable(specimen)
-  ends <- located_ends(specimen, scan, from, to)
-  path <- in_context(find_reference(ends, type, strength, radius, settings), scan$id)
+  ends <- located_ends(specimen, scan, from, to, route$via)
+  found <- if (route$path == "crest") find_crest else find_reference
+  path <- in_context(found(ends, type, strength, radius, settings), scan$id)
   warn_rival(path, ends$names, scan$id, settings$rival)
   path
 }
@@ -279,6 +301,7 @@ warn_rival <- function(path, ends, id, rival = 0.05) {
   competing <- attr(path, "competing")
   if (!isTRUE(competing >= 1 - rival)) return(invisible())
   optima <- attr(path, "optima")
+  if (is.null(optima)) return(warn_rival_crest(competing, ends, id))
   share <- shares_of_first(optima, attr(path, "type"))
   two <- optima[c(1, setdiff(which(share == competing), 1)[1]), ]
   degrees <- two$angle * 180 / pi
@@ -286,6 +309,17 @@ warn_rival <- function(path, ends, id, rival = 0.05) {
     sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
             ends[1], ends[2], degrees[1], degrees[2], two$criterion[1], two$criterion[2]),
     "Look at both with plane_path(); keep_away() or keep_side() rules one out.",
+    stage = "reference path", id = id, class = "crestline_rival_path"
+  )
+}
+
+#' The same for paths of least cost
+#' @noRd
+warn_rival_crest <- function(competing, ends, id) {
+  crestline_warn(
+    sprintf("another path from %s to %s costs nearly as little: %.3g of its cost.", ends[1],
+            ends[2], competing),
+    "Give a `via` on the right one, or rule the other out with keep_away() or keep_side().",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )
 }
@@ -307,6 +341,11 @@ path_distance <- function(from, to) {
 #' @noRd
 trusted_path <- function(trust, scan, path) {
   if (trust[1] <= 0 && trust[2] >= 1) return(path)
+  if (is_closed(path)) {
+    return(no_result("a closed curve has no ends between which a part of it is trusted.",
+                     "Leave out `trust`; keep_away() says where curvature does not count.",
+                     "reference path", scan$id, "crestline_path_error"))
+  }
   range <- trust * attr(path, "length")
   at <- columns_of(place_along(scan, path, range))
   ends <- columns_of(path)[c(1, nrow(path)), ]

@@ -21,6 +21,28 @@
 #'   of its own settings.
 #' @param limited Number of angles of a curve whose planes a scheme limits (`angle_limit`, see
 #'   [curve_scheme()]).
+#' @param floor Of a path of least cost (`path = "crest"`): a unit of length costs `floor` /
+#'   (`floor` + rho), with rho the radius times the strength. The lower, the longer a way round it
+#'   takes to stay on a crest. Below 0.1 paths on skulls ran through the inside of the bone.
+#' @param smoothing Wavelength at which such a path is made smooth, in radii. A wave of this length
+#'   keeps half its height. A closed path takes it, or a half, a quarter, an eighth of it: the first
+#'   that moves no place by more than `moved` radii.
+#' @param smoothing_step,moved See `smoothing`; both in radii. `smoothing_step`: distance of the
+#'   places that are smoothed.
+#' @param corridor Half width of the corridor about such a path with stops on the way, within which
+#'   it is found again without them, in radii.
+#' @param block,block_free,block_cost The later parts of a closed path keep off the earlier ones:
+#'   within `block` radii of them the cost is `block_cost` times the greatest, but not within
+#'   `block_free` radii along them of their ends.
+#' @param rival_reach The best other path of least cost is found with the cost raised by as much
+#'   within this distance of the first, in radii.
+#' @param twice,twice_reach,twice_apart A curve of least cost is not determined if more than a share
+#'   `twice` of it runs twice over: another part of it lies within `twice_reach` radii, and
+#'   more than `twice_apart` radii away along the curve.
+#' @param loop_shortest A closed curve shorter than this has closed in on itself and is not
+#'   determined, in radii.
+#' @param loop_longest A closed curve longer than this is not determined, in greatest distances of
+#'   its stops.
 #' @return List of class `path_settings`.
 #' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
 #'   of range.
@@ -32,7 +54,11 @@
 #' @export
 path_settings <- function(..., reach = 0.5, longest = 1.25, spacing = 0.25, angles = 60,
                           refined = 21, tie = 0.002, rival = 0.05, distinct = 0.05,
-                          order = "adaptive", limited = 61) {
+                          order = "adaptive", limited = 61, floor = 0.1, smoothing = 8,
+                          smoothing_step = 0.2, moved = 0.5, corridor = 2, block = 1,
+                          block_free = 3, block_cost = 10, rival_reach = 1.5, twice = 0.05,
+                          twice_reach = 1, twice_apart = 4, loop_shortest = 6,
+                          loop_longest = 4.5) {
   new_settings("path_settings", check_path_settings, list(...))
 }
 
@@ -43,6 +69,12 @@ check_path_settings <- function(settings) {
   for (name in c("spacing", "tie", "rival", "distinct")) {
     check_number(settings[[name]], name, lower = 0)
   }
+  for (name in c("floor", "smoothing", "smoothing_step", "moved", "corridor", "block", "block_free",
+                 "block_cost", "rival_reach", "twice_reach", "twice_apart", "loop_shortest",
+                 "loop_longest")) {
+    check_number(settings[[name]], name, lower = 0, open = TRUE)
+  }
+  check_number(settings$twice, "twice", lower = 0, upper = 1)
   settings$order <- check_order(settings$order)
   settings
 }

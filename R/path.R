@@ -201,6 +201,23 @@ path_through <- function(points, mesh = NULL, ...) {
   new_mesh_path(stats::setNames(columns, c("s", mesh_columns)), sum(step), mesh$key, mesh$id, ...)
 }
 
+# Whether the last point of a path is its first.
+is_closed <- function(path) isTRUE(attr(path, "closed"))
+
+#' A closed path through places in order
+#'
+#' @param points k x 7 matrix, the first not repeated at the end; the face of each is that of the
+#'   segment that ends there.
+#' @param ... Attributes of the path.
+#' @noRd
+closed_path <- function(points, scan, ...) {
+  path_through(rbind(points, points[1, ]), scan, closed = TRUE, ...)
+}
+
+#' The places of a closed path without the one at which it closes
+#' @noRd
+loop_places <- function(path) columns_of(path)[-1, , drop = FALSE]
+
 #' A path from its parts: all its attributes are declared here
 #'
 #' @param columns List of `s` and the columns of points on a mesh.
@@ -211,13 +228,17 @@ path_through <- function(points, mesh = NULL, ...) {
 #' @param type,criterion,optima,competing Of a reference path.
 #' @param trusted Arc lengths between which it is believed.
 #' @param lifted Whether a lifted curve was walked in one.
+#' @param closed Whether it ends where it begins.
+#' @param smoothed Of a path of least cost: FALSE where it could not be made smooth.
 #' @noRd
 new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, side = NULL,
                           type = NULL, criterion = NULL,
-                          optima = NULL, competing = NULL, trusted = NULL, lifted = NULL) {
+                          optima = NULL, competing = NULL, trusted = NULL, lifted = NULL,
+                          closed = NULL, smoothed = NULL) {
   structure(columns, row.names = .set_row_names(length(columns[[1]])), length = length, key = key,
             id = id, angle = angle, side = side, type = type, criterion = criterion,
-            optima = optima, competing = competing, trusted = trusted, lifted = lifted,
+            optima = optima, competing = competing, trusted = trusted, lifted = lifted, closed = closed,
+            smoothed = smoothed,
             class = c("mesh_path", "data.frame"))
 }
 
@@ -252,7 +273,8 @@ check_path_on <- function(path, mesh, name) {
 print.mesh_path <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    cat(sprintf("<mesh_path> %d points, length %.4g", nrow(x), attr(x, "length")))
+    cat(sprintf("<mesh_path>%s %d points, length %.4g", if (is_closed(x)) " closed," else "",
+                nrow(x), attr(x, "length")))
     if (!is.null(attr(x, "angle"))) {
       cat(sprintf(", angle %.1f degrees", attr(x, "angle") * 180 / pi))
     }

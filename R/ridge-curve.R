@@ -96,7 +96,7 @@
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         keep_away = NULL, settings = ridge_settings(), passes = NULL,
                         curvature = NULL, reach = 0.5, threads = getOption("crestline.threads", 1L),
-                        trust = c(0, 1)) {
+                        trust = c(0, 1), path = c("plane", "crest"), via = NULL) {
   check_given(if (identical(type, "plane")) c("radius", "width"))
   check_surface(specimen, "specimen")
   check_ends(from = from, to = to)
@@ -108,6 +108,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   trust <- check_trusted(trust)
+  route <- check_route(path, via, type)
   if (type != "plane") {
     radius <- check_number(radius, "radius", lower = 0, open = TRUE)
     width <- check_number(width, "width", lower = 0, open = TRUE)
@@ -115,8 +116,9 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   id <- if (inherits(specimen, "specimen")) specimen$id
   doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
   curve <- in_context(id = id, doing = doing, code = {
-    ends <- located_ends(specimen, walkable(specimen), from, to)
-    job <- curve_job(ends, type, n, settings, passes, trust = trust, reach = reach)
+    ends <- located_ends(specimen, walkable(specimen), from, to, route$via)
+    job <- curve_job(ends, type, n, settings, passes, trust = trust, reach = reach,
+                     route = route$path)
     if (type != "plane") {
       job[c("radius", "width")] <- list(radius, width)
       job$source <- known_curvature(curvature, specimen, radius, threads, settings$order)
@@ -136,17 +138,18 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 #' @param source Curvature as of [known_curvature()]; NULL for planes.
 #' @param regions As of [located_regions()]; a failure is handed on.
 #' @param angle_limit Of the planes of the reference path, in radians; NA: none.
+#' @param route "plane" or "crest", as `path` in [reference_path()].
 #' @param track Expected track, as in [plane_weight()]; NULL: none.
 #' @noRd
 curve_job <- function(ends, type, n, settings, passes = NULL, radius = NULL, width = NULL,
                       source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
-                      reach = 0.5, track = NULL) {
+                      reach = 0.5, track = NULL, route = "plane") {
   search <- if (!failed(ends)) ends$scan$search
   search$reach <- reach
   if (type != "plane") search$longest <- settings$longest
   list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius,
        width = width, source = source, regions = regions, trust = trust, angle_limit = angle_limit,
-       track = track, search = search)
+       track = track, search = search, route = route)
 }
 
 #' One curve, without checks and warnings
@@ -161,9 +164,13 @@ trace_curve <- function(job) {
   if (job$type == "plane") return(assembled_curve(reference, reference, job))
   path <- trusted_path(job$trust, job$ends$scan, reference)
   if (failed(path)) return(path)
-  fit <- fit_passes(job$ends$scan, path, job)
+  long <- job
+  if (job$route == "crest") {
+    long$settings <- long_settings(job$settings, attr(path, "length"), job$radius)
+  }
+  fit <- fit_passes(job$ends$scan, path, long)
   if (failed(fit)) return(fit)
-  fit <- finished_fit(job$ends$scan, fit, job$radius, job$settings)
+  fit <- finished_fit(job$ends$scan, fit, job$radius, long$settings)
   assembled_curve(fit$path, fit$reference, job, fit)
 }
 
@@ -175,6 +182,7 @@ curve_reference <- function(job) {
   strength <- if (job$type != "plane") {
     path_strength(job$source, job$type, job$regions, ends$scan)
   }
+  if (job$route == "crest") return(find_crest(ends, job$type, strength, job$radius, search))
   weight <- plane_weight(job$track, ends)
   if (is.na(job$angle_limit)) {
     return(find_reference(ends, job$type, strength, job$radius, search, weight))
@@ -196,8 +204,9 @@ curve_reference <- function(job) {
 #' @noRd
 assembled_curve <- function(path, reference, job, fit = NULL) {
   scan <- job$ends$scan
-  placed <- resample_path(scan, path, job$n)
-  along <- placed$s / attr(path, "length") * attr(reference, "length")
+  path <- begun_as(scan, path, job$ends)
+  placed <- spaced_points(scan, path, job$n)
+  along <- along_reference(placed, path, reference)
   on_line <- function(values) {
     if (!isTRUE(fit$found) || all(is.na(values))) rep(NA_real_, job$n) else
       stats::approx(fit$line$s, values, along, rule = 2)$y
@@ -212,6 +221,30 @@ assembled_curve <- function(path, reference, job, fit = NULL) {
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
             even = attr(placed, "converged"), share = if (!is.null(fit)) fit$share,
             noise_factor = if (is.null(fit$noise_factor)) NA_real_ else fit$noise_factor)
+}
+
+#' A closed curve begins at its place nearest to its landmark; an open one as it does
+#' @noRd
+begun_as <- function(scan, path, ends) {
+  if (!is_closed(path)) return(path)
+  begun_at(scan, path, nearest_along(path, ends$exact[1, 1:3]))
+}
+
+#' Points of a curve at equal chords; those of a closed one end before its first
+#' @noRd
+spaced_points <- function(scan, path, n) {
+  if (!is_closed(path)) return(resample_path(scan, path, n))
+  placed <- resample_path(scan, path, n + 1)
+  structure(placed[seq_len(n), ], converged = attr(placed, "converged"))
+}
+
+#' Where points of a curve are along its reference path
+#' @noRd
+along_reference <- function(placed, path, reference) {
+  if (!is_closed(path)) return(placed$s / attr(path, "length") * attr(reference, "length"))
+  xyz <- function(at) t(columns_of(at, c("x", "y", "z")))
+  line <- without_stubs(reference)
+  cpp_path_coordinates(xyz(placed), xyz(line), matrix(1, 3, nrow(line)), TRUE)$s
 }
 
 #' A curve from its parts: all its fields are declared here
@@ -235,7 +268,7 @@ new_curve <- function(points, path, reference, job, verdict, coordinates = NULL,
          type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
          width = job$width,
          key = job$ends$scan$key, converged = converged, even = even, share = share,
-         noise_factor = noise_factor),
+         noise_factor = noise_factor, closed = is_closed(path)),
     class = "curve"
   )
 }
@@ -278,8 +311,15 @@ judge_curve <- function(job, fit) {
   se <- if (is.null(fit$line$se)) NA_real_ else
     stats::median(fit$line$se[-c(1, length(fit$line$se))])
   limit <- job$settings$undetermined * job$radius
+  fault <- if (job$route == "crest") {
+    crest_fault(fit$path, job$ends, job$radius, job$search)
+  } else {
+    NA_character_
+  }
   reason <- if (!fit$found) {
     fit$reason
+  } else if (!is.na(fault)) {
+    fault
   } else if (fit$line$at_bound) {
     "it runs along the edge of the window"
   } else if (fit$scale * job$radius < job$settings$faint) {
@@ -335,7 +375,8 @@ print.curve <- function(x, ...) {
   printed(x, {
     cat(sprintf("<curve> %s from %s to %s%s\n", x$type, x$from, x$to,
                 if (is.null(x$id)) "" else paste0(" on ", x$id)))
-    cat(sprintf("  length %.4g, %d points", x$length, nrow(x$points)))
+    cat(sprintf("  %slength %.4g, %d points", if (isTRUE(x$closed)) "closed, " else "", x$length,
+                nrow(x$points)))
     if (!is.na(x$strength)) {
       cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
     }

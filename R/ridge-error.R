@@ -92,7 +92,10 @@ ridge_error <- function(window, noise, radius, settings, share = 1) {
   variance <- offset_variance(window, noise, radius, settings)
   loose <- highest_line(window$surface, window$scale, radius, loosen(settings), line$kernel)
   bias <- share * line$alpha - loose$alpha
-  error <- sqrt(settings$inflation^2 * noise$factor * c(0, variance, 0) + bias^2)
+  closed <- goes_round(window$surface)
+  variance <- with_ends(variance, closed)
+  error <- sqrt(settings$inflation^2 * noise$factor * variance + bias^2)
+  if (closed) return(error)
   pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)
 }
 

@@ -8,7 +8,8 @@
 #' @param specimen A [specimen()] or `mesh3d`.
 #' @param coordinates [path_coordinates()] of the window.
 #' @param path The reference path.
-#' @param s,alpha The curve: offsets at increasing arc lengths from 0 to the length of the path.
+#' @param s,alpha The curve: offsets at increasing arc lengths from 0 to the length of the path. If
+#'   the path is closed, the last offset is the first.
 #' @return A `mesh_path` from the first to the last point of `path`. If a border or a fold stopped
 #'   the walk, the path is made of plane cuts between the places of the curve, and the attribute
 #'   `lifted` is `FALSE`.
@@ -40,6 +41,10 @@ lift <- function(specimen, coordinates, path, s, alpha) {
                     "Give two places or more, in order, and an offset for each.",
                     stage = "arguments")
   }
+  if (is_closed(path) && alpha[1] != alpha[length(alpha)]) {
+    refuse_argument("alpha", alpha, "A closed curve ends with the offset that it begins with.",
+                    rlang::current_env())
+  }
   check_path_on(path, specimen, "`path`")
   check_coordinates_on(coordinates, specimen, "`coordinates`")
   in_context(lifted_line(walkable(specimen), coordinates, path, s, alpha), mesh_of(specimen)$id)
@@ -50,40 +55,11 @@ lift <- function(specimen, coordinates, path, s, alpha) {
 #' @param scan As of [walkable()].
 #' @noRd
 lifted_line <- function(scan, coordinates, path, s, alpha) {
-  at <- columns_of(path)
-  ends <- path_ends(scan, at[c(1, nrow(at)), ], c(end_name(at[1, ]), end_name(at[nrow(at), ])))
-  if (failed(ends)) return(ends)
-  level <- level_at_vertices(scan, coordinates, s, alpha, ends)
-  towards <- first_direction(scan, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
-  walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1], level, towards)
-  if (walked$end == "arrived") {
-    return(path_through(rbind(ends$exact[1, ], walked$points, ends$exact[2, ]), scan,
-                        lifted = TRUE))
-  }
+  walked <- walked_line(scan, coordinates, path, s, alpha)
+  # Ends that no path can join are no matter of the walk.
+  if (!failed(walked) || walked$stage != "lift") return(walked)
+  if (is_closed(path)) return(loop_together(scan, path, s, alpha, attr(coordinates, "width")))
   piece_together(scan, coordinates, path, s, alpha)
-}
-
-#' Direction in which the curve leaves the first point: along the path and, by the slope, across it
-#' @noRd
-first_direction <- function(mesh, path, slope) {
-  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")]) - unlist(path[1, c("x", "y", "z")])
-  tangent <- tangent / sqrt(sum(tangent^2))
-  across <- cross_product(path_normals(mesh, path[1, ])[, 1], tangent)
-  tangent + slope * across / sqrt(sum(across^2))
-}
-
-#' d - alpha(s) at all vertices, NaN outside the window, shifted to vanish at both ends
-#' @noRd
-level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
-  offset <- stats::splinefun(s, alpha, method = "natural")
-  own <- coordinates$d - offset(coordinates$s)
-  at_end <- function(end) sum(end[2:4] * own[match(surface$it[, end[1]], coordinates$vertex)])
-  share <- pmin(pmax(coordinates$s / max(s), 0), 1)
-  share[coordinates$vertex %in% surface$it[, ends$from[1]]] <- 0
-  share[coordinates$vertex %in% surface$it[, ends$to[1]]] <- 1
-  level <- rep(NaN, ncol(surface$vb))
-  level[coordinates$vertex] <- own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
-  level
 }
 
 #' A path through the places of the curve, joined by shortest plane cuts
@@ -99,7 +75,31 @@ piece_together <- function(scan, coordinates, path, s, alpha) {
                        "crestline_path_error"))
   }
   at <- columns_of(path)
-  knots <- rbind(at[1, ], columns_of(places), at[nrow(at), ])
+  cuts_between(scan, rbind(at[1, ], columns_of(places), at[nrow(at), ]))
+}
+
+#' A closed path through the places of the curve, joined by shortest plane cuts
+#'
+#' The places are put on the part of the mesh that is joined to the reference path.
+#' @noRd
+loop_together <- function(scan, path, s, alpha, width) {
+  n <- length(s) - 1
+  at <- place_along(scan, path, s[-1])
+  xyz <- columns_of(at, c("x", "y", "z"))
+  tangent <- xyz[c(2:n, 1), ] - xyz[c(n, seq_len(n - 1)), ]
+  across <- cross_rows(t(path_normals(scan, at)), tangent)
+  xyz <- xyz + alpha[-1] * across / row_lengths(across)
+  placed <- placed_beside(scan, xyz, loop_places(path), width)
+  joined <- cuts_between(scan, rbind(placed, placed[1, ]))
+  if (!failed(joined)) attr(joined, "closed") <- TRUE
+  joined
+}
+
+#' Shortest plane cuts from place to place as one path, or a failure
+#'
+#' @param knots k x 7 matrix.
+#' @noRd
+cuts_between <- function(scan, knots) {
   knots <- knots[c(TRUE, row_lengths(diff(knots[, 1:3])) > 0), ]
   search <- scan$search
   search$reach <- Inf

@@ -77,7 +77,8 @@ highest_line <- function(surface, scale, radius, settings, kernel = 0) {
   }
   free <- abs(alpha) < problem$limit
   structure(
-    list(s = problem$u * surface$length, alpha = c(0, alpha, 0), lambda = problem$lambda,
+    list(s = problem$u * surface$length, alpha = with_ends(alpha, problem$closed),
+         lambda = problem$lambda,
          criterion = value, gradient = max(0, abs(ridge_gradient(problem, alpha)[free])),
          iterations = round, converged = converged, at_bound = any(!free), kernel = kernel),
     class = "ridge_line"
@@ -90,17 +91,48 @@ highest_line <- function(surface, scale, radius, settings, kernel = 0) {
 #' @noRd
 ridge_problem <- function(surface, scale, radius, settings, kernel = 0) {
   grid <- settings$grid
-  u <- seq(0, 1, length.out = grid)
+  places <- if (goes_round(surface)) round_places(grid, radius) else open_places(grid, radius)
+  u <- places$u
   profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
   at_ends <- margin_design(surface$margins$across, c(0, 0)) * profile[c(1, grid), ]
-  second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * (grid - 1)^2 / radius
   lambda <- switch(settings$lambda_scale, feature = settings$lambda / (scale * radius),
                    grid = settings$lambda * radius^2 / (scale * (grid - 1)^3))
-  list(u = u, lambda = lambda, roughness = crossprod(second) / (grid - 1),
+  list(u = u, lambda = lambda, roughness = places$roughness,
        across = surface$margins$across, width = surface$width,
        limit = settings$bound * surface$width, kernel = kernel / surface$width,
-       interior = profile[-c(1, grid), ], weight = rep(1 / (grid - 1), grid - 2) / scale,
-       ends = sum(at_ends) / (2 * (grid - 1) * scale))
+       interior = profile[-c(1, grid), ], weight = places$weight / scale,
+       ends = sum(at_ends) / (places$end_share * scale), closed = goes_round(surface))
+}
+
+#' The places of a line between two ends: `u` of all, and of the inner ones their `roughness` (its
+#' matrix) and `weight`; `end_share`, the inverse of the weight of an end
+#' @noRd
+open_places <- function(grid, radius) {
+  second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * (grid - 1)^2 / radius
+  list(u = seq(0, 1, length.out = grid), roughness = crossprod(second) / (grid - 1),
+       weight = rep(1 / (grid - 1), grid - 2), end_share = 2 * (grid - 1))
+}
+
+#' The same of a line that goes round: all but the seam are inner places
+#' @noRd
+round_places <- function(grid, radius) {
+  g <- grid - 2
+  ahead <- diag(g)[, c(seq_len(g)[-1], 1)]
+  second <- (ahead + t(ahead) - 2 * diag(g)) * g^2 / radius
+  list(u = c(0, (seq_len(g) - 0.5) / g, 1), roughness = crossprod(second) / g,
+       weight = rep(1 / g, g), end_share = Inf)
+}
+
+#' Whether a surface has no ends along
+#' @noRd
+goes_round <- function(surface) inherits(surface$margins$along, "cpspline.smooth")
+
+#' Values at the inner places of a line with those at its ends: 0, or at a seam the mean of both
+#' sides
+#' @noRd
+with_ends <- function(inner, closed) {
+  end <- if (closed) mean(inner[c(1, length(inner))]) else 0
+  c(end, inner, end)
 }
 
 #' Smooth strength, or a derivative by the offset, at the interior grid points

@@ -20,6 +20,9 @@
 #'   vertices is divided into this number of square cells in (s, d), and one vertex of each cell is
 #'   used. Dense meshes then take no longer, and the smooth surface is as good. `Inf`: all.
 #' @param basis Number of B-splines along and across.
+#' @param basis_most Curves of least cost and closed curves may be long. Along one that is longer
+#'   than `basis[1]` radii there is a B-spline for each radius, up to this number; `df` and `grid`
+#'   grow with their number, and `lambda` falls with the fourth power of the length.
 #' @param anisotropy Penalty across over penalty along.
 #' @param df Equivalent degrees of freedom of the smooth surface.
 #' @param lambda Weight of the roughness of the ridge line.
@@ -69,13 +72,13 @@
 ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
                            order = "adaptive cubic", strength = "across", wrong_sign = "zero",
                            cap = 2, cap_quantile = 0.99, window = 1.5, vertices = 4000,
-                           basis = c(10, 10), anisotropy = 10, df = 20, lambda = 1e-4,
-                           lambda_scale = "feature", grid = 41, core = 0.3, bound = 0.98,
-                           step = 0.25, iterations = 100, tolerance = 1e-9, kernel = 12,
-                           kernel_most = 1.4, kernel_least = 0.15, kernel_vertices = 400,
-                           second = 0.5, second_gain = 0.05, second_whole = 0.6, mix = Inf,
-                           noise = NA, longest = 1.25, inflation = 1.5, undetermined = 0.2,
-                           faint = 0.15, error = TRUE) {
+                           basis = c(10, 10), basis_most = 40, anisotropy = 10, df = 20,
+                           lambda = 1e-4, lambda_scale = "feature", grid = 41, core = 0.3,
+                           bound = 0.98, step = 0.25, iterations = 100, tolerance = 1e-9,
+                           kernel = 12, kernel_most = 1.4, kernel_least = 0.15,
+                           kernel_vertices = 400, second = 0.5, second_gain = 0.05,
+                           second_whole = 0.6, mix = Inf, noise = NA, longest = 1.25,
+                           inflation = 1.5, undetermined = 0.2, faint = 0.15, error = TRUE) {
   preset <- check_choice(preset, c("crestline", "one pass", "paper"), "preset")
   single <- list(kernel = 0, second = 0)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
@@ -107,6 +110,7 @@ check_settings <- function(settings) {
   check_choice(settings$strength, c("across", "principal"), "strength")
   check_choice(settings$wrong_sign, c("zero", "drop"), "wrong_sign")
   check_choice(settings$lambda_scale, c("feature", "grid"), "lambda_scale")
+  check_count(settings$basis_most, "basis_most", lower = 5)
   basis <- check_numbers(settings$basis, "basis", 2, lower = 5)
   if (any(basis != round(basis))) refuse_argument("basis", basis, "Give whole numbers.", NULL)
   if (settings$df <= 4 || settings$df >= prod(settings$basis)) {
@@ -114,6 +118,22 @@ check_settings <- function(settings) {
                     sprintf("Give a number between 4 and %g.", prod(settings$basis)),
                     stage = "arguments")
   }
+  settings
+}
+
+#' Settings for a path that may be long
+#'
+#' Ten splines and one lambda for each curve make long curves stiff: with u = s / L the roughness
+#' grows with (L / r)^4.
+#' @param length Of the path, in the unit of the mesh.
+#' @noRd
+long_settings <- function(settings, length, radius) {
+  usual <- settings$basis[1]
+  k <- max(usual, min(ceiling(length / radius), settings$basis_most))
+  settings$df <- settings$df * k / usual
+  settings$basis[1] <- k
+  settings$lambda <- settings$lambda * min(1, usual * radius / length)^4
+  settings$grid <- max(settings$grid, 4 * k + 1)
   settings
 }
 

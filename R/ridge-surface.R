@@ -55,7 +55,8 @@ smooth_strength <- function(coordinates, strength, settings) {
       "curvature surface"
     ))
   }
-  margins <- list(along = spline_margin(settings$basis[1], 0, 1),
+  margins <- list(along = spline_margin(settings$basis[1], 0, 1,
+                                        isTRUE(attr(coordinates, "closed"))),
                   across = spline_margin(settings$basis[2], -1, 1))
   design <- list(along = margin_design(margins$along, coordinates$s[rows] / length),
                  across = margin_design(margins$across, coordinates$d[rows] / width))
@@ -88,17 +89,19 @@ surface_factor <- function(moments) {
 }
 
 #' One margin: mgcv's p-spline smooth on equally spaced knots over an interval, made once a session
+#' @param closed Whether the interval is a circle: its end is its beginning.
 #' @noRd
-spline_margin <- function(k, lower, upper) {
-  key <- paste(k, lower, upper)
-  if (is.null(kept_margins[[key]])) kept_margins[[key]] <- new_margin(k, lower, upper)
+spline_margin <- function(k, lower, upper, closed = FALSE) {
+  key <- paste(k, lower, upper, closed)
+  if (is.null(kept_margins[[key]])) kept_margins[[key]] <- new_margin(k, lower, upper, closed)
   kept_margins[[key]]
 }
 
 kept_margins <- new.env(parent = emptyenv())
 
-new_margin <- function(k, lower, upper) {
-  term <- eval(substitute(mgcv::s(x, bs = "ps", k = k, m = c(2, 2)), list(x = quote(x), k = k)))
+new_margin <- function(k, lower, upper, closed) {
+  term <- eval(substitute(mgcv::s(x, bs = basis, k = k, m = c(2, 2)),
+                          list(x = quote(x), k = k, basis = if (closed) "cp" else "ps")))
   mgcv::smoothCon(term, data.frame(x = seq(lower, upper, length.out = 2 * k)),
                   knots = list(x = c(lower, upper)))[[1]]
 }
@@ -107,6 +110,9 @@ new_margin <- function(k, lower, upper) {
 #' @noRd
 margin_design <- function(margin, x, derivative = 0) {
   order <- margin$m[1] + 2
+  if (inherits(margin, "cpspline.smooth")) {
+    return(mgcv::cSplineDes(x - floor(x), margin$knots, order, derivative))
+  }
   range <- margin$knots[c(order, length(margin$knots) - order + 1)]
   splines::splineDesign(margin$knots, pmin(pmax(x, range[1]), range[2]), order,
                         rep(derivative, length(x)))

@@ -324,6 +324,24 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_crest_path
+List cpp_crest_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericVector cost, NumericVector angle, bool round);
+RcppExport SEXP _crestline_cpp_crest_path(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP costSEXP, SEXP angleSEXP, SEXP roundSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type to(toSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type cost(costSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type angle(angleSEXP);
+    Rcpp::traits::input_parameter< bool >::type round(roundSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_crest_path(vb, it, twin, from, to, cost, angle, round));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_equal_chords
 List cpp_equal_chords(NumericMatrix xyz, NumericVector s, int n, List settings);
 RcppExport SEXP _crestline_cpp_equal_chords(SEXP xyzSEXP, SEXP sSEXP, SEXP nSEXP, SEXP settingsSEXP) {
@@ -426,15 +444,16 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_path_coordinates
-List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals);
-RcppExport SEXP _crestline_cpp_path_coordinates(SEXP pointsSEXP, SEXP pathSEXP, SEXP normalsSEXP) {
+List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals, bool closed);
+RcppExport SEXP _crestline_cpp_path_coordinates(SEXP pointsSEXP, SEXP pathSEXP, SEXP normalsSEXP, SEXP closedSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
     Rcpp::traits::input_parameter< NumericMatrix >::type points(pointsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type path(pathSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_path_coordinates(points, path, normals));
+    Rcpp::traits::input_parameter< bool >::type closed(closedSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_path_coordinates(points, path, normals, closed));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -751,6 +770,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_cut_weights", (DL_FUNC) &_crestline_cpp_cut_weights, 9},
     {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
     {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
+    {"_crestline_cpp_crest_path", (DL_FUNC) &_crestline_cpp_crest_path, 8},
     {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
     {"_crestline_cpp_fit_columns", (DL_FUNC) &_crestline_cpp_fit_columns, 9},
@@ -758,7 +778,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_random_bytes", (DL_FUNC) &_crestline_cpp_random_bytes, 1},
     {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
-    {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 3},
+    {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 4},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
     {"_crestline_cpp_tensor_moments", (DL_FUNC) &_crestline_cpp_tensor_moments, 3},
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},

@@ -27,6 +27,7 @@
 #include "mesh_size.h"
 #include "mesh_topology.h"
 #include "path_coordinates.h"
+#include "path_crest.h"
 #include "path_plane.h"
 #include "path_resample.h"
 #include "draw_render.h"
@@ -419,6 +420,19 @@ List cpp_level_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, int 
   return List::create(_["end"] = walk_end(path.end), _["points"] = crossing_rows(mesh, path.crossings));
 }
 
+// angle: of no length where the path may go anywhere.
+// [[Rcpp::export]]
+List cpp_crest_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
+                    NumericVector to, NumericVector cost, NumericVector angle, bool round) {
+  crestline::Triangulation mesh = triangulation(vb, it, twin);
+  crestline::CrestRequest request{surface_point(from), surface_point(to), cost.begin(),
+                                  angle.size() ? angle.begin() : nullptr, round};
+  crestline::CrestPath path = crestline::crest_path(mesh, request, [] { checkUserInterrupt(); });
+  NumericMatrix places(path.places.size(), 7);
+  for (std::size_t i = 0; i < path.places.size(); ++i) fill_row(mesh, path.places[i], i, places);
+  return List::create(_["arrived"] = path.arrived, _["cost"] = path.cost, _["places"] = places);
+}
+
 // [[Rcpp::export]]
 List cpp_equal_chords(NumericMatrix xyz, NumericVector s, int n, List settings) {
   crestline::Spacing spacing = crestline::equal_chords(track(xyz, s, IntegerVector()), n,
@@ -489,9 +503,11 @@ IntegerVector cpp_vertices_in_box(NumericMatrix vb, NumericVector low, NumericVe
 }
 
 // [[Rcpp::export]]
-List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals) {
-  crestline::PathCoordinates c = crestline::path_coordinates(
-      points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol(), [] { checkUserInterrupt(); });
+List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatrix normals,
+                          bool closed = false) {
+  crestline::PathCoordinates c =
+      crestline::path_coordinates(points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol(),
+                                  closed, [] { checkUserInterrupt(); });
   return List::create(_["s"] = c.s, _["d"] = c.d, _["tangent"] = as_rows(c.tangent));
 }
 

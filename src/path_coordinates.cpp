@@ -24,11 +24,13 @@ struct Polyline {
   std::vector<double> start;       // arc length at each node
   std::vector<Vec> centre;         // of each run's ball, and its radius
   std::vector<double> radius;
+  bool closed;                     // ends where it begins
   int segments() const { return static_cast<int>(tangent.size()); }
 };
 
-Polyline make_polyline(const double* path, int k) {
+Polyline make_polyline(const double* path, int k, bool closed) {
   Polyline line;
+  line.closed = closed;
   line.start.push_back(0);
   for (int i = 0; i < k; ++i) line.node.push_back(at(path, i));
   for (int i = 0; i + 1 < k; ++i) {
@@ -64,8 +66,8 @@ void look_at_run(const Polyline& line, int run, Vec p, Nearest& best) {
     double length = line.start[j + 1] - line.start[j];
     double along = dot(rel, line.tangent[j]);
     // The first and last segments go on straight past the ends.
-    if (along < 0 && j > 0) along = 0;
-    if (along > length && j + 1 < line.segments()) along = length;
+    if (along < 0 && (j > 0 || line.closed)) along = 0;
+    if (along > length && (j + 1 < line.segments() || line.closed)) along = length;
     Vec off = rel - along * line.tangent[j];
     double square = dot(off, off);
     if (square < best.square || (square == best.square && j < best.segment)) {
@@ -96,10 +98,10 @@ Nearest nearest_place(const Polyline& line, Vec p, int guess) {
 }  // namespace
 
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k,
+                                 const double* normals, int k, bool closed,
                                  const std::function<void()>& between) {
   Patience patience(between);
-  Polyline line = make_polyline(path, k);
+  Polyline line = make_polyline(path, k, closed);
   PathCoordinates out;
   out.s.resize(n);
   out.d.resize(n);
@@ -113,9 +115,11 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
     int segment = best.segment;
     double length = line.start[segment + 1] - line.start[segment];
     Vec tangent = line.tangent[segment];
-    if (best.along == 0 && segment > 0) tangent = unit(tangent + line.tangent[segment - 1]);
-    if (best.along == length && segment + 2 < k)
-      tangent = unit(tangent + line.tangent[segment + 1]);
+    int count = line.segments();
+    if (best.along == 0 && (segment > 0 || closed))
+      tangent = unit(tangent + line.tangent[(segment + count - 1) % count]);
+    if (best.along == length && (segment + 1 < count || closed))
+      tangent = unit(tangent + line.tangent[(segment + 1) % count]);
     double share = std::min(std::max(best.along / length, 0.0), 1.0);
     Vec normal = (1 - share) * at(normals, segment) + share * at(normals, segment + 1);
     Vec foot = line.node[segment] + best.along * line.tangent[segment];

@@ -13,10 +13,11 @@ struct PathCoordinates {       // one entry (tangent: three) a point
 };
 
 // points: 3 x n; path: 3 x k, k >= 2, no repeated neighbours; normals: 3 x k, the surface's normals
-// along the path. d > 0 on the side of normal x tangent. Past the ends the path goes on straight.
+// along the path. d > 0 on the side of normal x tangent. Past the ends the path goes on straight; a
+// closed one, whose last node is its first, has none.
 // `between`: as of curvature().
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
-                                 const double* normals, int k,
+                                 const double* normals, int k, bool closed,
                                  const std::function<void()>& between);
 
 // Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
