@@ -61,8 +61,8 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
 #' @param live Rows of the surface's data whose strength depends on the heights.
 #' @param margins Designs there.
 #' @param covariance As of cpp_curvature_covariance().
-#' @return Sum of squares of the residuals over its expectation, at least 1; NA where that is 0, so that
-#'   the noise is not known.
+#' @return Sum of squares of the residuals over its expectation, at least 1; NA where that is 0, so
+#'   that the noise is not known.
 #' @noRd
 noise_factor <- function(surface, live, margins, covariance) {
   fitted <- rowSums(margins$across * tcrossprod(margins$along, surface$coefficients))

@@ -84,7 +84,7 @@ with_curve <- function(scan, window) {
 #'
 #' The peak is looked for no finer than `settings$kernel` standard errors of the line without a
 #' kernel: the median over its inner places, without inflation and bias, and without the noise
-#' factor, which on a clean scan takes fine relief for noise. Without a kernel where it is not known.
+#' factor, which on a clean scan takes fine relief for noise. 0 where the error is not known.
 #' @param window With its `line` without a kernel.
 #' @noRd
 kernel_width <- function(scan, window, radius, settings) {
