@@ -60,7 +60,7 @@ suggest_landmarks <- function(mesh, radius, n = 10, kinds = c("cap", "cup", "cro
   curved <- curvature(mesh, radius, "adaptive cubic", threads = threads)
   scan <- walkable(mesh)
   field <- suggestion_field(scan, curved, radius, faint)
-  round <- lapply(intersect(c("cap", "cup"), kinds), round_places, field)
+  round <- lapply(intersect(c("cap", "cup"), kinds), rounded_places, field)
   long <- lapply(c("ridge", "valley"), line_places, field, kinds, share)
   found <- do.call(rbind, c(list(no_suggestion(matrix(0, 0, 3))), round, long))
   found <- sparse_places(found, c("cap", "cup", "crossing", "end"), apart * radius, n)
@@ -97,7 +97,7 @@ no_suggestion <- function(at, kind = character(), strength = numeric(), reason =
 #' @param width,tries As in [settled_peak()], `width` in radii: as [refine_landmarks()] has it;
 #'   `near`: distance in radii of the vertices that take part.
 #' @noRd
-round_places <- function(kind, field, width = 0.75, near = 2.5) {
+rounded_places <- function(kind, field, width = 0.75, near = 2.5) {
   value <- if (kind == "cap") -field$curved$k1 else field$curved$k2
   r <- field$radius
   rows <- local_maxima(field, value, r / 2)
