@@ -5,7 +5,8 @@
 #     [samples]
 #
 # samples: a number, 500 by default (200 for `out`). Results are kept in CRESTLINE_BENCH (a folder)
-# as they come, where it is set. new: CRESTLINE_SHARED. published: geomorph.
+# as they come, where it is set. new, signs: CRESTLINE_SHARED. published: shapes; geomorph and
+# RRPP (R 4.5).
 
 library(crestline)
 
@@ -255,45 +256,100 @@ speed <- function() {
   row("2,000 x 922, whole shape", fit(big, "shape", data), 1)
 }
 
-# ---- published examples of geomorph, with covariates ----
+# ---- published examples, with covariates: geomorph's, and the gorillas of shapes ----
+
+named <- function(x) {
+  if (is.null(dimnames(x)[[3]])) dimnames(x) <- list(NULL, NULL, paste0("s", seq_len(dim(x)[3])))
+  x
+}
+
+# Ours beside RRPP on the same permutations where it is installed, else beside lm() of every
+# co-ordinate, type I.
+compare <- function(what, coords, size, formula, data, ss = "I") {
+  aligned <- as_aligned(coords, size)
+  rows <- data.frame(id = names(aligned), data)
+  with_rrpp <- requireNamespace("RRPP", quietly = TRUE)
+  set.seed(1)
+  orders <- if (with_rrpp) RRPP:::perm.index(dim(coords)[3], 999, seed = 1) else
+    replicate(999, sample.int(dim(coords)[3]))
+  settings <- model_settings(tests = "shape", permutations = orders, ss = ss)
+  ours <- quiet(shape_lm(aligned, formula, rows, settings = settings))$tests
+  k <- seq_len(nrow(ours))
+  y <- t(matrix(aligned$coords, length(aligned$mean)))
+  frame <- c(list(y = y, size = unname(aligned$size)), lapply(data, identity))
+  if (with_rrpp) {
+    theirs <- RRPP::lm.rrpp(update(formula, y ~ .), iter = 999, seed = 1, print.progress = FALSE,
+                            data = do.call(RRPP::rrpp.data.frame, frame), SS.type = ss)
+    table <- anova(theirs)$table[k, ]
+    names(table)[7] <- "p"
+  } else {
+    left <- vapply(c(0, k), function(count) {
+      terms <- attr(terms(formula), "term.labels")[seq_len(count)]
+      sum(resid(lm(reformulate(c("1", terms), "y"), frame))^2)
+    }, 0)
+    df <- df.residual(lm(update(formula, y ~ .), frame))
+    table <- data.frame(SS = -diff(left), F = -diff(left) / ours$df / (left[length(left)] / df),
+                        Z = NA, p = NA)
+  }
+  cat(sprintf("\n%s, type %s, beside %s. Greatest difference: SS %.1e, F %.1e (relative), %s\n",
+              what, ss, if (with_rrpp) "RRPP" else "lm()", max(abs(ours$squares / table$SS - 1)),
+              max(abs(ours$statistic / table$F - 1)),
+              sprintf("Z %.1e, p %.1e", max(abs(ours$z - table$Z)),
+                      max(abs(ours$p_value - table$p)))))
+  print(data.frame(ours[c("term", "df")], signif(ours[c("squares", "share", "statistic", "z")], 5),
+                   p_value = ours$p_value), row.names = FALSE)
+}
+
+gorillas <- function() {
+  utils::data("gorf.dat", "gorm.dat", package = "shapes", envir = environment())
+  x <- named(array(c(gorf.dat, gorm.dat), c(8, 2, 59)))
+  aligned <- quiet(align(x))
+  data <- list(sex = rep(c("f", "m"), c(30, 29)))
+  for (formula in c(~ log(size) + sex, ~ log(size) * sex)) {
+    compare(paste("gorillas", deparse1(formula)), aligned$coords, aligned$size, formula, data)
+  }
+}
 
 published <- function() {
+  if (requireNamespace("shapes", quietly = TRUE)) gorillas()
   if (!requireNamespace("geomorph", quietly = TRUE))
     return(cat("\npublished: geomorph is not installed\n"))
-  utils::data("plethodon", "pupfish", "plethspecies", "scallops", package = "geomorph",
+  utils::data("plethodon", "pupfish", "scallops", "mosquito", package = "geomorph",
               envir = environment())
-  compare <- function(what, coords, size, formula, data, ss = "I") {
-    aligned <- as_aligned(coords, size)
-    theirs <- geomorph::procD.lm(update(formula, coords ~ .), iter = 999, seed = 1,
-                                 print.progress = FALSE,
-                                 data = do.call(geomorph::geomorph.data.frame,
-                                                c(list(coords = coords, size = size), data)),
-                                 SS.type = ss)
-    table <- anova(theirs)$table
-    orders <- RRPP:::perm.index(dim(coords)[3], 999, seed = 1)
-    rows <- data.frame(id = names(aligned), data)
-    ours <- quiet(shape_lm(aligned, formula, rows,
-                           settings = model_settings(tests = "shape", permutations = orders,
-                                                     ss = ss)))$tests
-    k <- seq_len(nrow(ours))
-    cat(sprintf("%-40s greatest relative difference: SS %.1e, F %.1e; Z %.1e, p %.1e\n", what,
-                max(abs(ours$squares / table$SS[k] - 1)), max(abs(ours$statistic / table$F[k] - 1)),
-                max(abs(ours$z - table$Z[k])), max(abs(ours$p_value - table[k, 7]))))
-    print(data.frame(ours[c("term", "df")],
-                     signif(ours[c("squares", "share", "statistic", "z", "p_value")], 4)),
-          row.names = FALSE)
-  }
-  named <- function(x) {
-    if (is.null(dimnames(x)[[3]])) dimnames(x) <- list(NULL, NULL, paste0("s", seq_len(dim(x)[3])))
-    x
-  }
   gpa <- geomorph::gpagen(named(plethodon$land), print.progress = FALSE)
-  compare("plethodon: size + species * site", gpa$coords, gpa$Csize, ~ log(size) + species * site,
-          list(species = plethodon$species, site = plethodon$site))
-  compare("pupfish: log size + Sex * Pop", named(pupfish$coords), unname(pupfish$CS),
-          ~ log(size) + Sex * Pop, list(Sex = pupfish$Sex, Pop = pupfish$Pop))
-  compare("pupfish, type II", named(pupfish$coords), unname(pupfish$CS), ~ log(size) + Sex * Pop,
-          list(Sex = pupfish$Sex, Pop = pupfish$Pop), "II")
+  data <- list(species = plethodon$species, site = plethodon$site)
+  for (formula in c(~ species * site, ~ log(size) + species * site)) {
+    compare(paste("plethodon", deparse1(formula)), gpa$coords, gpa$Csize, formula, data)
+  }
+  data <- list(Sex = pupfish$Sex, Pop = pupfish$Pop)
+  fish <- function(...) {
+    compare(..., coords = named(pupfish$coords), size = unname(pupfish$CS), data = data)
+  }
+  fish("pupfish log(size)", formula = ~ log(size))
+  fish("pupfish log(size) + Sex + Pop", formula = ~ log(size) + Sex + Pop)
+  fish("pupfish log(size) + Sex * Pop", formula = ~ log(size) + Sex * Pop)
+  fish("pupfish log(size) + Sex * Pop", formula = ~ log(size) + Sex * Pop, ss = "II")
+  fish("pupfish log(size) * Sex * Pop", formula = ~ log(size) * Sex * Pop, ss = "III")
+  gpa <- geomorph::gpagen(named(mosquito$wingshape), print.progress = FALSE)
+  compare("mosquito ind * side", gpa$coords, gpa$Csize, ~ ind * side,
+          list(ind = factor(mosquito$ind), side = factor(mosquito$side)))
+  symmetric_scallops(scallops)
+}
+
+symmetric_scallops <- function(scallops) {
+  first <- geomorph::gpagen(named(scallops$coorddata), Proj = FALSE, print.progress = FALSE)
+  theirs <- geomorph::bilat.symmetry(first, ind = scallops$ind, object.sym = TRUE, iter = 99,
+                                     land.pairs = scallops$land.pairs, print.progress = FALSE)
+  x <- named(scallops$coorddata)
+  rownames(x) <- seq_len(nrow(x))
+  pairs <- matrix(as.character(scallops$land.pairs), ncol = 2)
+  ours <- quiet(symmetry_parts(x, pairs = pairs))$tests
+  k <- seq_len(nrow(ours))
+  cat(sprintf("\nscallops, object symmetry. Greatest relative difference: SS %.1e, F %.1e\n",
+              max(abs(ours$squares / theirs$shape.anova$SS[k] - 1), na.rm = TRUE),
+              max(abs(ours$statistic / theirs$shape.anova$F[k] - 1), na.rm = TRUE)))
+  print(theirs$shape.anova)
+  print(ours)
 }
 
 for (what in wanted) get(what)()

@@ -1,12 +1,13 @@
 # Level and power of the tests of groups, where groups differ in size and spread.
 #
-#   nice Rscript bench/spread.R [samples] [file] [variants|level|form|power|designs]
+#   nice Rscript bench/spread.R [samples] [file] [variants|level|three|chance|form|power|designs]
 #
 # A sample: shapes of 20 points about one mean, of eight modes of falling variance and noise, all
 # in the space tangent to the shapes at the mean, so that means are equal whatever the spread;
 # normal centroid sizes. Groups after the first have `ratio` times the first one's spread. 99
 # permutations. Adds a row a sample to `file` as it goes (columns: what, sizes, ratio, spread, seed,
 # and the p-values), goes on where it stopped, and prints the shares of p-values up to 0.05.
+# level, three: two groups, and three. chance: equal groups of equal spread alone, for more samples.
 # form: the spreads differ in the first mode only, or in the noise only. variants: of one variable,
 # what raising a group's variance costs and gains, 100,000 samples.
 
@@ -16,7 +17,7 @@ argument <- commandArgs(TRUE)
 samples <- if (length(argument) > 0) as.integer(argument[1]) else 500L
 file <- if (length(argument) > 1) argument[2] else file.path(tempdir(), "spread.csv")
 wanted <- if (length(argument) > 2) argument[3] else
-  c("variants", "level", "form", "power", "designs")
+  c("variants", "level", "three", "form", "power", "designs")
 
 # Deviations in the tangent space at `mean` (k x 3, centred, of unit size).
 tangent_to <- function(mean) {
@@ -118,10 +119,13 @@ two <- list(c(15, 15), c(24, 6), c(6, 24))
 three <- list(c(10, 10, 10), c(18, 6, 6))
 if ("level" %in% wanted) {
   for (ratio in c(3, 2, 1)) for (sizes in two) of_groups("level", sizes, ratio, FALSE)
-  for (ratio in c(3, 1)) for (sizes in three) of_groups("level", sizes, ratio, FALSE)
   of_groups("level", c(24, 6), 1.5, FALSE)
   of_groups("level", c(24, 6), 3, TRUE)
 }
+if ("three" %in% wanted) {
+  for (ratio in c(3, 2, 1)) for (sizes in three) of_groups("level", sizes, ratio, FALSE)
+}
+if ("chance" %in% wanted) of_groups("level", c(15, 15), 1, FALSE)
 if ("form" %in% wanted) {
   for (form in c("first", "noise")) for (sizes in two) {
     of_groups(paste("form", form), sizes, 3, FALSE, form = form)
