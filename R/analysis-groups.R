@@ -24,11 +24,12 @@
 #' **Unequal spread.** By default every group has its own spread, and only the means are compared. F
 #' of Brown and Forsythe is the squares between groups over the sum of (1 - n_g / n) times the
 #' variance of group g. In every regrouping it is transformed to a chi-squared scale by its own
-#' degrees of freedom (Satterthwaite's; Wallace 1959). The values on that scale are compared.
+#' degrees of freedom (Satterthwaite's below, Mehrotra's above; Wallace 1959). The values on that
+#' scale are compared.
 #'
 #' For T2 and components, the covariance of a group is taken to be a scale of the group times a form
 #' that all groups share. Specimens and means are brought to one scale before they are regrouped,
-#' and T2 is that of the first components of these. A group of six then has one number to estimate,
+#' and T2 is that of the first components of these. Means count by their precision (James 1951). A group of six then has one number to estimate,
 #' not a covariance, and T2 uses as many components as with equal spread. If the forms differ too,
 #' the scale is the mean over the components in use.
 #'
@@ -150,7 +151,10 @@
 #'   Brown and Forsythe (1974) The small sample behavior of some statistics which test the equality
 #'   of several means, *Technometrics* 16, 129-132; Wallace (1959) Bounds on normal approximations
 #'   to Student's and the chi-square distributions, *Annals of Mathematical Statistics* 30,
-#'   1121-1130; Chung and Romano (2016) Multivariate and multiple permutation tests, *Journal of
+#'   1121-1130; Mehrotra (1997) Improving the Brown-Forsythe solution to the generalized
+#'   Behrens-Fisher problem, *Communications in Statistics - Simulation and Computation* 26,
+#'   1139-1145; James (1951) The comparison of several groups of observations when the ratios of the
+#'   population variances are unknown, *Biometrika* 38, 324-329; Chung and Romano (2016) Multivariate and multiple permutation tests, *Journal of
 #'   Econometrics* 193, 76-91; Collyer and Adams (2018) RRPP: an R package for fitting linear models
 #'   to high-dimensional data using residual randomization, *Methods in Ecology and Evolution* 9,
 #'   1772-1779 (Z); Flury (1986) Proportionality of k covariance
@@ -260,24 +264,24 @@ compare_levels <- function(aligned, design, labels, components, tests, equal_spr
 compare_level <- function(aligned, labels, components, tests, spread, blocks, counts, tick,
                           wide = 3) {
   wants <- function(test) test %in% tests
-  flat <- matrix(aligned$coords, length(aligned$mean))
-  y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
   pca <- most <- common <- NULL
   if (wants("T2") || wants("components")) {
     if (spread$equal) wide <- 1
     pca <- shape_pca(aligned, components = if (components >= 1) components * wide)
     most <- component_count(components, pca)
-    count <- testable_components(pca, most, nrow(y), max(labels), spread)
+    count <- testable_components(pca, most, nrow(labels), max(labels), spread)
     among <- seq_len(min(wide * most, ncol(pca$x)))
     if (!spread$equal) common <- common_form(pca$x[, among, drop = FALSE], labels, count)
     pca <- first_components(pca, if (components >= 1) most else length(pca$sdev))
   }
+  y <- if (wants("shape") || wants("dispersion")) shape_rows(aligned)
   total <- if (wants("shape")) whole_shape(y, labels, spread)
   rows <- list(if (wants("size")) size_test(aligned$size, labels, spread, counts),
                if (wants("shape")) mean_shape_test(total, labels, spread, counts),
                if (wants("T2")) t2_test(pca, most, labels, spread, common),
                if (wants("components")) component_tests(pca, most, labels, spread, common),
                if (wants("dispersion")) dispersion_test(y, labels))
+  rm(y, total)
   points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick)
   list(tests = do.call(rbind, rows), points = points, pca = pca,
        components = if (is.null(pca)) NA else count)

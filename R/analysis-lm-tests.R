@@ -24,11 +24,10 @@ lm_rows <- function(term, test, span, scores, total, parametric = NA_real_) {
 #' @noRd
 lm_level <- function(aligned, spans, orders, tests, components, part, tick) {
   wants <- function(test) test %in% tests
-  flat <- matrix(aligned$coords, length(aligned$mean))
-  y <- t((flat - rowMeans(flat)) * sqrt(rep(aligned$weights, ncol(aligned$mean))))
-  total <- sum(y^2)
+  y <- shape_rows(aligned)
+  total <- sum(squares_by_row(y))
   whole <- if (wants("shape")) shape_scores(y, spans, orders)
-  rm(flat, y)
+  rm(y)
   pca <- if (wants("components") || wants("manova")) {
     shape_pca(aligned, components = if (components >= 1) components)
   }

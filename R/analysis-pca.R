@@ -55,27 +55,27 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
   sized <- check_number(sized, "sized", 0, 1)
   check_class(aligned, "aligned", "aligned", "align()")
   weights <- point_weights(weights, as_whole(aligned))
-  coords <- aligned$coords
-  dims <- dim(coords)
+  dims <- dim(aligned$coords)
   weight <- rep(weights, dims[2])
-  x <- t(matrix(coords, ncol = dims[3]))
-  center <- colMeans(x)
-  y <- (x - rep(center, each = dims[3])) * rep(sqrt(weight), each = dims[3])
+  center <- as.vector(rowMeans(aligned$coords, dims = 2))
+  y <- shape_rows(aligned, sqrt(weights))
   parts <- thin_svd(y, tolerance, components)
-  total <- sum(y^2) / (dims[3] - 1)
+  total <- sum(squares_by_row(y)) / (dims[3] - 1)
   if (!length(parts$d)) {
     crestline_abort("all shapes are the same.", "Check that the sample is what it should be.",
                     stage = "components")
   }
-  signs <- component_signs(parts$v, y %*% parts$v, aligned$size, aligned$mean, sized)
-  axis <- parts$v * rep(signs, each = ncol(y))
+  scores <- y %*% parts$v
+  rm(y)
+  signs <- component_signs(parts$v, scores, aligned$size, aligned$mean, sized)
+  axis <- parts$v * rep(signs, each = length(weight))
   names <- paste0("PC", seq_along(parts$d))
   rows <- as.vector(outer(rownames(aligned$mean), colnames(aligned$mean), paste))
   rotation <- `dimnames<-`(axis * sqrt(weight), list(rows, names))
   variance <- parts$d^2 / (dims[3] - 1)
-  scores <- sweep(x, 2, center) %*% rotation
-  direction <- if (all(weight == 1)) rotation else followed(sweep(x, 2, center), scores, rotation)
-  rownames(scores) <- names(aligned)
+  scores <- `dimnames<-`(scores * rep(signs, each = dims[3]), list(names(aligned), names))
+  direction <- if (all(weight == 1)) rotation else
+    followed(shape_rows(aligned, 1), scores, rotation)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows),
                  scale = FALSE, x = scores, share = variance / total, direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)),

@@ -17,17 +17,24 @@ point_tests <- function(aligned, labels, spread, blocks, tick) {
   along <- !is.null(aligned$triangles)
   y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
   groups <- max(labels)
-  observed <- group_scores(y, labels[, 1, drop = FALSE], spread$equal)
+  squares <- 0
+  for (part in y) squares <- squares + part^2
+  rm(part)
+  dimensions <- effective_dimensions(y)
+  scores <- function(columns) {
+    spread_scores(squared_sums(y), squares, labels[, columns, drop = FALSE], spread$equal,
+                  dimensions)$score
+  }
+  observed <- scores(1)
   as_great <- 0
   family <- numeric()
   for (columns in blocks) {
-    score <- group_scores(y, labels[, columns, drop = FALSE], spread$equal)
+    score <- scores(columns)
     as_great <- as_great + colSums(score >= rep(observed * (1 - 1e-10), each = nrow(score)))
     family <- c(family, do.call(pmax, c(as.data.frame(score), na.rm = TRUE)))
     tick()
   }
   described <- point_table(aligned, labels[, 1], along)
-  squares <- Reduce(`+`, lapply(y, function(part) part^2))
   f <- observed_f(squared_sums(y), squares, labels[, 1], spread)$f
   described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
   described$p_value <- as_great / ncol(labels)
@@ -61,27 +68,22 @@ mean_differences <- function(aligned, code) {
 }
 
 mean_shape_of <- function(aligned, chosen) {
-  own <- aligned$coords[, , chosen, drop = FALSE]
-  matrix(rowMeans(matrix(own, length(aligned$mean))), nrow(aligned$mean),
-         dimnames = dimnames(aligned$mean))
+  `dimnames<-`(rowMeans(aligned$coords[, , chosen, drop = FALSE], dims = 2), dimnames(aligned$mean))
 }
 
 #' List of one n x k matrix: displacements from the mean along its normals
 #' @noRd
 normal_displacements <- function(aligned) {
   normal <- point_normals(aligned$mean, aligned$triangles)
-  each <- coordinate_blocks(aligned)
-  list(Reduce(`+`, Map(function(part, d) part * rep(normal[, d], each = nrow(part)), each, 1:3)))
+  along <- 0
+  for (d in 1:3) along <- along + shape_rows(aligned, normal[, d], d)
+  list(along)
 }
 
 #' List of n x k matrices, one a co-ordinate, centred
 #' @noRd
 coordinate_blocks <- function(aligned) {
-  coords <- aligned$coords
-  lapply(seq_len(ncol(aligned$mean)), function(d) {
-    part <- t(coords[, d, ])
-    sweep(part, 2, colMeans(part))
-  })
+  lapply(seq_len(ncol(aligned$mean)), function(d) shape_rows(aligned, 1, d))
 }
 
 #' Unit normals of points, by the areas of their triangles, k x 3, NA where there are none

@@ -51,21 +51,48 @@ squared_total <- function(y, gram = if (nrow(y) <= ncol(y)) tcrossprod(y)) {
 
 #' F of Brown and Forsythe (1974), with two groups the square of Welch's t: squares between over the
 #' sum of (1 - n_g / n) times the variance within group g; and the degrees of freedom of that sum
-#' (Satterthwaite)
+#' (Satterthwaite), and of the squares between (Mehrotra 1997)
 #' @param found As of [group_squares()].
-#' @return List of two B x q matrices: `f`, `df`.
+#' @return List of three B x q matrices: `f`, `df`, `among` (with two groups 1).
 #' @noRd
 separate_f <- function(found, sizes) {
   n <- sum(sizes)
-  variance <- spent <- 0
+  variance <- spent <- mean <- square <- 0
   for (g in seq_along(sizes)) {
-    part <- (1 - sizes[g] / n) * found$within[[g]] / (sizes[g] - 1)
+    own <- found$within[[g]] / (sizes[g] - 1)
+    part <- (1 - sizes[g] / n) * own
     variance <- variance + part
     spent <- spent + part^2 / (sizes[g] - 1)
+    mean <- mean + sizes[g] / n * own
+    square <- square + (1 - 2 * sizes[g] / n) * own^2
   }
   df <- variance^2 / spent
+  among <- variance^2 / (mean^2 + square)
   df[spent <= 0] <- n - length(sizes)
-  list(f = pmin(found$between / variance, .Machine$double.xmax), df = df)
+  among[spent <= 0] <- length(sizes) - 1
+  list(f = pmin(found$between / variance, .Machine$double.xmax), df = df,
+       among = if (length(sizes) > 2) among else 1)
+}
+
+#' F with degrees of freedom of its own in every regrouping, on the scale of chi-squared with as many
+#' as there are if spreads are equal
+#'
+#' f2 log(1 + f1 F / f2) is near to chi-squared on f1 degrees whatever f2 is (Wallace 1959). Roots of
+#' the third degree of chi-squared are near to normal (Wilson and Hilferty 1931), by which other f1
+#' are brought to groups - 1.
+#'
+#' @param own Of [separate_f()].
+#' @param groups Their number.
+#' @param times,counted What all degrees of freedom are multiplied by, and what those below are.
+#' @noRd
+chi_squared_scale <- function(own, groups, times = 1, counted = 1) {
+  below <- own$df * times * counted
+  among <- own$among * times
+  score <- below * log1p(among * own$f / below)
+  if (groups == 2) return(score)
+  usual <- (groups - 1) * times
+  normal <- ((score / among)^(1 / 3) - 1 + 2 / (9 * among)) / sqrt(2 / (9 * among))
+  usual * pmax(normal * sqrt(2 / (9 * usual)) + 1 - 2 / (9 * usual), 0)^3
 }
 
 #' How many directions share the variance: trace squared over the trace of the square of a
@@ -86,9 +113,9 @@ effective_dimensions <- function(y) {
 #' What variables are tested by, for many regroupings: greater, the more lies between the groups
 #'
 #' With equal spread: sum of squares between over that in all. Else F with separate variances, on
-#' degrees of freedom of its own in every regrouping: f2 log(1 + f1 F / f2), near to chi-squared on
-#' f1 degrees whatever f2 is (Wallace 1959). Without that a small group of great spread, which
-#' regroupings dilute, would be compared with lighter tails than its own.
+#' degrees of freedom of its own in every regrouping: see [chi_squared_scale()]. Without that a small
+#' group of great spread, which regroupings dilute, would be compared with lighter tails than its
+#' own.
 #'
 #' @param about,squares As in [group_squares()].
 #' @param dimensions q numbers, as of [effective_dimensions()]: both degrees of freedom are
@@ -101,8 +128,7 @@ spread_scores <- function(about, squares, labels, equal_spread, dimensions = 1) 
   if (equal_spread) score <- found$between / total else {
     own <- separate_f(found, tabulate(labels[, 1]))
     by <- rep(dimensions, each = nrow(own$f), length.out = length(own$f))
-    below <- own$df * by
-    score <- below * log1p((max(labels) - 1) * by * own$f / below)
+    score <- chi_squared_scale(own, max(labels), by)
   }
   score[total <= 0] <- 0
   list(between = found$between, score = score)
@@ -282,9 +308,9 @@ mean_shape_test <- function(total, labels, spread, counts) {
 #' @noRd
 whole_shape <- function(y, labels, spread) {
   gram <- if (nrow(y) <= ncol(y)) tcrossprod(y)
-  total <- list(about = squared_total(y, gram), squares = cbind(rowSums(y^2)))
+  total <- list(about = squared_total(y, gram), squares = cbind(squares_by_row(y)))
   square <- if (spread$equal) NA else if (is.null(gram)) leading_squares(y) else sum(gram^2)
-  dimensions <- if (spread$equal) 1 else max(1, sum(y^2)^2 / square, na.rm = TRUE)
+  dimensions <- if (spread$equal) 1 else max(1, sum(total$squares)^2 / square, na.rm = TRUE)
   each <- by_block(labels, function(part) {
     own <- spread_scores(total$about, total$squares, part, spread$equal, dimensions)
     cbind(own$between, own$score)
@@ -347,16 +373,27 @@ common_form <- function(x, labels, count, rounds = 3, least = 1e-6, rounding = 1
   list(t2 = of(on_one_scale(x, labels[, 1], scale), labels)$t2, scale = scale)
 }
 
-#' Variables whose groups are brought to one scale: residuals by that of their group, means by what
-#' means vary by if they agree
+#' Variables whose groups are brought to one scale: residuals by the root of that of their group,
+#' means so that what lies between them, all specimens alike, is what lies between them by precision
+#'
+#' Deviations of the means from their mean by precision, each over its standard error, are square to
+#' the roots of the precisions. They are turned to be square to the roots of the group sizes, as
+#' deviations from the plain mean are.
+#'
 #' @param x n x q, columns centred.
+#' @param scale A number by group.
 #' @noRd
 on_one_scale <- function(x, code, scale) {
   sizes <- tabulate(code)
-  mean <- (rowsum(x, code) / sizes)[code, , drop = FALSE]
-  of_means <- sum((1 - sizes / length(code)) * scale) / (length(sizes) - 1)
-  laid <- (x - mean) / sqrt(scale[code]) + mean / sqrt(of_means)
-  laid - rep(colMeans(laid), each = nrow(laid))
+  mean <- rowsum(x, code) / sizes
+  precision <- sizes / scale
+  off <- mean - rep(colSums(mean * precision) / sum(precision), each = nrow(mean))
+  from <- sqrt(precision / sum(precision))
+  to <- sqrt(sizes / sum(sizes))
+  across <- outer(to, from) - outer(from, to)
+  turn <- diag(length(sizes)) + across + across %*% across / (1 + sum(from * to))
+  laid <- turn %*% (off * sqrt(precision)) / sqrt(sizes)
+  (x - mean[code, , drop = FALSE]) / sqrt(scale[code]) + laid[code, , drop = FALSE]
 }
 
 #' Every component by itself; adjusted by the greatest statistic over components
@@ -402,10 +439,7 @@ raised_scores <- function(y, labels, equal_spread, most = 2, counted = 1) {
     pooled <- Reduce(`+`, found$within) / sum(df)
     found$within <- Map(function(own, df) pmax(own, pmin(pooled * df, most * own)),
                         found$within, df)
-    own <- separate_f(found, sizes)
-    groups <- length(sizes)
-    df <- own$df * counted
-    score <- df * log1p((groups - 1) * own$f / df)
+    score <- chi_squared_scale(separate_f(found, sizes), length(sizes), counted = counted)
   }
   score[total <= 0] <- 0
   score
@@ -420,8 +454,7 @@ raised_scores <- function(y, labels, equal_spread, most = 2, counted = 1) {
 dispersion_test <- function(y, labels) {
   code <- labels[, 1]
   sizes <- tabulate(code)
-  mean <- rowsum(y, code) / sizes
-  distance <- sqrt(rowSums((y - mean[code, , drop = FALSE])^2) / (1 - 1 / sizes[code]))
+  distance <- sqrt(squares_by_row(y, code) / (1 - 1 / sizes[code]))
   spread <- sqrt(rowsum(distance^2, code) / sizes)
   z <- list(cbind(distance - mean(distance)))
   scores <- by_block(labels, function(part) group_scores(z, part, FALSE))

@@ -25,6 +25,7 @@ void project(const double* residuals, int q, int n, int width, const double* bas
       const double* c = basis + i + static_cast<std::size_t>(n) * l;
       const double c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
       double* sum = sums + static_cast<std::size_t>(l) * width;
+#pragma omp simd
       for (int j = 0; j < width; ++j) sum[j] += c0 * e0[j] + c1 * e1[j] + c2 * e2[j] + c3 * e3[j];
     }
   }
@@ -33,6 +34,7 @@ void project(const double* residuals, int q, int n, int width, const double* bas
     for (int l = 0; l < p; ++l) {
       const double c = basis[i + static_cast<std::size_t>(n) * l];
       double* sum = sums + static_cast<std::size_t>(l) * width;
+#pragma omp simd
       for (int j = 0; j < width; ++j) sum[j] += c * e[j];
     }
   }
@@ -126,6 +128,7 @@ void permuted_squares(const double* y, int q, int n, const double* basis, int p,
           for (int r = 0; r < term.without_count; ++r) {
             const double share = product[l + static_cast<std::size_t>(p) * r];
             const double* fitted = term.fitted + static_cast<std::size_t>(r) * q + from;
+#pragma omp simd
             for (int j = 0; j < width; ++j) rest[j] -= share * fitted[j];
           }
         }

@@ -94,11 +94,21 @@ double form(const double* a, const double* v, int m) {
   return total;
 }
 
-// What the deviations of means vary by, as a share of what one specimen does.
-double of_means(const std::vector<double>& scale, const std::vector<int>& size, int n) {
-  double sum = 0;
-  for (std::size_t g = 0; g < size.size(); ++g) sum += (1 - double(size[g]) / n) * scale[g];
-  return sum / (size.size() - 1);
+// The means' deviations from their mean by precision, each divided by its own standard error:
+// m x groups. `sums`: m x groups, of the members.
+void laid_means(const Matrix& sums, int m, const std::vector<int>& size,
+                const std::vector<double>& scale, Matrix& out) {
+  const int groups = static_cast<int>(size.size());
+  double total = 0;
+  for (int g = 0; g < groups; ++g) total += size[g] / scale[g];
+  for (int c = 0; c < m; ++c) {
+    double mean = 0;
+    for (int g = 0; g < groups; ++g) mean += sums[c + std::size_t(g) * m] / scale[g] / total;
+    for (int g = 0; g < groups; ++g) {
+      const double off = sums[c + std::size_t(g) * m] / size[g] - mean;
+      out[c + std::size_t(g) * m] = std::sqrt(size[g] / scale[g]) * off;
+    }
+  }
 }
 
 // To a mean of 1 over degrees of freedom, none below `least`.
@@ -108,24 +118,55 @@ void normalise(std::vector<double>& scale, const std::vector<int>& size, int df,
   for (double& one : scale) one = mean > 0 ? std::max(one / mean, least) : 1;
 }
 
-// Sum of t / (1 - t) over the eigenvalues t of p' p, groups x groups.
-double trace_of(const Matrix& p, int count, int groups) {
-  std::vector<double> a(std::size_t(groups) * groups), value(groups), work(8 * groups + 8);
-  for (int g = 0; g < groups; ++g) {
-    for (int h = 0; h <= g; ++h) {
+// a' b of two count x groups matrices.
+Matrix crossed(const Matrix& a, const Matrix& b, int count, int groups) {
+  Matrix out(std::size_t(groups) * groups);
+  for (int h = 0; h < groups; ++h) {
+    for (int g = 0; g < groups; ++g) {
       double sum = 0;
       for (int j = 0; j < count; ++j) {
-        sum += p[j + std::size_t(g) * count] * p[j + std::size_t(h) * count];
+        sum += a[j + std::size_t(g) * count] * b[j + std::size_t(h) * count];
       }
-      a[h + std::size_t(g) * groups] = sum;
+      out[g + std::size_t(h) * groups] = sum;
     }
   }
+  return out;
+}
+
+// Trace of b b' (I - p p')^-1: b the means that are tested, I - p p' the residuals' share of the
+// sum that the components are of. count x groups each.
+double trace_of(const Matrix& p, const Matrix& b, int count, int groups) {
+  Matrix a = crossed(p, p, count, groups), mixed = crossed(b, p, count, groups);
+  std::vector<double> value(groups), work(8 * groups + 8);
   int info = 0, size = static_cast<int>(work.size());
-  F77_CALL(dsyev)("N", "U", &groups, a.data(), &groups, value.data(), work.data(), &size, &info
+  F77_CALL(dsyev)("V", "U", &groups, a.data(), &groups, value.data(), work.data(), &size, &info
                   FCONE FCONE);
   double trace = 0;
-  for (double t : value) trace += std::min(t, 1 - 1e-12) / std::max(1 - t, 1e-12);
+  for (double one : b) trace += one * one;
+  for (int k = 0; k < groups; ++k) {
+    const double* vector = a.data() + std::size_t(k) * groups;
+    for (int g = 0; g < groups; ++g) {
+      double sum = 0;
+      for (int h = 0; h < groups; ++h) sum += mixed[g + std::size_t(h) * groups] * vector[h];
+      trace += sum * sum / std::max(1 - value[k], 1e-12);
+    }
+  }
   return trace;
+}
+
+// Means on the components, as shares of the roots of `value`: count x groups. 0 up to `rounding`.
+void scores_of(const Matrix& laid, const Leading& on, int m, int count, int groups, double rounding,
+               Matrix& out) {
+  for (int j = 0; j < count; ++j) {
+    const double* v = on.vectors.data() + std::size_t(j) * m;
+    const double root = std::sqrt(std::max(on.values[j], 1e-300));
+    for (int g = 0; g < groups; ++g) {
+      const double* own = laid.data() + std::size_t(g) * m;
+      double sum = 0;
+      for (int c = 0; c < m; ++c) sum += v[c] * own[c];
+      out[j + std::size_t(g) * count] = std::abs(sum / root) > rounding ? sum / root : 0;
+    }
+  }
 }
 
 }  // namespace
@@ -140,8 +181,8 @@ void common_form_t2(const double* x, int m, int n, const int* labels, int b, int
   const int df = n - groups;
   std::vector<Matrix> within(groups, Matrix(std::size_t(m) * m));
   Matrix sums(std::size_t(m) * groups), whole(std::size_t(m) * m);
-  Matrix means(std::size_t(count) * groups);
-  std::vector<double> own(groups), found(groups);
+  Matrix laid(sums.size()), means(std::size_t(count) * groups), tested(means.size());
+  std::vector<double> own(groups), found(groups), corrected(groups);
   Leading leading(m, count);
   for (int k = 0; k < b; ++k) {
     if (patience.over()) patience.finish();
@@ -153,14 +194,14 @@ void common_form_t2(const double* x, int m, int n, const int* labels, int b, int
     normalise(own, size, df, least);
     t2[k] = 0;
     for (int round = 0; round < rounds; ++round) {
-      const double apart = of_means(own, size, n);
+      laid_means(sums, m, size, own, laid);
       for (int c = 0; c < m; ++c) {
         for (int r = 0; r <= c; ++r) {
           const std::size_t at = r + std::size_t(c) * m;
           double sum = 0;
           for (int g = 0; g < groups; ++g) {
-            const double* s = sums.data() + std::size_t(g) * m;
-            sum += within[g][at] / own[g] + s[r] * s[c] / (size[g] * apart);
+            const double* off = laid.data() + std::size_t(g) * m;
+            sum += within[g][at] / own[g] + off[r] * off[c];
           }
           whole[at] = sum;
         }
@@ -171,19 +212,20 @@ void common_form_t2(const double* x, int m, int n, const int* labels, int b, int
         const double* v = leading.vectors.data() + std::size_t(j) * m;
         const double value = std::max(leading.values[j], 1e-300);
         for (int g = 0; g < groups; ++g) {
-          const double* s = sums.data() + std::size_t(g) * m;
-          double sum = 0;
-          for (int c = 0; c < m; ++c) sum += v[c] * s[c];
-          const double share = sum / std::sqrt(size[g] * apart * value);
-          means[j + std::size_t(g) * count] = std::abs(share) > rounding ? share : 0;
           found[g] += form(within[g].data(), v, m) / (value * (size[g] - 1));
         }
       }
       // The trace takes what all residuals have on the components for that of one specimen.
       double common = 0;
       for (int g = 0; g < groups; ++g) common += found[g] / own[g] * (size[g] - 1) / df;
-      const double corrected = of_means(found, size, n) / common;
-      t2[k] = corrected > 0 ? df * trace_of(means, count, groups) * apart / corrected : 0;
+      scores_of(laid, leading, m, count, groups, rounding, means);
+      t2[k] = 0;
+      if (common > 0) {
+        for (int g = 0; g < groups; ++g) corrected[g] = std::max(found[g] / common, least);
+        laid_means(sums, m, size, corrected, laid);
+        scores_of(laid, leading, m, count, groups, rounding, tested);
+        t2[k] = df * trace_of(means, tested, count, groups);
+      }
       normalise(found, size, df, least);
       own = found;
     }

@@ -8,10 +8,10 @@ namespace crestline {
 // For every regrouping: the scale of each group and T2 (more groups: Hotelling and Lawley's trace
 // times the degrees of freedom).
 //
-// Residuals of each group are divided by the root of its scale, and means' deviations by that of
-// the scale that they have if means agree. T2 is that on the first components of the sum of the two
-// scatters. A group's scale is then what its residuals have on these components, each component
-// alike, and the components are found anew: `rounds` times.
+// Residuals of each group are divided by the root of its scale, and means' deviations from the mean
+// by precision by their standard errors by these scales (Welch; James 1951). T2 is that on the first
+// components of the sum of the two scatters. A group's scale is then what its residuals have on
+// these components, each component alike, and the components are found anew: `rounds` times.
 //
 // x: m x n, a column a specimen, rows centred. labels: n x b, from 0, a column a regrouping.
 // count: components, at most m. least: least scale, as a share of the mean one. rounding:

@@ -7,6 +7,7 @@
 
 #include "analysis_align.h"
 #include "analysis_lm.h"
+#include "analysis_rows.h"
 #include "analysis_spread.h"
 #include "curvature.h"
 #include "placing_match.h"
@@ -780,6 +781,27 @@ NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericM
   NumericMatrix out(2, orders.ncol());
   crestline::permuted_forms(gram.begin(), own.begin(), whole.begin(), gram.nrow(), order.data(), orders.ncol(),
                             out.begin(), [] { checkUserInterrupt(); });
+  return out;
+}
+
+// x: m variables of n specimens, one after the other. from: the first that is taken, from 1. factor:
+// of those that are taken, whose number it gives.
+// [[Rcpp::export]]
+NumericMatrix cpp_centred_rows(NumericVector x, int m, int from, NumericVector factor) {
+  const int n = x.size() / m, q = factor.size();
+  NumericMatrix out = no_init(n, q);
+  crestline::centred_rows(x.begin(), m, n, from - 1, q, factor.begin(), out.begin(),
+                          [] { checkUserInterrupt(); });
+  return out;
+}
+
+// y: n x q. means: groups x q. group: n, from 1.
+// [[Rcpp::export]]
+NumericVector cpp_squared_distances(NumericMatrix y, NumericMatrix means, IntegerVector group) {
+  std::vector<int> own = from_zero(group);
+  NumericVector out(y.nrow());
+  crestline::squared_distances(y.begin(), y.nrow(), y.ncol(), means.begin(), means.nrow(),
+                               own.data(), out.begin(), [] { checkUserInterrupt(); });
   return out;
 }
 

@@ -24,25 +24,26 @@ test_that("sizes and scores are tested by Welch's t, on Satterthwaite's degrees 
   expect_equal(row("PC2")$p_parametric, theirs$p.value, tolerance = 1e-8)
 })
 
-# T2 of groups whose covariances have one form, from inner products of the specimens: `rounds` times
+# T2 of groups whose covariances have one form, from singular values of the specimens: `rounds` times
 # components of the specimens on one scale, and the scales on these components.
 one_form <- function(y, code, count, rounds = 3) {
   n <- nrow(y)
-  sizes <- tabulate(code)
-  df <- sizes - 1
-  mean <- outer(code, code, `==`) / sizes[code]
-  between <- mean - 1 / n
-  of_means <- function(scale) sum((1 - sizes / n) * scale) / (length(sizes) - 1)
+  df <- tabulate(code) - 1
+  mean <- outer(code, code, `==`) / tabulate(code)[code]
   own <- rowsum(rowSums((y - mean %*% y)^2), code)[, 1] / df
   scale <- own * sum(df) / sum(df * own)
+  laid <- function(y, scale) {
+    by <- 1 / scale[code]
+    (y - rep(colSums(y * by) / sum(by), each = n)) * sqrt(by)
+  }
   for (round in seq_len(rounds)) {
-    laid <- ((diag(n) - mean) / sqrt(scale[code]) + between / sqrt(of_means(scale))) %*% y
-    u <- svd(laid, count, 0)$u
-    h <- crossprod(u, between %*% u)
-    left <- rowsum(rowSums(((diag(n) - mean) %*% u)^2), code)[, 1]
+    parts <- svd(laid(y, scale), count, count)
+    u <- parts$u
+    left <- rowsum(rowSums((u - mean %*% u)^2), code)[, 1]
     factor <- left / df * sum(df) / sum(left)
-    trace <- sum(df) * sum(diag(solve(diag(count) - h, h)))
-    t2 <- trace * of_means(scale) / of_means(scale * factor)
+    # The means as they stand by the scales found.
+    of_means <- laid(mean %*% y, scale * factor) %*% parts$v %*% diag(1 / parts$d[seq_len(count)])
+    t2 <- sum(df) * sum(diag(solve(diag(count) - crossprod(mean %*% u), crossprod(of_means))))
     scale <- scale * factor * sum(df) / sum(df * scale * factor)
   }
   list(t2 = t2, scale = scale)
@@ -93,6 +94,36 @@ test_that("on one scale groups vary alike, and their means are as far apart as t
   off <- function(x) colMeans(x[1:12, ]) - colMeans(x[13:17, ])
   expect_equal(off(two), off(y) * sqrt((1 / 12 + 1 / 5) / (0.5 / 12 + 3 / 5)))
   expect_equal(on_one_scale(y, code, c(1, 1, 1)), y, ignore_attr = TRUE)
+})
+
+test_that("on one scale as much lies between means, all alike, as lies there by precision", {
+  code <- rep(1:4, c(8, 4, 5, 3))
+  y <- with_seed(5, matrix(rnorm(60), 20))
+  y <- sweep(y, 2, colMeans(y))
+  scale <- c(0.5, 1, 4, 9)
+  means <- rowsum(y, code) / tabulate(code)
+  weight <- tabulate(code) / scale
+  off <- sweep(means, 2, colSums(means * weight) / sum(weight))
+  laid <- rowsum(on_one_scale(y, code, scale), code) / tabulate(code)
+  expect_equal(crossprod(laid * sqrt(tabulate(code))), crossprod(off * sqrt(weight)))
+  expect_equal(colSums(laid * tabulate(code)), c(0, 0, 0))
+})
+
+test_that("F of three groups has Mehrotra's degrees of freedom, and the scale is chi-squared's", {
+  y <- with_seed(6, cbind(rnorm(12) * rep(1:3, 4)))
+  code <- rep(1:3, 4)
+  found <- group_squares(squared_sums(list(y - mean(y))), (y - mean(y))^2, cbind(code), TRUE)
+  own <- separate_f(found, c(4, 4, 4))
+  v <- tapply(y, code, var)
+  expect_equal(own$among[1], sum(v * 2 / 3)^2 / (sum(v / 3)^2 + sum(v^2 / 3)))
+  expect_equal(own$df[1], sum(v)^2 / sum(v^2 / 3))
+  expect_equal(own$f[1], sum(4 * (tapply(y, code, mean) - mean(y))^2) / sum(v * 2 / 3))
+  # Normal scores of what F has by its own degrees, and of chi-squared with two.
+  many <- list(f = matrix(c(0.5, 2, 5)), df = matrix(30), among = matrix(1.4))
+  by_f <- qnorm(pf(many$f[, 1], 1.4, 30))
+  by_scale <- qnorm(pchisq(chi_squared_scale(lapply(many, rep_len, 3), 3), 2))
+  expect_lt(max(abs(by_f - by_scale)), 0.05)
+  expect_equal(chi_squared_scale(list(f = 2, df = 30, among = 2), 3), 30 * log1p(4 / 30))
 })
 
 test_that("a variance is raised towards the pooled one, at most to twice itself", {

@@ -1,0 +1,18 @@
+// Matrices of specimens by variables without a copy on the way.
+#pragma once
+#include <functional>
+
+namespace crestline {
+
+// Some variables of every specimen, centred and multiplied: a row a specimen.
+// x: m x n, a column a specimen. from, q: the first variable taken, from 0, and how many.
+// factor: q. out: n x q.
+void centred_rows(const double* x, int m, int n, int from, int q, const double* factor, double* out,
+                  const std::function<void()>& between);
+
+// Squared distance of every row to the mean of its group. y: n x q. means: groups x q. group: n,
+// from 0. out: n.
+void squared_distances(const double* y, int n, int q, const double* means, int groups,
+                       const int* group, double* out, const std::function<void()>& between);
+
+}  // namespace crestline
