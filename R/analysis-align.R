@@ -135,10 +135,10 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
     level <- check_choice(level, sample_levels, "level", call)
     scheme <- sample$template$scheme
     whole <- level == "model"
-    coords <- if (whole) every_place(sample) else as.array(sample, level)
+    coords <- as.array(sample, level)
     if (level %in% c("surface", "model") &&
         is.null(triangles)) triangles <- model_triangles(scheme, whole)
-    reference <- if (whole) places_of(sample$template) else coords(sample$template, level)
+    reference <- level_places(sample$template, level)
     places <- if (whole) rownames(reference) else scheme$points$place[scheme$points$level == level]
   } else {
     coords <- named_array(check_array(sample, call))
@@ -155,16 +155,6 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
   list(coords = coords, reference = reference,
        triangles = check_triangles(triangles, dim(coords)[1], call),
        places = places, level = level)
-}
-
-sample_levels <- c("landmarks", "curves", "surface", "model")
-
-#' Array of every place of a sample's shapes once
-#' @noRd
-every_place <- function(sample) {
-  like <- places_of(sample$template)
-  each <- lapply(sample$shapes, places_of)
-  array(as.numeric(unlist(each)), c(dim(like), length(each)), c(dimnames(like), list(names(each))))
 }
 
 #' Triangles of a scheme between its surface points, or between all its places

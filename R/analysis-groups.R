@@ -35,7 +35,7 @@
 #'
 #' The variance of a small group is often estimated too low, which costs power. For size and single
 #' components, the p-values by permutation therefore raise it towards the pooled variance, at most
-#' to twice itself (components: three times). `statistic` and `p_parametric` have the variances as
+#' to 1.5 times itself (components: three times). `statistic` and `p_parametric` have the variances as
 #' they are.
 #'
 #' The tests are exact if the groups have one distribution. If only their means agree, they are

@@ -102,13 +102,7 @@ check_comparable <- function(newdata, pca, call) {
 #' Configurations of a level, of a shape, a sample, an alignment, an array or a matrix
 #' @noRd
 configurations_of <- function(newdata, level, call) {
-  if (inherits(newdata, "shape")) {
-    one <- if (level == "model") places_of(newdata) else coords(newdata, level)
-    return(array(one, c(dim(one), 1), c(dimnames(one), list(newdata$id))))
-  }
-  if (inherits(newdata, "shape_sample")) {
-    return(if (level == "model") every_place(newdata) else as.array(newdata, level))
-  }
+  if (inherits(newdata, c("shape", "shape_sample"))) return(as.array(newdata, level))
   if (inherits(newdata, "aligned")) {
     validate(newdata)
     return(raw_configurations(newdata))

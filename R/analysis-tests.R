@@ -425,12 +425,12 @@ component_tests <- function(pca, components, labels, spread, common) {
 #'
 #' @param y n x q, columns centred.
 #' @param most,counted `counted`: how many times its degrees of freedom a variance counts, as its
-#'   lower tail is cut. For one variable whose spreads may differ: 2, the greatest of 1.2, 1.5, 2
-#'   and 3 with which at most 0.08 of true null hypotheses are rejected (24 and 6 specimens, ratios
-#'   1/3 to 3: `bench/spread.R variants`), and 1.
+#'   lower tail is cut. For one variable whose spreads may differ: 1.5, the greatest of 1, 1.5 and 2
+#'   with which at most 0.08 of true null hypotheses are rejected (24 and 6, and 18, 6 and 6
+#'   specimens, ratios 1 to 3: `bench/spread.R variants size`), and 1.
 #' @return B x q.
 #' @noRd
-raised_scores <- function(y, labels, equal_spread, most = 2, counted = 1) {
+raised_scores <- function(y, labels, equal_spread, most = 1.5, counted = 1) {
   found <- group_squares(squared_sums(list(y)), y^2, labels, !equal_spread)
   total <- rep(colSums(y^2), each = ncol(labels))
   if (equal_spread) score <- found$between / total else {

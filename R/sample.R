@@ -263,7 +263,8 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #'
 #' @param x A `shape_sample`, as [homologise()] returns it, or one `shape` (n = 1).
 #' @param level Kind of points: "landmarks" (the default, as of [align()] and [as_geomorph()]),
-#'   "curves" or "surface". [coords()] of one shape gives "curves" by default.
+#'   "curves", "surface", or "model": every point of the model once, also where several curves and
+#'   patches share it. [coords()] of one shape gives "curves" by default.
 #' @param ... Ignored.
 #' @return k x 3 x n array in the unit of the meshes; each specimen keeps its position. The
 #'   dimension names are the points ("part point", or the names of landmarks), `x`, `y`, `z`, and
@@ -287,21 +288,29 @@ check_joinable <- function(a, b, call = rlang::caller_env()) {
 #' dim(as.array(sample, "curves"))
 #' }
 #' @exportS3Method
-as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface"), ...) {
+as.array.shape_sample <- function(x, level = c("landmarks", "curves", "surface", "model"), ...) {
   check_method_dots(..., known = "level")
-  level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
-  like <- coords(x$template, level)
-  each <- lapply(x$shapes, coords, level)
+  level <- check_choice(level, sample_levels, "level")
+  like <- level_places(x$template, level)
+  each <- lapply(x$shapes, level_places, level)
   array(as.numeric(unlist(each)), c(dim(like), length(each)), c(dimnames(like), list(names(each))))
 }
 
 #' @rdname as.array.shape_sample
 #' @exportS3Method
-as.array.shape <- function(x, level = c("landmarks", "curves", "surface"), ...) {
+as.array.shape <- function(x, level = c("landmarks", "curves", "surface", "model"), ...) {
   check_method_dots(..., known = "level")
   check_class(x, "shape", "x", "fit_shape()")
-  own <- coords(x, check_choice(level, c("landmarks", "curves", "surface"), "level"))
+  own <- level_places(x, check_choice(level, sample_levels, "level"))
   array(own, c(dim(own), 1), c(dimnames(own), list(x$id)))
+}
+
+sample_levels <- c("landmarks", "curves", "surface", "model")
+
+#' The points of one level, or of the whole model: points that several parts share once
+#' @noRd
+level_places <- function(shape, level) {
+  if (level == "model") places_of(shape) else coords(shape, level)
 }
 
 #' @rdname as.array.shape_sample

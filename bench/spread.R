@@ -1,6 +1,9 @@
 # Level and power of the tests of groups, where groups differ in size and spread.
 #
-#   nice Rscript bench/spread.R [samples] [file] [variants|level|three|chance|form|power|designs]
+#   nice Rscript bench/spread.R [samples] [file] [part]
+#
+# part: variants, bound, size, level, three, chance, form, power or designs; all but chance if not
+# given.
 #
 # A sample: shapes of 20 points about one mean, of eight modes of falling variance and noise, all
 # in the space tangent to the shapes at the mean, so that means are equal whatever the spread;
@@ -9,7 +12,9 @@
 # and the p-values), goes on where it stopped, and prints the shares of p-values up to 0.05.
 # level, three: two groups, and three. chance: equal groups of equal spread alone, for more samples.
 # form: the spreads differ in the first mode only, or in the noise only. variants: of one variable,
-# what raising a group's variance costs and gains, 100,000 samples.
+# what raising a group's variance costs and gains, 100,000 samples. bound: the greatest power that
+# any test of one variable can have. size: level and power of the test of size alone, for more
+# samples.
 
 library(crestline)
 
@@ -17,7 +22,7 @@ argument <- commandArgs(TRUE)
 samples <- if (length(argument) > 0) as.integer(argument[1]) else 500L
 file <- if (length(argument) > 1) argument[2] else file.path(tempdir(), "spread.csv")
 wanted <- if (length(argument) > 2) argument[3] else
-  c("variants", "level", "three", "form", "power", "designs")
+  c("variants", "bound", "size", "level", "three", "form", "power", "designs")
 
 # Deviations in the tangent space at `mean` (k x 3, centred, of unit size).
 tangent_to <- function(mean) {
@@ -57,17 +62,18 @@ draw_groups <- function(sizes, ratio, seed, effect = c(0, 0), spread = 0.02, k =
   list(x = simplify2array(shapes), group = factor(letters[group]))
 }
 
-p_values <- function(data, seed, ...) {
+p_values <- function(data, seed, ..., tests = comparison_settings()$tests) {
   compared <- suppressMessages(suppressWarnings(
     compare_groups(data$x, data$group, n_perm = 99, seed = seed, progress = FALSE, ...,
-                   settings = comparison_settings(exact = 0, n_boot = 1))
+                   settings = comparison_settings(tests = tests, exact = 0, n_boot = 1))
   ))
   tests <- compared$tests
+  least <- function(p) if (length(p)) min(p) else NA
   p <- function(test) c(tests$p_value[tests$test %in% test], NA)[1]
   data.frame(size = p(c("size t", "size F")), shape = p(c("mean shape", "mean shape F")),
              t2 = p("T2"), pc1 = p("PC1"),
-             components = min(tests$p_adjusted[grepl("^PC", tests$test)]),
-             points = min(compared$points$p_adjusted), dispersion = p("dispersion"))
+             components = least(tests$p_adjusted[grepl("^PC", tests$test)]),
+             points = least(compared$points$p_adjusted), dispersion = p("dispersion"))
 }
 
 done <- if (file.exists(file)) read.csv(file, colClasses = c(sizes = "character"))
@@ -115,6 +121,54 @@ if ("variants" %in% wanted) {
   print(t(vapply(c(1, 1.2, 1.5, 2, 3, Inf), raising, numeric(8))))
 }
 
+# The greatest power at ratio 1 of a test of one variable whose answer does not depend on scale,
+# with a level of 0.05 at ratio 1 and `least` to `most` at the others. Such a test is a critical
+# value of Student's t by the ratio of the variances (these are what normal variables leave to
+# decide by); power is at most that of the Lagrangian, whatever its multipliers.
+bounded_power <- function(least, most, ratio = c(1 / 3, 1 / 2, 2, 3), sizes = c(24, 6),
+                          effect = 1.25, n = 3e5, bins = 40, rounds = 4000) {
+  set.seed(1)
+  df <- sizes - 1
+  drawn <- function(ratio, effect = 0) {
+    off <- rnorm(n) * sqrt(1 / sizes[1] + ratio^2 / sizes[2]) + effect
+    own <- cbind(rchisq(n, df[1]) / df[1], ratio^2 * rchisq(n, df[2]) / df[2])
+    list(t = abs(off) / sqrt(drop(own %*% df) / sum(df) * sum(1 / sizes)),
+         ratio = own[, 2] / own[, 1])
+  }
+  none <- lapply(c(1, ratio), drawn)
+  effects <- drawn(1, effect)
+  limits <- c(-Inf, quantile(c(none[[1]]$ratio, none[[2]]$ratio, effects$ratio),
+                             seq_len(bins - 1) / bins), Inf)
+  values <- c(seq(0.5, 6, 0.05), Inf)
+  # Share of samples with t from each value up, by bin.
+  above <- function(one) {
+    at <- table(factor(findInterval(one$t, values), 0:length(values)), cut(one$ratio, limits))
+    apply(at, 2, function(x) rev(cumsum(rev(x))))[-1, ] / n
+  }
+  size <- lapply(none, above)
+  power <- above(effects)
+  upper <- c(0.05, rep(most, length(ratio)))
+  lower <- c(0.05, rep(least, length(ratio)))
+  up <- c(2, rep(0.1, length(ratio)))
+  low <- 0 * up
+  best <- Inf
+  for (round in seq_len(rounds)) {
+    gain <- power - Reduce(`+`, Map(`*`, size, up - low))
+    chosen <- cbind(apply(gain, 2, which.max), seq_len(bins))
+    found <- vapply(size, function(x) sum(x[chosen]), 0)
+    best <- min(best, sum(gain[chosen]) + sum(up * upper) - sum(low * lower))
+    step <- 30 / (1 + round / 50)
+    up <- pmax(up + step * (found - upper), 0)
+    low <- pmax(low + step * (lower - found), 0)
+  }
+  c(least = least, most = most, power = round(best, 3),
+    pooled = round(mean(effects$t > quantile(none[[1]]$t, 0.95)), 3))
+}
+if ("bound" %in% wanted) {
+  cat("greatest power of any test, 24:6, and of the pooled one\n")
+  print(rbind(bounded_power(0, 0.08), bounded_power(0.03, 0.08)))
+}
+
 two <- list(c(15, 15), c(24, 6), c(6, 24))
 three <- list(c(10, 10, 10), c(18, 6, 6))
 if ("level" %in% wanted) {
@@ -126,6 +180,16 @@ if ("three" %in% wanted) {
   for (ratio in c(3, 2, 1)) for (sizes in three) of_groups("level", sizes, ratio, FALSE)
 }
 if ("chance" %in% wanted) of_groups("level", c(15, 15), 1, FALSE)
+if ("size" %in% wanted) {
+  of_size <- function(what, sizes, ratio, equal, effect = 0) {
+    cell(what, sizes, ratio, equal, function(seed) {
+      p_values(draw_groups(sizes, ratio, seed, c(0, effect)), seed, equal_spread = equal,
+               tests = "size")
+    })
+  }
+  for (ratio in 3:1) for (sizes in c(two, three)) of_size("size level", sizes, ratio, FALSE)
+  for (sizes in two) for (equal in c(FALSE, TRUE)) of_size("size power", sizes, 1, equal, 0.05)
+}
 if ("form" %in% wanted) {
   for (form in c("first", "noise")) for (sizes in two) {
     of_groups(paste("form", form), sizes, 3, FALSE, form = form)

@@ -136,7 +136,7 @@ test_that("a variance is raised towards the pooled one, at most to twice itself"
   part <- raised / c(8, 4)
   f <- apply(y, 2, function(one) diff(tapply(one, code, mean)))^2 / colSums(part)
   df <- 3 * colSums(part)^2 / colSums(part^2 / c(7, 3))
-  expect_equal(raised_scores(y, cbind(code), FALSE, counted = 3)[1, ], df * log1p(f / df))
+  expect_equal(raised_scores(y, cbind(code), FALSE, 2, counted = 3)[1, ], df * log1p(f / df))
   # Some are raised, some of these to the limit.
   expect_true(any(raised > variance) && any(raised == 2 * variance))
 })
