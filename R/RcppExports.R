@@ -193,6 +193,14 @@ cpp_permuted_forms <- function(gram, own, whole, orders) {
     .Call(`_crestline_cpp_permuted_forms`, gram, own, whole, orders)
 }
 
+cpp_centred_rows <- function(x, m, from, factor) {
+    .Call(`_crestline_cpp_centred_rows`, x, m, from, factor)
+}
+
+cpp_squared_distances <- function(y, means, group) {
+    .Call(`_crestline_cpp_squared_distances`, y, means, group)
+}
+
 cpp_common_form_t2 <- function(x, labels, groups, count, rounds, least, rounding) {
     .Call(`_crestline_cpp_common_form_t2`, x, labels, groups, count, rounds, least, rounding)
 }

@@ -713,6 +713,33 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_centred_rows
+NumericMatrix cpp_centred_rows(NumericVector x, int m, int from, NumericVector factor);
+RcppExport SEXP _crestline_cpp_centred_rows(SEXP xSEXP, SEXP mSEXP, SEXP fromSEXP, SEXP factorSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
+    Rcpp::traits::input_parameter< int >::type m(mSEXP);
+    Rcpp::traits::input_parameter< int >::type from(fromSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type factor(factorSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_centred_rows(x, m, from, factor));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_squared_distances
+NumericVector cpp_squared_distances(NumericMatrix y, NumericMatrix means, IntegerVector group);
+RcppExport SEXP _crestline_cpp_squared_distances(SEXP ySEXP, SEXP meansSEXP, SEXP groupSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type y(ySEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type means(meansSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type group(groupSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_squared_distances(y, means, group));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_common_form_t2
 List cpp_common_form_t2(NumericMatrix x, IntegerMatrix labels, int groups, int count, int rounds, double least, double rounding);
 RcppExport SEXP _crestline_cpp_common_form_t2(SEXP xSEXP, SEXP labelsSEXP, SEXP groupsSEXP, SEXP countSEXP, SEXP roundsSEXP, SEXP leastSEXP, SEXP roundingSEXP) {
@@ -796,6 +823,8 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {"_crestline_cpp_permuted_forms", (DL_FUNC) &_crestline_cpp_permuted_forms, 4},
+    {"_crestline_cpp_centred_rows", (DL_FUNC) &_crestline_cpp_centred_rows, 4},
+    {"_crestline_cpp_squared_distances", (DL_FUNC) &_crestline_cpp_squared_distances, 3},
     {"_crestline_cpp_common_form_t2", (DL_FUNC) &_crestline_cpp_common_form_t2, 7},
     {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 6},
     {NULL, NULL, 0}
