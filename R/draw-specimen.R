@@ -35,4 +35,4 @@ curvature_legend <- function(curvature, quantile = 0.95,
 surface_choices <- c("natural", "shape index", "curvature", "plain")
 
 # Colours of curves by their kind.
-kind_colours <- c(ridge = "#A0002A", valley = "#16218C", plane = "#202020")
+kind_colours <- c(ridge = "#C8102E", valley = "#16218C", plane = "#202020")

@@ -73,7 +73,7 @@ draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
   at <- as.matrix(placing[c("x", "y", "z")])
   sure <- placing$state == "placed" & is.na(placing$confidence) |
     placing$state %in% c("found", "placed") & placing$confidence >= least
-  colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#108040", "#C02020"))
+  colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#1B9E77", "#C8102E"))
   for (round in views) {
     turn <- rbind(c(cos(round), 0, -sin(round)), c(0, 1, 0), c(sin(round), 0, cos(round)))
     scene <- draw_surface(specimen$mesh, "#E3CDB8", turn %*% t(specimen$match$rotation), "picture",

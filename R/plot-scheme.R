@@ -26,7 +26,7 @@ plot.suggested_landmarks <- function(x, mesh, surface = "shape index", ...) {
   check_same_mesh(x, mesh, "`x`")
   if (!inherits(mesh, "specimen")) mesh <- specimen(mesh, outward = "keep", debris = 0)
   scene <- plot(mesh, surface, landmarks = FALSE, radius = attr(x, "radius"), ...)
-  colour <- c(cap = "#B00000", cup = "#006000", crossing = "#6A3D9A", end = "#000000")
+  colour <- c(cap = "#C8102E", cup = "#1B9E77", crossing = "#3060C0", end = "#202020")
   for (kind in intersect(names(colour), x$kind)) {
     own <- as.data.frame(x)[x$kind == kind, ]
     scene <- draw_points(scene, own, colour[[kind]], halo = "white", labels = own$landmark)

@@ -161,7 +161,7 @@ bounding_curves <- function(patch, scheme) {
   unique(unlist(lapply(stats::na.omit(sides), function(side) curve_parts(side)$curve)))
 }
 
-grade_colours <- c(green = "#1B8A6B", amber = "#F2A100", red = "#C8102E")
+grade_colours <- c(green = "#1A9470", amber = "#F2A100", red = "#B00020")
 
 quality_columns <- c("specimen", "part", "level", "kind", "length", "strength", "contrast", "se",
                      "competing", "z",
