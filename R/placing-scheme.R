@@ -94,6 +94,8 @@ row_mistakes <- function(shape, settings, beside, threads) {
 #' @noRd
 hooked_ends <- function(row, scan, specimen, source, settings, beside) {
   free <- c(from = row$trust_from > 0 || !is.na(row$cut_share), to = row$trust_to < 1)
+  # The stops of a closed curve have no say in where it runs.
+  if (closed_curves(row)) return(NULL)
   names <- unlist(row[c("from", "to")])
   unlist(lapply(unique(names[!free]), function(name) {
     place <- as_value(found_landmark(specimen, name))

@@ -91,7 +91,7 @@ highest_line <- function(surface, scale, radius, settings, kernel = 0) {
 #' @noRd
 ridge_problem <- function(surface, scale, radius, settings, kernel = 0) {
   grid <- settings$grid
-  places <- if (goes_round(surface)) round_places(grid, radius) else open_places(grid, radius)
+  places <- if (goes_round(surface)) closed_places(grid, radius) else open_places(grid, radius)
   u <- places$u
   profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
   at_ends <- margin_design(surface$margins$across, c(0, 0)) * profile[c(1, grid), ]
@@ -115,7 +115,7 @@ open_places <- function(grid, radius) {
 
 #' The same of a line that goes round: all but the seam are inner places
 #' @noRd
-round_places <- function(grid, radius) {
+closed_places <- function(grid, radius) {
   g <- grid - 2
   ahead <- diag(g)[, c(seq_len(g)[-1], 1)]
   second <- (ahead + t(ahead) - 2 * diag(g)) * g^2 / radius

@@ -19,7 +19,7 @@ check_scheme_curves <- function(curves, scheme) {
         do.call(rbind, lapply(landmark_columns, function(column) unknown_names(
           curves[[column]], known, column, "landmark"
         ))),
-        one("from", "to"), one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
+        one("cut_from", "cut_to"), one("keep_away_from", "keep_away_to"),
         one(side[1], side[2]), one(side[1], side[3]), one(side[2], side[3]),
         whole_group(curves, side), empty("radius", by_curvature, "a ridge or valley needs it"),
         empty("width", by_curvature, "a ridge or valley needs it"),
@@ -28,7 +28,7 @@ check_scheme_curves <- function(curves, scheme) {
         whole_group(curves, c("side_of", "side")),
         needs(curves, "keep_away_radius", "keep_away_from"),
         needs(curves, "keep_away_extension", "keep_away_from"), check_trust(curves),
-        check_side_of(curves))
+        check_side_of(curves), check_routes(curves, known))
 }
 
 check_trust <- function(curves) {

@@ -41,7 +41,9 @@ scheme_columns <- list(
     side_of = column("text"), side = column("choice", choices = c("left", "right")),
     trust_from = column("number", lower = 0, upper = 1),
     trust_to = column("number", lower = 0, upper = 1),
-    angle_limit = column("number", lower = 0, upper = pi / 2), note = column("text")
+    angle_limit = column("number", lower = 0, upper = pi / 2),
+    path = column("choice", choices = c("plane", "crest")), via = column("text"),
+    note = column("text")
   ),
   patches = list(
     patch = column("text", TRUE), block = column("count", lower = 1, upper = most_points),
@@ -180,3 +182,8 @@ unknown_names <- function(x, known, column, what) {
 #' The left landmarks that a cell of `mirror` names
 #' @noRd
 mirror_names <- function(cell) strsplit(trimws(cell), " +")[[1]]
+
+#' Which curves of a scheme are closed
+#' @noRd
+closed_curves <- function(curves) !is.na(curves$from) & curves$from %in% curves$to &
+  curves$from == curves$to

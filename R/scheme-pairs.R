@@ -19,7 +19,7 @@ check_scheme_pairs <- function(pairs, scheme) {
     twice$row, twice$side, sprintf("\"%s\" has a partner already", twice$name)
   ))
   if (nrow(problems) || !nrow(pairs)) return(problems)
-  rbind(unlike_curves(pairs, scheme$curves), unlike_patches(pairs, scheme$patches))
+  rbind(unlike_curves(pairs, scheme$curves), unlike_patches(pairs, scheme$patches, scheme$curves))
 }
 
 #' Pairs of curves that are no mirror images, and curves without a partner that are not their own
@@ -33,11 +33,15 @@ unlike_curves <- function(pairs, curves) {
   for (column in landmark_columns) {
     mirror[[column]] <- swap(curves[[column]], "landmarks")
   }
+  mirror$via <- vapply(seq_len(nrow(curves)), function(i) {
+    mirrored_via(curves$via[i], pairs, mirrored_backwards(curves, pairs)[i])
+  }, "")
   mirror$side_of <- swap(curves$side_of, "curves")
   mirror$side <- unname(c(left = "right", right = "left")[curves$side])
   columns <- c("from", "to", "kind", "radius", "width", "n", "cut_share", "keep_away_radius",
                "keep_away_extension",
-               "keep_side_towards", "side_of", "side", "trust_from", "trust_to", "angle_limit")
+               "keep_side_towards", "side_of", "side", "trust_from", "trust_to", "angle_limit",
+               "path", "via")
   found <- unlike_pairs(pairs, "curves", curves$curve, curves, mirror, columns)
   for (axis in c("cut", "keep_away", "keep_side")) {
     ends <- paste0(axis, c("_from", "_to"))
@@ -59,7 +63,7 @@ unordered <- function(table, ends) {
   stats::setNames(data.frame(paste(pmin(a, b), pmax(a, b))), sub("_from$", "", ends[1]))
 }
 
-unlike_patches <- function(pairs, patches) {
+unlike_patches <- function(pairs, patches, curves) {
   mirror <- patches
   sides <- c("curve_a", "curve_b", "first_column")
   mirror[sides] <- lapply(patches[sides], mirrored_side, pairs = pairs)
@@ -71,10 +75,15 @@ unlike_patches <- function(pairs, patches) {
   own <- partner_of(patches$patch, pairs, "surface") == patches$patch
   alike <- Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]])))
   alone <- patches$patch[own & !alike]
+  turned <- bounded_by(patches, turned_loops(curves, pairs))
   block <- ifelse(is.na(patches$block), "", paste0("|", patches$block))
   rbind(unlike_pairs(pairs, "surface", paste0(patches$patch, block), patches, mirror, columns),
         problem(rep(NA, length(alone)), "left",
-                sprintf("the patch \"%s\" has no partner, but its curves have", alone)))
+                sprintf("the patch \"%s\" has no partner, but its curves have", alone)),
+        problem(rep(NA, length(turned)), "left", sprintf(
+          paste("the patch \"%s\" is bounded by a closed curve that runs backwards in the mirror",
+                "image: give that curve and its partner two `via`, partners in one order"), turned
+        )))
 }
 
 #' A bounding curve with every curve's partner in its place, written in one way

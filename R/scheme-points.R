@@ -70,12 +70,14 @@ side_places <- function(column, text, resample, curves) {
   curve_places(points$curve, points$point, curves)[column]
 }
 
-#' Name of the place of a curve's point: its landmark at an end that is not cut off, or its own
+#' Name of the place of a curve's point: its landmark at an end that is not cut off, or its own;
+#' those of a closed curve are all its own
 #' @noRd
 curve_places <- function(curve, point, curves) {
   row <- match(curve, curves$curve)
   end <- ifelse(point == 1 & is.na(curves$cut_share[row]), curves$from[row],
                 ifelse(point == curves$n[row], curves$to[row], NA))
+  end[closed_curves(curves)[row]] <- NA
   ifelse(is.na(end), paste("curves", curve, point, sep = "|"), paste("landmarks", end, sep = "|"))
 }
 

@@ -29,6 +29,12 @@
 #'   * `trust_from`, `trust_to` (defaults 0, 1): the part of the reference path in which curvature
 #'     is used, as shares of the path's length. From there to the landmarks the path is the shortest
 #'     cut;
+#'   * `path`: "plane" for plane cuts (default), "crest" for a ridge or valley that bows, see
+#'     [reference_path()];
+#'   * `via`: landmarks on the way, separated by spaces; the path is then "crest". If `from` and `to`
+#'     are one landmark, the curve is closed. It needs a `via` on its other side. It begins at its
+#'     place nearest to the landmark, and its n points go once round; none of them is a landmark.
+#'     With one `via` it runs anticlockwise as seen from outside, with more in their order;
 #'   * `angle_limit`: greatest angle in radians (at most pi / 2) between the plane of a cut and the
 #'     mean of the surface normals at the ends, see [plane_path()];
 #'   * `note`, and any further columns; they are kept.
@@ -170,9 +176,10 @@ validate_curve_scheme <- function(x) {
   if (!is.list(x) || !is.character(x$name) || length(x$name) != 1) refuse("the scheme has no name.")
   derived <- list(points = c("level", "part", "point", "place"),
                   triangles = c("part", "group", "v1", "v2", "v3"))
-  # Schemes of former versions lack the last two.
+  # Schemes of former versions lack the last two, and the curves' routes.
   old <- setdiff(names(scheme_columns), c("definitions", "tracks"))
   wanted <- c(lapply(scheme_columns[old], names), derived)
+  wanted$curves <- setdiff(wanted$curves, c("path", "via"))
   for (table in names(wanted)) {
     lacking <- if (is.data.frame(x[[table]])) setdiff(wanted[[table]], names(x[[table]])) else
       "all its columns"
@@ -238,7 +245,7 @@ with_defaults <- function(curves) {
   curves$keep_away_extension <- fill(curves$keep_away_extension, region$extension, away)
   curves$trust_from <- fill(curves$trust_from, 0)
   curves$trust_to <- fill(curves$trust_to, 1)
-  curves
+  with_routes(curves)
 }
 
 #' @rdname curve_scheme
@@ -273,6 +280,10 @@ print.curve_scheme <- function(x, ...) {
          sum(!is.na(curves$side_of) | !is.na(curves$keep_side_from)), " held to a side, ",
          sum(curves$trust_from > 0 | curves$trust_to < 1), " trusted in part, ",
          sum(!is.na(curves$angle_limit)), " limited in angle")
+    crests <- sum(curves$path %in% "crest")
+    if (crests) {
+      line("routes: ", crests, " along a crest, of them ", sum(closed_curves(curves)), " closed")
+    }
     line("surface: ", surface_line(x))
     if (nrow(x$definitions)) {
       line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
@@ -321,8 +332,10 @@ scheme_in_unit <- function(scheme, unit, specimen) {
 #' @return One string of 32 characters.
 #' @noRd
 scheme_hash <- function(scheme) {
-  # A scheme without expected tracks is what it was before there were any.
+  # A scheme without expected tracks, or with plane cuts only, is what it was before there were
+  # others.
   counted <- setdiff(names(scheme_columns), if (!NROW(scheme$tracks)) "tracks")
+  if (all(scheme$curves$path %in% "plane")) scheme$curves[c("path", "via")] <- NULL
   rlang::hash(lapply(unclass(scheme)[counted], function(table) {
     table <- as.list(table)
     lapply(table[order(names(table), method = "radix")], plain_values)

@@ -52,8 +52,8 @@ curve_record <- function(job) {
   # Curvature is estimated where the search asks for it: it alone can fail on the way.
   curve <- as_value(trace_curve(job))
   problem <- if (failed(curve)) sub("\\.$", "", curve$problem)
-  if (failed(curve) && job$type != "plane") {
-    job$type <- "plane"
+  if (failed(curve) && job$type != "plane" && !isTRUE(job$ends$closed)) {
+    job$type <- job$route <- "plane"
     job[c("source", "regions")] <- list(NULL)
     job$search <- if (!failed(job$ends)) job$ends$scan$search
     curve <- trace_curve(job)
@@ -77,13 +77,16 @@ curve_record <- function(job) {
 #' @param from Its first end: a landmark, or a place on the mesh.
 #' @noRd
 row_job <- function(row, from, scan, fits) {
-  places <- list(if (is.character(from)) scan_place(scan, from) else from,
-                 scan_place(scan, row$to))
+  row <- routed_row(row)
+  via <- lapply(via_names(row$via), function(name) scan_place(scan, name))
+  places <- c(list(if (is.character(from)) scan_place(scan, from) else from,
+                   scan_place(scan, row$to)), via)
   lost <- Find(failed, places)
-  ends <- if (is.null(lost)) path_ends(scan, do.call(rbind, places), c(end_name(from), row$to))
+  ends <- if (is.null(lost)) path_ends(scan, do.call(rbind, places[1:2]),
+                                       c(end_name(from), row$to), do.call(rbind, via))
   job <- curve_job(if (is.null(lost)) ends else lost, row$kind, row$n, scan$settings, scan$passes,
                    row$radius, row$width, trust = c(row$trust_from, row$trust_to),
-                   angle_limit = row$angle_limit)
+                   angle_limit = row$angle_limit, route = row$path)
   if (row$kind == "plane") return(job)
   job$source <- scan$sources[[as.character(row$radius)]]
   if (!is.na(row$side_of)) job$source <- on_side(job$source, row, scan, fits[[row$side_of]])
@@ -209,7 +212,8 @@ touched_curves <- function(curves, moved, whole, tracked = NULL) {
   if (is.null(moved)) return(rep(TRUE, nrow(curves)))
   by_name <- c("from", "to", "keep_away_from", "keep_away_to", "keep_side_from", "keep_side_to",
                "keep_side_towards")
-  named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved))
+  named <- Reduce(`|`, lapply(curves[by_name], `%in%`, moved)) |
+    vapply(curves$via, function(cell) any(via_names(cell) %in% moved), NA, USE.NAMES = FALSE)
   unsettled <- vapply(whole, function(fit) is.null(fit$path) || !is.na(fit$followed), NA)
   touched <- named | unsettled & !is.na(curves$cut_share) |
     curves$curve %in% tracked & length(moved)

@@ -187,11 +187,11 @@ mirror_rows <- function(scheme) {
 mirror_curve_rows <- function(scheme) {
   curves <- scheme$curves
   partner <- partner_of(curves$curve, scheme$pairs, "curves")
-  start <- curves$from[match(partner, curves$curve)]
-  backwards <- partner_of(curves$from, scheme$pairs, "landmarks") != start
+  backwards <- mirrored_backwards(curves, scheme$pairs)
+  closed <- closed_curves(curves)
   unlist(lapply(seq_len(nrow(curves)), function(i) {
-    point <- seq_len(curves$n[i])
-    paste("curves", partner[i], if (backwards[i]) rev(point) else point, sep = "|")
+    point <- mirrored_points(curves$n[i], backwards[i], closed[i])
+    paste("curves", partner[i], point, sep = "|")
   }))
 }
 
