@@ -34,7 +34,8 @@
 #'       so: it is placed by the positions of the others, perhaps off the mesh); or "absent" (the
 #'       scan has no surface there);
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
-#'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. If
+#'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. The
+#'       corners and the middle of the mouth share their doubt (setting `shared_doubt`). If
 #'       the verdict is "perhaps", it is at most the setting `unsure`. With a template of your own
 #'       whose score is above the setting `poor`, it is multiplied by (1 - score) / (1 - `poor`).
 #'       NA for a placed landmark, or 1 / (1 + (`residual` / b)^2) if it contradicts the others;
@@ -267,6 +268,7 @@ carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept 
                       lost = here$lost,
                       x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
   found$confidence[found$state == "absent"] <- NA
+  found <- with_shared_doubt(found, prepared$modes$slit, settings$shared_doubt)
   if (!nrow(template$predicted)) return(found)
   rbind(found, predicted_landmarks(template, found, to_scan, kept))
 }
@@ -279,6 +281,17 @@ placing_confidence <- function(moved, residual, sd, laid, settings) {
   each[is.na(each)] <- 0
   if (is.na(laid$verdict)) return(each * min(1, (1 - laid$score) / (1 - settings$poor)))
   if (laid$verdict == "face") each else pmin(each, settings$unsure)
+}
+
+#' Landmarks with the least confidence of a group in a share of each one's
+#' @param names Of the group.
+#' @noRd
+with_shared_doubt <- function(found, names, share) {
+  these <- which(found$landmark %in% names & !is.na(found$confidence))
+  if (!length(these)) return(found)
+  own <- found$confidence[these]
+  found$confidence[these] <- (1 - share) * own + share * min(own)
+  found
 }
 
 #' How well the bent template agrees with the scan about each landmark

@@ -4,8 +4,9 @@
 #'
 #' Tried in turn, until a pose is accepted: starts at every proud place; the same smaller and
 #' larger; the same on the scan turned inside out. What is not accepted may agree with the scan even
-#' so, as a wide smile does. Where it does not, the strongest caps and cups are tried, which finds a
-#' face without a nose; for templates on which the limits were not measured they are tried always.
+#' so, as a wide smile does. Where it does not agree by the setting `sure`, the strongest caps and
+#' cups are tried, which finds a face without a nose, or without a side; for templates on which the
+#' limits were not measured they are tried always.
 #'
 #' @param unit Factor on the scan's lengths.
 #' @param start A further start, as of [kept_start()].
@@ -26,9 +27,11 @@ settled_pose <- function(template, scan, unit, settings, threads, start = NULL) 
     if (accepted_pose(template, laid, settings)) break
   }
   laid <- agreed_pose(template, laid, settings)
-  good <- laid$agree >= settings$agree[2] || accepted_pose(template, laid, settings)
+  good <- laid$agree >= settings$sure || accepted_pose(template, laid, settings)
   if (template$judged && good) return(laid)
-  by_anchors <- anchored_pose(template, with_anchors(cloud, settings, threads), laid, settings)
+  senses <- if (template$judged && laid$agree >= settings$agree[2]) laid$inverted else c(FALSE, TRUE)
+  cloud <- with_anchors(cloud, settings, threads)
+  by_anchors <- anchored_pose(template, cloud, laid, senses, settings)
   if (by_anchors$misfit < laid$misfit) agreed_pose(template, by_anchors, settings) else laid
 }
 
@@ -42,17 +45,19 @@ better_pose <- function(laid, found, inverted, cloud) {
   laid
 }
 
-#' The best pose by the template's strongest anchor, else by all of them, inside out, with a freer
-#' scale, until it is good
+#' The best pose by the template's strongest anchor, else by all of them, until it is good
+#' @param senses Whether the cloud is turned inside out: what is tried in turn.
 #' @noRd
-anchored_pose <- function(template, cloud, laid, settings) {
+anchored_pose <- function(template, cloud, laid, senses, settings) {
   all <- seq_len(nrow(template$anchors))
-  for (one in list(list(1, FALSE), list(all, FALSE), list(1, TRUE), list(all, TRUE))) {
-    seen <- if (one[[2]]) inverted_cloud(cloud) else cloud
-    starts <- anchor_starts(template, seen, one[[1]], settings)
-    laid <- better_pose(laid, best_pose(template, seen, starts, settings$reach[1], settings),
-                        one[[2]], seen)
-    if (laid$score <= settings$poor) break
+  for (inverted in senses) {
+    seen <- if (inverted) inverted_cloud(cloud) else cloud
+    for (own in list(1, all)) {
+      starts <- anchor_starts(template, seen, own, settings)
+      laid <- better_pose(laid, best_pose(template, seen, starts, settings$reach[1], settings),
+                          inverted, seen)
+      if (laid$score <= settings$poor) return(laid)
+    }
   }
   laid
 }

@@ -1,7 +1,7 @@
 # Every figure of the landmark finder, row by row.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/finder.R [whole] [rotations] [units] [parts]
-#     [expressions] [objects] [time] [n=6]
+#     [expressions] [objects] [time] [kept] [ears] [n=6]
 #
 # 19 landmarks (without t and oi), lengths in mm. `n`: rotations, or random objects.
 
@@ -303,11 +303,65 @@ run_time <- function(n) {
   }
 }
 
+# Four landmarks given as they are, the others found: their mean error without and with these four.
+# Then one of them on the other side: whether it is named.
+run_kept <- function(n) {
+  four <- c("pn", "exL", "exR", "gn")
+  error_of <- function(face, given, names) {
+    scan <- suppressWarnings(specimen(face$mesh, given, id = face$id, tolerance = 1))
+    said <- character()
+    found <- withCallingHandlers(find_landmarks(scan), crestline_warning = function(w) {
+      if (inherits(w, "crestline_contrary_landmarks")) said <<- conditionMessage(w)
+      invokeRestart("muffleWarning")
+    })
+    placing <- found$placing[match(names, found$placing$landmark), ]
+    at <- as.matrix(placing[c("x", "y", "z")])
+    list(mean = mean(sqrt(rowSums((at - face$at[names, ])^2))), said = said)
+  }
+  rows <- lapply(c(neutral(), real(), simpop()), function(face) {
+    rest <- setdiff(rownames(face$at), four)
+    wrong <- face$at[four, ]
+    wrong["exL", ] <- wrong["exR", ]
+    swapped <- error_of(face, wrong, setdiff(rest, "exL"))
+    kept <- error_of(face, face$at[four, ], rest)
+    data.frame(id = face$id, none = error_of(face, NULL, rest)$mean, four = kept$mean,
+               false_alarm = length(kept$said) > 0, wrong_side = swapped$mean,
+               named = any(grepl(": exL \\([0-9.]+ off\\)[.]", swapped$said)))
+  })
+  table <- do.call(rbind, rows)
+  print(table, row.names = FALSE, digits = 3)
+  cat(sprintf("mean %.2f without, %.2f with four; at most %.2f worse; named %d of %d\n",
+              mean(table$none), mean(table$four), max(table$four - table$none), sum(table$named),
+              nrow(table)))
+}
+
+# The landmarks of the ears where a scan has ears: how far they are off, and their state.
+run_ears <- function(n) {
+  table <- read.csv(file.path(shared, "ict", "landmarks.csv"))
+  own <- table[table$landmark %in% ears & grepl("^ict", table$id), ]
+  at <- lapply(split(own, own$id), function(one) {
+    structure(as.matrix(one[c("x", "y", "z")]), dimnames = list(one$landmark, NULL))
+  })
+  at$scan_a <- read_landmarks(file.path(shared, "scan_a", "landmarks.csv"))[ears, ]
+  rows <- lapply(c(neutral(), list(single_face("scan_a"))), function(face) {
+    found <- find_landmarks(face$mesh, id = face$id)$placing
+    found <- found[match(ears, found$landmark), ]
+    off <- sqrt(rowSums((as.matrix(found[c("x", "y", "z")]) - at[[face$id]][ears, ])^2))
+    data.frame(id = face$id, landmark = sub(".$", "", ears), off, state = found$state)
+  })
+  each <- do.call(rbind, rows)
+  print(aggregate(off ~ landmark + (id == "scan_a"), each, function(x) {
+    round(c(mean = mean(x), `90 %` = stats::quantile(x, 0.9, names = FALSE), worst = max(x)), 1)
+  }))
+  print(table(each$state))
+}
+
 asked <- commandArgs(TRUE)
 number <- sub("n=", "", grep("^n=", asked, value = TRUE))
 number <- if (length(number)) as.numeric(number) else 6
 parts <- list(whole = run_whole, rotations = run_rotations, units = run_units, parts = run_parts,
-              expressions = run_expressions, objects = run_objects, time = run_time)
+              expressions = run_expressions, objects = run_objects, time = run_time, kept = run_kept,
+              ears = run_ears)
 named <- intersect(asked, names(parts))
 for (part in if (length(named)) named else names(parts)) {
   cat("\n", part, "\n", sep = "")

@@ -1,11 +1,11 @@
-# Landmarks without hands: success, accuracy, confidence and time on real faces, whole and damaged;
-# what is no face.
+# Landmarks without hands: success, accuracy, confidence and time on damaged scans of whole faces;
+# calibration, and what differs by definition. Everything else of the finder: bench/finder.R.
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/hands.R [poses] [calibrated] [offsets] [curves]
-#   [faceless] [option=value ...]
+#   [option=value ...]
 #
 # Options of poses: poses=10 of scan_a and template_male each; simpop=10 of its faces,
-# simpop_poses=1 of each; damage=whole,metres (all); rows=file.rds, where the rows are kept after
+# simpop_poses=1 of each; damage=whole,shoulders (all); rows=file.rds, where the rows are kept after
 # each damage.
 #
 # 19 landmarks (without t and oi), lengths in mm. A trial succeeds when the mean error over the
@@ -54,30 +54,14 @@ axes_of <- function(at) {
           left[1] * up[2] - left[2] * up[1]))
 }
 
-keep <- function(face, inside) {
-  number <- cumsum(inside)
-  number[!inside] <- NA
-  it <- matrix(number[face$mesh$it], 3)
-  face$mesh <- structure(list(vb = face$mesh$vb[, inside], it = it[, !is.na(colSums(it))]),
-                         class = "mesh3d")
-  face
-}
-
-in_axes <- function(face) axes_of(face$landmarks) %*% (face$mesh$vb[1:3, ] - face$landmarks["pn", ])
-
 random_rotation <- function() {
   turn <- qr.Q(qr(matrix(rnorm(9), 3)))
   turn * sign(det(turn))
 }
 
-# What is done to a face; each returns the face, perhaps with `unit`.
+# What is done to a face; each returns the face.
 damages <- list(
   whole = identity,
-  metres = function(face) {
-    face$mesh$vb[1:3, ] <- face$mesh$vb[1:3, ] / 1000
-    face$unit <- 1000
-    face
-  },
   `inside out` = function(face) {
     face$mesh$it <- face$mesh$it[c(1, 3, 2), ]
     face$mesh$normals <- NULL
@@ -112,11 +96,7 @@ damages <- list(
     face$mesh <- structure(list(vb = cbind(face$mesh$vb, rbind(placed, 1)),
                                 it = cbind(face$mesh$it, it)), class = "mesh3d")
     face
-  },
-  `nose cut out` = function(face)
-    keep(face, sqrt(colSums((face$mesh$vb[1:3, ] - face$landmarks["pn", ])^2)) > 22),
-  `one side cut off` = function(face) keep(face, in_axes(face)[1, ] > -22),
-  `exact half` = function(face) keep(face, in_axes(face)[1, ] > 0)
+  }
 )
 
 posed <- function(face) {
@@ -132,7 +112,6 @@ posed <- function(face) {
 trial <- function(face, damage, pose, template) {
   set.seed(1000 * pose + match(damage, names(damages)))
   face <- damages[[damage]](posed(face))
-  unit <- if (is.null(face$unit)) 1 else face$unit
   seconds <- system.time(found <- tryCatch(find_landmarks(face$mesh, template),
                                            crestline_error = function(e) e))[["user.self"]]
   row <- data.frame(face = face$id, damage = damage, pose = pose, seconds = seconds)
@@ -140,48 +119,12 @@ trial <- function(face, damage, pose, template) {
     return(cbind(row, landmark = NA, state = "refused", confidence = NA, moved = NA, sd = NA,
                  residual = NA, lost = NA, error = NA, visible = NA, score = NA))
   placing <- found$placing[match(rownames(face$landmarks), found$placing$landmark), ]
-  there <- as.matrix(crestline:::surface_points(face$mesh, face$landmarks / unit)[1:3]) * unit
+  there <- as.matrix(crestline:::surface_points(face$mesh, face$landmarks)[1:3])
   visible <- sqrt(rowSums((there - face$landmarks)^2)) < 1
-  error <- sqrt(rowSums((as.matrix(placing[c("x", "y", "z")]) * unit - face$landmarks)^2))
+  error <- sqrt(rowSums((as.matrix(placing[c("x", "y", "z")]) - face$landmarks)^2))
   cbind(row, placing[c("landmark", "state", "confidence", "moved", "sd", "residual", "lost")],
         error = error, visible = visible, score = found$match$score,
         row.names = NULL)
-}
-
-# What is no face, or too little of one.
-faceless <- function() {
-  scaled <- function(mesh, size) {
-    mesh$vb[1:3, ] <- size * mesh$vb[1:3, ]
-    mesh
-  }
-  ball <- scaled(Rvcg::vcgSphere(5), 100)
-  bumpy <- ball
-  at <- ball$vb[1:3, ] / 100
-  bumpy$vb[1:3, ] <- rep(1 + 0.06 * sin(9 * at[1, ]) * cos(8 * at[2, ] + at[3, ]) +
-                         0.05 * sin(7 * at[3, ] + 2), each = 3) * ball$vb[1:3, ]
-  data <- new.env()
-  utils::data("boneData", package = "Morpho", envir = data)
-  utils::data("dummyhead", package = "Rvcg", envir = data)
-  head <- data$dummyhead.mesh
-  at <- read_landmarks(system.file("extdata", "dummyhead_landmarks.csv", package = "crestline"))
-  back <- keep(list(mesh = head),
-               drop(axes_of(at) %*% (head$vb[1:3, ] - at["pn", ]))[3, ] < -115)$mesh
-  face <- faces("scan_a")[[1]]
-  crop <- function(place) keep(face, sqrt(colSums((face$mesh$vb[1:3, ] - place)^2)) < 45)$mesh
-  cheek <- colMeans(face$landmarks[c("exL", "acL", "chL"), ]) + c(axes_of(face$landmarks)[1, ] * 20)
-  list(sphere = ball, `bumpy sphere` = bumpy, skull = data$skull_0144_ch_fe.mesh,
-       `back of a head` = back, `hand-sized crop, cheek` = crop(cheek),
-       `hand-sized crop, eye` = crop(face$landmarks["exL", ]),
-       `hand-sized crop, mouth` = crop(face$landmarks["st", ]))
-}
-
-faceless_trial <- function(name, mesh) {
-  found <- tryCatch(find_landmarks(mesh, template), crestline_error = function(e) e)
-  if (inherits(found, "error"))
-    return(data.frame(what = name, answer = "refused", score = NA, confident = 0))
-  confident <- sum(found$placing$state == "found" & found$placing$confidence >= 0.5)
-  data.frame(what = name, answer = if (found$match$doubtful) "doubtful" else "an answer",
-             score = found$match$score, confident = confident)
 }
 
 # Results
@@ -229,10 +172,10 @@ show_poses <- function(x) {
   far <- visible$error > 5
   near <- visible$error < 3
   cat(sprintf(paste("flagged: %.0f %% of the %d that are more than 5 mm off, %.1f %% of the %d",
-                    "within 3 mm; of %d missing, %.0f %% called absent\n"),
+                    "within 3 mm; of %d missing, %d called absent\n"),
               100 * mean(doubted(visible)[far]), sum(far), 100 * mean(doubted(visible)[near]),
               sum(near), sum(!x$visible, na.rm = TRUE),
-              100 * mean(x$state[which(!x$visible)] == "absent")))
+              sum(x$state[which(!x$visible)] == "absent")))
   cat("unflagged and more than 5 mm off, by set and landmark:\n")
   left <- visible[far & !doubted(visible), ]
   print(table(sub("simpop.*", "simpop", left$face), left$landmark))
@@ -280,11 +223,6 @@ run_offsets <- function() {
   print(table, row.names = FALSE)
 }
 
-run_faceless <- function() {
-  all <- faceless()
-  print(do.call(rbind, Map(faceless_trial, names(all), all)), row.names = FALSE)
-}
-
 # Curves of scan_a from found landmarks beside those from placed ones: RMS distance of each from the
 # other.
 run_curves <- function() {
@@ -293,7 +231,7 @@ run_curves <- function() {
   given <- read_specimen(file.path(folder, "surface.ply"), file.path(folder, "landmarks.csv"),
                          id = "scan_a")
   by_hand <- fit_shape(given, face_scheme(), progress = FALSE)
-  alone <- fit_shape(find_landmarks(given), face_scheme(), progress = FALSE)
+  alone <- fit_shape(find_landmarks(given$mesh), face_scheme(), progress = FALSE)
   distance <- function(curve) {
     a <- by_hand$paths[[curve]]
     b <- alone$paths[[curve]]
@@ -318,7 +256,7 @@ asked <- commandArgs(TRUE)
 parts <- list(poses = function() {
   show_poses(run_poses(option("poses", 10), option("simpop", 10), option("simpop_poses", 1),
                        option("damage", names(damages)), option("rows", NULL)))
-}, calibrated = run_calibrated, offsets = run_offsets, curves = run_curves, faceless = run_faceless)
+}, calibrated = run_calibrated, offsets = run_offsets, curves = run_curves)
 named <- grep("=", asked, value = TRUE, invert = TRUE)
 for (part in if (length(named)) named else names(parts)) {
   cat("\n", part, "\n", sep = "")

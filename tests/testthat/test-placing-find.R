@@ -121,3 +121,12 @@ test_that("a scan that is too coarse for curvature is named", {
   error <- expect_error(find_landmarks(specimen(ball, id = "coarse")), class = "crestline_error")
   expect_match(conditionMessage(error), "specimen coarse, ", fixed = TRUE)
 })
+
+test_that("doubt of one landmark of a group is shared by a share", {
+  found <- data.frame(landmark = c("chL", "st", "chR", "pn", "gn"),
+                      confidence = c(0.8, 0.4, NA, 0.9, 0.3))
+  expect_equal(with_shared_doubt(found, c("chL", "st", "chR"), 0.5)$confidence,
+               c(0.6, 0.4, NA, 0.9, 0.3))
+  expect_equal(with_shared_doubt(found, c("chL", "st"), 1)$confidence, c(0.4, 0.4, NA, 0.9, 0.3))
+  expect_identical(with_shared_doubt(found, NULL, 0.5), found)
+})

@@ -133,3 +133,19 @@ test_that("a landmark that was moved since is doubted no more; one left out says
   expect_match(status_of(shape, "n")$reason, "found with a confidence of 0.30 only: left out",
                fixed = TRUE)
 })
+
+test_that("the ears are predicted where a scan has them too, and what ends there is amber", {
+  data(dummyhead, package = "Rvcg", envir = environment())
+  head <- find_landmarks(dummyhead.mesh, id = "head", settings = quick_settings())
+  state <- stats::setNames(head$placing$state, head$placing$landmark)
+  expect_equal(unname(state[ear_names]), rep("predicted", 4))
+  curves <- as.data.frame(face_scheme(), "curves")[c("curve", "from", "to")]
+  curves <- curves[curves$from %in% ear_names | curves$to %in% ear_names, ]
+  expect_gte(nrow(curves), 10)
+  scheme <- curve_scheme(data.frame(landmark = unique(c(curves$from, curves$to))),
+                         cbind(curves, kind = "plane", n = 3))
+  parts <- quality(suppressWarnings(fit_shape(head, scheme, progress = FALSE)))
+  there <- parts$part %in% c(ear_names, curves$curve)
+  expect_true(all(parts$grade[there] >= "amber"))
+  expect_match(parts$why[match("tL", parts$part)], "predicted by the other landmarks")
+})
