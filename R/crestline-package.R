@@ -26,18 +26,19 @@
 #' * *Get landmarks without hands*: [find_landmarks()], [check_placing()], [second_opinion()],
 #'   [refine_landmarks()]; by hand, on a page: [place_landmarks()], [review_landmarks()]; a template
 #'   of your own: [landmark_template()], [face_template()], [calibrate_template()], with
-#'   [find_settings()].
+#'   [find_settings()] and [refine_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].
-#' * *One curve*: [ridge_curve()] with [ridge_settings()], [keep_away()], [keep_side()] and, for the
-#'   noise of a scanner, [scan_noise()]; its stages: [reference_path()] with [path_settings()],
-#'   [path_coordinates()], [curvature_surface()], [ridge_line()], [lift()]; another path:
-#'   [plane_path()].
+#' * *One curve*: [ridge_curve()] with [ridge_settings()], [curve_route()], [keep_away()],
+#'   [keep_side()] and, for the noise of a scanner, [scan_noise()]; its stages: [reference_path()]
+#'   with [path_settings()], [path_coordinates()], [curvature_surface()], [ridge_line()], [lift()];
+#'   another path: [plane_path()].
 #' * *Places on a mesh*: [locate()] (the closest one), [frechet_mean()].
 #' * *A whole specimen*: [fit_shape()] by a scheme ([face_scheme()], [read_scheme()],
-#'   [curve_scheme()], [write_scheme()], [learn_tracks()]); a scheme of your own:
-#'   [suggest_landmarks()], [snap()], [check_scheme()]; its parts: [coords()], [shape_mesh()],
+#'   [curve_scheme()], [write_scheme()], [learn_tracks()]) with [shape_settings()]; a scheme of your
+#'   own: [suggest_landmarks()], [snap()], [check_scheme()]; its parts: [coords()], [shape_mesh()],
 #'   [patch_mesh()], [write_mesh()], [write_glb()].
-#' * *How far to trust it*: [quality()], [quality_report()], [quality_limits()], [surface_faults()].
+#' * *How far to trust it*: [quality()], [quality_report()], [quality_limits()],
+#'   [surface_faults()].
 #' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()], [read_batch()].
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],
 #'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample].
@@ -56,9 +57,9 @@
 #' * *From a shell, Python or Slicer*: [run_command()].
 #' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
 #'   [visible_points()], [picture_settings()].
-#' * *Known truth*: [simulate_ridge()], [ridge_study()], [simulate_faces()] with [face_effect()]
-#'   and [scan_settings()], [true_points()], [true_effect()];
-#'   [simulate_cohort()] with [cohort_settings()].
+#' * *Known truth*: [simulate_ridge()], [ridge_study()] with [study_settings()], [simulate_faces()]
+#'   with [face_effect()], [population_settings()] and [scan_settings()], [true_points()],
+#'   [true_effect()]; [simulate_cohort()] with [cohort_settings()].
 #'
 #' # Vignettes
 #' `vignette(package = "crestline")` lists them. If the list is empty, the package was installed

@@ -246,7 +246,7 @@ describe_topology <- function(mesh, topology, area) {
     report_row("non-manifold edges", topology$nonmanifold_edges, "kept; they act as borders"),
     report_row("isolated pieces", topology$pieces - 1,
                paste0("kept; no curve leaves its piece", other_piece_words(topology$piece))),
-    report_row("holes", holes, "kept; see `bridge` of fit_shape()")
+    report_row("holes", holes, "kept; see `bridge` of shape_settings()")
   )
 }
 

@@ -13,20 +13,19 @@
 #' @inheritParams plane_path
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh. Not needed for
-#'   `"plane"`, nor if `curvature` is given.
+#'   `"plane"`. Or a [curvature()] of the mesh, if you have it; it has its radius. Otherwise
+#'   curvature is estimated in the region of the cuts, by `getOption("crestline.threads", 1)`
+#'   threads.
 #' @param keep_away Region where curvature is ignored, as of [keep_away()] or [keep_side()], or a
 #'   list of regions. `NULL`: none.
-#' @param curvature A [curvature()] of the mesh at this radius. `NULL`: curvature is estimated in
-#'   the region of the cuts.
 #' @param settings Constants of the search, as of [path_settings()].
 #' @param path `"plane"`: the best plane cut. `"crest"`: the path of least cost along the feature,
 #'   for a ridge or valley that bows away from every plane through its ends (see below).
 #' @param via Places on the way, in order: names of landmarks, or positions (three co-ordinates, a k
 #'   x 3 matrix, or a list of both). With `via` the path is `"crest"`. If `from` and `to` are one
 #'   landmark, the path is closed, and needs a `via` on the other side.
-#' @inheritParams curvature
-#' @param ... Fields of [path_settings()], the former form. They give a message of class
-#'   `crestline_deprecated`.
+#' @param ... Fields of [path_settings()], and `curvature` and `threads`, the former form. They give
+#'   a message of class `crestline_deprecated`.
 #' @return A `mesh_path` as of [plane_path()], with these attributes besides:
 #'   * `type`;
 #'   * `criterion`: mean strength in 1 / unit, or for `"plane"` the length in the unit of the mesh;
@@ -63,23 +62,22 @@
 #' attr(path, "criterion")
 #' head(as.data.frame(path), 3)
 #' @export
-reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"),
-                           radius = attr(curvature, "radius"), keep_away = NULL, curvature = NULL,
-                           settings = path_settings(),
-                           threads = getOption("crestline.threads", 1L),
+reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius,
+                           keep_away = NULL, settings = path_settings(),
                            path = c("plane", "crest"), via = NULL, ...) {
-  check_given()
+  check_given("radius")
   check_surface(specimen, "specimen")
-  threads <- check_threads(threads)
   check_class(settings, "path_settings", "settings", "path_settings()")
-  settings <- settings_with_former(settings, "path_settings", ...)
+  asked <- path_arguments(list(settings = settings), list(settings = names(settings)), ...)
   check_ends(from = from, to = to)
   keep_away <- check_regions(keep_away)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   route <- check_route(path, via, type)
+  if (missing(radius)) radius <- asked$curvature
+  settings <- asked$settings
   strength <- if (type != "plane") {
-    check_number(radius, "radius", lower = 0, open = TRUE)
-    source <- known_curvature(curvature, specimen, radius, threads, settings$order)
+    source <- curvature_at(radius, asked, specimen, settings$order)
+    radius <- radius_of(radius)
     id <- mesh_of(specimen)$id
     regions <- in_context(located_regions(keep_away, region_locator(specimen), id), id)
     path_strength(source, type, regions, as_mesh(specimen))
@@ -91,6 +89,35 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   warn_rival(path, ends$names, scan$id, settings$rival)
   path
 }
+
+#' What the dots of [reference_path()] and [ridge_curve()] change
+#'
+#' @param objects,fields,silent As in [with_former()].
+#' @return The objects, with `curvature` (or NULL) and `threads`, as were arguments formerly.
+#' @noRd
+path_arguments <- function(objects, fields, ..., silent = character(),
+                           call = rlang::caller_env()) {
+  check_dots(..., known = c(unlist(fields), "curvature", "threads"), call = call)
+  given <- list(...)
+  today <- c(curvature = "radius = <the curvature>", threads = "options(crestline.threads = )")
+  for (name in intersect(names(given), names(today))) inform_former(paste(name, "="), today[[name]])
+  threads <- if (is.null(given$threads)) getOption("crestline.threads", 1L) else given$threads
+  c(with_former(objects, fields, given, silent),
+    list(curvature = given$curvature, threads = check_threads(threads, call)))
+}
+
+#' Curvature of a radius, or what is given in its place
+#'
+#' @param radius A number, or a [curvature()].
+#' @param asked As of [path_arguments()].
+#' @noRd
+curvature_at <- function(radius, asked, specimen, order, call = rlang::caller_env()) {
+  given <- inherits(radius, "curvature")
+  check_number(radius_of(radius), "radius", lower = 0, open = TRUE, call = call)
+  known_curvature(if (given) radius else asked$curvature, specimen, radius, asked$threads, order)
+}
+
+radius_of <- function(radius) if (inherits(radius, "curvature")) attr(radius, "radius") else radius
 
 #' A reference path without checks and warnings, or a failure
 #'

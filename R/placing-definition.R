@@ -97,7 +97,7 @@ definition_plane <- function(specimen, definition, pairs) {
 #' @noRd
 definition_path <- function(specimen, definition, from, to, type, curvature, settings) {
   job <- curve_job(located_ends(specimen, walkable(specimen), from, to), type, 2, settings$ridge,
-                   radius = definition$radius, width = definition$width,
+                   definition$radius, definition$width,
                    source = if (type != "plane") curvature(definition$radius))
   doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
   in_context(trace_curve(job), specimen$id, doing)$path

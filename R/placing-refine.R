@@ -21,20 +21,13 @@
 #' @param specimen A [specimen()] with landmarks.
 #' @param scheme A [curve_scheme()] with a table of definitions, such as [face_scheme()].
 #' @param move Landmarks that are moved: FALSE (none), TRUE (all), or their names.
-#' @param window Half width of the local fits that locate a peak between vertices, as a share of the
-#'   radius. It is wider if the vertices are far apart.
-#' @param apart Distance within which only the highest of several peaks is tried, as a share of the
-#'   radius.
-#' @param faint Peaks of curvature below this value times 1 / radius are ignored (no unit).
-#' @param share A ridge ends where its strength has fallen to this share of its maximum.
-#' @param order Order of the curvature fits, see [curvature()].
-#' @param tolerance Definitions that depend on other landmarks are repeated until none moves by more
-#'   than this share of the radius.
-#' @param rounds Greatest number of repetitions, see `tolerance`.
+#' @param settings Constants of the searches, as of [refine_settings()].
 #' @param curvature Function of a radius that gives the [curvature()] of the specimen's mesh. It
 #'   saves time for many sets of landmarks on one mesh. NULL: curvature is estimated.
 #' @param unit As in [fit_shape()].
 #' @param threads Number of threads of [curvature()].
+#' @param ... Fields of [refine_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return The specimen with a field `refinement`. With `move`, its `landmarks` are moved, and their
 #'   positions in `placing` too, if it has that field. Confidences are not changed. `refinement` is
 #'   a data frame with a row for each definition; lengths are in the unit of the mesh:
@@ -63,29 +56,22 @@
 #' face$refinement[c("landmark", "kind", "state", "distance")]
 #' moved <- refine_landmarks(face, face_scheme(), move = c("chL", "chR"))
 #' @export
-refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apart = 0.5,
-                             faint = 0.05, share = 0.5,
-                             order = "adaptive cubic", tolerance = 1e-3, rounds = 10,
-                             curvature = NULL,
-                             unit = NULL, threads = getOption("crestline.threads", 1L)) {
+refine_landmarks <- function(specimen, scheme, move = FALSE, settings = refine_settings(),
+                             curvature = NULL, unit = NULL,
+                             threads = getOption("crestline.threads", 1L), ...) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
-  settings <- list(window = check_number(window, "window", 0, open = TRUE),
-                   apart = check_number(apart, "apart", 0),
-                   faint = check_number(faint, "faint", 0),
-                   share = check_number(share, "share", 0, 1, open = TRUE),
-                   ridge = ridge_settings(error = FALSE))
-  tolerance <- check_number(tolerance, "tolerance", 0)
-  rounds <- check_count(rounds, "rounds")
+  check_class(settings, "refine_settings", "settings", "refine_settings()")
+  settings <- settings_with_former(settings, "refine_settings", ...)
   if (!is.null(curvature)) check_function(curvature, "curvature")
   threads <- check_threads(threads)
-  order <- check_order(order)
   definitions <- definitions_of(scheme, specimen, unit)
   move <- check_move(move, definitions$landmark)
   specimen$refinement <- NULL
-  curvature <- curvature_by_radius(specimen, curvature, order, threads)
+  curvature <- curvature_by_radius(specimen, curvature, settings$order, threads)
   pairs <- scheme$pairs[scheme$pairs$level == "landmarks", ]
-  places <- refined_places(specimen, definitions, pairs, curvature, settings, tolerance, rounds)
+  settings$ridge <- ridge_settings(error = FALSE)
+  places <- refined_places(specimen, definitions, pairs, curvature, settings)
   refinement <- refinement_table(specimen, definitions, places)
   refinement$moved <- refinement$state == "found" & refinement$landmark %in% move
   for (i in which(refinement$moved)) {
@@ -100,6 +86,50 @@ refine_landmarks <- function(specimen, scheme, move = FALSE, window = 0.75, apar
   }
   specimen$refinement <- refinement
   with_origin(specimen, refinement$landmark[refinement$moved], "defined")
+}
+
+#' Settings of refine_landmarks()
+#'
+#' The constants of the searches of [refine_landmarks()].
+#'
+#' @template setting-names
+#' @param window Half width of the local fits that locate a peak between vertices, as a share of the
+#'   radius. It is wider if the vertices are far apart.
+#' @param apart Distance within which only the highest of several peaks is tried, as a share of the
+#'   radius.
+#' @param faint Peaks of curvature below this value times 1 / radius are ignored (no unit).
+#' @param share A ridge ends where its strength has fallen to this share of its maximum.
+#' @param order Order of the curvature fits, see [curvature()].
+#' @param tolerance Definitions that depend on other landmarks are repeated until none moves by more
+#'   than this share of the radius.
+#' @param rounds Greatest number of repetitions, see `tolerance`.
+#' @return List of class `refine_settings`.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
+#' @template glossary
+#' @examples
+#' refine_settings(window = 1)
+#' @export
+refine_settings <- function(..., window = 0.75, apart = 0.5, faint = 0.05, share = 0.5,
+                            order = "adaptive cubic", tolerance = 1e-3, rounds = 10) {
+  new_settings("refine_settings", check_refine_settings, list(...))
+}
+
+check_refine_settings <- function(settings) {
+  check_number(settings$window, "window", 0, open = TRUE)
+  check_number(settings$apart, "apart", 0)
+  check_number(settings$faint, "faint", 0)
+  check_number(settings$share, "share", 0, 1, open = TRUE)
+  settings$order <- check_order(settings$order)
+  check_number(settings$tolerance, "tolerance", 0)
+  settings$rounds <- check_count(settings$rounds, "rounds")
+  settings
+}
+
+#' @export
+print.refine_settings <- function(x, ...) {
+  check_method_dots(...)
+  print_settings(x, "<refine_settings> of refine_landmarks()")
 }
 
 definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
@@ -151,7 +181,7 @@ curvature_by_radius <- function(specimen, given, order, threads) {
 #' @return List with an entry for each definition: as of [defined_place()], with `point` (one row of
 #'   [surface_points()]).
 #' @noRd
-refined_places <- function(specimen, definitions, pairs, curvature, settings, tolerance, rounds) {
+refined_places <- function(specimen, definitions, pairs, curvature, settings) {
   given <- specimen$landmarks
   current <- with_located(specimen)
   # The landmarks that each definition builds on
@@ -165,13 +195,13 @@ refined_places <- function(specimen, definitions, pairs, curvature, settings, to
   places <- vector("list", nrow(definitions))
   seen <- vector("list", nrow(definitions))
   order <- order(lengths(inputs) > 0)
-  for (round in seq_len(rounds)) {
+  for (round in seq_len(settings$rounds)) {
     settled <- TRUE
     for (i in order) {
       at <- landmarks_at(current, inputs[[i]])
       unmoved <- !is.null(seen[[i]]) &&
         (nrow(at) == 0 ||
-           isTRUE(max(row_lengths(at - seen[[i]])) <= tolerance * definitions$radius[i]))
+           isTRUE(max(row_lengths(at - seen[[i]])) <= settings$tolerance * definitions$radius[i]))
       if (unmoved) next
       settled <- FALSE
       seen[[i]] <- at

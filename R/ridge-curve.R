@@ -12,24 +12,21 @@
 #' [crestline-package] has a glossary.
 #'
 #' @inheritParams reference_path
-#' @param reach As in [path_settings()].
 #' @param type `"ridge"`, `"valley"`, or `"plane"` for the shortest cut.
 #' @param radius Radius of the curvature estimates, in the unit of the mesh; not needed for
 #'   `"plane"`. On faces, 10 mm for broad features (the paper: 10 mm) and 5 mm for lips, nose and
-#'   eyes (our choice).
+#'   eyes (our choice). Or a [curvature()] of the specimen (of `settings$order`), if you have it; it
+#'   has its radius. Otherwise curvature is estimated in the region where the curve may lie, by
+#'   `getOption("crestline.threads", 1)` threads.
 #' @param width Half width of the window: the greatest distance of the curve from the reference
 #'   path, in the unit of the mesh. It is limited to `settings$window` radii. Not needed for
 #'   `"plane"`.
 #' @param n Number of points (semilandmarks), both ends included. The straight distances between
 #'   neighbours are equal.
 #' @param settings [ridge_settings()].
-#' @param passes Number of passes. Each pass takes the curve of the pass before as its reference
-#'   path. `NULL`: one pass and a share of a second one, by `settings$second`.
-#' @param curvature A [curvature()] of the specimen at this radius (and `settings$order`), if you
-#'   have it. `NULL`: curvature is estimated in the region where the curve may lie.
-#' @param trust Two shares of the path's length, 0 to 1. Curvature is used between them only. From
-#'   there to the landmarks curvature is ignored, and the path is the shortest cut. Use it if a
-#'   feature fades near a landmark, or if the mesh is crumpled there. For ridges and valleys only.
+#' @param route Where the curve may run, and where curvature counts: as of [curve_route()].
+#' @param ... Fields of [curve_route()], such as `keep_away`, which need no `route = `. Former
+#'   arguments `passes`, `curvature` and `threads` give a message of class `crestline_deprecated`.
 #' @return Object of class `curve`, a list:
 #'   * `points`: data frame with n rows, which `as.data.frame()` gives; lengths in the unit of the
 #'     mesh. Columns: `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance
@@ -94,35 +91,30 @@
 #' as.data.frame(lip)
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
-                        keep_away = NULL, settings = ridge_settings(), passes = NULL,
-                        curvature = NULL, reach = 0.5, threads = getOption("crestline.threads", 1L),
-                        trust = c(0, 1), path = c("plane", "crest"), via = NULL) {
+                        settings = ridge_settings(), route = curve_route(), ...) {
   check_given(if (identical(type, "plane")) c("radius", "width"))
   check_surface(specimen, "specimen")
   check_ends(from = from, to = to)
-  keep_away <- check_regions(keep_away)
-  threads <- check_threads(threads)
-  reach <- check_reach(reach)
   type <- check_choice(type, c("ridge", "valley", "plane"), "type")
   n <- check_count(n, "n", lower = 2)
-  if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
-  trust <- check_trusted(trust)
-  route <- check_route(path, via, type)
+  check_class(route, "curve_route", "route", "curve_route()")
+  fields <- list(settings = "passes", route = names(route))
+  asked <- path_arguments(list(settings = settings, route = route), fields, ..., silent = "route")
+  asked$route[c("path", "via")] <- check_route(asked$route$path, asked$route$via, type)
   if (type != "plane") {
-    radius <- check_number(radius, "radius", lower = 0, open = TRUE)
+    check_number(radius_of(radius), "radius", lower = 0, open = TRUE)
     width <- check_number(width, "width", lower = 0, open = TRUE)
   }
   id <- if (inherits(specimen, "specimen")) specimen$id
   doing <- sprintf("%s from %s to %s", type, end_name(from), end_name(to))
   curve <- in_context(id = id, doing = doing, code = {
-    ends <- located_ends(specimen, walkable(specimen), from, to, route$via)
-    job <- curve_job(ends, type, n, settings, passes, trust = trust, reach = reach,
-                     route = route$path)
+    ends <- located_ends(specimen, walkable(specimen), from, to, asked$route$via)
+    job <- curve_job(ends, type, n, asked$settings, route = asked$route)
     if (type != "plane") {
-      job[c("radius", "width")] <- list(radius, width)
-      job$source <- known_curvature(curvature, specimen, radius, threads, settings$order)
-      job$regions <- located_regions(keep_away, region_locator(specimen), id)
+      job[c("radius", "width")] <- list(radius_of(radius), width)
+      job$source <- curvature_at(radius, asked, specimen, job$settings$order)
+      job$regions <- located_regions(asked$route$keep_away, region_locator(specimen), id)
     }
     trace_curve(job)
   })
@@ -133,23 +125,22 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
 
 #' What is asked of one curve
 #'
+#' A caller adds `regions` (as of [located_regions()]; a failure is handed on) and `track` (as in
+#' [plane_weight()]), where it has them.
 #' @param ends As of [path_ends()]; a failure is handed on.
-#' @param type,n,settings,passes,radius,width,trust,reach As in [ridge_curve()].
+#' @param type,n,settings,radius,width As in [ridge_curve()].
 #' @param source Curvature as of [known_curvature()]; NULL for planes.
-#' @param regions As of [located_regions()]; a failure is handed on.
+#' @param route As of [curve_route()].
 #' @param angle_limit Of the planes of the reference path, in radians; NA: none.
-#' @param route "plane" or "crest", as `path` in [reference_path()].
-#' @param track Expected track, as in [plane_weight()]; NULL: none.
 #' @noRd
-curve_job <- function(ends, type, n, settings, passes = NULL, radius = NULL, width = NULL,
-                      source = NULL, regions = NULL, trust = c(0, 1), angle_limit = NA,
-                      reach = 0.5, track = NULL, route = "plane") {
+curve_job <- function(ends, type, n, settings, radius = NULL, width = NULL, source = NULL,
+                      route = curve_route(), angle_limit = NA) {
   search <- if (!failed(ends)) ends$scan$search
-  search$reach <- reach
+  search$reach <- route$reach
   if (type != "plane") search$longest <- settings$longest
-  list(ends = ends, type = type, n = n, settings = settings, passes = passes, radius = radius,
-       width = width, source = source, regions = regions, trust = trust, angle_limit = angle_limit,
-       track = track, search = search, route = route)
+  list(ends = ends, type = type, n = n, settings = settings, passes = settings$passes,
+       radius = radius, width = width, source = source, regions = NULL, trust = route$trust,
+       angle_limit = angle_limit, track = NULL, search = search, route = route$path)
 }
 
 #' One curve, without checks and warnings

@@ -59,6 +59,8 @@
 #' @param faint Mean strength near the reference path, times the radius, below which a curve counts
 #'   as not determined by curvature.
 #' @param error Whether to compute standard errors.
+#' @param passes Number of passes. Each pass takes the curve of the pass before as its reference
+#'   path. `NULL`: one pass and a share of a second one, by `second`.
 #' @return List of class `ridge_settings`.
 #' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
 #'   of range.
@@ -78,7 +80,8 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
                            kernel = 12, kernel_most = 1.4, kernel_least = 0.15,
                            kernel_vertices = 400, second = 0.5, second_gain = 0.05,
                            second_whole = 0.6, mix = Inf, noise = NA, longest = 1.25,
-                           inflation = 1.5, undetermined = 0.2, faint = 0.15, error = TRUE) {
+                           inflation = 1.5, undetermined = 0.2, faint = 0.15, error = TRUE,
+                           passes = NULL) {
   preset <- check_choice(preset, c("crestline", "one pass", "paper"), "preset")
   single <- list(kernel = 0, second = 0)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
@@ -100,6 +103,9 @@ check_settings <- function(settings) {
     }
   }
   check_flag(settings$error, "error")
+  if (!is.null(settings$passes)) {
+    settings$passes <- check_count(settings$passes, "passes", upper = 1000)
+  }
   check_order(settings$order)
   check_number(settings$cap_quantile, "cap_quantile", lower = 0, upper = 1)
   check_number(settings$kernel, "kernel", lower = 0)

@@ -32,7 +32,9 @@ fit_again <- function(batch, changed, landmarks, reading, chunk, progress,
 #' The arguments of a run with some changed
 #' @noRd
 run_again <- function(run, changed) {
-  changed$settings <- utils::modifyList(run$settings, as.list(changed$settings))
+  settings <- run$settings
+  settings[names(changed$settings)] <- changed$settings
+  changed$settings <- settings
   run <- rlang::env_clone(run)
   for (name in names(changed)) assign(name, changed[[name]], run)
   run

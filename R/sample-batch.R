@@ -29,7 +29,9 @@
 #' read, and you may delete them.
 #'
 #' If a result cannot be written (a full disk) or a worker dies, its specimens are tried once more,
-#' each alone. After a second error they are failures.
+#' each alone. After a second error they are failures. One worker takes
+#' `getOption("crestline.chunk")` specimens at a time; by default each worker gets two parts. With
+#' small parts workers are started more often; with large ones they wait longer at the end.
 #'
 #' If no mesh has landmarks, they are found by `template`, see [find_landmarks()]. A landmark with
 #' little confidence is left out, and with it the curves that end there. If most landmarks have
@@ -61,7 +63,8 @@
 #'   if the scheme's landmarks are those of the face, else none.
 #' @param doubtful Greatest share of found landmarks with little confidence that are not left out.
 #'   They are used and graded amber.
-#' @param ... Further arguments of [fit_shape()], the same for all.
+#' @param ... Further arguments of [fit_shape()], the same for all. The former argument `chunk` gives
+#'   a message of class `crestline_deprecated`.
 #' @param found TRUE: landmarks are found for every mesh that has none. FALSE: such a mesh is a
 #'   failure. `NULL`: landmarks are found only if no mesh has any. A mesh without landmarks among
 #'   others with landmarks is then a failure. So found and placed landmarks are not mixed by
@@ -70,9 +73,6 @@
 #'   and [read_landmarks()], such as `list(frame = "RAS", names = c(prn = "pn"), tolerance = 0.02)`.
 #'   It may also have `unit`, as in [fit_shape()]. `rescale` is one factor for all specimens, or has
 #'   the names of the specimens that are in another unit: `list(rescale = c(anna = 1000))`.
-#' @param chunk Number of specimens that one worker takes at a time. `NULL`: each worker gets two
-#'   such parts. With small parts workers are started more often; with large ones they wait longer
-#'   at the end.
 #' @param progress Whether to show progress: a bar in a session with a user, see
 #'   [progressr::with_progress()], otherwise a line a minute to the standard error.
 #' @return Object of class `shape_batch`: a named list with a shape for each id, or `NULL` for a
@@ -108,14 +108,14 @@
 #' shapes[["ball 2"]]
 #' @export
 fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, template = NULL,
-                       doubtful = 0, ...,
-                       found = NULL, reading = list(), chunk = NULL, progress = TRUE) {
+                       doubtful = 0, ..., found = NULL, reading = list(), progress = TRUE) {
   check_given()
   check_flags(progress)
   if (!is.null(template)) template <- check_template(template)
   rlang::check_installed(c("future", "progressr"), "to measure many specimens.")
-  if (!is.null(chunk)) chunk <- check_count(chunk, "chunk")
   settings <- check_fit_arguments(list(...))
+  chunk <- check_chunk(settings$chunk)
+  settings$chunk <- NULL
   if (is.list(reading) && !is.null(reading[["unit"]])) {
     settings <- with_unit(settings, reading$unit)
     reading$unit <- NULL
@@ -136,6 +136,15 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   batch
 }
 
+#' Specimens that one worker takes at a time; NULL: as many as give each worker two parts
+#' @param former As given by the former argument.
+#' @noRd
+check_chunk <- function(former, call = rlang::caller_env()) {
+  if (!is.null(former)) inform_former("chunk =", "options(crestline.chunk = )")
+  chunk <- if (is.null(former)) getOption("crestline.chunk") else former
+  if (!is.null(chunk)) check_count(chunk, "chunk", call = call)
+}
+
 refuse_other_scheme <- function(call) {
   crestline_abort("`scheme` goes with meshes or specimens, but `x` is a batch.",
                   "Its failed specimens are measured again by its own scheme: leave it out.",
@@ -153,14 +162,30 @@ with_unit <- function(settings, unit, call = rlang::caller_env()) {
   settings
 }
 
+#' Arguments for fit_shape() in the form of today
+#' @noRd
+with_former_fields <- function(settings) {
+  former <- unlist(former_fit_fields())
+  given <- settings[names(settings) %in% former]
+  if (!length(given)) return(settings)
+  objects <- list(settings = ridge_settings(), measuring = shape_settings())
+  objects[intersect(names(objects), names(settings))] <-
+    settings[intersect(names(objects), names(settings))]
+  changed <- with_former(objects, former_fit_fields(), given)
+  used <- vapply(former_fit_fields(), function(own) any(own %in% names(given)), NA)
+  settings <- settings[setdiff(names(settings), former)]
+  settings[names(used)[used]] <- changed[used]
+  settings
+}
+
 #' Arguments for fit_shape(), none that it does not take
 #' @noRd
 check_fit_arguments <- function(settings, call = rlang::caller_env()) {
   given <- names(settings)
   if (is.null(given)) given <- rep("", length(settings))
-  takes <- setdiff(names(formals(fit_shape)), c("specimen", "scheme"))
-  strange <- setdiff(given, takes)
-  if (!length(strange)) return(settings)
+  takes <- setdiff(names(formals(fit_shape)), c("specimen", "scheme", "..."))
+  strange <- setdiff(given, c(takes, "chunk", unlist(former_fit_fields())))
+  if (!length(strange)) return(with_former_fields(settings))
   for_reading <- intersect(strange, unlist(reading_arguments()))
   crestline_abort(
     sprintf("%s no argument of fit_shapes() or fit_shape().",

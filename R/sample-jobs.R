@@ -242,7 +242,15 @@ job_content <- function(job, scheme, settings) {
 #' @noRd
 run_words <- function(job, scheme, settings) {
   given <- c(settings, unlist(unname(job$reading), recursive = FALSE))
-  each <- vapply(names(given), function(name) paste(name, "=", setting_word(given[[name]])), "")
+  each <- vapply(names(given), function(name) {
+    stage <- c(settings = "ridge", measuring = "fit")[name]
+    if (!is.na(stage) && is.list(given[[name]])) {
+      changed_words(given[[name]], default_settings(stage))
+    } else {
+      paste(name, "=", setting_word(given[[name]]))
+    }
+  }, "")
+  each <- each[each != "as by default"]
   hash <- substr(scheme_hash(scheme), 1, 8)
   paste(c(sprintf("scheme %s (hash %s)", scheme$name, hash), each,
           if (!is.null(job$finder)) "landmarks found by a template"), collapse = ", ")

@@ -71,15 +71,36 @@ scheme_column_words <- function(names) {
 #' Settings with fields that a call gives as arguments of their own, as was usual formerly
 #'
 #' @param ... The dots of the function that asks.
-#' @param maker Name of the function that makes the settings.
+#' @param maker Name of the function that makes the settings, which is their class.
 #' @noRd
 settings_with_former <- function(settings, maker, ..., call = rlang::caller_env()) {
   check_dots(..., known = names(settings), call = call)
-  for (name in ...names()) {
-    inform_former(paste(name, "="), sprintf("settings = %s(%s = )", maker, name))
+  with_former(list(settings = settings), list(settings = names(settings)), list(...))$settings
+}
+
+#' Several settings objects with those fields of theirs that a call gives formerly
+#'
+#' @param objects Named list of settings, by the argument that takes them today.
+#' @param fields Named list: fields of each that were arguments.
+#' @param given Named list of arguments; each is a field of one of them.
+#' @param silent Arguments whose fields may go on being given by themselves.
+#' @noRd
+with_former <- function(objects, fields, given, silent = character()) {
+  for (argument in names(fields)) {
+    own <- given[names(given) %in% fields[[argument]]]
+    if (!length(own)) next
+    maker <- class(objects[[argument]])[1]
+    for (name in setdiff(names(own), if (argument %in% silent) fields[[argument]])) {
+      inform_former(paste(name, "="), sprintf("%s = %s(%s = )", argument, maker, name))
+    }
+    values <- unclass(objects[[argument]])
+    values[names(own)] <- own
+    preset <- attr(values, "preset")
+    attr(values, "preset") <- NULL
+    objects[[argument]] <- do.call(maker, c(if (!is.null(preset)) list(preset = preset), values),
+                                   quote = TRUE)
   }
-  if (!...length()) return(settings)
-  do.call(maker, utils::modifyList(unclass(settings), list(...)), quote = TRUE)
+  objects
 }
 
 #' Print settings as they are written in a call

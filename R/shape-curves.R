@@ -84,9 +84,11 @@ row_job <- function(row, from, scan, fits) {
   lost <- Find(failed, places)
   ends <- if (is.null(lost)) path_ends(scan, do.call(rbind, places[1:2]),
                                        c(end_name(from), row$to), do.call(rbind, via))
-  job <- curve_job(if (is.null(lost)) ends else lost, row$kind, row$n, scan$settings, scan$passes,
-                   row$radius, row$width, trust = c(row$trust_from, row$trust_to),
-                   angle_limit = row$angle_limit, route = row$path)
+  route <- curve_route()
+  route$trust <- c(row$trust_from, row$trust_to)
+  route$path <- row$path
+  job <- curve_job(if (is.null(lost)) ends else lost, row$kind, row$n, scan$settings, row$radius,
+                   row$width, route = route, angle_limit = row$angle_limit)
   if (row$kind == "plane") return(job)
   job$source <- scan$sources[[as.character(row$radius)]]
   if (!is.na(row$side_of)) job$source <- on_side(job$source, row, scan, fits[[row$side_of]])
@@ -162,9 +164,8 @@ without_bridges <- function(fit, faces) {
 begin_fitting <- function(specimen, scheme, settings, bridge, threads) {
   none <- stats::setNames(vector("list", nrow(scheme$curves)), scheme$curves$curve)
   column <- list(bridge = bridge)
-  list(scheme = scheme,
-       scan = prepare_scan(specimen, scheme, settings, NULL, column, threads), whole = none,
-       fits = none)
+  list(scheme = scheme, scan = prepare_scan(specimen, scheme, settings, column, threads),
+       whole = none, fits = none)
 }
 
 #' Fit those curves anew that a moved landmark touches

@@ -82,8 +82,9 @@ warn_cut_scales <- function(shapes, stage, apart = 0.02) {
   crestline_warn(
     sprintf("the curves were cut off by different factors (`cut_scale`): %s.",
             shorten(sprintf("%s by %.3g", ids[far], scale[far]))),
-    sprintf(paste("Their ends are not the same places. Measure all with fit_shape(cut_scale =",
-                  "%.3g), then homologise()."), min(scale)),
+    sprintf(paste("Their ends are not the same places. Measure all with",
+                  "fit_shape(measuring = shape_settings(cut_scale = %.3g)), then homologise()."),
+            min(scale)),
     stage = stage, class = "crestline_cut_scale"
   )
 }

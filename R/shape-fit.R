@@ -25,7 +25,6 @@
 #' @param scheme A [curve_scheme()], such as [face_scheme()].
 #' @param settings [ridge_settings()] of all curves. `ridge_settings(error = FALSE)` omits standard
 #'   errors and saves their time.
-#' @param passes As in [ridge_curve()].
 #' @param curves Curves that were drawn by hand or found by other software. A list with names of the
 #'   scheme's curves, in the unit of the mesh. Its elements are n x 3 matrices, data frames with
 #'   columns `x`, `y`, `z`, or values of [ridge_curve()]. [read_curves()] gives such a list. The
@@ -33,23 +32,16 @@
 #'   cuts. Their ends are moved to their landmarks. They are not trimmed. A curve with the number of
 #'   points of the scheme keeps its points; any other curve gets points at equal chords. Curves that
 #'   are not in the list are found by curvature or cuts as usual.
-#' @param cut_scale Multiplies the length at which trimmed curves are cut (no unit). Use one value
-#'   below 1 for all specimens if some scans are too short. It is reduced for a specimen with a
-#'   shorter curve.
-#' @param bridge Greatest size of a hole that is bridged by flat triangles: the diagonal of its
-#'   bounding box, as a share of the object's size. Curves and columns cross a bridged hole, and
-#'   their points inside it are missing. They run round larger holes. 0: no hole is bridged.
-#' @param column_angle Greatest angle in radians between a column's plane and the plane of the mean
-#'   surface normal at its ends (pi / 4 in the programs of the paper's authors).
-#' @param column_angles Number of planes that are tried for a column (51 in the authors' programs).
-#' @param column_reach Greatest distance of a column from the straight line between its ends, as a
-#'   share of that line's length (1 in the authors' programs).
+#' @param measuring How curves are cut off, holes bridged and columns cut: as of
+#'   [shape_settings()].
 #' @param unit Factor from the mesh's unit to the unit of the scheme's lengths: 1000 for a scan in
 #'   metres and [face_scheme()]. The co-ordinates of the shape stay in the mesh's unit. To bring one
 #'   specimen to the unit of the others, use `rescale` of [read_specimen()] instead. NULL: the
 #'   factor of [find_landmarks()] if it found the landmarks, else 1.
 #' @template progress
 #' @inheritParams curvature
+#' @param ... Fields of [shape_settings()], and `passes`, the former form. They give a message of
+#'   class `crestline_deprecated`.
 #' @return Object of class `shape`, a list:
 #'   * `id`: of the specimen;
 #'   * `points`: data frame with a row for each point, in the order of the scheme. Columns:
@@ -123,8 +115,9 @@
 #'     missing. The length is then twice the distance of the other from the mirror plane. The mirror
 #'     plane is perpendicular to the directions between left and right. Without a whole pair, it
 #'     runs through the midline landmarks.
-#'   * The points inside a hole are missing, see `bridge`. Remove triangles that you do not trust
-#'     from the mesh first, such as long ones over unseen parts. They then count as a hole.
+#'   * The points inside a hole are missing, see `bridge` of [shape_settings()]. Remove triangles
+#'     that you do not trust from the mesh first, such as long ones over unseen parts. They then
+#'     count as a hole.
 #' @section Errors: of class `crestline_error`: an argument is not of the class it should be, or the
 #'   specimen has no landmarks. Of class `crestline_unit_error`: the distances between landmarks
 #'   differ from the scheme's by a factor, as in another unit. The error gives the `unit` to use.
@@ -144,41 +137,42 @@
 #' head(coords(shape, "curves"))
 #' }
 #' @export
-fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_settings(), passes = NULL,
-                      curves = NULL, cut_scale = 1, bridge = 0.2,
-                      column_angle = pi / 4, column_angles = 51, column_reach = 1, unit = NULL,
-                      threads = getOption("crestline.threads", 1L), progress = interactive()) {
+fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_settings(), curves = NULL,
+                      measuring = shape_settings(), unit = NULL,
+                      threads = getOption("crestline.threads", 1L), progress = interactive(), ...) {
   check_given()
   check_flags(progress)
-  if (!is.null(passes)) passes <- check_count(passes, "passes", upper = 1000)
   threads <- check_threads(threads)
   check_class(specimen, "specimen", "specimen",
               "specimen(), read_specimen() or, without landmarks, find_landmarks()")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
+  check_class(measuring, "shape_settings", "measuring", "shape_settings()")
+  check_dots(..., known = unlist(former_fit_fields()))
+  asked <- with_former(list(settings = settings, measuring = measuring), former_fit_fields(),
+                       list(...))
   named <- scheme
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   scheme <- scheme_in_unit(scheme, unit, specimen)
   check_fits_scheme(specimen, scheme, unit)
   warn_unused_names(specimen, scheme, paste("the scheme", scheme$name))
-  check_class(settings, "ridge_settings", "settings", "ridge_settings()")
-  cut_scale <- check_number(cut_scale, "cut_scale", lower = 0, open = TRUE)
-  column <- check_column(column_angle, column_angles, column_reach)
-  column$bridge <- check_number(bridge, "bridge", 0, 1)
   specimen <- with_located(specimen)
   if (!is.null(specimen$placing)) specimen$placing <- current_placing(specimen)
-  scan <- prepare_scan(specimen, scheme, settings, passes, column, threads)
+  column <- column_settings(asked$measuring)
+  scan <- prepare_scan(specimen, scheme, asked$settings, column, threads)
   tick <- progress_ticks(
     progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id
   )
   fits <- given_fits(scan, curves)
   open <- vapply(fits, is.null, NA)
-  fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan, cut_scale)
+  fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan,
+                          asked$measuring$cut_scale)
   patches <- fit_scheme_patches(scan, fits, place_store(scan, fits), tick)
   shape <- new_shape(
     specimen$id, shape_points(scheme, patches$store), shape_status(scan, fits, patches$problems),
     scheme, paths = lapply(fits, function(fit) unbridged_path(fit$path, specimen)),
     tracks = curve_tracks(fits, scan), column = column, specimen = specimen,
-    provenance = shape_provenance(specimen, named, unit, scan, cut_scale, names(curves))
+    provenance = shape_provenance(scan, named, unit, asked$measuring, names(curves))
   )
   with_checks(shape, scan, fits)
 }
@@ -199,22 +193,26 @@ with_checks <- function(shape, scan, fits) {
 
 #' Where a measured shape came from, see [summary.shape()]
 #'
+#' @param scan As of [prepare_scan()].
 #' @param scheme As it was given, before its lengths were brought to the unit of the mesh.
 #' @param unit Factor that its lengths were divided by.
-#' @param scan As of [prepare_scan()].
 #' @param given Names of the curves that were given.
 #' @noRd
-shape_provenance <- function(specimen, scheme, unit, scan, cut_scale, given) {
-  origin <- origin_of(specimen)
-  column <- scan$column
-  fit <- list(passes = scan$passes, cut_scale = cut_scale, bridge = column$bridge,
-              column_angle = column$angle, column_angles = column$angles,
-              column_reach = column$reach, given = as.character(given))
+shape_provenance <- function(scan, scheme, unit, measuring, given) {
+  origin <- origin_of(scan$specimen)
   c(made_with(), list(
-    scheme = c(scheme_provenance(scheme), unit = unit), mesh = mesh_provenance(specimen),
+    scheme = c(scheme_provenance(scheme), unit = unit), mesh = mesh_provenance(scan$specimen),
     landmarks = origin[origin$landmark %in% scheme$landmarks$landmark, ],
-    settings = list(ridge = lapply(unclass(scan$settings), identity), fit = fit)
+    settings = list(ridge = lapply(unclass(scan$settings), identity),
+                    fit = c(lapply(unclass(measuring), identity),
+                            list(given = as.character(given))))
   ))
+}
+
+#' Fields of settings that were arguments of [fit_shape()], by the argument of today
+#' @noRd
+former_fit_fields <- function() {
+  list(settings = "passes", measuring = setdiff(names(formals(shape_settings)), "..."))
 }
 
 progress_ticks <- function(progress, n, id) {

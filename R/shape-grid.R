@@ -34,9 +34,9 @@
 #' }
 #' @export
 patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = NULL,
-                       column_angle = pi / 4,
-                       column_angles = 51, column_reach = 1) {
+                       measuring = shape_settings(), ...) {
   check_given()
+  measuring <- measuring_with_former(measuring, ...)
   patch <- check_text(patch, "patch")
   if (!is.null(block) && !is.atomic(block)) {
     refuse_argument("block", block, "Give a block's name.", rlang::current_env())
@@ -47,8 +47,7 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   block <- block_of(x, patch, block)
   columns <- check_count(if (is.null(columns)) block$a$n else columns, "columns", 2, upper = 10000)
   rows <- check_count(if (is.null(rows)) block$rows else rows, "rows", 2, upper = 10000)
-  scan <- c(walkable(specimen),
-            list(column = check_column(column_angle, column_angles, column_reach)))
+  scan <- c(walkable(specimen), list(column = column_settings(measuring)))
   points <- block_grid(x, scan, block, columns, rows)
   place <- ifelse(is.na(points$x), NA, paste(points$x, points$y, points$z))
   vertex <- match(place, unique(place[!is.na(place)]))

@@ -164,7 +164,7 @@ left_out_reason <- function(specimen, name) {
 #'   `settings`, `passes`, `column`; `sources`, curvature by radius, as of [curvature_source()]; and
 #'   what [scan_landmarks()] gives.
 #' @noRd
-prepare_scan <- function(specimen, scheme, settings, passes, column, threads) {
+prepare_scan <- function(specimen, scheme, settings, column, threads) {
   bridged <- bridge_holes(specimen, column$bridge)
   curves <- scheme$curves
   radius <- unique(curves$radius[curves$kind != "plane"])
@@ -173,7 +173,7 @@ prepare_scan <- function(specimen, scheme, settings, passes, column, threads) {
   })
   scan <- c(walkable(bridged),
             list(faces = ncol(specimen$mesh$it), specimen = specimen, bridged = bridged,
-                 scheme = scheme, settings = settings, passes = passes, column = column,
+                 scheme = scheme, settings = settings, column = column,
                  sources = stats::setNames(sources, radius)))
   c(scan, scan_landmarks(scan))
 }

@@ -17,7 +17,9 @@
 #' @param parts Triangles of the scheme: "model", or names of optional parts, or both.
 #' @param specimen The [specimen()] that the shape was measured on. Needed if `dense` is above 1.
 #' @param dense Number of pieces into which every side of a quad is divided; a whole number.
-#' @param column_angle,column_angles,column_reach Settings of the cuts, as in [fit_shape()].
+#' @param measuring Settings of the cuts: `column_angle`, `column_angles`, `column_reach` of
+#'   [shape_settings()]. Its other fields are not used here.
+#' @param ... These three, the former form. They give a message of class `crestline_deprecated`.
 #' @return A `mesh3d` with normals. `vb` (4 x k) has a vertex for every place that has triangles, in
 #'   the unit of the specimen's mesh. The model's points come first, in the order of `coords(x,
 #'   "surface")`. `it` (3 x m) has the triangles, outward; triangles with a missing point are left
@@ -42,14 +44,13 @@
 #' draw_surface(shape_mesh(shape, specimen = face, dense = 2), engine = "picture")
 #' }
 #' @export
-shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1, column_angle = pi / 4,
-                       column_angles = 51,
-                       column_reach = 1) {
+shape_mesh <- function(x, parts = "model", specimen = NULL, dense = 1,
+                       measuring = shape_settings(), ...) {
   check_given()
+  column <- column_settings(measuring_with_former(measuring, ...))
   parts <- check_names(parts, "parts")
   check_class(x, "shape", "x", "fit_shape()")
   dense <- check_count(dense, "dense", upper = 1000)
-  column <- check_column(column_angle, column_angles, column_reach)
   if (!is.null(specimen)) {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   }

@@ -201,12 +201,3 @@ fill_store <- function(store, place, values) {
   store[place[empty], colnames(values)] <- values[empty, ]
   store
 }
-
-# What the curves and patches of a shape do with paths: shortest cuts near the surface's normal,
-# joins.
-
-check_column <- function(column_angle, column_angles, column_reach) {
-  list(angle = check_number(column_angle, "column_angle", 0, pi / 2),
-       angles = check_count(column_angles, "column_angles", upper = 10000),
-       reach = check_number(column_reach, "column_reach", 0, open = TRUE))
-}

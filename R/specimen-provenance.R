@@ -88,15 +88,13 @@ default_settings <- function(name) {
   }
   switch(name, ridge = unclass(match.fun("ridge_settings")()),
          slide = unclass(match.fun("slide_settings")()),
-         fit = c(of("fit_shape", "passes", "cut_scale", "bridge", "column_angle", "column_angles",
-                    "column_reach"),
-                 list(given = character())),
+         fit = c(unclass(match.fun("shape_settings")()), list(given = character())),
          homologise = of("homologise", "tolerance", "rounds"),
-         align = utils::modifyList(
-           of("align", "scale", "tangent", "tolerance", "rounds"), list(missing = "estimate")
-         ),
+         align = c(of("align", "scale", "tangent"), of("align_settings", "tolerance", "rounds"),
+                   list(missing = "estimate")),
          pca = of("shape_pca", "tolerance"),
-         compare = c(of("compare_groups", "n_perm", "components", "tests", "equal_spread"),
+         compare = c(of("compare_groups", "n_perm", "equal_spread"),
+                     of("comparison_settings", "components", "tests", "n_boot"),
                      list(exchange = "free")),
          list())
 }

@@ -12,10 +12,10 @@
 #' A point x of the template becomes \eqn{s (x + v(x) + g e(x) - c) + c}, rotated and translated by
 #' the settings `turn` and `shift` of `scan`. Here v is the random field of the face. Its values
 #' have the covariance \eqn{sd^2 \exp(-r^2 / (2 range^2))} at distance r, summed over the rows of
-#' `variation`. e is the effect, and g is -1/2 in the first group and 1/2 in the second. c is the
-#' centre of the template's vertices, and s the size: \eqn{\log s} has mean \eqn{g \log(1 +
-#' size\_effect)} and standard deviation `size_sd`. The effect e is a sum of bumps, each along one
-#' direction and 0 beyond its radius. The default bumps, at brow and cheek ([face_effect()]), reach
+#' `variation`, see [population_settings()]. e is the effect, and g is -1/2 in the first group and
+#' 1/2 in the second. c is the centre of the template's vertices, and s the size: \eqn{\log s} has
+#' mean \eqn{g \log(1 + size\_effect)} and standard deviation `size_sd`. The effect e is a sum of
+#' bumps, each along one direction and 0 beyond its radius. The default bumps, at brow and cheek ([face_effect()]), reach
 #' no landmark. With the same `seed`, faces with another effect, size or scan have the same random
 #' fields. With a larger `n`, the first faces are the same.
 #'
@@ -32,14 +32,12 @@
 #' @param template A [specimen()] with landmarks; `NULL`: `humface` of the package Rvcg with the
 #'   landmarks of this package (left is the subject's own left). Another template needs `places` of
 #'   its own.
-#' @param groups Names of the two groups.
-#' @param variation Random fields, which are summed: data frame with a row for each, and columns
-#'   `range` and `sd` (unit of the template). Without rows: no variation of shape.
-#' @param size_sd Standard deviation of log size within groups.
-#' @param waves Number of waves whose sum is a random field.
 #' @param scan [scan_settings()]. `NULL`: no specimens, only the truth, which takes milliseconds.
 #' @template seed
 #' @template progress
+#' @param population Names of the groups, and variation within them: as of [population_settings()].
+#' @param ... Fields of [population_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return Object of class `simulated_faces`, a list:
 #'   * `specimens`: the [specimen()]s, named by id, for [fit_shapes()];
 #'   * `covariates`: data frame with a row for each face: `id`, `group` (factor), `size` (s);
@@ -66,10 +64,8 @@
 #' }
 #' @export
 simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, template = NULL,
-                           groups = c("female", "male"),
-                           variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
-                           size_sd = 0.03, waves = 200, scan = scan_settings(), seed = NULL,
-                           progress = interactive()) {
+                           scan = scan_settings(), seed = NULL, progress = interactive(),
+                           population = population_settings(), ...) {
   check_given()
   check_flags(progress)
   seed <- check_seed(seed)
@@ -78,19 +74,20 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
   if (is.null(template)) template <- humface_specimen()
   check_class(template, "specimen", "template", "specimen() or read_specimen()")
   if (!is.null(scan)) check_class(scan, "scan_settings", "scan", "scan_settings()")
+  check_class(population, "population_settings", "population", "population_settings()")
+  check_dots(..., known = names(population))
+  population <- with_former(list(population = population), list(population = names(population)),
+                            list(...))$population
+  groups <- population$groups
   places <- effect_places(places, template)
   effect <- effect_by_part(effect, unique(places$part))
   size_effect <- check_number(size_effect, "size_effect", -1, open = TRUE)
-  variation <- check_variation(variation)
-  groups <- check_groups(groups)
-  random <- list(variation = variation, size_sd = check_number(size_sd, "size_sd", 0),
-                 waves = check_count(waves, "waves"))
   seeds <- with_seed(seed, matrix(sample.int(.Machine$integer.max, 2 * n), 2))
   side <- rep_len(c(-1 / 2, 1 / 2), n)
   mean <- list(centre = rowMeans(template$mesh$vb[1:3, ]), effect = effect_field(places, effect))
   drawn <- lapply(seq_len(n), function(i) {
     with_seed(seeds[1, i], face_deformation(
-      mean, side[i], log(1 + size_effect), random, if (!is.null(scan)) scan
+      mean, side[i], log(1 + size_effect), population, if (!is.null(scan)) scan
     ))
   })
   id <- paste("face", formatC(seq_len(n), width = nchar(n), flag = "0"))
@@ -103,6 +100,44 @@ simulate_faces <- function(n, effect = 2, size_effect = 0.03, places = NULL, tem
                  effect = effect, size_effect = size_effect, deformations = deformations,
                  scan = scan),
             class = "simulated_faces")
+}
+
+#' Groups of simulated faces, and the variation within them
+#'
+#' For [simulate_faces()].
+#'
+#' @template setting-names
+#' @param groups Names of the two groups.
+#' @param variation Random fields, which are summed: data frame with a row for each, and columns
+#'   `range` and `sd` (unit of the template). Without rows: no variation of shape.
+#' @param size_sd Standard deviation of log size within groups.
+#' @param waves Number of waves whose sum is a random field.
+#' @return List of class `population_settings`.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
+#' @template glossary
+#' @template experimental
+#' @examples
+#' population_settings(size_sd = 0.05)
+#' @export
+population_settings <- function(..., groups = c("female", "male"),
+                                variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)),
+                                size_sd = 0.03, waves = 200) {
+  new_settings("population_settings", check_population, list(...))
+}
+
+check_population <- function(settings) {
+  settings$groups <- check_groups(settings$groups)
+  settings$variation <- check_variation(settings$variation)
+  check_number(settings$size_sd, "size_sd", 0)
+  check_count(settings$waves, "waves")
+  settings
+}
+
+#' @export
+print.population_settings <- function(x, ...) {
+  check_method_dots(...)
+  print_settings(x, "<population_settings> of simulate_faces()")
 }
 
 #' One face: its size and its deformation, a function of a k x 3 matrix

@@ -29,20 +29,16 @@
 #'   Parallel workers do not have the objects of your workspace. Define the function together with
 #'   its helpers in `local()`.
 #' @param n Number of simulated surfaces for each combination; their seeds are `1, ..., n`.
-#' @param a,b,noise,landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
-#' @param passes,radius Vectors of values, as in [ridge_curve()]; the side of the surface is 2.
-#'   `passes = NULL`: the passes of the settings.
-#' @param width As in [ridge_curve()], in the unit of the surface.
-#' @param points Number of points at which each curve is compared; the paper: 21.
+#' @param a,b,noise Vectors of values, as in [simulate_ridge()].
 #' @param dir Folder for the results of a long run; it is created if it does not exist. Results of
 #'   the same arguments and the same version of the package are not computed again. Two functions
 #'   are the same if their text and the objects that they use are the same. A damaged file is
 #'   computed again. `NULL`: results are not stored.
-#' @param block Number of surfaces that a worker takes, and writes to `dir`, at a time.
 #' @param progress Whether to show a progress bar, see [progressr::with_progress()].
-#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2, and greatest
-#'   number of curves of a study. Larger ones are refused before any work.
-#' @param ... Further arguments of [simulate_ridge()]: `jitter`, `end`.
+#' @param study What the surfaces and estimates have in common, or more values for combinations: as
+#'   of [study_settings()].
+#' @param ... Fields of [study_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return Data frame with a row for each curve; a value that a method does not have is `NA`:
 #'   * `a`, `b`, `noise`, `landmark_error`, `spacing`, `radius`, `correlation`, `passes`, `seed`;
 #'   * `method`: name in `settings`;
@@ -71,23 +67,23 @@
 #' ridge_study(methods, n = 1, a = 0.25, b = 2, noise = 0)[c("method", "distance", "seconds")]
 #' @export
 ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5),
-                        b = c(0.25, 0.5, 1, 2),
-                        noise = c(0, 0.01, 0.05), landmark_error = 0, passes = NULL, radius = 0.25,
-                        width = 0.4,
-                        spacing = 0.05, correlation = 0, points = 21, dir = NULL, block = 50,
-                        progress = interactive(), largest = 2e6, ...) {
+                        b = c(0.25, 0.5, 1, 2), noise = c(0, 0.01, 0.05), dir = NULL,
+                        progress = interactive(), study = study_settings(), ...) {
   check_flags(progress)
   methods <- study_methods(settings)
   check_count(n, "n")
-  check_number(points, "points", 3, 1e5)
-  check_count(points, "points", lower = 3)
-  check_count(block, "block")
+  check_class(study, "study_settings", "study", "study_settings()")
+  check_dots(..., known = names(study))
+  study <- with_former(list(study = study), list(study = names(study)), list(...))$study
+  largest <- study$largest
+  block <- study$block
   grid <- check_study_grid(
-    list(passes = passes, correlation = correlation, radius = radius, spacing = spacing,
-         landmark_error = landmark_error, noise = noise, b = b, a = a),
+    list(passes = study$passes, correlation = study$correlation, radius = study$radius,
+         spacing = study$spacing, landmark_error = study$landmark_error, noise = noise, b = b,
+         a = a),
     largest
   )
-  constant <- study_constant(width, points, list(...))
+  constant <- unclass(study)[c("width", "points", "jitter", "end")]
   curves <- n * prod(lengths(grid)) * length(methods)
   if (curves > largest) {
     crestline_abort(sprintf("the study would have %s curves.", format(curves, big.mark = ",")),
@@ -138,21 +134,53 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
   grid
 }
 
-#' What all surfaces and curves of a study have in common
-#' @noRd
-study_constant <- function(width, points, more, call = rlang::caller_env()) {
-  given <- names(more)
-  if (length(more) && (is.null(given) || !all(given %in% c("jitter", "end")))) {
-    crestline_abort(sprintf("ridge_study() does not take %s.",
-                            shorten(setdiff(c(given, "what has no name"), c("jitter", "end")))),
-                    "Further arguments are `jitter` and `end`, see simulate_ridge().",
-                    stage = "arguments", call = call)
-  }
-  constant <- utils::modifyList(list(width = width, points = points, jitter = 0, end = 0.95), more)
-  check_number(constant$width, "width", 0, 2, open = TRUE, call = call)
-  check_number(constant$jitter, "jitter", 0, 0.45, call = call)
-  check_number(constant$end, "end", 0, 1, call = call)
-  constant
+#' Settings of a study of ridges
+#'
+#' The scans and estimates of [ridge_study()], beside the ridges themselves. Vectors give a study
+#' with all combinations of their values.
+#'
+#' @template setting-names
+#' @param landmark_error,spacing,correlation Vectors of values, as in [simulate_ridge()].
+#' @param passes,radius Vectors of values, as in [ridge_settings()] and [ridge_curve()]; the side
+#'   of the surface is 2. `passes = NULL`: the passes of the settings.
+#' @param width As in [ridge_curve()], in the unit of the surface.
+#' @param points Number of points at which each curve is compared; the paper: 21.
+#' @param jitter,end As in [simulate_ridge()].
+#' @param block Number of surfaces that a worker takes, and writes to the study's `dir`, at a time.
+#' @param largest Greatest number of vertices of a surface, (2 / `spacing` + 1)^2, and greatest
+#'   number of curves of a study. Larger ones are refused before any work.
+#' @return List of class `study_settings`.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
+#' @template glossary
+#' @templateVar where section 5.2
+#' @template paper
+#' @template experimental
+#' @examples
+#' study_settings(radius = c(0.2, 0.25), points = 11)
+#' @export
+study_settings <- function(..., landmark_error = 0, passes = NULL, radius = 0.25, width = 0.4,
+                           spacing = 0.05, correlation = 0, jitter = 0, end = 0.95, points = 21,
+                           block = 50, largest = 2e6) {
+  new_settings("study_settings", check_study_settings, list(...))
+}
+
+check_study_settings <- function(settings) {
+  check_number(settings$width, "width", 0, 2, open = TRUE)
+  check_number(settings$jitter, "jitter", 0, 0.45)
+  check_number(settings$end, "end", 0, 1)
+  check_number(settings$points, "points", 3, 1e5)
+  check_count(settings$points, "points", lower = 3)
+  check_count(settings$block, "block")
+  grid <- c("passes", "correlation", "radius", "spacing", "landmark_error")
+  check_study_grid(settings[grid], settings$largest)
+  settings
+}
+
+#' @export
+print.study_settings <- function(x, ...) {
+  check_method_dots(...)
+  print_settings(x, "<study_settings> of ridge_study()")
 }
 
 #' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells
@@ -258,9 +286,9 @@ study_estimate <- function(method, surface, cell, constant) {
                 determined = NA,
                 converged = NA))
   }
+  if (!is.na(cell$passes)) method$passes <- cell$passes
   curve <- quiet(ridge_curve(
-    surface, "from", "to", "ridge", cell$radius, constant$width, points, settings = method,
-    passes = if (!is.na(cell$passes)) cell$passes
+    surface, "from", "to", "ridge", cell$radius, constant$width, points, settings = method
   ))
   list(line = columns_of(curve$path, c("x", "y", "z")),
        at = columns_of(curve$points, c("x", "y", "z")),

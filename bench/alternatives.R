@@ -17,9 +17,9 @@ positions <- function(x) as.matrix(as.data.frame(x)[c("x", "y", "z")])
 
 # Our own ridge with a whole second pass and no kernel.
 twice <- function(specimen, radius, width, n) {
-  settings <- crestline::ridge_settings("one pass", error = FALSE)
+  settings <- crestline::ridge_settings("one pass", error = FALSE, passes = 2)
   positions(crestline::ridge_curve(specimen, "from", "to", "ridge", radius, width, n,
-                                   settings = settings, passes = 2)$path)
+                                   settings = settings)$path)
 }
 
 # The cut that the ridge is sought beside, and no ridge.

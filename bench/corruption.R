@@ -228,7 +228,7 @@ for (name in unique(half)) {
 simpop <- simpop_faces()
 alone <- lapply(simpop, measured)
 shortest <- min(vapply(alone, function(shape) min(shape$checks$cut, na.rm = TRUE), 0))
-simpop_cut <- lapply(simpop, measured, cut_scale = shortest)
+simpop_cut <- lapply(simpop, measured, measuring = shape_settings(cut_scale = shortest))
 if (!is.na(folder))
   saveRDS(c(shapes, alone = alone, cut = simpop_cut), file.path(folder, "good.rds"))
 cat("\nFalse alarms\n")

@@ -65,9 +65,10 @@ misplaced <- function(shape, curve, by) {
   n <- nrow(path)
   up <- c(0, by, 0)
   aside <- path + outer(pmin(1, 2 * sin(seq(0, pi, length.out = n))), up)
-  drawn <- suppressWarnings(fit_shape(shape$specimen, shape$scheme, cut_scale = 0.82,
+  drawn <- suppressWarnings(fit_shape(shape$specimen, shape$scheme,
                                       curves = stats::setNames(list(aside), curve),
-                                      progress = FALSE))
+                                      progress = FALSE,
+                                      measuring = shape_settings(cut_scale = 0.82)))
   drawn$provenance$settings$fit$given <- character()
   own <- function(x) x$points$level == "curves" & x$points$part == curve
   drawn$points$se[own(drawn)] <- stats::median(shape$points$se[own(shape)], na.rm = TRUE)

@@ -34,7 +34,8 @@ landmark_tables <- function(folder) {
 
 fitted <- function(faces) {
   lapply(faces, function(face)
-    suppressWarnings(fit_shape(face, face_scheme(), cut_scale = 0.82, progress = FALSE)))
+    suppressWarnings(fit_shape(face, face_scheme(), progress = FALSE,
+                               measuring = shape_settings(cut_scale = 0.82))))
 }
 
 # Noise along the normals, and landmarks moved (RMS distance) and put on the mesh.

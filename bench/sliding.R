@@ -156,7 +156,8 @@ specimens <- function(noise = 0, moved = 0) {
 # All curves are cut at the share that every face has.
 fitted <- function(faces, scale = 0.82) {
   lapply(faces, function(face)
-    suppressWarnings(fit_shape(face, face_scheme(), cut_scale = scale, progress = FALSE)))
+    suppressWarnings(fit_shape(face, face_scheme(), progress = FALSE,
+                               measuring = shape_settings(cut_scale = scale))))
 }
 
 # The same faces as bench/homology.R, which may have kept them.

@@ -211,7 +211,8 @@ simpop_sample <- function() {
     suppressWarnings(specimen(simpop_mesh(rows$id[1]), marks, id = rows$id[1]))
   })
   shapes <- lapply(faces, function(face)
-    suppressWarnings(fit_shape(face, face_scheme(), cut_scale = 0.82, progress = FALSE)))
+    suppressWarnings(fit_shape(face, face_scheme(), progress = FALSE,
+                               measuring = shape_settings(cut_scale = 0.82))))
   homologise(shapes, progress = FALSE)
 }
 

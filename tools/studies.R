@@ -64,7 +64,11 @@ run_alternatives <- function(n, most = 200L) {
 run_factors <- function(factors, methods, n, dir) {
   rows <- lapply(names(factors), function(name) {
     cat(sprintf("  %s\n", name))
-    study <- do.call(ridge_study, c(factors[[name]], list(settings = methods, n = n, dir = dir)))
+    own <- names(factors[[name]]) %in% names(study_settings())
+    study <- do.call(ridge_study, c(
+      factors[[name]][!own],
+      list(settings = methods, n = n, dir = dir, study = do.call(study_settings, factors[[name]][own]))
+    ))
     cbind(factor = name, summarise(study))
   })
   do.call(rbind, rows)

@@ -31,11 +31,3 @@ apart <- function(a, b) max(abs(laid_onto(unname(a), unname(b), FALSE) - unname(
 
 # A tetrahedral mesh's triangles of the first four points.
 four_triangles <- function() cbind(c(1, 2, 3), c(1, 4, 2), c(2, 4, 3), c(1, 3, 4))
-
-# compare_groups() with fields of its settings beside its arguments.
-comparing <- function(...) {
-  given <- list(...)
-  field <- names(given) %in% names(comparison_settings())
-  settings <- do.call(comparison_settings, given[field])
-  do.call(compare_groups, c(given[!field], list(settings = settings)))
-}

@@ -30,7 +30,7 @@ quad_scheme <- function(change = identity) {
 }
 
 quad_shape <- function(scheme = quad_scheme(), ..., landmarks = quad_corners()) {
-  fit_shape(quad_specimen(landmarks = landmarks), scheme, ..., progress = FALSE)
+  fitting(quad_specimen(landmarks = landmarks), scheme, ..., progress = FALSE)
 }
 
 status_of <- function(shape, part) shape$status[shape$status$part == part, ]

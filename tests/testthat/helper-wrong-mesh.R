@@ -155,7 +155,7 @@ own_mesh_calls <- function() {
     `reference_path, curvature` = function(case, one)
       reference_path(one, "lowL", "highR", "ridge", curvature = case$curvature),
     `ridge_curve, curvature` = function(case, one)
-      ridge_curve(one, "lowL", "highR", "ridge", 15, 10, 5, curvature = case$curvature),
+      ridge_curve(one, "lowL", "highR", "ridge", case$curvature, 10, 5),
     `refine_landmarks, curvature` = function(case, one) {
       refine_landmarks(one, case$defined, curvature = function(radius) case$curvature)
     },

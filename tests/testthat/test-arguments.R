@@ -1,7 +1,3 @@
-# The study of ridges checks its grid once it has the argument `largest`: without, some values end
-# R.
-checks_its_grid <- "largest" %in% names(formals(ridge_study))
-
 # The whole table, 13,000 calls: with CRESTLINE_ARGUMENTS=all, or `Rscript tools/arguments.R`. Here
 # some values of each pair.
 calls <- NULL
@@ -13,7 +9,7 @@ table_of_calls <- function() {
 test_that("every exported function has an entry for each of its arguments", {
   calls <- table_of_calls()
   expect_setequal(names(calls), getNamespaceExports("crestline"))
-  for (fn in setdiff(names(calls), if (!checks_its_grid) "ridge_study")) {
+  for (fn in names(calls)) {
     own <- setdiff(as.character(names(formals(getExportedValue("crestline", fn)))), "...")
     expect_equal(setdiff(own, names(calls[[fn]]$kinds)), character(), label = fn)
     expect_true(all(names(calls[[fn]]$kinds) %in% names(calls[[fn]]$args)))
@@ -32,7 +28,6 @@ test_that("a wrong value of any argument is refused by its name, never by an err
     turn <<- turn + 1
     unique(must[(turn * 5 + c(0, 13, 27)) %% max(length(must), 1) + 1])
   }
-  if (!checks_its_grid) calls$ridge_study <- NULL
   tried <- try_arguments(calls, values = function(...) stats::na.omit(some(...)))
   expect_gt(nrow(tried), 1000)
   bad <- leaks_of(tried)

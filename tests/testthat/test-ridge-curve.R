@@ -1,8 +1,8 @@
 # Truth of bent_ridge(): the crest's v at u.
 crest <- function(u) 1.5 * sin(u / 8)
 off_crest <- function(curve) mean(abs(curve$path$y - crest(curve$path$x)))
-of_bent <- function(specimen = bent_ridge(), ..., n = 9) {
-  curve_of(specimen, "a", "b", "ridge", radius = 4, width = 5, n = n, ...)
+of_bent <- function(specimen = bent_ridge(), ..., radius = 4, n = 9) {
+  curve_of(specimen, "a", "b", "ridge", radius = radius, width = 5, n = n, ...)
 }
 
 expect_sound_curve <- function(curve, specimen, n) {
@@ -65,8 +65,8 @@ test_that("noise moves it by a share of the spacing, and its band holds the trut
 })
 
 test_that("a second pass is nearer on clean data, its reference is the first pass's curve", {
-  once <- of_bent(settings = ridge_settings(lambda = 1e-3), passes = 1)
-  twice <- of_bent(settings = ridge_settings(lambda = 1e-3), passes = 2)
+  once <- of_bent(settings = ridge_settings(lambda = 1e-3, passes = 1))
+  twice <- of_bent(settings = ridge_settings(lambda = 1e-3, passes = 2))
   expect_lt(off_crest(twice), off_crest(once))
   expect_equal(attr(twice$reference, "length"), once$length)
   expect_lt(mean(abs(twice$line$alpha)), 0.8 * mean(abs(once$line$alpha)))
@@ -135,8 +135,8 @@ test_that("without standard errors there are none, and nothing is said of being 
 test_that("curvature that is given makes the same curve", {
   bent <- bent_ridge(noise = 0.02)
   known <- curvature(bent, 4, order = ridge_settings()$order)
-  expect_equal(of_bent(bent, curvature = known)$points, of_bent(bent)$points, tolerance = 1e-6)
-  expect_crestline_error(of_bent(bent, curvature = curvature(ball(), 0.5)), "own mesh",
+  expect_equal(of_bent(bent, radius = known)$points, of_bent(bent)$points, tolerance = 1e-6)
+  expect_crestline_error(of_bent(bent, radius = curvature(ball(), 0.5)), "own mesh",
                          id = "graph")
 })
 
@@ -231,7 +231,9 @@ test_that("errors name the specimen, the landmark and the remedy", {
   expect_crestline_error(call(width = 0.3), c("vertices", "`width`"))
   expect_crestline_error(call(n = 1), "`n`")
   expect_crestline_error(call(n = 2.5), "whole number")
-  expect_crestline_error(call(passes = 0), "`passes`")
+  expect_crestline_error(call(settings = ridge_settings(passes = 0)), "`passes`")
+  expect_crestline_error(call(route = list()), "curve_route()")
+  expect_crestline_error(call(reech = 1), c("`reech`", "reach"))
   expect_crestline_error(call(settings = list()), "ridge_settings")
   expect_crestline_error(call(keep_away = list(1)), "keep_away")
   expect_crestline_error(call(list()), "mesh3d")

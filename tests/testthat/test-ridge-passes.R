@@ -1,6 +1,7 @@
 fit_of <- function(settings = ridge_settings(), passes = NULL, noise = 0) {
+  settings["passes"] <- list(passes)
   suppressWarnings(ridge_curve(bent_ridge(noise = noise), "a", "b", "ridge", radius = 4,
-                               width = 5, n = 9, settings = settings, passes = passes))
+                               width = 5, n = 9, settings = settings))
 }
 
 test_that("one pass is the setting of that name, and is what `passes = 1` gives without a kernel", {

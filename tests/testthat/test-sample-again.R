@@ -7,7 +7,8 @@ test_that("the failed of a batch are measured again with what is changed", {
   on.exit(unlink(dir, recursive = TRUE))
   file <- file.path(dir, "ball 2.csv")
   file.rename(file, file.path(dir, "mine.csv"))
-  shapes <- fit_shapes(meshes_in(dir), quad_scheme(), column_angle = 0.01)
+  shapes <- fit_shapes(meshes_in(dir), quad_scheme(),
+                       measuring = shape_settings(column_angle = 0.01))
   expect_identical(failures(shapes)$id, "ball 2")
   # Still without landmarks; they are not found among placed ones.
   expect_match(failures(fit_shapes(shapes))$message, "1 other of the batch has")
@@ -16,7 +17,8 @@ test_that("the failed of a batch are measured again with what is changed", {
   expect_identical(nrow(failures(by_hand)), 0L)
   expect_identical(names(by_hand), names(shapes))
   expect_identical(by_hand[[1]], shapes[[1]])
-  own <- fit_shape(two[[2]], quad_scheme(), column_angle = 0.01, progress = FALSE)
+  own <- fit_shape(two[[2]], quad_scheme(), progress = FALSE,
+                   measuring = shape_settings(column_angle = 0.01))
   same_points(by_hand[[2]], own, tolerance = 1e-6)
   # The file is put beside the mesh.
   file.copy(file.path(dir, "mine.csv"), file)

@@ -17,8 +17,9 @@ test_that("a batch has the shapes that fit_shape() gives, by name", {
 test_that("arguments of fit_shape() reach it", {
   skip_without_futures()
   two <- batch_specimens(2)
-  finer <- fit_shapes(two, quad_scheme(), column_angle = 0.01)
-  same_points(finer[[1]], fit_shape(two[[1]], quad_scheme(), column_angle = 0.01, progress = FALSE))
+  finer <- fit_shapes(two, quad_scheme(), measuring = shape_settings(column_angle = 0.01))
+  same_points(finer[[1]], fit_shape(two[[1]], quad_scheme(), progress = FALSE,
+                                    measuring = shape_settings(column_angle = 0.01)))
 })
 
 test_that("files are read with the landmarks beside them; what goes wrong costs one specimen", {
@@ -227,7 +228,7 @@ test_that("arguments of reading reach it, and strange ones are refused at once",
   expect_equal(at[[2]][, "x"], -at[[1]][, "x"], tolerance = 1e-6)
   expect_crestline_error(fit_shapes(mesh, edge_scheme(), frame = "RAS"),
                          c("frame", "reading = list(frame"))
-  expect_crestline_error(fit_shapes(mesh, edge_scheme(), no_such = 1), c("no_such", "cut_scale"))
+  expect_crestline_error(fit_shapes(mesh, edge_scheme(), no_such = 1), c("no_such", "measuring"))
   expect_crestline_error(fit_shapes(mesh, edge_scheme(), reading = list(no_such = 1)), "no_such")
   expect_crestline_error(fit_shapes(mesh, edge_scheme(), reading = "RAS"), "`reading`")
   expect_crestline_error(fit_shapes(batch_specimens(1), edge_scheme(),

@@ -31,11 +31,13 @@ test_that("other settings in one folder overwrite nothing, and are told", {
   two <- batch_specimens(2)
   first <- fit_shapes(two, quad_scheme(), out)
   before <- tools::md5sum(list.files(out, full.names = TRUE))
-  expect_message(second <- fit_shapes(two, quad_scheme(), out, column_angle = 0.01),
+  expect_message(second <- fit_shapes(two, quad_scheme(), out,
+                                      measuring = shape_settings(column_angle = 0.01)),
                  "Now: scheme quad .*column_angle = 0.01, in files such as ball 1-")
   expect_identical(tools::md5sum(names(before)), before)
   expect_identical(nrow(failures(first)) + nrow(failures(second)), 0L)
-  expect_no_message(third <- fit_shapes(two, quad_scheme(), out, column_angle = 0.01))
+  expect_no_message(third <- fit_shapes(two, quad_scheme(), out,
+                                        measuring = shape_settings(column_angle = 0.01)))
   expect_identical(attr(third, "read"), names(two <- second))
   # The newest of each is read, with a message; others by their paths.
   Sys.setFileTime(names(before), "2001-01-01")

@@ -60,9 +60,11 @@ test_that("outside the trusted part of the path strength does not count, whateve
   for (passes in 1:2) {
     scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6, trust_from = 0.25,
                           trust_to = 0.75)
-    expect_true(status_of(fit_shape(face, scheme, passes = passes, progress = FALSE), "crest")$ok)
-    curve <- ridge_curve(face, "a", "b", "ridge", 6, 6, 5, settings = ridge_settings(error = FALSE),
-                         passes = passes, trust = c(0.25, 0.75))
+    expect_true(status_of(fit_shape(face, scheme, progress = FALSE,
+                                    settings = ridge_settings(passes = passes)), "crest")$ok)
+    curve <- ridge_curve(face, "a", "b", "ridge", 6, 6, 5,
+                         settings = ridge_settings(error = FALSE, passes = passes),
+                         trust = c(0.25, 0.75))
     at <- curve$coordinates[curve$surface$rows, ]
     share <- at$s / attr(curve$coordinates, "length")
     counted <- curve$surface$strength > 0
@@ -99,7 +101,7 @@ test_that("a rival path is seen in competing", {
 test_that("without curvature the cut stands in, with the reason; no other error is caught", {
   face <- straight_ridge()
   scheme <- ends_scheme(curve = "crest", kind = "ridge", radius = 6, width = 6)
-  scan <- prepare_scan(face, scheme, ridge_settings(), 1, list(bridge = 0), 1L)
+  scan <- prepare_scan(face, scheme, ridge_settings(), list(bridge = 0), 1L)
   row <- as.list(scheme$curves[1, ])
   scan$sources <- list("6" = function(vertices)
     crestline_abort("no good.", "Mend it.", "curvature"))

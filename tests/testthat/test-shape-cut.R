@@ -26,8 +26,8 @@ mirror_shape <- function(missing = character(), keep = function(xyz) TRUE, share
     mesh$it <- mesh$it[, keep(centre), drop = FALSE]
     mesh
   }
-  fit_shape(quad_specimen(crop, without(mirror_landmarks(), missing)), mirror_scheme(share),
-            progress = FALSE, ...)
+  fitting(quad_specimen(crop, without(mirror_landmarks(), missing)), mirror_scheme(share),
+          progress = FALSE, ...)
 }
 
 curve_at <- function(shape, name) {

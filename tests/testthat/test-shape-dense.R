@@ -90,7 +90,8 @@ test_that("triangles beside a missing one are divided, across a hole left out, w
     mesh
   })
   shape <- fit_shape(hole, quad_scheme(), progress = FALSE)
-  expect_warning(dense <- shape_mesh(shape, specimen = hole, dense = 2, column_angle = 0.01),
+  expect_warning(dense <- shape_mesh(shape, specimen = hole, dense = 2,
+                                     measuring = shape_settings(column_angle = 0.01)),
                  "triangles of the denser surface", class = "crestline_warning")
   expect_gt(ncol(dense$it), 100)
   expect_false(anyNA(dense$vb))

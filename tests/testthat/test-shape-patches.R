@@ -40,8 +40,8 @@ test_that("a column that meets a hole is missing with its reason, the others are
     mesh$it <- mesh$it[, colSums((centre - c(0, 0, 50))^2) > 9]
     mesh
   }
-  shape <- fit_shape(quad_specimen(hole), quad_scheme(), column_angle = 0.01, bridge = 0,
-                     progress = FALSE)
+  shape <- fit_shape(quad_specimen(hole), quad_scheme(), progress = FALSE,
+                     measuring = shape_settings(column_angle = 0.01, bridge = 0))
   lost <- rownames(coords(shape, "surface"))[is.na(coords(shape, "surface")[, 1])]
   expect_equal(lost, paste("quad 4", 2:4))
   expect_match(status_of(shape, "quad")$reason,
@@ -49,7 +49,8 @@ test_that("a column that meets a hole is missing with its reason, the others are
   # Of the 16 triangles of the 8 quads about the column two have no corner on its inside.
   expect_equal(ncol(shape_mesh(quad_shape())$it), 48)
   expect_equal(ncol(shape_mesh(shape)$it), 48 - 16 + 2)
-  bridged <- fit_shape(quad_specimen(hole), quad_scheme(), column_angle = 0.01, progress = FALSE)
+  bridged <- fit_shape(quad_specimen(hole), quad_scheme(), progress = FALSE,
+                       measuring = shape_settings(column_angle = 0.01))
   expect_equal(rownames(coords(bridged, "surface"))[is.na(coords(bridged, "surface")[, 1])],
                "quad 4 3")
   expect_match(status_of(bridged, "quad")$reason, "1 of 35 points missing: 1 in a hole of the mesh",

@@ -18,8 +18,7 @@ test_that("a shape knows scheme, mesh, landmarks and settings", {
 test_that("measuring twice gives the same provenance, other settings another", {
   expect_identical(paired_shape(id = "ball1")$provenance, shapes[[1]]$provenance)
   coarse <- fit_shape(stretched_ball(id = "ball1"), paired_scheme(), ridge_settings(error = FALSE),
-                      cut_scale = 0.9, unit = 1,
-                      progress = FALSE)
+                      unit = 1, progress = FALSE, measuring = shape_settings(cut_scale = 0.9))
   expect_identical(coarse$provenance$settings$fit$cut_scale, 0.9)
   expect_match(provenance_lines(coarse$provenance), "cut_scale = 0.9", all = FALSE)
 })
@@ -88,7 +87,7 @@ test_that("of an array only what it was made with is known, and of an old shape 
 
 test_that("settings that differ between specimens are told of", {
   other <- fit_shape(stretched_ball(id = "other"), paired_scheme(), ridge_settings(error = FALSE),
-                     passes = 2, progress = FALSE)
+                     progress = FALSE, measuring = shape_settings(bridge = 0.1))
   said <- settings_lines(shapes_provenance(list(shapes[[1]], other))$settings)
   expect_match(said, "fit differs = between specimens", fixed = TRUE)
   expect_match(said, "ridge error = FALSE", fixed = TRUE)

@@ -17,7 +17,7 @@ without_disc <- function(at, radius) {
 }
 
 spoiled_shape <- function(change, ...) {
-  fit_shape(quad_specimen(change), quad_scheme(), ..., progress = FALSE)
+  fitting(quad_specimen(change), quad_scheme(), ..., progress = FALSE)
 }
 
 middle_of <- function(shape, curve) {
@@ -141,12 +141,14 @@ test_that("a patch's size is the diameter of the disc with points as far from th
 test_that("grades do not depend on the unit or the pose", {
   turn <- rbind(c(0, -1, 0), c(0.6, 0, -0.8), c(0.8, 0, 0.6))
   specimen <- quad_specimen(without_disc(c(0, 0, 50), 6))
-  shape <- fit_shape(specimen, quad_scheme(), bridge = 0, progress = FALSE)
+  shape <- fit_shape(specimen, quad_scheme(), progress = FALSE,
+                     measuring = shape_settings(bridge = 0))
   moved <- rbind(turn %*% specimen$mesh$vb[1:3, ] / 1000 + 0.2, 1)
   mesh <- structure(list(vb = moved, it = specimen$mesh$it), class = "mesh3d")
   small <- specimen(mesh, specimen$landmarks %*% t(turn) / 1000 + 0.2, id = "quad")
   one <- quality(shape)
-  other <- quality(fit_shape(small, quad_scheme(), bridge = 0, progress = FALSE))
+  other <- quality(fit_shape(small, quad_scheme(), progress = FALSE,
+                             measuring = shape_settings(bridge = 0)))
   expect_equal(other$length, one$length / 1000, tolerance = tolerances$invariance)
   same <- setdiff(names(one), "length")
   expect_equal(other[same], one[same], tolerance = tolerances$invariance)
@@ -226,8 +228,8 @@ test_that("the real face: nothing red, and a hole in its cheek is seen", {
   mesh <- without_disc(at,
                        10)(structure(list(vb = scan$mesh$vb, it = scan$mesh$it), class = "mesh3d"))
   holed <- specimen(mesh, scan$landmarks, id = "holed")
-  holed <- fit_shape(holed, face_scheme(), ridge_settings(error = FALSE), bridge = 0,
-                     progress = FALSE)
+  holed <- fit_shape(holed, face_scheme(), ridge_settings(error = FALSE), progress = FALSE,
+                     measuring = shape_settings(bridge = 0))
   moved <- sqrt(rowSums((coords(holed, "curves") - coords(whole, "curves"))^2))
   expect_gt(max(moved, na.rm = TRUE), 3)
   after <- quality(holed)

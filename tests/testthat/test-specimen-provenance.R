@@ -18,12 +18,11 @@ test_that("a summary tells of package, mesh and landmarks, on one screen", {
 test_that("only settings that are not as by default are told, in every stage", {
   lines <- settings_lines(list(ridge = utils::modifyList(unclass(ridge_settings()),
                                                          list(error = FALSE)),
-                               fit = list(passes = NULL,
-                                          cut_scale = 0.8),
+                               fit = list(bridge = 0.2, cut_scale = 0.8),
                                slide = unclass(slide_settings("paper")), align = list()))
   expect_match(lines, "ridge error = FALSE; fit cut_scale = 0.8; slide energy = own, nugget = 0",
                fixed = TRUE)
-  expect_match(settings_lines(list(fit = list(passes = NULL))), "fit as by default", fixed = TRUE)
+  expect_match(settings_lines(list(fit = list(bridge = 0.2))), "fit as by default", fixed = TRUE)
   expect_null(settings_lines(list()))
   defaults <- lapply(stats::setNames(nm = c("ridge", "slide", "fit", "homologise", "align", "pca",
                                             "compare")), default_settings)

@@ -4,7 +4,7 @@ vertices_of <- function(faces, i) t(faces$specimens[[i]]$mesh$vb[1:3, ])
 
 # The default template, checked once.
 template <- humface_specimen()
-simulated <- function(...) simulate_faces(..., template = template, places = face_effect())
+simulated <- function(...) simulating(..., template = template, places = face_effect())
 
 test_that("without deformation every face is the template, exactly", {
   faces <- simulated(2, effect = 0, size_effect = 0, size_sd = 0, variation = still, scan = clean,
@@ -129,9 +129,10 @@ test_that("answers do not depend on the unit", {
   places[c("x", "y", "z", "radius")] <- places[c("x", "y", "z", "radius")] / 1000
   template <- specimen(mesh, faces$template$landmarks / 1000)
   metres <- simulate_faces(1, effect = 2e-3, seed = 7, places = places, template = template,
-                           variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)) / 1000,
                            scan = scan_settings(noise = 1e-4, holes = 1, hole_radius = 0.005,
-                                                remesh = FALSE))
+                                                remesh = FALSE),
+                           population = population_settings(
+                             variation = data.frame(range = c(60, 20), sd = c(1.5, 0.5)) / 1000))
   expect_equal(metres$specimens[[1]]$mesh$vb[1:3, ] * 1000, faces$specimens[[1]]$mesh$vb[1:3, ],
                tolerance = 1e-8)
 })
@@ -143,9 +144,12 @@ test_that("any template and scheme will do, and the faces can be measured", {
   ball <- specimen(ball_mesh(4), corners, id = "ball")
   places <- data.frame(part = "top", x = 0, y = 0, z = 1.2, radius = 0.4, share = -1, dx = 0,
                        dy = 0, dz = 1)
-  balls <- simulate_faces(2, effect = 0.1, size_effect = 0.1, size_sd = 0, places = places,
-                          template = ball, variation = data.frame(range = 1, sd = 0), scan = clean,
-                          groups = c("small", "large"), seed = 1)
+  balls <- simulate_faces(2, effect = 0.1, size_effect = 0.1, places = places, template = ball,
+                          scan = clean, seed = 1,
+                          population = population_settings(
+                            size_sd = 0, variation = data.frame(range = 1, sd = 0),
+                            groups = c("small", "large")
+                          ))
   curves <- data.frame(curve = "ab", from = "a", to = "b", kind = "plane", n = 9)
   scheme <- curve_scheme(data.frame(landmark = c("a", "b", "c")), curves, name = "side")
   shapes <- fit_shapes(balls$specimens, scheme)
@@ -162,9 +166,12 @@ test_that("what cannot be is said", {
   expect_crestline_error(simulate_faces(2, template = ball), c("effect", "places"))
   expect_crestline_error(simulate_faces(2, effect = c(chin = 1), scan = NULL), c("effect", "brow"))
   expect_crestline_error(simulate_faces(2, places = face_effect()["part"], scan = NULL), "places")
-  expect_crestline_error(simulate_faces(2, variation = data.frame(sd = 1), scan = NULL),
+  expect_crestline_error(simulate_faces(2, scan = NULL,
+                                        population = population_settings(
+                                          variation = data.frame(sd = 1))),
                          "variation")
-  expect_crestline_error(simulate_faces(2, groups = "one", scan = NULL), "groups")
+  expect_crestline_error(simulate_faces(2, scan = NULL,
+                                        population = population_settings(groups = "one")), "groups")
   expect_crestline_error(simulate_faces(0), "`n`")
   expect_crestline_error(scan_settings(remesh = NA), "remesh")
   expect_crestline_error(scan_settings(noise = -1), "noise")

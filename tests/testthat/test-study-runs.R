@@ -11,7 +11,8 @@ test_that("a straight ridge is found exactly, a bent one nearly", {
 })
 
 test_that("two passes come nearer on clean surfaces", {
-  study <- ridge_study(n = 1, a = 0.25, b = c(1, 2), noise = 0, passes = 1:2)
+  study <- ridge_study(n = 1, a = 0.25, b = c(1, 2), noise = 0,
+                       study = study_settings(passes = 1:2))
   once <- study$distance[study$passes == 1]
   twice <- study$distance[study$passes == 2]
   expect_true(all(twice < 0.6 * once))
@@ -24,7 +25,7 @@ test_that("a blunt ridge under noise is flagged, a sharp one is not", {
 })
 
 test_that("an estimate that fails is a row that says why", {
-  study <- ridge_study(n = 1, a = 0, b = 1, noise = 0, radius = 0.01)
+  study <- ridge_study(n = 1, a = 0, b = 1, noise = 0, study = study_settings(radius = 0.01))
   expect_true(is.na(study$distance) && is.na(study$determined))
   expect_match(study$error, "radius")
 })
@@ -49,14 +50,15 @@ test_that("points at equal distances along a line split it evenly", {
 
 test_that("every combination of factors and methods is a row, with its own surface", {
   methods <- list(once = fast, stiff = ridge_settings(lambda = 1e-2, error = FALSE))
-  study <- ridge_study(methods, n = 2, a = 0.25, b = 2, noise = 0.01, spacing = c(0.1, 0.05),
-                       radius = c(0.25, 0.3), correlation = c(0, 2))
+  study <- ridge_study(methods, n = 2, a = 0.25, b = 2, noise = 0.01,
+                       study = study_settings(spacing = c(0.1, 0.05), radius = c(0.25, 0.3),
+                                              correlation = c(0, 2)))
   expect_equal(nrow(study), 2 * 2 * 2 * 2 * 2)
   expect_false(anyDuplicated(study[c("spacing", "radius", "correlation", "seed", "method")]) > 0)
   expect_equal(length(unique(study$distance)), nrow(study))
   expect_true(all(is.na(study$covered)) && all(study$seconds >= 0))
-  alone <- ridge_study(fast, n = 2, a = 0.25, b = 2, noise = 0.01, spacing = 0.1, radius = 0.3,
-                       correlation = 2)
+  alone <- ridge_study(fast, n = 2, a = 0.25, b = 2, noise = 0.01,
+                       study = study_settings(spacing = 0.1, radius = 0.3, correlation = 2))
   same <- study[study$method == "once" & study$spacing == 0.1 & study$radius == 0.3 &
                 study$correlation == 2, ]
   expect_equal(alone$distance, same$distance)
@@ -81,7 +83,8 @@ test_that("a study that was cut short goes on where it was, and only with the sa
   dir <- tempfile("study")
   on.exit(unlink(dir, recursive = TRUE))
   run <- function(...) {
-    ridge_study(fast, n = 4, a = 0.25, b = 2, noise = 0, block = 1, dir = dir, ...)
+    ridge_study(fast, n = 4, a = 0.25, b = 2, noise = 0, dir = dir, ...,
+                study = study_settings(block = 1))
   }
   whole <- run()
   files <- list.files(dir, full.names = TRUE)
@@ -106,7 +109,7 @@ test_that("methods that are none are refused", {
 })
 
 test_that("a grid that makes no study is refused before any work", {
-  run <- function(...) ridge_study(fast, n = 1, dir = file.path(tempdir(), "no study"), ...)
+  run <- function(...) studying(fast, n = 1, dir = file.path(tempdir(), "no study"), ...)
   for (value in list(Inf, NA, NaN, 0, -1, 5, 1e-9, "a", NULL, numeric(), c(0.05, Inf), list(0.05)))
     {
     expect_crestline_error(run(spacing = value), "`spacing`")
@@ -142,7 +145,8 @@ test_that("two methods of one text and another constant are two methods in a fol
 test_that("a study whose results cannot be written is a study still", {
   dir <- tempfile("study")
   on.exit(unlink(dir, recursive = TRUE))
-  run <- function() ridge_study(fast, n = 1, a = 0, b = 1, noise = 0, spacing = 0.1, dir = dir)
+  run <- function() ridge_study(fast, n = 1, a = 0, b = 1, noise = 0, dir = dir,
+                                study = study_settings(spacing = 0.1))
   first <- run()
   file <- list.files(dir, full.names = TRUE)
   unlink(file)
