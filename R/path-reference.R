@@ -76,7 +76,7 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   if (missing(radius)) radius <- asked$curvature
   settings <- asked$settings
   strength <- if (type != "plane") {
-    source <- curvature_at(radius, asked, specimen, settings$order)
+    source <- source_at(radius, asked, specimen, settings$order)
     radius <- radius_of(radius)
     id <- mesh_of(specimen)$id
     regions <- in_context(located_regions(keep_away, region_locator(specimen), id), id)
@@ -111,7 +111,7 @@ path_arguments <- function(objects, fields, ..., silent = character(),
 #' @param radius A number, or a [curvature()].
 #' @param asked As of [path_arguments()].
 #' @noRd
-curvature_at <- function(radius, asked, specimen, order, call = rlang::caller_env()) {
+source_at <- function(radius, asked, specimen, order, call = rlang::caller_env()) {
   given <- inherits(radius, "curvature")
   check_number(radius_of(radius), "radius", lower = 0, open = TRUE, call = call)
   known_curvature(if (given) radius else asked$curvature, specimen, radius, asked$threads, order)

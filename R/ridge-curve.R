@@ -113,7 +113,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
     job <- curve_job(ends, type, n, asked$settings, route = asked$route)
     if (type != "plane") {
       job[c("radius", "width")] <- list(radius_of(radius), width)
-      job$source <- curvature_at(radius, asked, specimen, job$settings$order)
+      job$source <- source_at(radius, asked, specimen, job$settings$order)
       job$regions <- located_regions(asked$route$keep_away, region_locator(specimen), id)
     }
     trace_curve(job)

@@ -27,8 +27,7 @@ cuts <- function() {
 }
 curved <- curvature(face, 5, "adaptive cubic")
 curve <- function(error) {
-  ridge_curve(face, "chL", "st", "valley", 5, 6, 9, settings = ridge_settings(error = error),
-              curvature = curved)
+  ridge_curve(face, "chL", "st", "valley", curved, 6, 9, ridge_settings(error = error))
 }
 
 table <- rbind(

@@ -153,7 +153,7 @@ own_mesh_calls <- function() {
                   keep_away = keep_away(case$row, "highL", 0.01), reach = 1)
     },
     `reference_path, curvature` = function(case, one)
-      reference_path(one, "lowL", "highR", "ridge", curvature = case$curvature),
+      reference_path(one, "lowL", "highR", "ridge", case$curvature),
     `ridge_curve, curvature` = function(case, one)
       ridge_curve(one, "lowL", "highR", "ridge", case$curvature, 10, 5),
     `refine_landmarks, curvature` = function(case, one) {
@@ -278,12 +278,12 @@ damaged_calls <- function() {
     }),
     `reference_path, curvature` = list(cut = function(case) {
       short <- tampered(case$curvature, function(x) within_list(x, k1 = x$k1[1:9]))
-      reference_path(case$specimen, "lowL", "highR", "ridge", curvature = short)
+      reference_path(case$specimen, "lowL", "highR", "ridge", short)
     }, `cut alike` = function(case) {
       short <- tampered(case$curvature, function(x)
         lapply(x, function(part) if (is.matrix(part)) part[1:9, ] else part[1:9]))
       reference_path(case$specimen, "lowL", "highR", "ridge",
-                     curvature = structure(short, key = attr(case$curvature, "key"), radius = 15))
+                     structure(short, key = attr(case$curvature, "key"), radius = 15))
     }),
     `slide, points` = of_values(function(case, v)
       slide(points_with(case, "face", v), case$template)),

@@ -26,7 +26,7 @@ test_that("the ridge's cut gathers most strength: it goes out to the ridge besid
   aside <- arched_ridges(4, 2)
   curved <- curvature(aside, 3)
   shortest <- quietly(reference_path(aside, "a", "b", "plane"))
-  path <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved,
+  path <- reference_path(aside, "a", "b", "ridge", radius = curved,
                          settings = path_settings(longest = 1.5))
   expect_gt(max(path$y), 2)
   expect_identical(attr(path, "type"), "ridge")
@@ -37,7 +37,7 @@ test_that("the ridge's cut gathers most strength: it goes out to the ridge besid
                   matrix(strength[t(aside$mesh$it[, p$face])], ncol = 3))
     sum(diff(p$s) * (at[-1] + at[-length(at)]) / 2) / attr(p, "length")
   }
-  fine <- reference_path(aside, "a", "b", "ridge", radius = 3, curvature = curved,
+  fine <- reference_path(aside, "a", "b", "ridge", radius = curved,
                          settings = path_settings(longest = 1.5, spacing = 1e-3))
   expect_equal(attr(fine, "criterion"), mean_along(fine), tolerance = 1e-4)
   expect_equal(attr(path, "criterion"), mean_along(path), tolerance = 0.03)
@@ -49,7 +49,7 @@ test_that("`longest` holds a cut to the length of the shortest", {
   curved <- curvature(aside, 3)
   shortest <- attr(quietly(reference_path(aside, "a", "b", "plane")), "length")
   for (limit in c(1.01, 1.05)) {
-    path <- quietly(reference_path(aside, "a", "b", "ridge", 3, curvature = curved,
+    path <- quietly(reference_path(aside, "a", "b", "ridge", curved,
                                    settings = path_settings(longest = limit)))
     expect_lte(attr(path, "length"), limit * shortest * 1.001)
   }
@@ -58,26 +58,28 @@ test_that("`longest` holds a cut to the length of the shortest", {
 test_that("the radius is that of the curvature that is given, else it is asked for", {
   bent <- bent_ridge()
   curved <- curvature(bent, 4)
-  expect_equal(reference_path(bent, "a", "b", "ridge", curvature = curved),
-               reference_path(bent, "a", "b", "ridge", 4, curvature = curved))
+  rlang::reset_message_verbosity("crestline: curvature =")
+  expect_message(former <- reference_path(bent, "a", "b", "ridge", 4, curvature = curved),
+                 "radius = <the curvature>", class = "crestline_deprecated")
+  expect_equal(reference_path(bent, "a", "b", "ridge", curved), former)
   expect_crestline_error(reference_path(bent, "a", "b", "ridge"),
                          c("`radius` is NULL", "finite number"))
 })
 
 test_that("curvature that is given is used, and the same as estimated on the way", {
   bent <- bent_ridge()
-  given <- reference_path(bent, "a", "b", "ridge", 4, curvature = curvature(bent, 4))
+  given <- reference_path(bent, "a", "b", "ridge", curvature(bent, 4))
   expect_equal(reference_path(bent, "a", "b", "ridge", 4), given, tolerance = 1e-6)
 })
 
 test_that("keep_away() turns the path from one ridge to the other", {
   twin <- arched_ridges(3.4, 3)
   curved <- curvature(twin, 2.5)
-  left <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved,
+  left <- quietly(reference_path(twin, "a", "b", "ridge", curved,
                                  settings = path_settings(longest = 2)))
   expect_gt(max(left$y), 2)
   region <- keep_away(c(-13, 4, 3), c(13, 4, 3), radius = 0.13)
-  right <- quietly(reference_path(twin, "a", "b", "ridge", 2.5, curvature = curved,
+  right <- quietly(reference_path(twin, "a", "b", "ridge", curved,
                                   keep_away = region, settings = path_settings(longest = 2)))
   expect_lt(min(right$y), -2)
 })
@@ -144,10 +146,9 @@ test_that("errors name the landmarks, the specimen and what to do", {
   expect_s3_class(error, "crestline_path_error")
   expect_crestline_error(reference_path(torn, "a", "b", "crest"), "crest")
   expect_crestline_error(reference_path(torn, "a", "c", "plane"), "no landmark c", id = "graph")
-  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = list()),
-                         "`curvature`")
+  expect_crestline_error(reference_path(torn, "a", "b", "ridge", list()), "`radius`")
   other <- curvature(ball(), 0.5)
-  expect_crestline_error(reference_path(torn, "a", "b", "ridge", 4, curvature = other),
+  expect_crestline_error(reference_path(torn, "a", "b", "ridge", other),
                          c("vertices", "own mesh"), id = "graph")
 })
 

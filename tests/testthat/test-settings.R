@@ -39,7 +39,8 @@ test_that("settings print as they are written in a call", {
 test_that("fields are arguments of every maker of settings, so that editors complete them", {
   presets <- list(ridge_settings(), slide_settings(), find_settings(), path_settings(),
                   quality_limits(), scan_settings(), align_settings(), comparison_settings(),
-                  model_settings())
+                  model_settings(), curve_route(), shape_settings(), refine_settings(),
+                  population_settings(), study_settings())
   for (one in presets) {
     maker <- getExportedValue("crestline", class(one)[1])
     expect_identical(setdiff(names(formals(maker)), c("preset", "...")), names(one))
@@ -77,6 +78,12 @@ test_that("former arguments of comparisons and models work with a message, and g
     "settings = model_settings(ss = )", fixed = TRUE
   )
   expect_identical(former$ss, "II")
+  rlang::reset_message_verbosity("crestline: bridge =")
+  expect_message(former <- fit_shape(quad_specimen(), quad_scheme(), bridge = 0, progress = FALSE),
+                 "measuring = shape_settings(bridge = )", fixed = TRUE)
+  expect_identical(former$provenance$settings$fit$bridge, 0)
+  expect_crestline_error(fit_shape(quad_specimen(), quad_scheme(), brigde = 0),
+                         c("brigde", "bridge"))
   rlang::reset_message_verbosity("crestline: rounds =")
   expect_message(align(x, rounds = 300), "settings = align_settings(rounds = )", fixed = TRUE)
 })
