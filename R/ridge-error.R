@@ -32,17 +32,17 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
     smooth <- unname(known[2:3])
   }
   margins <- lapply(surface$design, function(design) design[live, , drop = FALSE])
-  design <- mgcv::tensor.prod.model.matrix(margins)
+  target <- seq_along(rows)
   if (length(live) > most) {
     near <- structure(window$coordinates[rows, ], length = surface$length, width = surface$width)
     thinned <- thinned_rows(near, most)
-    design <- rowsum(design, thinned$cell)
+    target <- thinned$cell
     rows <- rows[thinned$rows]
   }
   found <- cpp_curvature_covariance(
     scan$vb, scan$it, window$coordinates$vertex[rows],
-    t(strength$direction[rows, , drop = FALSE]), design, sigma,
-    smooth[1], smooth[2], kernel_settings(radius, settings$order)
+    t(strength$direction[rows, , drop = FALSE]), margins, target, sigma, smooth,
+    kernel_settings(radius, settings$order)
   )
   if (length(rows) < length(live)) return(list(matrix = found$matrix))
   list(matrix = found$matrix,

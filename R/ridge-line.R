@@ -144,12 +144,8 @@ profile_at <- function(problem, alpha, derivative) {
 #' B-splines across at offsets, their means under the kernel, or a derivative by the offset: n x k
 #' @noRd
 across_design <- function(problem, alpha, derivative) {
-  at <- alpha / problem$width
-  basis <- if (problem$kernel > 0) {
-    cpp_biweight_design(problem$across$knots, at, problem$kernel, derivative)
-  } else {
-    margin_design(problem$across, at, derivative)
-  }
+  basis <- cpp_across_design(problem$across$knots, alpha / problem$width, problem$kernel,
+                             derivative)
   basis / problem$width^derivative
 }
 

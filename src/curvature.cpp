@@ -130,7 +130,7 @@ Responses responses(const Triangulation& mesh, const std::vector<int>& targets, 
                                     buffer, derivative.data());
                row.clear();
                for (int g = 0; g < functions; ++g) {
-                 double value = design[t + targets.size() * g];
+                 double value = design[height * t + g];
                  if (value != 0) row.push_back({g, value});
                }
                for (int i = 0; i < fit.neighbours; ++i) {

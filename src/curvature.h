@@ -33,7 +33,7 @@ struct CurvatureCovariance {
 
 // Covariance of linear functions X' k of the normal curvatures k at the targets, when the vertices have errors:
 // curvatures of near targets share vertices. directions: 3 x targets, the tangent directions of the normal
-// curvatures; design: targets x functions, column major, mostly zeros.
+// curvatures; design: functions x targets, column major, mostly zeros.
 CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::vector<int>& targets,
                                          const double* directions, const double* design,
                                          int functions, const HeightNoise& noise,

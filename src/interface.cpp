@@ -210,28 +210,34 @@ List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, Li
                       _["order"] = c.order, _["sigma"] = c.sigma, _["neighbours"] = c.neighbours);
 }
 
-// design: targets x functions; sigma: one a vertex; smooth, range: of the correlated part, 0: none.
+// along, across: two margins of a tensor product, rows x functions each; target: of each of their rows, from 1;
+// sigma: one a vertex; smooth, range: of the correlated part, 0: none.
 // [[Rcpp::export]]
-List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets,
-                              NumericMatrix directions, NumericMatrix design, NumericVector sigma,
-                              double smooth, double range, List settings) {
+List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions,
+                              List margins, IntegerVector target, NumericVector sigma, NumericVector smooth,
+                              List settings) {
   crestline::FitSettings fit = fit_settings(settings);
   crestline::Crop near = crop(vb, it, targets, fit.radius);
   std::vector<double> near_sigma;
   for (int v : near.vertex) near_sigma.push_back(sigma[v]);
-  int size = design.ncol();
+  NumericMatrix along = margins["along"], across = margins["across"];
+  int size = along.ncol() * across.ncol();
+  std::vector<double> design = crestline::summed_tensor(along.begin(), along.ncol(), across.begin(), across.ncol(),
+                                                        from_zero(target), targets.size());
   crestline::CurvatureCovariance c = crestline::curvature_covariance(
-      view_of(near), near.local, directions.begin(), design.begin(), size, {near_sigma.data(), smooth, range}, fit,
-      [] { checkUserInterrupt(); });
+      view_of(near), near.local, directions.begin(), design.data(), size, {near_sigma.data(), smooth[0], smooth[1]},
+      fit, [] { checkUserInterrupt(); });
   return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
 }
 
-// knots rising, x within them; derivative 0, 1 or 2.
+// knots rising, x within them; half 0: no kernel; derivative 0, 1 or 2.
 // [[Rcpp::export]]
-NumericMatrix cpp_biweight_design(NumericVector knots, NumericVector x, double half, int derivative) {
-  int k = knots.size() - 4;
-  std::vector<double> design = crestline::biweight_design(knots.begin(), k, x.begin(), x.size(), half, derivative);
-  return NumericMatrix(static_cast<int>(x.size()), k, design.begin());
+NumericMatrix cpp_across_design(NumericVector knots, NumericVector x, double half, int derivative) {
+  int k = knots.size() - 4, n = x.size();
+  std::vector<double> design =
+      half > 0 ? crestline::biweight_design(knots.begin(), k, x.begin(), n, half, derivative)
+               : crestline::spline_design(knots.begin(), k, x.begin(), n, derivative);
+  return NumericMatrix(n, k, design.begin());
 }
 
 // vb has three rows or more, it three.

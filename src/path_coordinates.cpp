@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "geometry.h"
 
@@ -135,21 +136,30 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
 
 std::vector<char> joined_to(const Triangulation& mesh, const std::vector<char>& member,
                             const std::vector<int>& seeds) {
-  std::vector<int> parent(member.size());
-  for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<int>(v);
+  // Of few among many vertices: only theirs are written.
+  std::unique_ptr<int[]> parent(new int[member.size()]);
+  std::vector<int> members;
+  for (std::size_t v = 0; v < member.size(); ++v)
+    if (member[v]) {
+      parent[v] = static_cast<int>(v);
+      members.push_back(static_cast<int>(v));
+    }
   auto root = [&](int v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  for (int h = 0; h < 3 * mesh.m; ++h) {
-    int a = vertex_at(mesh, h), b = vertex_at(mesh, next_half_edge(h));
-    if (member[a] && member[b]) parent[root(a)] = root(b);
+  for (int f = 0; f < mesh.m; ++f) {
+    int corner[3];
+    for (int c = 0; c < 3; ++c) corner[c] = vertex_at(mesh, 3 * f + c);
+    for (int c = 0; c < 3; ++c) {
+      int a = corner[c], b = corner[(c + 1) % 3];
+      if (member[a] && member[b]) parent[root(a)] = root(b);
+    }
   }
   std::vector<char> wanted(member.size(), 0), out(member.size(), 0);
   for (int v : seeds)
     if (member[v]) wanted[root(v)] = 1;
-  for (std::size_t v = 0; v < out.size(); ++v)
-    out[v] = member[v] && wanted[root(static_cast<int>(v))];
+  for (int v : members) out[v] = wanted[root(v)];
   return out;
 }
 

@@ -14,11 +14,11 @@ constexpr double kNode[kOrder] = {-0.86113631159405257522, -0.339981043584856264
 constexpr double kWeight[kOrder] = {0.34785484513745385737, 0.65214515486254614263,
                                     0.65214515486254614263, 0.34785484513745385737};
 
-// The four cubic B-splines that are not 0 between knots[i] and knots[i + 1], at q in there (Cox and de Boor).
-void cubic_splines(const double* knots, int i, double q, double* value) {
+// The B-splines of a degree that are not 0 between knots[i] and knots[i + 1], at q in there (Cox and de Boor).
+void splines_of_degree(const double* knots, int i, double q, int top, double* value) {
   double left[kOrder], right[kOrder];
   value[0] = 1;
-  for (int degree = 1; degree < kOrder; ++degree) {
+  for (int degree = 1; degree <= top; ++degree) {
     left[degree] = q - knots[i + 1 - degree];
     right[degree] = knots[i + degree] - q;
     double carried = 0;
@@ -26,6 +26,26 @@ void cubic_splines(const double* knots, int i, double q, double* value) {
       double share = value[r] / (right[r + 1] + left[degree - r]);
       value[r] = carried + right[r + 1] * share;
       carried = left[degree - r] * share;
+    }
+    value[degree] = carried;
+  }
+}
+
+void cubic_splines(const double* knots, int i, double q, double* value) {
+  splines_of_degree(knots, i, q, kOrder - 1, value);
+}
+
+// Their derivatives: of splines of each degree from those of the degree below.
+void cubic_derivatives(const double* knots, int i, double q, int derivative, double* value) {
+  int start = kOrder - 1 - derivative;
+  splines_of_degree(knots, i, q, start, value);
+  for (int degree = start + 1; degree < kOrder; ++degree) {
+    double carried = 0;
+    for (int r = 0; r < degree; ++r) {
+      int j = i - degree + 1 + r;
+      double share = degree * value[r] / (knots[j + degree] - knots[j]);
+      value[r] = carried - share;
+      carried = share;
     }
     value[degree] = carried;
   }
@@ -59,6 +79,18 @@ std::vector<double> biweight_design(const double* knots, int k, const double* x,
           out[row + static_cast<std::size_t>(n) * (i - kOrder + 1 + j)] += weight * value[j];
       }
     }
+  }
+  return out;
+}
+
+std::vector<double> spline_design(const double* knots, int k, const double* x, int n, int derivative) {
+  std::vector<double> out(static_cast<std::size_t>(n) * k, 0.0);
+  double value[kOrder];
+  for (int row = 0; row < n; ++row) {
+    int i = kOrder - 1;
+    while (i < k - 1 && x[row] >= knots[i + 1]) ++i;
+    cubic_derivatives(knots, i, x[row], derivative, value);
+    for (int j = 0; j < kOrder; ++j) out[row + static_cast<std::size_t>(n) * (i - kOrder + 1 + j)] = value[j];
   }
   return out;
 }

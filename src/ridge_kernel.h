@@ -1,4 +1,4 @@
-// B-splines averaged under a biweight kernel, exactly.
+// Cubic B-splines, and their averages under a biweight kernel, exactly.
 #pragma once
 #include <vector>
 
@@ -11,5 +11,9 @@ namespace crestline {
 // interval are exact.
 std::vector<double> biweight_design(const double* knots, int k, const double* x, int n, double half,
                                     int derivative);
+
+// The splines themselves, or a derivative of order 1 or 2, at each x between the knots 4 and k + 1: n x k, column
+// major.
+std::vector<double> spline_design(const double* knots, int k, const double* x, int n, int derivative);
 
 }  // namespace crestline

@@ -41,4 +41,20 @@ TensorMoments tensor_moments(const double* along, int ka, const double* across, 
   return out;
 }
 
+std::vector<double> summed_tensor(const double* along, int ka, const double* across, int kc,
+                                  const std::vector<int>& group, int groups) {
+  std::size_t size = static_cast<std::size_t>(ka) * kc;
+  std::vector<double> out(size * groups, 0.0);
+  std::vector<Entry> a, c;
+  int n = static_cast<int>(group.size());
+  for (int i = 0; i < n; ++i) {
+    entries_of(along, ka, n, i, a);
+    entries_of(across, kc, n, i, c);
+    double* column = &out[size * group[i]];
+    for (const Entry& p : a)
+      for (const Entry& q : c) column[p.column * kc + q.column] += p.value * q.value;
+  }
+  return out;
+}
+
 }  // namespace crestline

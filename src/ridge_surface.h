@@ -14,4 +14,8 @@ struct TensorMoments {
 TensorMoments tensor_moments(const double* along, int ka, const double* across, int kc,
                              const double* y, int n);
 
+// Rows of such an X summed by group: functions x groups, column major. group: of each row, from 0.
+std::vector<double> summed_tensor(const double* along, int ka, const double* across, int kc,
+                                  const std::vector<int>& group, int groups);
+
 }  // namespace crestline

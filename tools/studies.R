@@ -49,16 +49,24 @@ run_ridges <- function(n) {
   run_factors(ridge_factors(), methods, n, output("ridges"))
 }
 
-# Fewer simulations: ten methods take eight times as long.
-run_alternatives <- function(n, most = 200L) {
+# Bent ridges by the estimators that are compared cell by cell: all simulations. Fewer for the other
+# methods, and for the other factors.
+run_alternatives <- function(n, most = 100L,
+                             closest = c("crestline", "one pass", "two passes", "paper's settings",
+                                         "principal curve")) {
   base <- list(a = 0.25, b = c(1, 2), noise = 0.01)
   about <- function(...) utils::modifyList(base, list(...))
-  factors <- list("bend, sharpness, noise" = about(a = c(0, 0.25, 0.5), noise = c(0, 0.01, 0.05)),
-                  landmarks = about(landmark_error = 0.1), radius = about(radius = 0.15))
+  bent <- list("bend, sharpness, noise" = about(a = c(0.25, 0.5), noise = c(0, 0.01, 0.05)))
+  others <- list("bend, sharpness, noise" = about(a = 0, noise = c(0, 0.01, 0.05)),
+                 landmarks = about(landmark_error = 0.1), radius = about(radius = 0.15))
   methods <- bench$alternatives()
   if (is.null(methods$"principal curve")) cat(paste("princurve is not installed: the principal",
                                                     "curve is left out.\n"))
-  run_factors(factors, methods, min(n, most), output("alternatives"))
+  dir <- output("alternatives")
+  compared <- names(methods) %in% closest
+  rbind(run_factors(bent, methods[compared], n, dir),
+        run_factors(bent, methods[!compared], min(n, most), dir),
+        run_factors(others, methods, min(n, most), dir))
 }
 
 run_factors <- function(factors, methods, n, dir) {

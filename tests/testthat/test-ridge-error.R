@@ -11,8 +11,9 @@ fitted_window <- function(settings = ridge_settings(), radius = 4) {
 # Variance of linear functions of normal curvatures, a row of `jacobian` each.
 curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings, smooth = 0,
                                range = 0) {
-  diag(cpp_curvature_covariance(vb, it, targets, directions, t(jacobian), sigma, smooth, range,
-                                settings)$matrix)
+  margins <- list(along = t(jacobian), across = matrix(1, ncol(jacobian)))
+  diag(cpp_curvature_covariance(vb, it, targets, directions, margins, seq_along(targets), sigma,
+                                c(smooth, range), settings)$matrix)
 }
 
 # Normal curvature along `direction` at vertex `at` when vertex `moved` is lifted by h along the
@@ -104,8 +105,11 @@ test_that("the noise factor compares with what the strengths' whole covariance g
   known <- !is.na(window$strengths$sigma)
   sigma[window$coordinates$vertex[known]] <- window$strengths$sigma[known]
   all <- cpp_curvature_covariance(scan$vb, scan$it, window$coordinates$vertex[rows],
-                                  t(window$strengths$direction[rows, ]), diag(length(rows)),
-                                  sigma, 0, 0, kernel_settings(4, "adaptive cubic"))$matrix
+                                  t(window$strengths$direction[rows, ]),
+                                  list(along = diag(length(rows)),
+                                       across = matrix(1, length(rows))),
+                                  seq_along(rows), sigma, c(0, 0),
+                                  kernel_settings(4, "adaptive cubic"))$matrix
   design <- mgcv::tensor.prod.model.matrix(surface$design)[live, ]
   rest <- diag(length(live)) - design %*% chol2inv(surface$factor) %*% t(design)
   residual <- surface$strength[live] - design %*% as.vector(surface$coefficients)
