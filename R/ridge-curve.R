@@ -32,17 +32,19 @@
 #'     mesh. Columns: `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance
 #'     from the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`.
 #'     If no ridge was found, the points lie on the reference path, and `d` is NA;
-#'   * `path`: the whole curve, a `mesh_path`; `length`: its length;
+#'   * `path`: the whole curve, a `mesh_path`; `length`: its length; `length_se`: the standard error
+#'     of the length;
 #'   * `reference` (`mesh_path`), `coordinates`, `surface`, `line`: results of the stages of the
 #'     last pass. A plane curve has only `reference`; the others are `NULL`. The reference of a
 #'     second pass is the curve of the first. `line$kernel` is the half width of the kernel, in the
-#'     unit of the mesh;
+#'     unit of the mesh. `line$strength` and `line$strength_se` are the smooth strength at `line$s`
+#'     and its standard error, in 1 / unit;
 #'   * `share`: share of the second pass in the curve; 0 with one pass;
 #'   * `noise_factor`: variance of the strengths about their smooth surface, as a multiple of the
 #'     variance under independent noise; at least 1 (no unit). Noise that is correlated along the
 #'     mesh raises it, and so does fine relief. It is 1 if the noise is known;
-#'   * `strength`: mean strength along the curve, 1 / unit; `scale`: nu0, the mean strength near the
-#'     reference path;
+#'   * `strength`: mean strength along the curve, 1 / unit; `strength_se`: its standard error;
+#'     `scale`: nu0, the mean strength near the reference path;
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
 #'   * `determined`: whether curvature determines the curve; `NA` for plane curves and without
 #'     standard errors. If it is `FALSE`, the plane path (`reference`, or `type = "plane"`) is the
@@ -76,8 +78,13 @@
 #' @section Curvature along a curve: `predict(curve$surface, s, d)` at the points' `s` and `d` gives
 #'   the smoothed strength, whose mean is `strength`. [curvature()] gives the principal curvatures
 #'   at the vertices, without smoothing along the curve. The orders of the local fits differ:
-#'   `order = "adaptive cubic"` here, `"adaptive"` in [curvature()]. Report which you took. `se` is
-#'   the error of the position; strengths and lengths have no standard error.
+#'   `order = "adaptive cubic"` here, `"adaptive"` in [curvature()]. Report which you took.
+#' @section Errors of length and strength: `length_se`, `strength_se` and `line$strength_se` follow
+#'   from the same noise by the delta method. Errors of neighbouring places are correlated, and this
+#'   is part of them. `length_se` has two parts: the moves of the curve across itself, and their
+#'   bias. The landmarks are taken as exact. Noise also makes every path over a mesh a little
+#'   longer. This bias is not in `length_se`, nor is the bias of curvature at a wide radius in
+#'   `strength_se`.
 #' @section Warnings: of class `crestline_undetermined`: curvature does not determine the curve. The
 #'   warning of [reference_path()] can occur too.
 #' @templateVar where section 3
@@ -211,7 +218,7 @@ assembled_curve <- function(path, reference, job, fit = NULL) {
             strength = mean_strength(scan, path, fit), scale = fit$scale,
             converged = !isFALSE(fit$line$converged) && !isFALSE(fit$surface$converged),
             even = attr(placed, "converged"), share = if (!is.null(fit)) fit$share,
-            noise_factor = if (is.null(fit$noise_factor)) NA_real_ else fit$noise_factor)
+            errors = fit[c("noise_factor", "length_se", "strength_se")])
 }
 
 #' A closed curve begins at its place nearest to its landmark; an open one as it does
@@ -245,11 +252,13 @@ along_reference <- function(placed, path, reference) {
 #' @param job As of [curve_job()].
 #' @param verdict List of `se`, `determined`, `reason`.
 #' @param even Whether its points stand at equal chords.
+#' @param errors List of `noise_factor`, `length_se` and `strength_se`, `NULL` where there is none.
 #' @noRd
 new_curve <- function(points, path, reference, job, verdict, coordinates = NULL,
                       surface = NULL, line = NULL,
                       strength = NA_real_, scale = NULL, converged = TRUE, even = TRUE,
-                      share = NULL, noise_factor = NA_real_) {
+                      share = NULL, errors = NULL) {
+  error <- function(name) if (is.null(errors[[name]])) NA_real_ else errors[[name]]
   structure(
     list(points = points, path = path, length = attr(path, "length"), reference = reference,
          coordinates = coordinates,
@@ -259,7 +268,8 @@ new_curve <- function(points, path, reference, job, verdict, coordinates = NULL,
          type = job$type, settings = job$settings, passes = job$passes, radius = job$radius,
          width = job$width,
          key = job$ends$scan$key, converged = converged, even = even, share = share,
-         noise_factor = noise_factor, closed = is_closed(path)),
+         noise_factor = error("noise_factor"), length_se = error("length_se"),
+         strength_se = error("strength_se"), closed = is_closed(path)),
     class = "curve"
   )
 }

@@ -78,25 +78,29 @@ noise_factor <- function(surface, live, margins, covariance) {
 #' Standard error of a ridge line
 #'
 #' The variance of the delta method is multiplied by the noise factor and by the square of
-#' `settings$inflation`. The change of the line when lambda is divided by ten stands for its bias.
-#' Near an end, which is fixed, the offset is at most as large as the way from there, and so is its
-#' error.
+#' `settings$inflation`. Near an end, which is fixed, the offset is at most as large as the way from
+#' there, and so is its error.
 #'
-#' @param window As of [ridge_window()], with `line`.
+#' @param slope As of [line_slope()].
 #' @param noise As of [moment_noise()].
-#' @param share Share of the offsets that is taken.
+#' @param bias As of [line_bias()].
+#' @param closed Whether the line goes round.
 #' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
 #' @noRd
-ridge_error <- function(window, noise, radius, settings, share = 1) {
-  line <- window$line
-  variance <- offset_variance(window, noise, radius, settings)
-  loose <- highest_line(window$surface, window$scale, radius, loosen(settings), line$kernel)
-  bias <- share * line$alpha - loose$alpha
-  closed <- goes_round(window$surface)
-  variance <- with_ends(variance, closed)
+ridge_error <- function(line, slope, noise, bias, closed, settings) {
+  variance <- with_ends(linear_variance(slope, noise$matrix), closed)
   error <- sqrt(settings$inflation^2 * noise$factor * variance + bias^2)
   if (closed) return(error)
   pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)
+}
+
+#' The change of a line when lambda is divided by ten, which stands for its bias
+#'
+#' @param share Share of the offsets that is taken.
+#' @noRd
+line_bias <- function(window, radius, settings, share = 1) {
+  loose <- highest_line(window$surface, window$scale, radius, loosen(settings), window$line$kernel)
+  share * window$line$alpha - loose$alpha
 }
 
 #' Settings with a tenth of the roughness penalty
@@ -106,13 +110,18 @@ loosen <- function(settings, by = 10) {
   settings
 }
 
-#' Variance of a line's inner offsets by the delta method, without inflation
+#' Variances of linear functions, a row each, of what has a covariance
 #' @noRd
-offset_variance <- function(window, noise, radius, settings) {
+linear_variance <- function(rows, covariance) pmax(rowSums((rows %*% covariance) * rows), 0)
+
+#' Derivative of a line's inner offsets by the moments of the strengths
+#'
+#' @param window As of [ridge_window()], with `line`.
+#' @noRd
+line_slope <- function(window, radius, settings) {
   line <- window$line
   problem <- ridge_problem(window$surface, window$scale, radius, settings, line$kernel)
-  slope <- offset_slope(problem, window$surface, line$alpha[-c(1, length(line$alpha))])
-  pmax(rowSums((slope %*% noise$matrix) * slope), 0)
+  offset_slope(problem, window$surface, line$alpha[-c(1, length(line$alpha))])
 }
 
 #' Derivative of the line's offsets by the moments X'nu of the strengths

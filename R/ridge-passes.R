@@ -89,7 +89,7 @@ with_curve <- function(scan, window) {
 #' @noRd
 kernel_width <- function(scan, window, radius, settings) {
   noise <- moment_noise(scan, window, radius, settings, settings$kernel_vertices)
-  variance <- offset_variance(window, noise, radius, settings)
+  variance <- linear_variance(line_slope(window, radius, settings), noise$matrix)
   half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
   if (is.na(half) || half < settings$kernel_least) 0 else half * radius
 }
@@ -127,12 +127,17 @@ second_share <- function(scan, first, second, strength, kernel, settings, places
 finished_fit <- function(scan, fit, radius, settings) {
   if (is.null(fit$line)) return(fit)
   share <- if (fit$share > 0) fit$share else 1
-  if (settings$error) {
-    noise <- moment_noise(scan, fit, radius, settings)
-    fit$line$se <- ridge_error(fit, noise, radius, settings, share)
-    fit$noise_factor <- noise$factor
+  known <- if (settings$error) {
+    list(noise = moment_noise(scan, fit, radius, settings),
+         slope = line_slope(fit, radius, settings), bias = line_bias(fit, radius, settings, share))
   }
-  if (share == 1) return(fit)
-  fit$line$alpha <- share * fit$line$alpha
-  with_curve(scan, fit)
+  if (share != 1) {
+    fit$line$alpha <- share * fit$line$alpha
+    fit <- with_curve(scan, fit)
+  }
+  if (is.null(known)) return(fit)
+  fit$line$se <- ridge_error(fit$line, known$slope, known$noise, known$bias,
+                             goes_round(fit$surface), settings)
+  fit$noise_factor <- known$noise$factor
+  with_measures(scan, fit, known, settings)
 }

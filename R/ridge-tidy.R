@@ -29,7 +29,8 @@
 #'   `augment()`: data frame with a row for each vertex in that surface: `vertex`, `s`, `d`,
 #'   `strength`, `.fitted`, `.resid` (1 / unit).
 #'
-#'   `summary()`: as in [provenance].
+#'   `summary()`: as in [provenance], with the standard errors of the length and of the mean
+#'   strength.
 #' @section Errors: of class `crestline_error`: `augment()` of a plane curve, or of a curve that was
 #'   not found by curvature.
 #' @template glossary
@@ -112,6 +113,10 @@ summary.curve <- function(object, ...) {
              if (found) sprintf("  distance from the reference path %s", range_text(points$d)),
              if (found && !all(is.na(points$se))) {
                sprintf("  standard error %s", range_text(points$se))
+             },
+             if (!is.na(object$length_se)) {
+               sprintf("  standard error of the length %.3g, of the mean strength %.3g",
+                       object$length_se, object$strength_se)
              })
   settings <- if (object$type != "plane") list(ridge = unclass(object$settings))
   mesh <- if (!is.null(object$key)) list(id = object$id, key = object$key)

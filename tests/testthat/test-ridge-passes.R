@@ -49,7 +49,8 @@ test_that("the standard error of a first line alone sets the kernel", {
   window$line <- ridge_line(window$surface, window$scale, 4, settings)
   scan <- walkable(bent)
   se <- function(...) {
-    sqrt(offset_variance(window, moment_noise(scan, window, 4, settings, ...), 4, settings))
+    noise <- moment_noise(scan, window, 4, settings, ...)
+    sqrt(linear_variance(line_slope(window, 4, settings), noise$matrix))
   }
   all <- ridge_settings(kernel_most = 1e9, kernel_vertices = Inf)
   expect_equal(kernel_width(scan, window, 4, all), 12 * stats::median(se()))

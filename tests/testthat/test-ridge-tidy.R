@@ -44,6 +44,7 @@ test_that("a summary has the lines of print, the errors' range, and the settings
   shown <- capture.output(print(summary(curve)))
   expect_identical(shown[1:3], capture.output(print(curve)))
   expect_match(shown[5], "standard error 0 to ")
+  expect_match(shown[6], "standard error of the length .* of the mean strength")
   expect_true(any(grepl("settings: ridge", shown)))
   expect_identical(summary(curve)$provenance$mesh$key, curve$key)
 })
