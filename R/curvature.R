@@ -151,19 +151,28 @@ curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
 curvature_source <- function(mesh, settings, threads) {
   force(threads)
   row <- integer(ncol(mesh$vb))
-  known <- curvature_rows(empty_curvature(0), integer())
+  # All numbers of a vertex in a row, with room for more, so that little is copied when some come.
+  known <- matrix(NA_real_, 0, 12)
+  kept <- 0
   function(vertices) {
     new <- unique(vertices[which(row[vertices] == 0)])
     if (length(new)) {
       found <- curvature_at(mesh, new, settings, threads)
-      if (all(is.na(found$k1)) && all(is.na(known$k1))) {
+      if (all(is.na(found$k1)) && all(is.na(known[, 1]))) {
         abort_radius(found$neighbours, settings$radius)
       }
-      row[new] <<- length(known$k1) + seq_along(new)
-      known <<- Map(function(a, b) if (is.matrix(a)) rbind(a, b) else c(a, b), known,
-                    found[names(known)])
+      at <- kept + seq_along(new)
+      kept <<- kept + length(new)
+      if (kept > nrow(known)) {
+        known <<- rbind(known, matrix(NA_real_, max(length(new), nrow(known)), 12))
+      }
+      known[at, ] <<- do.call(cbind, curvature_rows(found, seq_along(new)))
+      row[new] <<- at
     }
-    curvature_rows(known, row[vertices])
+    at <- row[vertices]
+    vectors <- function(first) known[at, first + 0:2, drop = FALSE]
+    list(k1 = known[at, 1], k2 = known[at, 2], direction1 = vectors(3), direction2 = vectors(6),
+         normal = vectors(9), sigma = known[at, 12])
   }
 }
 

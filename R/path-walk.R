@@ -12,7 +12,8 @@ walked_line <- function(scan, coordinates, path, s, alpha) {
   if (failed(ends)) return(ends)
   level <- level_at_vertices(scan, coordinates, s, alpha, ends)
   towards <- first_direction(scan, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
-  walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1], level, towards)
+  walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1],
+                           coordinates$vertex, level, towards)
   if (walked$end != "arrived") return(not_walked(walked$end, scan))
   path_through(rbind(ends$exact[1, ], walked$points, ends$exact[2, ]), scan, lifted = TRUE)
 }
@@ -32,7 +33,7 @@ first_direction <- function(mesh, path, slope) {
   tangent + slope * across / sqrt(sum(across^2))
 }
 
-#' d - alpha(s) at all vertices, NaN outside the window, shifted to vanish at both ends
+#' d - alpha(s) at the vertices of the window, shifted to vanish at both ends
 #' @noRd
 level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
   offset <- stats::splinefun(s, alpha, method = "natural")
@@ -41,9 +42,7 @@ level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
   share <- pmin(pmax(coordinates$s / max(s), 0), 1)
   share[coordinates$vertex %in% surface$it[, ends$from[1]]] <- 0
   share[coordinates$vertex %in% surface$it[, ends$to[1]]] <- 1
-  level <- rep(NaN, ncol(surface$vb))
-  level[coordinates$vertex] <- own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
-  level
+  own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
 }
 
 #' A line about a closed path walked once round, or a failure
@@ -69,7 +68,8 @@ walked_loop <- function(scan, coordinates, s, alpha, tries = c(0, 0.31, 0.62, 0.
     tangent <- unlist(unclass(coordinates)[c("tx", "ty", "tz")], use.names = FALSE)
     tangent <- tangent[row + c(0, 1, 2) * nrow(coordinates)]
     # No face is number 0: the walk ends where it began.
-    walked <- cpp_level_path(scan$vb, scan$it, scan$twin, crossed[first], 0, level, tangent)
+    walked <- cpp_level_path(scan$vb, scan$it, scan$twin, crossed[first], 0, seq_along(level), level,
+                             tangent)
     if (walked$end != "round") next
     path <- closed_path(walked$points, scan, lifted = TRUE)
     if (attr(path, "length") > least * length) return(path)

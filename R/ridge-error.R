@@ -23,12 +23,14 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
   rows <- surface$rows[live]
   known <- settings$noise
   if (anyNA(known)) {
-    sigma <- rep(stats::median(strength$sigma, na.rm = TRUE), ncol(scan$vb))
-    fitted <- !is.na(strength$sigma)
-    sigma[window$coordinates$vertex[fitted]] <- strength$sigma[fitted]
+    fitted <- which(!is.na(strength$sigma))
+    sigma <- strength$sigma[fitted]
+    other <- stats::median(sigma)
     smooth <- c(0, 0)
   } else {
-    sigma <- rep(known[[1]], ncol(scan$vb))
+    fitted <- integer()
+    sigma <- numeric()
+    other <- known[[1]]
     smooth <- unname(known[2:3])
   }
   margins <- lapply(surface$design, function(design) design[live, , drop = FALSE])
@@ -41,7 +43,8 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
   }
   found <- cpp_curvature_covariance(
     scan$vb, scan$it, window$coordinates$vertex[rows],
-    t(strength$direction[rows, , drop = FALSE]), margins, target, sigma, smooth,
+    t(strength$direction[rows, , drop = FALSE]), margins, target,
+    window$coordinates$vertex[fitted], sigma, other, smooth,
     kernel_settings(radius, settings$order)
   )
   if (length(rows) < length(live)) return(list(matrix = found$matrix))

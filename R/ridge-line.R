@@ -144,7 +144,7 @@ profile_at <- function(problem, alpha, derivative) {
 #' B-splines across at offsets, their means under the kernel, or a derivative by the offset: n x k
 #' @noRd
 across_design <- function(problem, alpha, derivative) {
-  basis <- cpp_across_design(problem$across$knots, alpha / problem$width, problem$kernel,
+  basis <- cpp_spline_design(problem$across$knots, alpha / problem$width, problem$kernel,
                              derivative)
   basis / problem$width^derivative
 }

@@ -114,8 +114,7 @@ margin_design <- function(margin, x, derivative = 0) {
     return(mgcv::cSplineDes(x - floor(x), margin$knots, order, derivative))
   }
   range <- margin$knots[c(order, length(margin$knots) - order + 1)]
-  splines::splineDesign(margin$knots, pmin(pmax(x, range[1]), range[2]), order,
-                        rep(derivative, length(x)))
+  cpp_spline_design(margin$knots, pmin(pmax(x, range[1]), range[2]), 0, derivative)
 }
 
 tensor_penalty <- function(margins, anisotropy) {

@@ -206,7 +206,8 @@ way_out <- function(scan, near, target, angles = 121, bend = 1.35, inside = 1e-6
   )
   ways <- lapply(seq_len(ncol(normals)), function(i) {
     level <- as.vector(normals[, i] %*% xyz) - sum(normals[, i] * at)
-    walk <- cpp_level_path(scan$vb, scan$it, scan$twin, near[["face"]], 0, level, axis)$points
+    walk <- cpp_level_path(scan$vb, scan$it, scan$twin, near[["face"]], 0, seq_along(level), level,
+                           axis)$points
     way_towards(walk, at, target, bend)
   })
   ways <- Filter(Negate(is.null), ways)

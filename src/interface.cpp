@@ -211,15 +211,16 @@ List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, Li
 }
 
 // along, across: two margins of a tensor product, rows x functions each; target: of each of their rows, from 1;
-// sigma: one a vertex; smooth, range: of the correlated part, 0: none.
+// sigma: of each vertex named, `other` of the rest; smooth: standard deviation and range of the correlated part.
 // [[Rcpp::export]]
 List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions,
-                              List margins, IntegerVector target, NumericVector sigma, NumericVector smooth,
-                              List settings) {
+                              List margins, IntegerVector target, IntegerVector vertex, NumericVector sigma,
+                              double other, NumericVector smooth, List settings) {
   crestline::FitSettings fit = fit_settings(settings);
   crestline::Crop near = crop(vb, it, targets, fit.radius);
-  std::vector<double> near_sigma;
-  for (int v : near.vertex) near_sigma.push_back(sigma[v]);
+  std::vector<double> known(vb.ncol(), other), near_sigma;
+  for (int i = 0; i < vertex.size(); ++i) known[vertex[i] - 1] = sigma[i];
+  for (int v : near.vertex) near_sigma.push_back(known[v]);
   NumericMatrix along = margins["along"], across = margins["across"];
   int size = along.ncol() * across.ncol();
   std::vector<double> design = crestline::summed_tensor(along.begin(), along.ncol(), across.begin(), across.ncol(),
@@ -230,9 +231,9 @@ List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector 
   return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
 }
 
-// knots rising, x within them; half 0: no kernel; derivative 0, 1 or 2.
+// knots rising, x within them; half 0: no kernel; derivative 0 to 3, with a kernel to 2.
 // [[Rcpp::export]]
-NumericMatrix cpp_across_design(NumericVector knots, NumericVector x, double half, int derivative) {
+NumericMatrix cpp_spline_design(NumericVector knots, NumericVector x, double half, int derivative) {
   int k = knots.size() - 4, n = x.size();
   std::vector<double> design =
       half > 0 ? crestline::biweight_design(knots.begin(), k, x.begin(), n, half, derivative)
@@ -418,11 +419,14 @@ List cpp_plane_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Nume
   return List::create(_["end"] = walk_end(cut.end), _["points"] = crossing_rows(mesh, cut.crossings));
 }
 
+// level: of each vertex named; the others have none.
 // [[Rcpp::export]]
 List cpp_level_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, int from_face,
-                    int to_face, NumericVector level, NumericVector towards) {
+                    int to_face, IntegerVector vertex, NumericVector level, NumericVector towards) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
-  crestline::LevelPath path = crestline::level_path(mesh, from_face - 1, to_face - 1, level.begin(),
+  std::vector<double> everywhere(vb.ncol(), NAN);
+  for (int i = 0; i < vertex.size(); ++i) everywhere[vertex[i] - 1] = level[i];
+  crestline::LevelPath path = crestline::level_path(mesh, from_face - 1, to_face - 1, everywhere.data(),
                                                     towards.begin());
   return List::create(_["end"] = walk_end(path.end), _["points"] = crossing_rows(mesh, path.crossings));
 }

@@ -12,7 +12,7 @@ namespace crestline {
 std::vector<double> biweight_design(const double* knots, int k, const double* x, int n, double half,
                                     int derivative);
 
-// The splines themselves, or a derivative of order 1 or 2, at each x between the knots 4 and k + 1: n x k, column
+// The splines themselves, or a derivative of order 1 to 3, at each x between the knots 4 and k + 1: n x k, column
 // major.
 std::vector<double> spline_design(const double* knots, int k, const double* x, int n, int derivative);
 

@@ -12,8 +12,8 @@ fitted_window <- function(settings = ridge_settings(), radius = 4) {
 curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings, smooth = 0,
                                range = 0) {
   margins <- list(along = t(jacobian), across = matrix(1, ncol(jacobian)))
-  diag(cpp_curvature_covariance(vb, it, targets, directions, margins, seq_along(targets), sigma,
-                                c(smooth, range), settings)$matrix)
+  diag(cpp_curvature_covariance(vb, it, targets, directions, margins, seq_along(targets),
+                                seq_along(sigma), sigma, 0, c(smooth, range), settings)$matrix)
 }
 
 # Normal curvature along `direction` at vertex `at` when vertex `moved` is lifted by h along the
@@ -108,7 +108,7 @@ test_that("the noise factor compares with what the strengths' whole covariance g
                                   t(window$strengths$direction[rows, ]),
                                   list(along = diag(length(rows)),
                                        across = matrix(1, length(rows))),
-                                  seq_along(rows), sigma, c(0, 0),
+                                  seq_along(rows), seq_along(sigma), sigma, 0, c(0, 0),
                                   kernel_settings(4, "adaptive cubic"))$matrix
   design <- mgcv::tensor.prod.model.matrix(surface$design)[live, ]
   rest <- diag(length(live)) - design %*% chol2inv(surface$factor) %*% t(design)
