@@ -5,12 +5,12 @@ cpp_curvature <- function(vb, it, targets, settings, threads) {
     .Call(`_crestline_cpp_curvature`, vb, it, targets, settings, threads)
 }
 
-cpp_curvature_covariance <- function(vb, it, targets, directions, design, sigma, smooth, range, settings) {
-    .Call(`_crestline_cpp_curvature_covariance`, vb, it, targets, directions, design, sigma, smooth, range, settings)
+cpp_curvature_covariance <- function(vb, it, targets, directions, margins, target, vertex, sigma, other, smooth, settings) {
+    .Call(`_crestline_cpp_curvature_covariance`, vb, it, targets, directions, margins, target, vertex, sigma, other, smooth, settings)
 }
 
-cpp_biweight_design <- function(knots, x, half, derivative) {
-    .Call(`_crestline_cpp_biweight_design`, knots, x, half, derivative)
+cpp_spline_design <- function(knots, x, half, derivative) {
+    .Call(`_crestline_cpp_spline_design`, knots, x, half, derivative)
 }
 
 cpp_mesh_key <- function(vb, it) {
@@ -85,8 +85,8 @@ cpp_plane_path <- function(vb, it, twin, from, to, normal, side, reach) {
     .Call(`_crestline_cpp_plane_path`, vb, it, twin, from, to, normal, side, reach)
 }
 
-cpp_level_path <- function(vb, it, twin, from_face, to_face, level, towards) {
-    .Call(`_crestline_cpp_level_path`, vb, it, twin, from_face, to_face, level, towards)
+cpp_level_path <- function(vb, it, twin, from_face, to_face, vertex, level, towards) {
+    .Call(`_crestline_cpp_level_path`, vb, it, twin, from_face, to_face, vertex, level, towards)
 }
 
 cpp_crest_path <- function(vb, it, twin, from, to, cost, angle, round) {

@@ -26,8 +26,8 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_curvature_covariance
-List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, NumericMatrix design, NumericVector sigma, double smooth, double range, List settings);
-RcppExport SEXP _crestline_cpp_curvature_covariance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP designSEXP, SEXP sigmaSEXP, SEXP smoothSEXP, SEXP rangeSEXP, SEXP settingsSEXP) {
+List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, List margins, IntegerVector target, IntegerVector vertex, NumericVector sigma, double other, NumericVector smooth, List settings);
+RcppExport SEXP _crestline_cpp_curvature_covariance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP marginsSEXP, SEXP targetSEXP, SEXP vertexSEXP, SEXP sigmaSEXP, SEXP otherSEXP, SEXP smoothSEXP, SEXP settingsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -35,18 +35,20 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
-    Rcpp::traits::input_parameter< NumericMatrix >::type design(designSEXP);
+    Rcpp::traits::input_parameter< List >::type margins(marginsSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type target(targetSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type vertex(vertexSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type sigma(sigmaSEXP);
-    Rcpp::traits::input_parameter< double >::type smooth(smoothSEXP);
-    Rcpp::traits::input_parameter< double >::type range(rangeSEXP);
+    Rcpp::traits::input_parameter< double >::type other(otherSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type smooth(smoothSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature_covariance(vb, it, targets, directions, design, sigma, smooth, range, settings));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_covariance(vb, it, targets, directions, margins, target, vertex, sigma, other, smooth, settings));
     return rcpp_result_gen;
 END_RCPP
 }
-// cpp_biweight_design
-NumericMatrix cpp_biweight_design(NumericVector knots, NumericVector x, double half, int derivative);
-RcppExport SEXP _crestline_cpp_biweight_design(SEXP knotsSEXP, SEXP xSEXP, SEXP halfSEXP, SEXP derivativeSEXP) {
+// cpp_spline_design
+NumericMatrix cpp_spline_design(NumericVector knots, NumericVector x, double half, int derivative);
+RcppExport SEXP _crestline_cpp_spline_design(SEXP knotsSEXP, SEXP xSEXP, SEXP halfSEXP, SEXP derivativeSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -54,7 +56,7 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
     Rcpp::traits::input_parameter< double >::type half(halfSEXP);
     Rcpp::traits::input_parameter< int >::type derivative(derivativeSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_biweight_design(knots, x, half, derivative));
+    rcpp_result_gen = Rcpp::wrap(cpp_spline_design(knots, x, half, derivative));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -308,8 +310,8 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_level_path
-List cpp_level_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, int from_face, int to_face, NumericVector level, NumericVector towards);
-RcppExport SEXP _crestline_cpp_level_path(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP from_faceSEXP, SEXP to_faceSEXP, SEXP levelSEXP, SEXP towardsSEXP) {
+List cpp_level_path(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, int from_face, int to_face, IntegerVector vertex, NumericVector level, NumericVector towards);
+RcppExport SEXP _crestline_cpp_level_path(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP from_faceSEXP, SEXP to_faceSEXP, SEXP vertexSEXP, SEXP levelSEXP, SEXP towardsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -318,9 +320,10 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< IntegerMatrix >::type twin(twinSEXP);
     Rcpp::traits::input_parameter< int >::type from_face(from_faceSEXP);
     Rcpp::traits::input_parameter< int >::type to_face(to_faceSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type vertex(vertexSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type level(levelSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type towards(towardsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_level_path(vb, it, twin, from_face, to_face, level, towards));
+    rcpp_result_gen = Rcpp::wrap(cpp_level_path(vb, it, twin, from_face, to_face, vertex, level, towards));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -776,8 +779,8 @@ END_RCPP
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
-    {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 9},
-    {"_crestline_cpp_biweight_design", (DL_FUNC) &_crestline_cpp_biweight_design, 4},
+    {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 11},
+    {"_crestline_cpp_spline_design", (DL_FUNC) &_crestline_cpp_spline_design, 4},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
     {"_crestline_cpp_box_diagonal", (DL_FUNC) &_crestline_cpp_box_diagonal, 1},
@@ -796,7 +799,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
     {"_crestline_cpp_cut_weights", (DL_FUNC) &_crestline_cpp_cut_weights, 9},
     {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
-    {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 7},
+    {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 8},
     {"_crestline_cpp_crest_path", (DL_FUNC) &_crestline_cpp_crest_path, 8},
     {"_crestline_cpp_equal_chords", (DL_FUNC) &_crestline_cpp_equal_chords, 4},
     {"_crestline_cpp_place_along", (DL_FUNC) &_crestline_cpp_place_along, 6},
