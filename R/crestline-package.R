@@ -35,8 +35,8 @@
 #' * *Places on a mesh*: [locate()] (the closest one), [frechet_mean()].
 #' * *A whole specimen*: [fit_shape()] by a scheme ([face_scheme()], [read_scheme()],
 #'   [curve_scheme()], [write_scheme()], [learn_tracks()]) with [shape_settings()]; a scheme of your
-#'   own: [suggest_landmarks()], [snap()], [check_scheme()]; its parts: [coords()], [shape_mesh()],
-#'   [patch_mesh()], [write_mesh()], [write_glb()].
+#'   own: [build_scheme()] (a page), [suggest_landmarks()], [snap()], [check_scheme()]; its parts:
+#'   [coords()], [shape_mesh()], [patch_mesh()], [write_mesh()], [write_glb()].
 #' * *How far to trust it*: [quality()], [quality_report()], [quality_limits()],
 #'   [surface_faults()].
 #' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()], [read_batch()].

@@ -42,26 +42,48 @@ review_file <- function(name) system.file("review", name, package = "crestline",
 #' @return Server function for shiny.
 #' @noRd
 review_server <- function(begin, shown, view, finish = shiny::stopApp) {
+  page <- list(
+    items = review_items,
+    show = function(output, review) {
+      output$chosen <- shiny::renderUI(chosen_html(review()))
+      output$list <- shiny::renderUI(list_html(review()))
+    },
+    answer = answer_steps, result = function(review) review$specimen
+  )
+  scene_server(begin, shown, view, page, finish)
+}
+
+#' A server with one loop: every input makes the next state of what is edited, and what is drawn of
+#' it changes
+#'
+#' @param begin The first state.
+#' @param page List of functions: `items` of a state (as [review_items()]); `show` of the outputs
+#'   and the reactive state; `answer` as [answer_steps()]; `result` of the last state; `sent` of a
+#'   state (what the page's script is told after a step, a list; NULL: nothing).
+#' @param shown,view,finish As in [review_server()].
+#' @noRd
+scene_server <- function(begin, shown, view, page, finish) {
   function(input, output, session) {
     review <- shiny::reactiveVal(begin)
     scene <- open_scene(shown, view)
     drawn <- list()
     step <- function(change) {
       review(change(review()))
-      change <- redraw(scene, drawn, review_items(review()))
+      change <- redraw(scene, drawn, page$items(review()))
       drawn <<- change$drawn
       session$sendCustomMessage("sceneChange", rgl::sceneChange(
         "face", delete = change$delete, add = change$add
       ))
+      if (!is.null(page$sent)) session$sendCustomMessage("state", page$sent(review(), shown$frame))
     }
     output$face <- rgl::renderRglwidget({
       rgl::set3d(scene$device)
       rgl::rglwidget()
     })
-    output$chosen <- shiny::renderUI(chosen_html(review()))
-    output$list <- shiny::renderUI(list_html(review()))
-    answer_steps(input, step, shown$frame, fitting_progress(session))
-    answer_end(input, session, function() shiny::isolate(review()$specimen), begin$specimen, finish)
+    page$show(output, review)
+    page$answer(input, step, shown$frame, fitting_progress(session))
+    answer_end(input, session, function() page$result(shiny::isolate(review())),
+               page$result(begin), finish)
     session$onSessionEnded(function() rgl::close3d(scene$device))
   }
 }

@@ -30,7 +30,7 @@
 #'   The attribute `shape` is the shape that was fitted.
 #' @section Errors: as of [fit_shape()].
 #' @template glossary
-#' @seealso [quality()], [snap()]
+#' @seealso [build_scheme()], [quality()], [snap()]
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")

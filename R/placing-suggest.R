@@ -40,7 +40,7 @@
 #'   `plot(suggested, mesh)` shows them; see [plot.suggested_landmarks()].
 #' @section Errors: of class `crestline_error`: as of [curvature()], or an argument is wrong.
 #' @template glossary
-#' @seealso [snap()], [check_scheme()]
+#' @seealso [snap()], [check_scheme()], [build_scheme()]
 #' @examples
 #' data(humface, package = "Rvcg")
 #' suggested <- suggest_landmarks(humface, radius = 10, n = 5)

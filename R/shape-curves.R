@@ -194,6 +194,29 @@ refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n)
   fitting
 }
 
+#' Fit the curves of a scheme that has changed: those whose rows are new or differ
+#'
+#' @param before As of [begin_fitting()], of the scheme as it was; NULL: none.
+#' @param after As of [begin_fitting()], of the scheme as it is.
+#' @param progress As in [refit_curves()].
+#' @return As [refit_curves()].
+#' @noRd
+grow_fitting <- function(before, after, progress = function(n) function() NULL) {
+  known <- intersect(names(after$scan$sources), names(before$scan$sources))
+  after$scan$sources[known] <- before$scan$sources[known]
+  rows <- after$scheme$curves
+  same <- vapply(seq_len(nrow(rows)), function(i) {
+    at <- match(rows$curve[i], before$scheme$curves$curve)
+    !is.na(at) && identical(lapply(rows[i, ], identity),
+                            lapply(before$scheme$curves[at, names(rows)], identity))
+  }, NA)
+  after$whole[same] <- before$whole[rows$curve[same]]
+  after$whole <- fit_whole_curves(after$whole, !same, after$scan, progress(sum(!same)))
+  after$fits <- finished_curves(after$whole, rep(TRUE, nrow(rows)), after$scan, 1)
+  after$refitted <- rows$curve[!same]
+  after
+}
+
 with_landmarks_of <- function(bridged, specimen) {
   bridged$landmarks <- specimen$landmarks
   bridged$geometry[c("landmarks", "located")] <- specimen$geometry[c("landmarks", "located")]

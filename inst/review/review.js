@@ -56,6 +56,9 @@
     view.addEventListener("contextmenu", function (event) { event.preventDefault(); });
   }
 
+  // What the script of another page needs of this one.
+  window.crestlinePage = { scene: scene, rayAt: rayAt, still: still };
+
   document.addEventListener("click", function (event) {
     var row = event.target.closest("[data-landmark]");
     if (row) Shiny.setInputValue("select", row.getAttribute("data-landmark"), { priority: "event" });
@@ -74,7 +77,7 @@
   $(document).on("shiny:disconnected", function () {
     var note = document.createElement("div");
     note.id = "ended";
-    note.textContent = "The review has ended: this page can be closed.";
+    note.textContent = "This page has ended: it can be closed.";
     document.body.appendChild(note);
   });
 })();
