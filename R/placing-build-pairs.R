@@ -72,11 +72,7 @@ pairs_of_all <- function(pairs, curves, patches) {
   swap <- function(x) partner_of(x, table, "landmarks")
   mirror <- curves
   mirror[c("from", "to")] <- lapply(curves[c("from", "to")], swap)
-  if (!is.null(curves$via)) {
-    mirror$via <- vapply(curves$via, function(x) {
-      if (is.na(x)) x else paste(swap(mirror_names(x)), collapse = " ")
-    }, "", USE.NAMES = FALSE)
-  }
+  mirror$via <- swapped_via(curves$via, swap)
   two <- partner_rows(curves, mirror,
                       c("from", "to", "kind", "path", "via", "radius", "width", "n"),
                       curves$from %in% pairs$left | curves$to %in% pairs$left)
@@ -91,6 +87,15 @@ pairs_of_all <- function(pairs, curves, patches) {
   two <- partner_rows(plain, mirror, c(sides, "rows", "rows_kept", "columns"),
                       named %in% table$left[table$level == "curves"])
   rbind(table, rows("surface", patches$patch[two[, 1]], patches$patch[two[, 2]]))
+}
+
+#' Cells of `via` with other names in place; NULL where the table has no such column
+#' @noRd
+swapped_via <- function(via, swap) {
+  if (is.null(via)) return(NULL)
+  vapply(via, function(cell) {
+    if (is.na(cell)) cell else paste(swap(via_names(cell)), collapse = " ")
+  }, "", USE.NAMES = FALSE)
 }
 
 #' Rows of a table that are the mirror images of other rows, each pair once, the left one first

@@ -126,11 +126,7 @@ rename_mark <- function(state, from, to) {
                                         "keep_away_to", "keep_side_from", "keep_side_to",
                                         "keep_side_towards"))
   curves[by_name] <- lapply(curves[by_name], swap)
-  if (!is.null(curves$via)) {
-    curves$via <- vapply(curves$via, function(x) {
-      if (is.na(x)) x else paste(swap(mirror_names(x)), collapse = " ")
-    }, "", USE.NAMES = FALSE)
-  }
+  curves$via <- swapped_via(curves$via, swap)
   pairs <- state$pairs
   marks <- pairs$level %in% "landmarks"
   pairs[marks, c("left", "right")] <- lapply(pairs[marks, c("left", "right")], swap)
@@ -165,12 +161,10 @@ remove_mark <- function(state, name) {
 #' Names of the curves that a landmark is an end or a `via` of
 #' @noRd
 curves_on <- function(curves, name) {
-  if (!NROW(curves)) return(character())
-  via <- if (is.null(curves$via)) rep(NA_character_, nrow(curves)) else curves$via
-  on <- vapply(seq_len(nrow(curves)), function(i) {
-    name %in% c(curves$from[i], curves$to[i], if (!is.na(via[i])) mirror_names(via[i]))
+  on <- vapply(seq_len(NROW(curves)), function(i) {
+    name %in% c(curves$from[i], curves$to[i], via_names(curves$via[i]))
   }, NA)
-  curves$curve[on]
+  as.character(curves$curve[on])
 }
 
 #' Choose a landmark: it is selected, and the next of the chain
@@ -222,7 +216,7 @@ join_curve <- function(state, row) {
   }
   plane <- row$kind == "plane"
   new[c("radius", "width")] <- if (plane) NA_real_ else row[c("radius", "width")]
-  if (plane && !is.na(c(new$via, NA)[1])) {
+  if (plane && length(via_names(new$via))) {
     refuse_build("A plane curve joins two landmarks only.", "Choose the two ends, or a ridge.")
   }
   if (plane) new$path <- NA_character_
