@@ -394,8 +394,7 @@ fitted_patches <- function(fitting) {
   scan <- fitting$scan
   scheme <- fitting$scheme
   if (!NROW(scheme$patches)) return(list())
-  column <- formals(fit_shape)[c("column_angle", "column_angles", "column_reach")]
-  scan$column <- c(scan$column, do.call(check_column, lapply(column, eval)))
+  scan$column <- column_settings(shape_settings())
   found <- fit_scheme_patches(scan, fitting$fits, place_store(scan, fitting$fits), function() NULL)
   surface <- scheme$points$level == "surface"
   at <- found$store[scheme_plan(scheme)$at[surface], c("x", "y", "z"), drop = FALSE]

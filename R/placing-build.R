@@ -65,7 +65,7 @@ build_scheme <- function(mesh, scheme = NULL, dir = NULL,
   check_radius(radius, mesh)
   name <- c(scheme$name, if (!is.null(dir)) basename(dir), "scheme")[1]
   begin <- begin_build(mesh, scheme, list(
-    ridge = settings, bridge = formals(fit_shape)$bridge,
+    ridge = settings, bridge = shape_settings()$bridge,
     threads = getOption("crestline.threads", 1L), radius = radius, name = name
   ))
   shown <- shown_surface(mesh, "natural", radius, faces)
