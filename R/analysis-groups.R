@@ -29,9 +29,9 @@
 #'
 #' For T2 and components, the covariance of a group is taken to be a scale of the group times a form
 #' that all groups share. Specimens and means are brought to one scale before they are regrouped,
-#' and T2 is that of the first components of these. Means count by their precision (James 1951). A group of six then has one number to estimate,
-#' not a covariance, and T2 uses as many components as with equal spread. If the forms differ too,
-#' the scale is the mean over the components in use.
+#' and T2 is that of the first components of these. Means count by their precision (James 1951). A
+#' group of six then has one number to estimate, not a covariance, and T2 uses as many components as
+#' with equal spread. If the forms differ too, the scale is the mean over the components in use.
 #'
 #' The variance of a small group is often estimated too low, which costs power. For size and single
 #' components, the p-values by permutation therefore raise it towards the pooled variance, at most
@@ -154,7 +154,8 @@
 #'   1121-1130; Mehrotra (1997) Improving the Brown-Forsythe solution to the generalized
 #'   Behrens-Fisher problem, *Communications in Statistics - Simulation and Computation* 26,
 #'   1139-1145; James (1951) The comparison of several groups of observations when the ratios of the
-#'   population variances are unknown, *Biometrika* 38, 324-329; Chung and Romano (2016) Multivariate and multiple permutation tests, *Journal of
+#'   population variances are unknown, *Biometrika* 38, 324-329; Chung and Romano (2016) Multivariate and
+#'   multiple permutation tests, *Journal of
 #'   Econometrics* 193, 76-91; Collyer and Adams (2018) RRPP: an R package for fitting linear models
 #'   to high-dimensional data using residual randomization, *Methods in Ecology and Evolution* 9,
 #'   1772-1779 (Z); Flury (1986) Proportionality of k covariance

@@ -80,10 +80,8 @@ lm_point_table <- function(aligned, term, span, found, along, permutations) {
 term_effect <- function(aligned, span) {
   if (is.null(span$column)) return(NULL)
   own <- span$basis[, 1]
-  moved <- vapply(seq_len(ncol(aligned$mean)), function(d) {
-    drop(crossprod(shape_rows(aligned, 1, d), own))
-  }, numeric(nrow(aligned$mean)))
-  moved / sum(own * span$column)
+  moved <- cpp_weighted_sum(aligned$coords, own / sum(own * span$column))
+  matrix(moved, nrow(aligned$mean))
 }
 
 #' The curve or patch that each point of an alignment lies on; NULL of other levels, and where no

@@ -65,12 +65,13 @@ all_regroupings <- function(code) {
   labels[, c(same, seq_len(ncol(labels))[-same]), drop = FALSE]
 }
 
-#' A statistic of many regroupings, worked out some columns at a time: memory stays small
+#' A statistic of many regroupings, worked out some columns at a time, which takes n x `block`
+#' numbers
 #'
 #' @param statistic Function of n x b labels that gives b values, or a matrix of b rows.
 #' @param block Columns at a time.
 #' @noRd
-by_block <- function(labels, statistic, block = 5000) {
+by_block <- function(labels, statistic, block = 250) {
   blocks <- permutation_blocks(ncol(labels), block)
   if (length(blocks) == 1) return(statistic(labels))
   each <- lapply(blocks, function(columns) statistic(labels[, columns, drop = FALSE]))

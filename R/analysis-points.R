@@ -68,7 +68,8 @@ mean_differences <- function(aligned, code) {
 }
 
 mean_shape_of <- function(aligned, chosen) {
-  `dimnames<-`(rowMeans(aligned$coords[, , chosen, drop = FALSE], dims = 2), dimnames(aligned$mean))
+  mean <- cpp_weighted_sum(aligned$coords, chosen / sum(chosen))
+  matrix(mean, nrow(aligned$mean), dimnames = dimnames(aligned$mean))
 }
 
 #' List of one n x k matrix: displacements from the mean along its normals

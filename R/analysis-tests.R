@@ -74,12 +74,12 @@ separate_f <- function(found, sizes) {
        among = if (length(sizes) > 2) among else 1)
 }
 
-#' F with degrees of freedom of its own in every regrouping, on the scale of chi-squared with as many
-#' as there are if spreads are equal
+#' F with degrees of freedom of its own in every regrouping, on the scale of chi-squared with as
+#' many as there are if spreads are equal
 #'
-#' f2 log(1 + f1 F / f2) is near to chi-squared on f1 degrees whatever f2 is (Wallace 1959). Roots of
-#' the third degree of chi-squared are near to normal (Wilson and Hilferty 1931), by which other f1
-#' are brought to groups - 1.
+#' f2 log(1 + f1 F / f2) is near to chi-squared on f1 degrees whatever f2 is (Wallace 1959). Cube
+#' roots of chi-squared are near to normal (Wilson and Hilferty 1931), by which other f1 are brought
+#' to groups - 1.
 #'
 #' @param own Of [separate_f()].
 #' @param groups Their number.
@@ -113,9 +113,9 @@ effective_dimensions <- function(y) {
 #' What variables are tested by, for many regroupings: greater, the more lies between the groups
 #'
 #' With equal spread: sum of squares between over that in all. Else F with separate variances, on
-#' degrees of freedom of its own in every regrouping: see [chi_squared_scale()]. Without that a small
-#' group of great spread, which regroupings dilute, would be compared with lighter tails than its
-#' own.
+#' degrees of freedom of its own in every regrouping: see [chi_squared_scale()]. Without that a
+#' small group of great spread, which regroupings dilute, would be compared with lighter tails than
+#' its own.
 #'
 #' @param about,squares As in [group_squares()].
 #' @param dimensions q numbers, as of [effective_dimensions()]: both degrees of freedom are

@@ -54,4 +54,13 @@ void squared_distances(const double* y, int n, int q, const double* means, int g
   }
 }
 
+void weighted_sum(const double* x, int m, int n, const double* weight, double* out) {
+  std::fill(out, out + m, 0.0);
+  for (int i = 0; i < n; ++i) {
+    const double* own = x + static_cast<std::size_t>(i) * m;
+    if (weight[i] == 0) continue;
+    for (int j = 0; j < m; ++j) out[j] += weight[i] * own[j];
+  }
+}
+
 }  // namespace crestline

@@ -15,4 +15,7 @@ void centred_rows(const double* x, int m, int n, int from, int q, const double* 
 void squared_distances(const double* y, int n, int q, const double* means, int groups,
                        const int* group, double* out, const std::function<void()>& between);
 
+// Sum of the specimens, each times its weight. x: m x n, a column a specimen. weight: n. out: m.
+void weighted_sum(const double* x, int m, int n, const double* weight, double* out);
+
 }  // namespace crestline

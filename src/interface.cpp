@@ -805,6 +805,15 @@ NumericMatrix cpp_centred_rows(NumericVector x, int m, int from, NumericVector f
   return out;
 }
 
+// x: m variables of each specimen, one after the other. weight: of each specimen.
+// [[Rcpp::export]]
+NumericVector cpp_weighted_sum(NumericVector x, NumericVector weight) {
+  const int n = weight.size(), m = x.size() / n;
+  NumericVector out(m);
+  crestline::weighted_sum(x.begin(), m, n, weight.begin(), out.begin());
+  return out;
+}
+
 // y: n x q. means: groups x q. group: n, from 1.
 // [[Rcpp::export]]
 NumericVector cpp_squared_distances(NumericMatrix y, NumericMatrix means, IntegerVector group) {
