@@ -35,8 +35,8 @@
 #'
 #' The variance of a small group is often estimated too low, which costs power. For size and single
 #' components, the p-values by permutation therefore raise it towards the pooled variance, at most
-#' to 1.5 times itself (components: three times). `statistic` and `p_parametric` have the variances as
-#' they are.
+#' to 1.5 times itself (components: three times). `statistic` and `p_parametric` have the variances
+#' as they are.
 #'
 #' The tests are exact if the groups have one distribution. If only their means agree, they are
 #' approximate (Janssen 1997; Chung and Romano 2016). With 30 specimens and spreads that differ up
@@ -154,13 +154,13 @@
 #'   1121-1130; Mehrotra (1997) Improving the Brown-Forsythe solution to the generalized
 #'   Behrens-Fisher problem, *Communications in Statistics - Simulation and Computation* 26,
 #'   1139-1145; James (1951) The comparison of several groups of observations when the ratios of the
-#'   population variances are unknown, *Biometrika* 38, 324-329; Chung and Romano (2016) Multivariate and
-#'   multiple permutation tests, *Journal of
-#'   Econometrics* 193, 76-91; Collyer and Adams (2018) RRPP: an R package for fitting linear models
-#'   to high-dimensional data using residual randomization, *Methods in Ecology and Evolution* 9,
-#'   1772-1779 (Z); Flury (1986) Proportionality of k covariance
-#'   matrices, *Statistics and Probability Letters* 4, 29-33; Anderson (2006)
-#'   Distance-based tests for homogeneity of multivariate dispersions, *Biometrics* 62, 245-253;
+#'   population variances are unknown, *Biometrika* 38, 324-329; Chung and Romano (2016)
+#'   Multivariate and multiple permutation tests, *Journal of Econometrics* 193, 76-91; Collyer and
+#'   Adams (2018) RRPP: an R package for fitting linear models to high-dimensional data using
+#'   residual randomization, *Methods in Ecology and Evolution* 9, 1772-1779 (Z); Flury (1986)
+#'   Proportionality of k covariance matrices, *Statistics and Probability Letters* 4, 29-33;
+#'   Anderson (2006) Distance-based tests for homogeneity of multivariate dispersions, *Biometrics*
+#'   62, 245-253;
 #'   Westfall and Young (1993) *Resampling-Based Multiple Testing* (greatest statistics); Phipson
 #'   and Smyth (2010) Permutation p-values should never be zero, *Statistical Applications in
 #'   Genetics and Molecular Biology* 9, 39.

@@ -1,8 +1,8 @@
 # Linear models, discriminants and scores: level and power of tests and maps with covariates,
 # allometry, leaving one out, new faces, speed. bench/models.md has the tables.
 #
-#   Rscript bench/models.R [maps] [allometry] [out] [new] [signs] [speed] [published]
-#     [samples]
+#   Rscript bench/models.R [maps] [allometry] [out] [new] [signs] [speed] [memory]
+#     [published] [samples]
 #
 # samples: a number, 500 by default (200 for `out`). Results are kept in CRESTLINE_BENCH (a folder)
 # as they come, where it is set. new, signs: CRESTLINE_SHARED. published: shapes; geomorph and
@@ -243,6 +243,12 @@ speed <- function() {
   row("250 x 922, whole shape, manova, ten components",
       fit(a, c("shape", "manova", "components"), data))
   row("250 x 922, points (all co-ordinates)", fit(a, "points", data))
+  row("250 x 922, all tests", fit(a, model_settings()$tests, data))
+  group <- setNames(data$sex, data$id)
+  for (tests in list("shape", comparison_settings()$tests)) {
+    row(paste("250 x 922, compare_groups(),", if (length(tests) == 1) tests else "all"),
+        quiet(compare_groups(a, group, seed = 1, settings = comparison_settings(tests = tests))))
+  }
   if (requireNamespace("RRPP", quietly = TRUE)) {
     frame <- RRPP::rrpp.data.frame(y = t(matrix(a$coords, 3 * 922)), age = data$age,
                                    sex = factor(data$sex), size = a$size)
@@ -254,6 +260,40 @@ speed <- function() {
   big <- shapes(2000)
   data <- data.frame(id = names(big), age = runif(2000), sex = rep(c("F", "M"), 1000))
   row("2,000 x 922, whole shape", fit(big, "shape", data), 1)
+}
+
+# ---- memory: 5,000 specimens, each test by itself and all ----
+
+# `peak`: what the heap grew by, garbage included, as a multiple of the array.
+memory <- function(n = 5000) {
+  set.seed(1)
+  base <- matrix(rnorm(3 * 922), 922)
+  x <- array(rnorm(3 * 922 * n, sd = 0.02), c(922, 3, n), list(NULL, NULL, paste0("s", seq_len(n))))
+  for (i in seq_len(n)) x[, , i] <- x[, , i] + base
+  array <- as.numeric(object.size(x)) / 2^20
+  row <- function(what, code) {
+    before <- sum(gc(reset = TRUE)[, 2])
+    time <- sum(system.time(code)[1:2])
+    cat(sprintf("%-36s %5.1f s, peak %.1f arrays\n", what, time, (sum(gc()[, 6]) - before) / array))
+  }
+  cat("\n", n, " x 922, an array of ", round(array), " MB; processor seconds\n", sep = "")
+  row("align()", aligned <- quiet(align(x)))
+  rm(x)
+  group <- setNames(rep(c("a", "b"), length.out = n), names(aligned))
+  for (tests in c(as.list(comparison_settings()$tests), list(comparison_settings()$tests))) {
+    row(paste("compare_groups()", if (length(tests) == 1) tests else "all"),
+        quiet(compare_groups(aligned, group, seed = 1,
+                             settings = comparison_settings(tests = tests))))
+  }
+  data <- data.frame(id = names(aligned), age = runif(n), sex = group)
+  for (tests in c(as.list(model_settings()$tests), list(model_settings()$tests))) {
+    row(paste("shape_lm(), three terms,", if (length(tests) == 1) tests else "all"),
+        quiet(shape_lm(aligned, ~ age + sex + log(size), data, seed = 1,
+                       settings = model_settings(tests = tests))))
+  }
+  row("shape_pca(), ten components", shape_pca(aligned, components = 10))
+  status <- "/proc/self/status"
+  if (file.exists(status)) cat(grep("VmHWM", readLines(status), value = TRUE), "\n")
 }
 
 # ---- published examples, with covariates: geomorph's, and the gorillas of shapes ----
