@@ -180,15 +180,25 @@ if ("three" %in% wanted) {
   for (ratio in c(3, 2, 1)) for (sizes in three) of_groups("level", sizes, ratio, FALSE)
 }
 if ("chance" %in% wanted) of_groups("level", c(15, 15), 1, FALSE)
+# The test of size by itself, on the sizes of draw_groups(), six times as many samples.
+of_size <- function(sizes, ratio, equal, effect = 0, n = 6 * samples) {
+  inner <- function(name) getFromNamespace(name, "crestline")
+  code <- rep(seq_along(sizes), sizes)
+  sd <- 0.04 * c(1, rep(ratio, length(sizes) - 1))[code]
+  p <- vapply(seq_len(n), function(seed) {
+    set.seed(seed)
+    size <- cbind(sd * rnorm(length(code)) + effect * (code == 2))
+    labels <- cbind(code, replicate(99, sample(code)), deparse.level = 0)
+    inner("permutation_p")(inner("raised_scores")(size - mean(size), labels, equal))
+  }, 0)
+  data.frame(sizes = paste(sizes, collapse = ":"), ratio = ratio, effect = effect,
+             spread = if (equal) "pooled" else "separate", share = round(mean(p <= 0.05), 3), n = n)
+}
 if ("size" %in% wanted) {
-  of_size <- function(what, sizes, ratio, equal, effect = 0) {
-    cell(what, sizes, ratio, equal, function(seed) {
-      p_values(draw_groups(sizes, ratio, seed, c(0, effect)), seed, equal_spread = equal,
-               tests = "size")
-    })
-  }
-  for (ratio in 3:1) for (sizes in c(two, three)) of_size("size level", sizes, ratio, FALSE)
-  for (sizes in two) for (equal in c(FALSE, TRUE)) of_size("size power", sizes, 1, equal, 0.05)
+  level <- lapply(c(two, three), function(sizes) lapply(3:1, of_size, sizes = sizes, equal = FALSE))
+  power <- lapply(two, function(sizes) lapply(c(FALSE, TRUE), of_size, sizes = sizes, ratio = 1,
+                                              effect = 0.05))
+  print(do.call(rbind, c(do.call(c, level), do.call(c, power))), row.names = FALSE)
 }
 if ("form" %in% wanted) {
   for (form in c("first", "noise")) for (sizes in two) {
