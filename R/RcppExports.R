@@ -197,6 +197,10 @@ cpp_centred_rows <- function(x, m, from, factor) {
     .Call(`_crestline_cpp_centred_rows`, x, m, from, factor)
 }
 
+cpp_weighted_sum <- function(x, weight) {
+    .Call(`_crestline_cpp_weighted_sum`, x, weight)
+}
+
 cpp_squared_distances <- function(y, means, group) {
     .Call(`_crestline_cpp_squared_distances`, y, means, group)
 }

@@ -730,6 +730,18 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_weighted_sum
+NumericVector cpp_weighted_sum(NumericVector x, NumericVector weight);
+RcppExport SEXP _crestline_cpp_weighted_sum(SEXP xSEXP, SEXP weightSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type weight(weightSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_weighted_sum(x, weight));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_squared_distances
 NumericVector cpp_squared_distances(NumericMatrix y, NumericMatrix means, IntegerVector group);
 RcppExport SEXP _crestline_cpp_squared_distances(SEXP ySEXP, SEXP meansSEXP, SEXP groupSEXP) {
@@ -827,6 +839,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {"_crestline_cpp_permuted_forms", (DL_FUNC) &_crestline_cpp_permuted_forms, 4},
     {"_crestline_cpp_centred_rows", (DL_FUNC) &_crestline_cpp_centred_rows, 4},
+    {"_crestline_cpp_weighted_sum", (DL_FUNC) &_crestline_cpp_weighted_sum, 2},
     {"_crestline_cpp_squared_distances", (DL_FUNC) &_crestline_cpp_squared_distances, 3},
     {"_crestline_cpp_common_form_t2", (DL_FUNC) &_crestline_cpp_common_form_t2, 7},
     {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 6},
