@@ -265,7 +265,7 @@ as_curves <- function(x) {
 }
 
 as_curve <- function(x, name) {
-  closed <- isTRUE(attr(x, "closed"))
+  closed <- isTRUE(attr(x, "closed")) || inherits(x, "curve") && isTRUE(x$closed)
   if (inherits(x, "curve")) x <- as.data.frame(x)
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3 || !nrow(x)) {

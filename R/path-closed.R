@@ -18,11 +18,20 @@ begun_at <- function(scan, path, s) {
   path
 }
 
+#' A closed path run the other way
+#' @noRd
+reversed_loop <- function(scan, path) {
+  back <- reversed_path(scan, path)
+  kept <- attributes(path)[c("lifted", "smoothed", "closed")]
+  attributes(back)[names(kept)] <- kept
+  back
+}
+
 #' Arc length of the place of a path that is nearest to a position
 #' @noRd
 nearest_along <- function(path, xyz) {
-  near <- nearest_on_polyline(matrix(xyz, 1), columns_of(path, c("x", "y", "z")))
-  path$s[near$segment] + near$share * (path$s[near$segment + 1] - path$s[near$segment])
+  line <- t(columns_of(path, c("x", "y", "z")))
+  cpp_path_coordinates(matrix(xyz, 3), line, matrix(1, 3, ncol(line)), is_closed(path))$s
 }
 
 #' Twice the area that a closed path encloses as seen along the mean normal of the surface beside

@@ -137,10 +137,7 @@ loop_through <- function(scan, arcs, cost, radius, search, stops) {
   path <- smooth_loop(scan, rough, radius, search)
   path <- begun_at(scan, path, nearest_along(path, stops[1, 1:3]))
   if (nrow(stops) > 3 || seen_turn(scan, path) >= 0) return(path)
-  back <- reversed_path(scan, path)
-  kept <- attributes(path)[c("lifted", "smoothed", "closed")]
-  attributes(back)[names(kept)] <- kept
-  back
+  reversed_loop(scan, path)
 }
 
 #' What is wrong with a path of least cost, NA where nothing

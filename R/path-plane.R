@@ -213,6 +213,7 @@ unbridged_path <- function(path, specimen) {
   path[landing, mesh_columns] <- surface_points(mesh, as.matrix(path[landing, c("x", "y", "z")]))
   kept <- sort(c(which(!bridge), landing))
   # Its arc lengths stay those of the way over the bridges, along which it was measured.
+  whole <- is_closed(path) && all(c(1, nrow(path)) %in% kept)
   new_mesh_path(lapply(unclass(path)[c("s", mesh_columns)], `[`, kept), attr(path, "length"),
-                attr(path, "key"), attr(path, "id"))
+                attr(path, "key"), attr(path, "id"), closed = if (whole) TRUE)
 }

@@ -288,14 +288,32 @@ print.mesh_path <- function(x, ...) {
   })
 }
 
-#' The part of a path between two arc lengths; run backwards where the first is the greater
+#' Arc lengths on a path, those of a closed one brought into its length
+#' @noRd
+within_path <- function(path, s) if (is_closed(path)) s %% attr(path, "length") else s
+
+#' The part of a path between two arc lengths; run backwards where the first is the greater. Of a
+#' closed path they may lie beyond its seam
 #' @noRd
 part_of_path <- function(mesh, path, from, to) {
-  range <- pmin(pmax(sort(c(from, to)), 0), attr(path, "length"))
+  range <- sort(c(from, to))
+  length <- attr(path, "length")
+  if (is_closed(path)) {
+    range <- range - length * floor(range[1] / length)
+    if (range[2] > length) path <- twice_round(path)
+  }
+  range <- pmin(pmax(range, 0), attr(path, "length"))
   between <- columns_of(path)[path$s > range[1] & path$s < range[2], , drop = FALSE]
   ends <- columns_of(place_along(mesh, path, range))
   part <- path_through(rbind(ends[1, ], between, ends[2, ]), mesh_of(path))
   if (from > to) reversed_path(mesh, part) else part
+}
+
+#' A closed path as an open one that goes round twice
+#' @noRd
+twice_round <- function(path) {
+  places <- columns_of(path)
+  path_through(rbind(places, places[-1, ]), mesh_of(path))
 }
 
 #' A path run backwards: the face of a point is that of the segment that ends there

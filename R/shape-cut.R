@@ -274,7 +274,7 @@ curve_tracks <- function(fits, scan) {
   Map(function(fit, cut) {
     path <- if (is.null(fit$track)) fit$path else fit$track$path
     path <- new_mesh_path(unclass(path)[c("s", mesh_columns)], attr(path, "length"),
-                          attr(path, "key"), attr(path, "id"))
+                          attr(path, "key"), attr(path, "id"), closed = attr(path, "closed"))
     s <- ifelse(is.na(fit$points$x), NA,
                 fit$points$s + if (is.null(fit$track)) 0 else fit$track$start)
     list(path = path, s = s, kept = if (is.null(fit$track)) fit$length else fit$track$kept,
@@ -296,7 +296,7 @@ check_tracks <- function(shape, scan) {
     s <- track$s[!is.na(track$s)]
     right <- is.numeric(track$s) &&
       length(track$s) == sum(shape$points$level == "curves" & shape$points$part == name) &&
-      !is.unsorted(s) && all(abs(s / attr(track$path, "length") - 0.5) <= 0.5 + 1e-9)
+      !is.unsorted(s) && on_its_path(s, track$path)
     if (!right) {
       crestline_abort(sprintf("%s has points that are not on it, in order.", said),
                       "Give a shape as fit_shape() or slide() returns it, whole.", stage = "shape",
@@ -304,4 +304,14 @@ check_tracks <- function(shape, scan) {
                       class = "crestline_wrong_mesh", call = NULL)
     }
   }
+}
+
+#' Whether points at rising arc lengths lie on a path: those of a closed one within one turn, which
+#' may cross its seam
+#' @param rounding Relative.
+#' @noRd
+on_its_path <- function(s, path, rounding = 1e-9) {
+  length <- attr(path, "length")
+  if (is_closed(path)) return(all(abs(s) <= 2 * length) && diff(range(s)) < length)
+  all(abs(s / length - 0.5) <= 0.5 + rounding)
 }

@@ -27,6 +27,8 @@ given_fits <- function(scan, curves) {
   }
   tolerance <- 0.01 * specimen_size(specimen)
   fits[names(curves)] <- Map(function(xyz, name) {
+    row <- scheme$curves[scheme$curves$curve == name, ]
+    if (closed_curves(row)) return(given_loop(row, xyz, scan, tolerance))
     given_fit(scheme$curves[scheme$curves$curve == name, ], xyz, scan, tolerance)
   }, curves, names(curves))
   fits
@@ -64,6 +66,62 @@ given_fit <- function(row, xyz, scan, tolerance) {
   }
   new_record(points = cbind(points[c(mesh_columns, "s")], se = NA_real_), path = joined$path,
              length = attr(joined$path, "length"), reason = said)
+}
+
+#' One given closed curve: its points on the mesh, joined by cuts, from that nearest to its landmark
+#' on, and in the direction of the scheme
+#'
+#' @param tolerance As in [given_fit()].
+#' @noRd
+given_loop <- function(row, xyz, scan, tolerance) {
+  xyz <- xyz[!is.na(rowSums(xyz)), , drop = FALSE]
+  n <- nrow(xyz)
+  if (n > 1 && all(xyz[1, ] == xyz[n, ])) xyz <- xyz[-n, , drop = FALSE]
+  n <- nrow(xyz)
+  if (n < 3) return(new_record(reason = "as given: it is closed, and has fewer than three points"))
+  knots <- columns_of(surface_points(scan, xyz))
+  off <- row_lengths(knots[, 1:3] - xyz)
+  joined <- if (max(off) > tolerance) {
+    list(problem = sprintf("a point is %.2g from the mesh", max(off)))
+  } else {
+    join_knots(knots[c(seq_len(n), 1), ], scan)
+  }
+  if (is.null(joined$path) || joined$first > 1) {
+    return(new_record(reason = paste("as given:", joined$problem)))
+  }
+  path <- joined$path
+  attr(path, "closed") <- TRUE
+  loop <- directed_loop(row, path, scan)
+  if (failed(loop)) return(new_record(reason = sub("\\.$", "", loop$problem)))
+  placed <- if (n == row$n) own_places(loop, knots) else spaced_points(scan, loop, row$n)
+  new_record(points = cbind(placed[c(mesh_columns, "s")], se = NA_real_), path = loop,
+             length = attr(loop, "length"),
+             reason = sprintf("as given: points up to %.2g from the mesh", max(off)))
+}
+
+#' Points of a loop in its order, from the one nearest to its start on
+#' @noRd
+own_places <- function(loop, knots) {
+  length <- attr(loop, "length")
+  s <- vapply(seq_len(nrow(knots)), function(i) nearest_along(loop, knots[i, 1:3]), 0)
+  # A point at the start may come out at the end.
+  s[s > length - min(diff(sort(s))) / 2] <- 0
+  order <- order(s)
+  frame_of(c(list(s = s[order]), lapply(stats::setNames(nm = mesh_columns),
+                                        function(name) knots[order, name])))
+}
+
+#' A closed path that begins where it is nearest to the landmark of a scheme's curve, and runs as
+#' the scheme has it
+#' @noRd
+directed_loop <- function(row, path, scan) {
+  stops <- lapply(c(row$from, via_names(row$via)), function(name) scan_place(scan, name))
+  lost <- Find(failed, stops)
+  if (!is.null(lost)) return(lost)
+  path <- begun_at(scan, path, nearest_along(path, stops[[1]][1:3]))
+  at <- vapply(stops[-1], function(stop) nearest_along(path, stop[1:3]), 0)
+  back <- if (length(at) < 2) seen_turn(scan, path) < 0 else sum(diff(at) < 0) > sum(diff(at) > 0)
+  if (back) reversed_loop(scan, path) else path
 }
 
 #' Whether the ends of points lie nearer to their landmarks when run backwards

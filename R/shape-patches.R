@@ -92,9 +92,9 @@ side_points_on <- function(side, n, ground) {
   if (isTRUE(scan$column$follow) && length(unique(side$curve)) == 1) {
     # At even shares of the way from point to point, so that they go along when those slide.
     fit <- ground$fits[[side$curve[1]]]
-    s <- stats::approx(seq_along(side$point), fit$points$s[side$point],
+    s <- stats::approx(seq_along(side$point), run_lengths(fit, side$point),
                        seq(1, length(side$point), length.out = n))$y
-    placed <- place_along(scan, fit$path, s)
+    placed <- place_along(scan, fit$path, within_path(fit$path, s))
   } else {
     path <- side_path(side, points, ground)
     if (failed(path)) return(list(points = spaced, problem = path$problem))
@@ -131,12 +131,25 @@ side_path <- function(side, points, ground) {
     }
     if (length(at) > 1) {
       fit <- ground$fits[[side$curve[at[1]]]]
-      s <- fit$points$s[side$point[range(at)]]
-      if (at[1] > at[length(at)]) s <- rev(s)
+      s <- run_lengths(fit, side$point[at])[c(1, length(at))]
       pieces <- c(pieces, list(part_of_path(scan, fit$path, s[1], s[2])))
     }
   }
   path_through(do.call(rbind, lapply(pieces, columns_of)), scan)
+}
+
+#' Arc lengths of points of a curve in their order; of a closed one they go on past its seam
+#'
+#' @param fit Record of the curve.
+#' @param point Numbers of the points.
+#' @noRd
+run_lengths <- function(fit, point) {
+  s <- fit$points$s[point]
+  if (!is_closed(fit$path)) return(s)
+  step <- diff(point)
+  n <- nrow(fit$points)
+  across <- c(0, ifelse(step == 1 - n, 1, ifelse(step == n - 1, -1, 0)))
+  s + attr(fit$path, "length") * cumsum(across)
 }
 
 #' Direction out of a patch at one of its columns, by the order of its corners

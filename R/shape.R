@@ -208,8 +208,9 @@ written_landmarks.shape <- function(x) {
   check_class(x, "shape", "x", "fit_shape()")
   # The curves of a shape as read_landmarks() has them
   points <- x$points[x$points$level == "curves", ]
+  closed <- x$scheme$curves$curve[closed_curves(x$scheme$curves)]
   curves <- lapply(stats::setNames(nm = unique(points$part)), function(name) {
-    landmark_curve(as.matrix(points[points$part == name, c("x", "y", "z")]))
+    landmark_curve(as.matrix(points[points$part == name, c("x", "y", "z")]), name %in% closed)
   })
   list(landmarks = coords(x, "landmarks"), curves = curves)
 }

@@ -157,12 +157,16 @@ slide_joint <- function(shape, cut, start, plan, specimen) {
 across_directions <- function(shape, store, specimen) {
   across <- matrix(NA_real_, nrow(store), 3, dimnames = list(rownames(store), NULL))
   normals <- vertex_normals(specimen$mesh)
-  for (place in rev(places_by_curve(shape$scheme))) {
+  by_curve <- rev(places_by_curve(shape$scheme))
+  closed <- with(shape$scheme$curves, curve[closed_curves(shape$scheme$curves)])
+  for (curve in names(by_curve)) {
+    place <- by_curve[[curve]]
     place <- place[!is.na(store[place, "x"])]
     n <- length(place)
     if (n < 3) next
     x <- store[place, c("x", "y", "z")]
-    along <- x[c(2:n, n), ] - x[c(1, 1:(n - 1)), ]
+    beyond <- if (curve %in% closed) c(1, n) else c(n, 1)
+    along <- x[c(2:n, beyond[1]), ] - x[c(beyond[2], 1:(n - 1)), ]
     corners <- specimen$mesh$it[, store[place, "face"]]
     weights <- t(store[place, c("w1", "w2", "w3")])
     normal <- t(vapply(seq_len(n), function(i) normals[1:3, corners[, i]] %*% weights[, i],
@@ -212,15 +216,23 @@ curve_errors <- function(shape, store, settings) {
 #' @noRd
 wanted_steps <- function(shape, start) {
   rows <- matrix(0, length(start$free), 8)
-  for (place in rev(places_by_curve(shape$scheme))) {
+  by_curve <- rev(places_by_curve(shape$scheme))
+  closed <- with(shape$scheme$curves, curve[closed_curves(shape$scheme$curves)])
+  for (curve in names(by_curve)) {
+    place <- by_curve[[curve]]
     place <- place[place %in% start$places]
     n <- length(place)
     if (n < 2) next
-    step <- diff(start$image[place, ])
+    round <- curve %in% closed
+    image <- start$image[if (round) place[c(seq_len(n), 1)] else place, ]
+    step <- diff(image)
     step <- step / pmax(rowSums(step^2), .Machine$double.xmin)
     at <- match(place, start$places)
     mine <- match(place, start$free)
-    own <- cbind(c(0, at[-n]), c(at[-1], 0), rbind(0, step), rbind(step, 0))
+    ends <- if (round) at[c(n, 1)] else c(0, 0)
+    seam <- if (round) step[n, ] else 0
+    inner <- step[seq_len(n - 1), , drop = FALSE]
+    own <- cbind(c(ends[1], at[-n]), c(at[-1], ends[2]), rbind(seam, inner), rbind(inner, seam))
     rows[mine[!is.na(mine)], ] <- own[!is.na(mine), ]
   }
   rows

@@ -199,6 +199,10 @@ with_places <- function(shape, store) {
 with_tracks <- function(shape, s, cutting) {
   for (name in names(s)) {
     track <- shape$tracks[[name]]
+    if (is_closed(track$path)) {
+      shape$tracks[[name]]$s <- from_seam(track$path, s[[name]])
+      next
+    }
     moved <- !identical(min(s[[name]], na.rm = TRUE), min(track$s, na.rm = TRUE))
     shape$tracks[[name]]$s <- s[[name]]
     if (!moved) next
@@ -231,7 +235,8 @@ slide_state <- function(shape, settings) {
   off <- !is.null(points$offset)
   for (curve in if (off) curves) {
     at <- off_landmarks(curve)
-    store[curve$place[at], c("x", "y", "z")] <- points_along(curve$path, curve$s[at])
+    store[curve$place[at], c("x", "y", "z")] <- points_along(curve$path,
+                                                             within_path(curve$path, curve$s[at]))
   }
   list(id = shape$id, store = store, curves = curves, off = off)
 }
@@ -246,8 +251,11 @@ curve_state <- function(track, place, settings) {
   nodes <- columns_of(path, c("s", "x", "y", "z", "face"))
   nodes[track$off, "face"] <- 0
   free_end <- track$cut && settings$cut_ends == "slide"
-  slides <- seq_len(n) < n & (seq_len(n) > 1 | free_end)
-  rows <- slider_rows(track$s, slides, track$kept / (n - 1), attr(path, "length"), settings)
+  closed <- is_closed(path)
+  slides <- closed | seq_len(n) < n & (seq_len(n) > 1 | free_end)
+  spacing <- track$kept / (if (closed) n else n - 1)
+  rows <- slider_rows(track$s, slides, spacing, attr(path, "length"), settings, closed)
+  if (closed) nodes <- unrolled_track(nodes)
   list(place = place, n = n, s = track$s, path = path, track = nodes, kept = track$kept,
        rows = rows)
 }
@@ -297,7 +305,8 @@ curves_placed <- function(state, s, mesh) {
     curve <- state$curves[[name]]
     at <- if (state$off) off_landmarks(curve) else curve$rows[, "point"]
     if (!length(at)) next
-    store[curve$place[at], mesh_columns] <- columns_of(place_along(mesh, curve$path, s[[name]][at]))
+    there <- place_along(mesh, curve$path, within_path(curve$path, s[[name]][at]))
+    store[curve$place[at], mesh_columns] <- columns_of(there)
     se <- store[curve$place, "se"]
     known <- !is.na(se) & !is.na(curve$s)
     if (sum(known) > 1) store[curve$place[at],

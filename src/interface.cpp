@@ -171,14 +171,14 @@ std::vector<crestline::Track> tracks(const List& paths) {
   return out;
 }
 
-// Columns point, track, s, before, after, low, high, rest_before, rest_after, gap, tolerance; point, track, before and after
+// Columns point, track, s, before, after, low, high, rest_before, rest_after, gap, tolerance, turn_before, turn_after; point, track, before and after
 // counted from 1, before and after 0 where there is none.
 std::vector<crestline::Slider> sliders_of(const NumericMatrix& rows) {
   std::vector<crestline::Slider> out;
   auto index = [&](int i, int column) { return static_cast<int>(rows(i, column)) - 1; };
   for (int i = 0; i < rows.nrow(); ++i)
     out.push_back({index(i, 0), index(i, 1), rows(i, 2), index(i, 3), index(i, 4), rows(i, 5), rows(i, 6),
-                   rows(i, 7), rows(i, 8), rows(i, 9), rows(i, 10)});
+                   rows(i, 7), rows(i, 8), rows(i, 9), rows(i, 10), rows(i, 11), rows(i, 12)});
   return out;
 }
 

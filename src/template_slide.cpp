@@ -55,11 +55,11 @@ struct Objective {
 };
 
 double place_before(const std::vector<Slider>& sliders, const Slider& p) {
-  return p.before < 0 ? p.low : sliders[p.before].s;
+  return p.before < 0 ? p.low : sliders[p.before].s - p.turn_before;
 }
 
 double place_after(const std::vector<Slider>& sliders, const Slider& p) {
-  return p.after < 0 ? p.high : sliders[p.after].s;
+  return p.after < 0 ? p.high : sliders[p.after].s + p.turn_after;
 }
 
 // Every spacing once: those before each slider, and those after the last ones.

@@ -17,6 +17,8 @@ struct Slider {
   double rest_before, rest_after;  // spacings at which the strain is 0; NaN: a free end, neither strain nor gap
   double gap;          // spacing that neighbours keep
   double tolerance;    // slide below which it counts as at rest
+  // On a closed path: its length where the slider before, after, is across the seam, else 0.
+  double turn_before, turn_after;
 };
 
 struct SlideSettings {

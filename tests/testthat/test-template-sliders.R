@@ -1,0 +1,25 @@
+test_that("the points of a closed track are neighbours across its seam", {
+  settings <- slide_settings()
+  rows <- slider_rows(c(1, 4, 7), rep(TRUE, 3), 3, 9, settings, TRUE)
+  expect_equal(unname(rows[, "before"]), c(3, 1, 2))
+  expect_equal(unname(rows[, "after"]), c(2, 3, 1))
+  expect_equal(unname(rows[, "turn_before"]), c(9, 0, 0))
+  expect_equal(unname(rows[, "turn_after"]), c(0, 0, 9))
+  expect_equal(unname(rows[, "rest_before"]), c(3, 3, 3))
+  expect_equal(unname(rows[, "rest_after"]), c(3, 3, 3))
+  # One of four is missing: its neighbours are two spacings apart.
+  rows <- slider_rows(c(NA, 2, 4, 6), rep(TRUE, 4), 2, 8, settings, TRUE)
+  expect_equal(unname(rows[, "rest_before"]), c(4, 2, 2))
+  open <- slider_rows(c(0, 4, 9), c(FALSE, TRUE, FALSE), 4.5, 9, settings)
+  expect_equal(unname(open[, c("turn_before", "turn_after")]), c(0, 0))
+})
+
+test_that("a closed track is run through three times", {
+  nodes <- cbind(s = c(0, 1, 3), x = c(0, 1, 0), y = 0, z = 0, face = c(1, 2, 3))
+  three <- unrolled_track(nodes)
+  expect_equal(unname(three[, "s"]), c(-3, -2, 0, 1, 3, 4, 6))
+  expect_equal(unname(three[, "x"]), c(0, 1, 0, 1, 0, 1, 0))
+  path <- structure(list(), length = 10, closed = TRUE)
+  expect_equal(from_seam(path, c(9, 12, 15)), c(-1, 2, 5))
+  expect_equal(within_path(path, c(-1, 2, 12)), c(9, 2, 2))
+})
