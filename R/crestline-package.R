@@ -15,8 +15,8 @@
 #'
 #' # Lifecycle
 #' Functions are meant to stay as they are. Those that are *experimental* say so in their help:
-#' simulation ([simulate_ridge()], [simulate_faces()], [simulate_cohort()]) and drawing step by step
-#' ([draw_surface()]).
+#' simulation ([simulate_ridge()], [simulate_faces()], [simulate_cohort()]), norms
+#' ([fit_norms()], [assess()]) and drawing step by step ([draw_surface()]).
 #' Former names are in [crestline-deprecated].
 #'
 #' # Functions by task
@@ -50,6 +50,8 @@
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
 #' * *Measurements*: [measurements()] of distances, angles, lengths, areas and volumes by a table
 #'   such as [face_measurements()].
+#' * *Norms by age and sex*: [fit_norms()] with [norm_settings()]; one face against them:
+#'   [assess()].
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
 #'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].

@@ -109,6 +109,11 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                         data.frame(curve = "top", from = "aL", to = "aR", kind = "ridge", n = 5,
                                    radius = 20, width = 20))
   ridged <- suppressWarnings(lapply(made$specimens[1:2], fit_shape, ridge, progress = FALSE))
+  people <- data.frame(age = 5 + (0:41) / 4, sex = c("female", "male"))
+  cohort <- simulate_cohort(42, data = people, template = symmetrise(shape), seed = 1)
+  quick <- norm_settings(components = 2, radii = 15, ranges = c(10, 30), bins = c(0, 1, 20, 70),
+                         folds = 2, least = 1)
+  norms <- fit_norms(cohort$sample, data = cohort$data, settings = quick, progress = FALSE)
   faces <- NULL
   fitted <- list(measuring = shape_settings(column_angles = 5))
   fitted_kinds <- c(measuring = "object")
@@ -265,6 +270,17 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                             n = "count", ages = "numbers", data = "object?", lesions = "object?",
                             visits = "count", template = "object?", settings = "object",
                             seed = "number?"),
+    norm_settings = fields(norm_settings, components = "count?", k = "count?", k_spread = "count?",
+                           folds = "count?"),
+    fit_norms = entry(given(sample = cohort$sample, formula = ~ s(age, by = sex),
+                            data = cohort$data, table = NULL, about = list(), share = FALSE,
+                            settings = quick, progress = FALSE),
+                      sample = "object", formula = "object", data = "object", table = "object?",
+                      about = "object", share = "flag", settings = "object", progress = "flag"),
+    assess = entry(given(shape = cohort$sample[[1]], norms = norms, age = 10, sex = "female",
+                         error = NULL, alpha = 0.05),
+                   shape = "object", norms = "object", age = "number", sex = "choice",
+                   error = "any", alpha = "number"),
     landmark_template = entry(given(specimen = one, predicted = character(), unit = 1, mirror = NA,
                                     start = NULL, hinge = character(), moves = character(),
                                     slit = character()),

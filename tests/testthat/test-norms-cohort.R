@@ -11,8 +11,8 @@ test_that("the mean of many faces is the expected face, and their spread is as s
     chosen <- cohort$data$sex == sex
     expect_lt(max(abs(rowMeans(own[, chosen]) - as.vector(expected))), 1)
   }
-  model <- crestline:::cohort_model(template, settings)
-  sd <- sqrt(sum(settings$variation$sd^2)) * crestline:::shape_spread(12, FALSE)
+  model <- cohort_model(template, settings)
+  sd <- sqrt(sum(settings$variation$sd^2)) * shape_spread(12, FALSE)
   shape <- own[, 1:200] / rep(cohort$data$size[1:200], each = nrow(own))
   off_middle <- rep(abs(model$places[, 1]) > 20, 3)
   expect_equal(mean(apply(shape[off_middle, ], 1, stats::sd)), sd, tolerance = 0.1)
@@ -40,7 +40,7 @@ test_that("a lesion is where and as high as it is said", {
 
 test_that("faces grow, are measured with error, and lose points in holes", {
   template <- symmetrise(argument_objects()$shapes[[1]])
-  size <- crestline:::mean_size
+  size <- mean_size
   expect_gt(size(20, TRUE), size(20, FALSE))
   expect_gt(size(13, FALSE) / size(11, FALSE), size(13, TRUE) / size(11, TRUE))
   people <- data.frame(age = 10, sex = "female")

@@ -33,7 +33,7 @@ test_that("lengths and areas are those of the shape's polylines and triangles", 
   expect_equal(value[["arc"]], arc("top") + arc("bottom"))
   mesh <- shape_mesh(shape)
   corner <- lapply(1:3, function(i) t(mesh$vb[1:3, mesh$it[i, ]]))
-  cross <- crestline:::cross_rows(corner[[2]] - corner[[1]], corner[[3]] - corner[[1]])
+  cross <- cross_rows(corner[[2]] - corner[[1]], corner[[3]] - corner[[1]])
   expect_equal(value[["face"]], sum(sqrt(rowSums(cross^2))) / 2)
   expect_equal(found$reason[5], "no draws")
   expect_equal(found$reason[1], "no standard error of its points")
@@ -42,9 +42,9 @@ test_that("lengths and areas are those of the shape's polylines and triangles", 
 test_that("a pyramid's volume over its base is a third of area times height", {
   corner <- rbind(c(0, 0, 0), c(3, 0, 0), c(0, 4, 0), c(1, 1, 5))
   sides <- cbind(c(1, 2, 4), c(2, 3, 4), c(3, 1, 4))
-  turn <- crestline:::rotation_about(c(0.3, -1, 2))
+  turn <- rotation_about(c(0.3, -1, 2))
   both <- array(c(corner, sweep(2 * corner %*% turn, 2, c(5, 6, 7), `+`)), c(4, 3, 2))
-  expect_equal(crestline:::volume_over(both, sides, 1:3), c(1, 8) * 6 * 5 / 3)
+  expect_equal(volume_over(both, sides, 1:3), c(1, 8) * 6 * 5 / 3)
 })
 
 test_that("measurements do not change with the pose, and follow the size", {
@@ -52,7 +52,7 @@ test_that("measurements do not change with the pose, and follow the size", {
   moved <- shape
   xyz <- as.matrix(shape$points[c("x", "y", "z")])
   moved$points[c("x", "y", "z")] <- as.data.frame(
-    2 * sweep(xyz %*% crestline:::rotation_about(c(1, 2, 3)), 2, c(9, 8, 7), `+`)
+    2 * sweep(xyz %*% rotation_about(c(1, 2, 3)), 2, c(9, 8, 7), `+`)
   )
   a <- measurements(shape, ball_measurements(), error = 1)
   b <- measurements(moved, ball_measurements(), error = 2)
@@ -95,7 +95,7 @@ test_that("a sample gives a row for each shape, and what is missing says why", {
 })
 
 test_that("the table of the face fits its scheme; wrong tables are refused by name", {
-  plan <- crestline:::measurement_plan(face_measurements(), face_scheme())
+  plan <- measurement_plan(face_measurements(), face_scheme())
   expect_length(plan, nrow(face_measurements()))
   shape <- ball_shape()
   table <- ball_measurements()

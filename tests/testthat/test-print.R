@@ -16,7 +16,8 @@ printable_objects <- function(made = argument_objects()) {
        repeatability(made$shapes[1:4], c("a", "a", "b", "b")), keep_away("aL", "aR"),
        keep_side("aL", "aR", "n"),
        curvature(one, 20), ridge_settings(), find_settings(), slide_settings(),
-       path_settings(), cohort_settings(),
+       path_settings(), cohort_settings(), norm_settings(), small_norms(),
+       suppressWarnings(assess(small_patient(), small_norms(), 10, "female")),
        simulate_cohort(2, template = symmetrise(shape), seed = 1),
        bending_energy(shape), suggest_landmarks(one, 20),
        suppressWarnings(check_scheme(made$scheme, one)),
@@ -38,7 +39,7 @@ test_that("every class prints a header that names it", {
   # Summaries print their object's header; a kept shape prints as the shape that it is read as.
   methods <- setdiff(methods,
                      c("comparison_summary", "crestline_summary", "summary_shape_pca",
-                       "kept_shape"))
+                       "kept_shape", "norms_summary"))
   says <- function(class) {
     body <- deparse(body(utils::getS3method("print", class, envir = asNamespace("crestline"))))
     any(grepl(paste0("<", class, ">"), body, fixed = TRUE))

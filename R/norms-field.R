@@ -1,0 +1,195 @@
+# Deviations of all points of a face together: few components, and a kernel for the rest.
+
+#' The norm of a set of points
+#'
+#' Co-ordinates are smoothed by age, each column apart. The standardised deviations u have the
+#' correlation V diag(values) V' + I_3 x K + P (large I) P': components V, a kernel of distances K,
+#' and pose and scale P, which are left free.
+#'
+#' @param y n x 3k: co-ordinates, all x first.
+#' @param points k x 3: the reference; `normal`: k x 3.
+#' @param people List: `age`, `group`.
+#' @param plan List: `size` (of [smooth_columns()]), `components`, `ranges`, `bins`.
+#' @return List: `points`, `normal`, `columns`, `along` (norm of the part along the normal), `sd`
+#'   (3k: mean spread), `vectors` (3k x K), `values` (K), `kernel` (nugget, and a weight a range),
+#'   `ranges`.
+#' @noRd
+fit_field <- function(y, points, normal, people, plan) {
+  unit <- plan$unit
+  columns <- smooth_columns(y, people$age, people$group, plan$size, rep(unit, ncol(y)))
+  expected <- expected_columns(columns, people$age, people$group)
+  along <- smooth_columns(normal_part(y, points, normal), people$age, people$group, plan$size,
+                          rep(unit, nrow(points)))
+  u <- (y - expected$mean) / expected$sd
+  sd <- colMeans(expected$sd)
+  rm(expected)
+  parts <- leading_parts(u, plan$components)
+  left <- u - tcrossprod(u %*% parts$vectors, parts$vectors)
+  kernel <- fit_kernel(left, points, plan) * nrow(u) / max(1, nrow(u) - plan$components - 10)
+  list(points = points, normal = normal, columns = columns, along = along,
+       sd = rounded_to(sd, 1e-4), vectors = rounded_to(parts$vectors, 1e-4),
+       values = signif(parts$values, 6), kernel = signif(kernel, 6), ranges = plan$ranges)
+}
+
+#' n x k: how far along the normals points are from the reference
+#' @noRd
+normal_part <- function(y, points, normal) {
+  k <- nrow(points)
+  Reduce(`+`, lapply(1:3, function(d) {
+    off <- y[, (d - 1) * k + seq_len(k), drop = FALSE] - rep(points[, d], each = nrow(y))
+    off * rep(normal[, d], each = nrow(y))
+  }))
+}
+
+#' Main axes of the rows of a matrix that is centred, signs by the largest entry
+#' @return List: `vectors`, `values` (mean squares along them).
+#' @noRd
+leading_parts <- function(u, components) {
+  if (components < 1) return(list(vectors = matrix(0, ncol(u), 0), values = numeric()))
+  found <- RSpectra::svds(u, components, nu = 0, nv = components)
+  v <- found$v
+  largest <- v[cbind(max.col(t(abs(v)), "first"), seq_len(ncol(v)))]
+  list(vectors = v * rep(sign(largest), each = nrow(v)), values = found$d^2 / nrow(u))
+}
+
+#' Weights of the nugget and of Gaussian kernels by the covariances at some distances
+#'
+#' @param left n x 3k: what the components leave of u.
+#' @param plan List: `ranges`, `bins` (edges of the distances), `nugget` (its least weight).
+#' @noRd
+fit_kernel <- function(left, points, plan) {
+  k <- nrow(points)
+  distance <- as.matrix(stats::dist(points))
+  upper <- which(upper.tri(distance, TRUE))
+  pairs <- Reduce(`+`, lapply(1:3, function(d) {
+    crossprod(left[, (d - 1) * k + seq_len(k), drop = FALSE])[upper]
+  })) / (3 * nrow(left))
+  bin <- cut(distance[upper], plan$bins, labels = FALSE, include.lowest = TRUE)
+  count <- tabulate(bin, length(plan$bins) - 1)
+  mean_of <- function(value) as.vector(tapply(value, factor(bin, seq_along(count)), mean))
+  there <- count > 0
+  at <- mean_of(distance[upper])[there]
+  covariance <- pmax(mean_of(pairs)[there], 0)
+  design <- cbind(as.numeric(at < plan$bins[2]),
+                  vapply(plan$ranges, function(range) exp(-at^2 / (2 * range^2)), at))
+  weight <- sqrt(pmin(count[there], 5000))
+  found <- non_negative(design * weight, covariance * weight)
+  replace(found, 1, max(found[1], plan$nugget))
+}
+
+#' Least squares with coefficients of at least 0: the best of all sets of columns
+#' @noRd
+non_negative <- function(x, y) {
+  best <- list(left = sum(y^2), coef = numeric(ncol(x)))
+  for (set in seq_len(2^ncol(x) - 1)) {
+    chosen <- which(bitwAnd(set, 2^(seq_len(ncol(x)) - 1)) > 0)
+    coef <- qr.coef(qr(x[, chosen, drop = FALSE]), y)
+    if (anyNA(coef) || any(coef < 0)) next
+    left <- sum((y - x[, chosen, drop = FALSE] %*% coef)^2)
+    if (left < best$left) best <- list(left = left, coef = replace(numeric(ncol(x)), chosen, coef))
+  }
+  best$coef
+}
+
+#' The kernel's correlation between points, without the nugget
+#' @noRd
+kernel_between <- function(field, rows = seq_len(nrow(field$points)), columns = rows) {
+  a <- field$points[rows, , drop = FALSE]
+  b <- field$points[columns, , drop = FALSE]
+  squares <- pmax(0, outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b))
+  Reduce(`+`, Map(function(weight, range) weight * exp(-squares / (2 * range^2)),
+                  field$kernel[-1], field$ranges))
+}
+
+#' Pose and scale of the reference over the mean spread, 3k x 7, orthonormal
+#' @noRd
+pose_directions <- function(field) {
+  k <- nrow(field$points)
+  m <- sweep(field$points, 2, colMeans(field$points))
+  zero <- numeric(k)
+  one <- rep(1, k)
+  moves <- cbind(c(one, zero, zero), c(zero, one, zero), c(zero, zero, one),
+                 c(-m[, 2], m[, 1], zero), c(m[, 3], zero, -m[, 1]), c(zero, -m[, 3], m[, 2]),
+                 as.vector(m))
+  qr.Q(qr(moves / field$sd))
+}
+
+#' The inverse of the correlation of u, as what is needed to apply it (Woodbury)
+#'
+#' @param extra Variance added to each point (3k): large where a point is left out.
+#' @param free Variance of pose and scale.
+#' @return List: `solve_kernel` (a function), `kernel_diagonal` (of the kernel's inverse), `basis`
+#'   (3k x (K + 7)), `inner` (the inverse of its matrix), `solved` (the kernel's inverse times the
+#'   basis).
+#' @noRd
+invert_field <- function(field, extra = 0, free = 1e6) {
+  k <- nrow(field$points)
+  extra <- rep_len(extra, 3 * k)
+  kernel <- kernel_between(field)
+  own <- lapply(1:3, function(d) field$kernel[1] + 1e-6 + extra[(d - 1) * k + seq_len(k)])
+  made <- lapply(unique(own), function(variance) chol(kernel + diag(variance)))
+  at <- match(own, unique(own))
+  roots <- made[at]
+  diagonal <- unlist(lapply(made, function(root) diag(chol2inv(root)))[at])
+  solve_kernel <- function(x) {
+    do.call(rbind, lapply(1:3, function(d) {
+      own <- x[(d - 1) * k + seq_len(k), , drop = FALSE]
+      backsolve(roots[[d]], backsolve(roots[[d]], own, transpose = TRUE))
+    }))
+  }
+  basis <- cbind(field$vectors, pose_directions(field))
+  solved <- solve_kernel(basis)
+  inner <- diag(c(1 / field$values, rep(1 / free, 7)), ncol(basis)) + crossprod(basis, solved)
+  list(solve_kernel = solve_kernel, kernel_diagonal = diagonal, basis = basis, solved = solved,
+       inner = chol2inv(chol(inner)))
+}
+
+apply_inverse <- function(inverse, x) {
+  x <- as.matrix(x)
+  y <- inverse$solve_kernel(x)
+  y - inverse$solved %*% (inverse$inner %*% crossprod(inverse$solved, x))
+}
+
+#' Weights of the scan: a column for each centre
+#'
+#' t = w' u has variance 1 under the field, and is the best test of a bump along the normals there.
+#' @return List: `weights` (list by radius of 3k x k matrices), `scale` (k x radii: by what the
+#'   inverse's product with a bump is divided).
+#' @noRd
+scan_weights <- function(field, radii, inverse = invert_field(field)) {
+  distance <- as.matrix(stats::dist(field$points))
+  scale <- matrix(0, nrow(distance), length(radii))
+  weights <- list()
+  for (q in seq_along(radii)) {
+    height <- bump(distance, radii[q])
+    lesion <- rbind(height * field$normal[, 1], height * field$normal[, 2],
+                    height * field$normal[, 3]) / field$sd
+    w <- apply_inverse(inverse, lesion)
+    scale[, q] <- sqrt(pmax(colSums(w * lesion), 1e-300))
+    weights[[q]] <- w / rep(scale[, q], each = nrow(w))
+  }
+  list(weights = weights, scale = scale)
+}
+
+#' The scan's statistics without its weights: of many faces the shorter way
+#'
+#' @param u 3k x n.
+#' @param scale Of [scan_weights()].
+#' @return List by radius of n x k.
+#' @noRd
+scan_statistics <- function(field, u, radii, scale, inverse) {
+  k <- nrow(field$points)
+  solved <- apply_inverse(inverse, u) * (as.vector(field$normal) / field$sd)
+  along <- Reduce(`+`, lapply(1:3, function(d) solved[(d - 1) * k + seq_len(k), , drop = FALSE]))
+  distance <- as.matrix(stats::dist(field$points))
+  lapply(seq_along(radii), function(q) {
+    t(crossprod(bump(distance, radii[q]), along) / scale[, q])
+  })
+}
+
+#' Standardised deviations of faces, n x 3k
+#' @noRd
+field_deviations <- function(field, y, age, group) {
+  expected <- expected_columns(field$columns, age, group)
+  (y - expected$mean) / expected$sd / sqrt(1 + expected$h)
+}

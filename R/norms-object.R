@@ -1,0 +1,255 @@
+# A norm as an object: its parts, its rules, what it prints.
+
+#' A norm from what was fitted and held out
+#'
+#' @param made,plan As in [fit_parts()].
+#' @param parts Of [fit_parts()]; `held` of [cross_validated()].
+#' @noRd
+new_shape_norms <- function(made, parts, held, plan, settings) {
+  people <- made$people
+  components <- paste("component", seq_len(plan$components))
+  table <- data.frame(name = c(colnames(made$values), components),
+                      transform = c(made$transform, rep("as is", plan$components)), se_norm = 0)
+  skew <- skew_table(held$z)
+  z <- straightened(held$z, skew)
+  parts$surface$scan <- scan_limits(held$surface$t, parts$surface, people, plan)
+  parts$surface$rough <- signif(stats::median(held$surface$rough), 6)
+  if (!is.null(parts$asymmetry)) {
+    parts$asymmetry$scan <- scan_limits(held$asymmetry$t, parts$asymmetry, people, plan)
+    parts$asymmetry$rough <- signif(stats::median(held$asymmetry$rough), 6)
+  }
+  n <- length(people$age)
+  measured <- which(!colnames(z) %in% c("size", components))
+  limits <- list(map = limit_quantiles(held$map),
+                 components = limit_quantiles(rowSums(z[, components, drop = FALSE]^2)),
+                 measurements = if (length(measured)) {
+                   limit_quantiles(apply(abs(z[, measured, drop = FALSE]), 1, max))
+                 })
+  effective <- effective_faces(parts, people$age, people$group)
+  structure(
+    list(points = made$points, triangles = made$triangles, n = n, ages = age_ranges(people),
+         counts = year_counts(people), names = people$names, measurements = made$table,
+         table = cbind(table, skew), values = parts$values, surface = parts$surface,
+         asymmetry = parts$asymmetry, limits = limits,
+         privacy = c(privacy_figures(held$privacy), list(least = signif(min(effective), 4))),
+         settings = unclass(settings), scheme = NULL, about = list(),
+         cache = new.env(parent = emptyenv())),
+    class = "shape_norms"
+  )
+}
+
+age_ranges <- function(people) {
+  each <- lapply(split(people$age, people$group), range)
+  data.frame(sex = names(each), from = vapply(each, `[`, 0, 1), to = vapply(each, `[`, 0, 2),
+             row.names = NULL)
+}
+
+year_counts <- function(people) {
+  count <- as.data.frame(table(sex = people$group, year = floor(people$age)),
+                         stringsAsFactors = FALSE)
+  count$year <- as.integer(count$year)
+  count <- count[count$Freq > 0, ]
+  data.frame(sex = count$sex, from = count$year, to = count$year + 1L, n = count$Freq,
+             row.names = NULL)[order(count$sex, count$year), ]
+}
+
+#' Counts below 5 merged with the next years
+#' @noRd
+merged_counts <- function(counts, least = 5) {
+  each <- lapply(split(counts, counts$sex), function(one) {
+    kept <- NULL
+    for (i in seq_len(nrow(one))) {
+      small <- NROW(kept) && kept$n[nrow(kept)] < least
+      if (small) {
+        kept$n[nrow(kept)] <- kept$n[nrow(kept)] + one$n[i]
+        kept$to[nrow(kept)] <- one$to[i]
+      } else {
+        kept <- rbind(kept, one[i, ])
+      }
+    }
+    last <- nrow(kept)
+    if (last > 1 && kept$n[last] < least) {
+      kept$n[last - 1] <- kept$n[last - 1] + kept$n[last]
+      kept$to[last - 1] <- kept$to[last]
+      kept <- kept[-last, ]
+    }
+    kept
+  })
+  merged <- do.call(rbind, unname(each))
+  rownames(merged) <- NULL
+  merged
+}
+
+#' Effective number of faces behind the mean at an age: 1 over the leverage
+#'
+#' @param parts List with `values` (size first) and `surface`.
+#' @param share Quantile of the leverages of points that counts.
+#' @noRd
+effective_faces <- function(parts, age, group, share = 0.5) {
+  size <- expected_columns(parts$values, age, group)$h[, 1]
+  h <- expected_columns(parts$surface$columns, age, group)$h
+  points <- apply(h, 1, stats::quantile, share, names = FALSE)
+  1 / pmax(size, points)
+}
+
+#' Four numbers a column of the sinh-arcsinh transformation of held-out z, NA where there is none
+#'
+#' @param skewed Absolute skewness above which it is used.
+#' @param fewest Number of faces from which it is used: the standard error of a skewness is sqrt(6 /
+#'   n).
+#' @noRd
+skew_table <- function(z, skewed = 0.3, fewest = 500) {
+  found <- matrix(NA_real_, ncol(z), 4, dimnames = list(NULL, paste0("skew_", 1:4)))
+  centred <- sweep(z, 2, colMeans(z))
+  skewness <- colMeans(centred^3) / colMeans(centred^2)^1.5
+  for (j in which(abs(skewness) > skewed & nrow(z) >= fewest)) found[j, ] <- fit_skew(z[, j])
+  as.data.frame(found)
+}
+
+#' Place, scale, skewness and tail of a sinh-arcsinh distribution by maximum likelihood (Jones and
+#' Pewsey)
+#' @noRd
+fit_skew <- function(z) {
+  loss <- function(p) {
+    x <- (z - p[1]) / exp(p[2])
+    inner <- exp(p[4]) * asinh(x) - p[3]
+    s <- sinh(inner)
+    -sum(p[4] + log(cosh(inner)) - 0.5 * log1p(x^2) - s^2 / 2 - p[2])
+  }
+  found <- stats::optim(c(0, 0, 0, 0), loss, method = "BFGS", control = list(maxit = 500))
+  if (found$convergence != 0) return(rep(NA_real_, 4))
+  signif(c(found$par[1], exp(found$par[2]), found$par[3], exp(found$par[4])), 8)
+}
+
+#' z after the transformation of its column
+#' @noRd
+straightened <- function(z, skew) {
+  for (j in which(!is.na(skew$skew_1))) {
+    p <- unlist(skew[j, paste0("skew_", 1:4)])
+    z[, j] <- sinh(p[4] * asinh((z[, j] - p[1]) / p[2]) - p[3])
+  }
+  z
+}
+
+#' Root mean square standard errors of log size and of measurements, on their scales, by some faces
+#' @param most Number of faces that are measured with their errors.
+#' @noRd
+value_errors <- function(sample, norms, most = 50) {
+  chosen <- unique(round(seq(1, length(sample), length.out = min(most, length(sample)))))
+  each <- lapply(sample$shapes[chosen], function(shape) own_errors(shape, norms)$se)
+  squares <- rowMeans(do.call(cbind, each)^2, na.rm = TRUE)
+  signif(ifelse(is.finite(squares), sqrt(squares), 0), 4)
+}
+
+#' Log size and measurements of a shape with their standard errors, on the norm's scales
+#' @return List: `value`, `se` (NA where unknown).
+#' @noRd
+own_errors <- function(shape, norms, error = NULL, draws = 100) {
+  points <- shape$points[shape$points$level == "surface", ]
+  row <- match(norms$points$point, paste(points$part, points$point))
+  xyz <- as.matrix(points[row, c("x", "y", "z")])
+  laid <- lay_face(xyz, as.matrix(norms$points[c("x", "y", "z")]))
+  off <- sweep(xyz, 2, colMeans(xyz, na.rm = TRUE))
+  # Of log size: each point moves it by its distance from the centre over the size's square.
+  se <- sqrt(sum(points$se[row]^2 * rowSums(off^2))) / laid$size^2
+  found <- list(value = log(laid$size), se = se)
+  if (!NROW(norms$measurements)) return(found)
+  own <- measurements(shape, norms$measurements, error = error, draws = draws)
+  logs <- norms$table$transform[1 + seq_len(nrow(own))] == "log"
+  positive <- !is.na(own$value) & own$value > 0
+  scaled <- ifelse(logs, ifelse(positive, log(pmax(own$value, 1e-300)), NA), own$value)
+  list(value = c(found$value, scaled), se = c(se, ifelse(logs, own$se / own$value, own$se)))
+}
+
+#' The rule of components
+#' @noRd
+check_shared_components <- function(plan, n, call = rlang::caller_env()) {
+  most <- n %/% 50
+  if (plan$components > most) {
+    crestline_abort(sprintf("%s of %d faces are too many to share: at most %d (a fiftieth).",
+                            amount(plan$components, "component"), n, most),
+                    sprintf("Give more faces, or norm_settings(components = %d).", max(most, 1)),
+                    stage = "norms", class = "crestline_privacy", call = call)
+  }
+}
+
+#' The rules of ages and of membership
+#'
+#' @param least Least effective number of faces at any age.
+#' @param ratio,auc Limits of the attack.
+#' @noRd
+check_shared <- function(norms, least = 10, ratio = 0.95, auc = 0.60,
+                         call = rlang::caller_env()) {
+  refuse <- function(problem, remedy) {
+    crestline_abort(problem, remedy, stage = "norms", class = "crestline_privacy", call = call)
+  }
+  own <- norms$privacy
+  if (own$least < least) {
+    refuse(sprintf(paste("at some age the mean is decided by %.2g faces: a lone person of one age",
+                         "would be published (least %g)."), own$least, least),
+           "Leave out the faces at the ends or in gaps of the ages.")
+  }
+  if (own$ratio < ratio || own$auc > auc) {
+    said <- "members can be told from strangers: ratio %.3f (least %g), area %.3f (most %g)."
+    refuse(sprintf(said, own$ratio, ratio, own$auc, auc),
+           "Give fewer components or more faces; keep this norm in your laboratory.")
+  }
+  said <- "Privacy: ratio %.3f, area under the curve %.3f, least effective number %.3g."
+  crestline_inform(sprintf(said, own$ratio, own$auc, own$least))
+}
+
+#' The rules of a norm
+#' @noRd
+validate_shape_norms <- function(x) {
+  parts <- c("points", "n", "ages", "counts", "table", "values", "surface", "limits", "settings",
+             "scheme")
+  ok <- is.list(x) && all(parts %in% names(x)) && is.data.frame(x$points) &&
+    is.data.frame(x$table) && is.environment(x$cache) &&
+    length(x$surface$sd) == 3 * nrow(x$points) &&
+    nrow(x$table) == length(x$values$groups[[1]]$lambda)
+  if (!isTRUE(ok)) {
+    crestline_abort("the norm is damaged.", "Make it with fit_norms() or read_norms().",
+                    stage = "norms", call = NULL)
+  }
+  invisible(x)
+}
+
+#' @exportS3Method
+validate.shape_norms <- function(x) validate_shape_norms(x)
+
+#' @export
+print.shape_norms <- function(x, ...) {
+  check_method_dots(...)
+  printed(x, {
+    cat("<shape_norms> ", if (length(x$about$name)) paste0(x$about$name, ": "),
+        amount(x$n, "face"), ", scheme ", x$scheme$name, "\n", sep = "")
+    for (i in seq_len(nrow(x$ages))) {
+      cat(sprintf("  %s: %.3g to %.3g years\n", x$ages$sex[i], x$ages$from[i], x$ages$to[i]))
+    }
+    cat(sprintf("  size, %s, %s, %s%s\n", amount(NROW(x$measurements), "measurement"),
+                amount(length(x$surface$values), "component"),
+                amount(nrow(x$points), "surface point"),
+                if (is.null(x$asymmetry)) "" else ", asymmetry"))
+    cat(sprintf("  least effective number at an age of the sample: %.3g (below %g is refused)\n",
+                x$privacy$least, x$settings$least))
+    cat(sprintf("  told from strangers: ratio %.3f, area under the curve %.3f\n", x$privacy$ratio,
+                x$privacy$auc))
+    invisible(x)
+  })
+}
+
+#' @export
+summary.shape_norms <- function(object, ...) {
+  check_method_dots(...)
+  lines <- c(printed_lines(object), vapply(names(object$about), function(name) {
+    paste0("  ", name, ": ", object$about[[name]])
+  }, ""))
+  structure(list(lines = lines, counts = object$counts), class = "norms_summary")
+}
+
+#' @export
+print.norms_summary <- function(x, ...) {
+  cat(x$lines, sep = "\n")
+  print(x$counts, row.names = FALSE)
+  invisible(x)
+}

@@ -1,0 +1,141 @@
+# One face in the space of a norm: laid, standardised, its missing points and its errors known.
+
+#' A face as the norm sees it
+#'
+#' @return List: `xyz` (k x 3, laid), `scale`, `turn`, `missing` (k), `y` (1 x 3k, missing points
+#'   made up by the surface around them), `expected`, `u` (3k), `excess` (3k: variance of u that a
+#'   worse scan adds), `se` (k), `errors` ("given", "estimated"), `rough` (factor).
+#' @noRd
+patient_surface <- function(shape, norms, age, sex) {
+  points <- shape$points[shape$points$level == "surface", ]
+  row <- match(norms$points$point, paste(points$part, points$point))
+  xyz <- as.matrix(points[row, c("x", "y", "z")])
+  if (sum(!is.na(xyz[, 1])) < 0.5 * nrow(xyz)) {
+    crestline_abort("more than half of its surface points are missing.",
+                    "Measure it again, with the landmarks that it lacks.", stage = "norms",
+                    id = shape$id)
+  }
+  laid <- lay_face(xyz, as.matrix(norms$points[c("x", "y", "z")]))
+  field <- prepared_field(norms, "surface")
+  found <- standardised_face(field, as.vector(laid$laid), age, sex)
+  se <- points$se[row] * laid$scale
+  c(list(xyz = matrix(found$y, ncol = 3), scale = laid$scale, missing = is.na(xyz[, 1]), se = se),
+    found, excess_variance(field, found, rep(se, 3), rep(norms$points$se_norm, 3)))
+}
+
+#' The same of its asymmetry on one side
+#' @noRd
+patient_asymmetry <- function(patient, norms, age, sex) {
+  if (is.null(norms$asymmetry)) return(NULL)
+  partner <- norms$points$partner
+  side <- which(norms$points$side)
+  laid <- patient$xyz
+  laid[patient$missing, ] <- NA
+  off <- asymmetric_part(laid, partner)[side, ]
+  field <- prepared_field(norms, "asymmetry")
+  found <- standardised_face(field, as.vector(off), age, sex)
+  both <- function(se) sqrt(se[side]^2 + se[partner[side]]^2) / 2
+  c(list(missing = is.na(off[, 1])), found,
+    excess_variance(field, found, rep(both(patient$se), 3),
+                    rep(both(norms$points$se_norm), 3)))
+}
+
+#' A field with its inverse and the scan's weights, made once a session
+#' @noRd
+prepared_field <- function(norms, name) {
+  if (is.null(norms$cache[[name]])) {
+    field <- norms[[name]]
+    field$inverse <- invert_field(field)
+    field$weights <- scan_weights(field, field$scan$radii, field$inverse)$weights
+    field$own_variance <- 1 / inverse_diagonal(field$inverse)
+    assign(name, field, norms$cache)
+  }
+  norms$cache[[name]]
+}
+
+#' Standardised deviations of one face; of missing points what the others make expected
+#' @param y 3k, NA where missing.
+#' @noRd
+standardised_face <- function(field, y, age, sex) {
+  expected <- expected_columns(field$columns, age, sex)
+  spread <- as.vector(expected$sd * sqrt(1 + expected$h))
+  u <- (y - as.vector(expected$mean)) / spread
+  out <- is.na(u)
+  if (any(out)) u <- given_the_rest(field, replace(u, out, 0), out)$fit
+  list(u = u, y = as.vector(expected$mean) + u * spread, expected = expected, spread = spread)
+}
+
+#' What is expected at points that are left out, given all others
+#'
+#' @param out 3k, which co-ordinates are left out.
+#' @param extra The variance that leaves them out.
+#' @return List: `fit` (3k: u itself outside), `variance` (3k: of u given the others, 0 outside).
+#' @noRd
+given_the_rest <- function(field, u, out, extra = 1e5) {
+  inverse <- invert_field(field, ifelse(out, extra, 0))
+  solved <- as.vector(apply_inverse(inverse, u))
+  variance <- pmax(1 / inverse_diagonal(inverse) - extra, 0)
+  list(fit = ifelse(out, u - extra * solved, u), variance = ifelse(out, variance, 0))
+}
+
+#' Variance of u that this scan has beyond the norm's own
+#'
+#' By the standard errors of its points where at least half have one; else by how rough it is: the
+#' median squared residual from what the neighbours make expected, over that of held-out faces.
+#' @noRd
+excess_variance <- function(field, found, se, se_norm) {
+  spread <- as.vector(found$expected$sd)
+  if (mean(!is.na(se)) >= 0.5) {
+    base <- ifelse(is.na(se_norm), 0, se_norm^2)
+    excess <- pmax(0, se^2 - base) / spread^2
+    excess[is.na(excess)] <- 0
+    return(list(excess = excess, errors = "given", rough = NA_real_))
+  }
+  rough <- roughness(field$inverse, as.matrix(found$u))$median / field$rough
+  list(excess = (max(1, rough) - 1) * field$own_variance, errors = "estimated", rough = rough)
+}
+
+#' The scan of one face: every centre and radius
+#'
+#' @return List: `z` (k x radii), `largest`, `p`, `at` (row), `radius`.
+#' @noRd
+scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$points))) {
+  t <- lapply(field$weights, function(w) crossprod(found$u, w))
+  extra <- lapply(field$weights, function(w) crossprod(found$excess, w^2))
+  maps <- scan_maps(t, field$scan, age, factor(sex, names(field$scan$by_age)), extra)
+  z <- vapply(maps$z, as.vector, numeric(nrow(field$points)))
+  z <- matrix(z, nrow(field$points))
+  free <- z
+  free[but, ] <- 0
+  best <- arrayInd(which.max(abs(free)), dim(z))
+  list(z = z, largest = abs(free[best]), at = best[1], radius = field$scan$radii[best[2]],
+       p = tail_p(abs(free[best]), field$scan$quantiles))
+}
+
+#' The face healed: discs where the scan finds something are made up from the rest
+#'
+#' @param alpha Level of the scan.
+#' @param reach Radius of the disc as a multiple of the scan's.
+#' @param most Most discs.
+#' @return List: `found` (data frame `at`, `radius`, `z`), `out` (k), `u` (3k, healed), `variance`
+#'   (3k), `scan` (the first), `finished` (whether the rest has no more).
+#' @noRd
+heal_face <- function(field, found, age, sex, missing, alpha, reach = 1.2, most = 5) {
+  out <- missing
+  healed <- list(u = found$u, variance = 0 * found$u)
+  first <- scan <- scanned_face(field, found, age, sex, out)
+  hits <- data.frame(at = integer(), radius = numeric(), z = numeric())
+  while (scan$p <= alpha && nrow(hits) < most) {
+    centre <- field$points[scan$at, ]
+    disc <- row_lengths(sweep(field$points, 2, centre)) <= reach * scan$radius
+    # Less than half of the face says nothing about the rest.
+    if (mean(out | disc) > 0.5) break
+    out <- out | disc
+    hits <- rbind(hits, data.frame(at = scan$at, radius = scan$radius,
+                                   z = scan$z[scan$at, match(scan$radius, field$scan$radii)]))
+    made <- given_the_rest(field, found$u, rep(out, 3))
+    healed <- list(u = made$fit, variance = made$variance)
+    scan <- scanned_face(field, utils::modifyList(found, list(u = made$fit)), age, sex, out)
+  }
+  c(list(found = hits, out = out & !missing, scan = first, finished = scan$p > alpha), healed)
+}

@@ -1,0 +1,255 @@
+# How good are norms? Simulated cohorts of known truth: calibration, family-wise errors, lesions,
+# the healed face, errors of the scan, privacy, speed.
+#
+#   Rscript bench/norms.R fit N SEED [SYMMETRIC]  one norm of N faces: time, memory, privacy; kept
+#                                                 as norms-N-SEED.rds in $CRESTLINE_NORMS
+#   Rscript bench/norms.R look N SEED [FACES]     everything else of that norm, by FACES new faces
+#
+# Each row printed is `what value count`. Faces have the fields, errors and ages of
+# simulate_cohort(); new faces go through the same functions as assess() uses, many at once.
+
+suppressPackageStartupMessages(library(crestline))
+options(rgl.useNULL = TRUE)
+arguments <- commandArgs(TRUE)
+mode <- arguments[1]
+n <- as.integer(arguments[2])
+seed <- as.integer(arguments[3])
+own <- function(name) getFromNamespace(name, "crestline")
+folder <- Sys.getenv("CRESTLINE_NORMS", tempdir())
+file <- file.path(folder, sprintf("norms-%d-%d.rds", n, seed))
+say <- function(what, value, count = NA) {
+  cat(sprintf("%-52s %s %s\n", what, paste(signif(value, 3), collapse = " "),
+              if (is.na(count)) "" else paste0("(", count, ")")))
+}
+
+if (mode == "fit") {
+  share <- if (length(arguments) > 3) as.numeric(arguments[4]) else 0.5
+  settings <- cohort_settings(symmetric = share)
+  cohort <- simulate_cohort(n, seed = seed, settings = settings)
+  gc(reset = TRUE)
+  time <- system.time(norms <- fit_norms(cohort$sample, ~ s(age, by = sex), cohort$data,
+                                         progress = FALSE))
+  say("fit, seconds elapsed, user", time[c(3, 1)])
+  say("fit, MB at most above what was there", sum(gc()[, 6]))
+  say("privacy: ratio, auc, least effective", unlist(norms$privacy))
+  saveRDS(list(norms = norms, settings = settings), file)
+}
+
+# New faces: data as fit_parts() has it, from a seed of their own.
+new_faces <- function(norms, settings, count, seed, lesions = NULL, truth = FALSE) {
+  template <- own("cohort_template")()
+  model <- own("cohort_model")(template, settings)
+  given <- own("check_lesions")(lesions, count, model)
+  drawn <- own("with_seed")(seed, own("draw_people")(model, count, c(4, 39), NULL, given, settings,
+                                                      1))
+  xyz <- drawn$visits[[1]]
+  plan <- own("measurement_plan")(norms$measurements, template$scheme)
+  measured <- t(own("measure_places")(plan, xyz))
+  logs <- norms$table$transform[1 + seq_len(ncol(measured))] == "log"
+  measured[, logs] <- log(measured[, logs])
+  reference <- as.matrix(norms$points[c("x", "y", "z")])
+  laid <- lapply(seq_len(count), function(i) own("lay_face")(xyz[model$surface, , i], reference))
+  side <- norms$points$side
+  y <- t(vapply(laid, function(one) as.vector(one$laid), numeric(length(reference))))
+  off <- t(vapply(laid, function(one) {
+    as.vector(own("asymmetric_part")(one$laid, norms$points$partner)[side, ])
+  }, numeric(3 * sum(side))))
+  list(points = norms$points, y = y, off = off,
+       values = cbind(size = log(vapply(laid, `[[`, 0, "size")), measured),
+       scale = vapply(laid, `[[`, 0, "scale"), lesions = drawn$lesions,
+       people = list(age = drawn$data$age, group = factor(drawn$data$sex, norms$ages$sex)))
+}
+
+# What assess() says of all of them.
+looked_at <- function(norms, data, noise) {
+  age <- data$people$age
+  group <- data$people$group
+  all <- seq_along(age)
+  values <- cbind(data$values, own("field_scores")(norms$surface, data$y, age, group))
+  expected <- own("expected_columns")(norms$values, age, group)
+  z <- own("straightened")(own("predicted_z")(values, expected), norms$table)
+  se_norm <- own("norm_error")(z, expected)
+  along <- own("normal_part")(data$y, norms$surface$points, norms$surface$normal)
+  map <- own("predicted_z")(along, own("expected_columns")(norms$surface$along, age, group))
+  scan <- function(name, y) {
+    field <- own("prepared_field")(norms, name)
+    u <- own("field_deviations")(field, y, age, group)
+    t <- lapply(field$weights, function(w) u %*% w)
+    sd <- mean(field$sd)
+    # The extra variance of a worse scan, by the spread at the mean age
+    rows <- if (name == "surface") rep(norms$points$se_norm, 3) else
+      rep(norms$points$se_norm[norms$points$side], 3) / sqrt(2)
+    se <- noise * mean(data$scale) / if (name == "surface") 1 else sqrt(2)
+    excess <- pmax(0, se^2 - rows^2) / field$sd^2
+    extra <- lapply(field$weights, function(w) {
+      matrix(crossprod(excess, w^2), length(age), ncol(w), byrow = TRUE)
+    })
+    list(plain = own("scan_maps")(t, field$scan, age, group),
+         widened = own("scan_maps")(t, field$scan, age, group, extra))
+  }
+  list(z = z, se_norm = se_norm, map = apply(abs(map), 1, max), map_at = max.col(abs(map)),
+       surface = scan("surface", data$y), asymmetry = scan("asymmetry", data$off))
+}
+
+limit_of <- function(quantiles) quantiles[own("limit_levels")() == 0.95]
+beyond <- function(maps, norms, name) {
+  mean(apply(maps$largest, 1, max) > limit_of(norms[[name]]$scan$quantiles))
+}
+
+calibration <- function(norms, settings, faces) {
+  data <- new_faces(norms, settings, faces, 1000 + seed)
+  effective <- own("effective_faces")(norms, data$people$age, data$people$group)
+  say("refused by effective number", mean(effective < 10), faces)
+  found <- looked_at(norms, data, settings$noise)
+  kind <- ifelse(colnames(found$z) == "size", "size",
+                 ifelse(grepl("^component ", colnames(found$z)), "components", "measurements"))
+  band <- cut(data$people$age, c(3, 8, 13, 18, 40), include.lowest = TRUE)
+  kept <- effective >= 10
+  for (one in unique(kind)) {
+    inside <- abs(found$z[, kind == one, drop = FALSE]) <= 1.96
+    say(paste("within 1.96:", one), mean(inside[kept, ]), sum(kept))
+    cells <- tapply(rowMeans(inside)[kept], list(band, data$people$group)[1:2] |>
+                      lapply(`[`, kept), mean)
+    say(paste("  female by band:", one), cells[, 1])
+    say(paste("  male by band:", one), cells[, 2])
+  }
+  tails <- rbind(colMeans(found$z[kept, kind == "measurements"] > 1.96),
+                 colMeans(found$z[kept, kind == "measurements"] < -1.96))
+  say("tails of measurements, least, median, largest", stats::quantile(tails, c(0, 0.5, 1)),
+      length(tails))
+  say("tails within 0.02-0.03, share", mean(tails >= 0.02 & tails <= 0.03), length(tails))
+  limit <- if (norms$n < 200) NA else limit_of(norms$limits$map)
+  say("family-wise: marginal map", mean(found$map > limit), faces)
+  say("family-wise: scan", beyond(found$surface$plain, norms, "surface"), faces)
+  say("  by band", tapply(apply(found$surface$plain$largest, 1, max) >
+                            limit_of(norms$surface$scan$quantiles), band, mean))
+  say("family-wise: asymmetry scan", beyond(found$asymmetry$plain, norms, "asymmetry"), faces)
+  u <- data$off
+  expected <- own("expected_columns")(norms$asymmetry$along, data$people$age, data$people$group)
+  off <- own("normal_part")(u, norms$asymmetry$points, norms$asymmetry$normal)
+  say("directional asymmetry: |z| <= 1.96 against the norm",
+      mean(abs(own("predicted_z")(off, expected)) <= 1.96))
+}
+
+worse_scans <- function(norms, settings, faces) {
+  for (noise in c(0.3, 0.5)) {
+    worse <- settings
+    worse$noise <- noise
+    data <- new_faces(norms, worse, faces, 2000 + seed)
+    found <- looked_at(norms, data, noise)
+    say(sprintf("noise %g: scan plain, widened", noise),
+        c(beyond(found$surface$plain, norms, "surface"),
+          beyond(found$surface$widened, norms, "surface")), faces)
+    measured <- !grepl("^component |^size$", colnames(found$z))
+    # On the wider scale: the errors of measurements grow with the noise
+    se <- norms$table$se_norm[measured] * noise / settings$noise
+    expected <- own("expected_columns")(norms$values, data$people$age, data$people$group)
+    extra <- outer(rep(1, faces), se^2 - norms$table$se_norm[measured]^2)
+    part <- lapply(expected, function(x) x[, which(measured)])
+    wide <- own("predicted_z")(data$values[, -1], part, extra)
+    say(sprintf("noise %g: measurements within 1.96, plain, widened", noise),
+        c(mean(abs(found$z[, measured]) <= 1.96), mean(abs(wide) <= 1.96)), faces)
+  }
+}
+
+# z of the same faces without noise, within 1.96 of their own standard errors.
+own_error <- function(norms, settings, faces) {
+  clean <- settings
+  clean$noise <- 0
+  truth <- new_faces(norms, clean, faces, 3000 + seed)
+  for (noise in c(0.1, 0.3, 0.7)) {
+    noisy <- settings
+    noisy$noise <- noise
+    data <- new_faces(norms, noisy, faces, 3000 + seed)
+    distance <- which(norms$measurements$kind == "distance")
+    plan <- own("measurement_plan")(norms$measurements[distance, ], own("face_scheme")())
+    expected <- own("expected_columns")(norms$values, data$people$age, data$people$group)
+    sd <- expected$sd[, 1 + distance]
+    # A distance between two landmarks: sqrt(2) of their error, on the log scale
+    se <- sqrt(2) * noise / exp(data$values[, 1 + distance]) / sd
+    off <- (data$values - truth$values)[, 1 + distance] / sd / se
+    say(sprintf("own error, noise %g: share covered", noise), mean(abs(off) <= 1.96), faces)
+  }
+}
+
+lesions <- function(norms, settings, faces) {
+  distance <- as.matrix(stats::dist(norms$surface$points))
+  side <- which(norms$points$side)
+  for (height in c(1, 2, 3)) {
+    data <- new_faces(norms, settings, faces, 4000 + seed,
+                      data.frame(height = height, radius = 15))
+    found <- looked_at(norms, data, settings$noise)
+    at <- match(data$lesions$point, norms$points$point)
+    scan <- found$surface$plain
+    best <- Reduce(pmax, lapply(scan$z, abs))
+    where <- max.col(best)
+    hit <- apply(scan$largest, 1, max) > limit_of(norms$surface$scan$quantiles)
+    near <- distance[cbind(where, at)] <= 15
+    map <- found$map > limit_of(norms$limits$map) & distance[cbind(found$map_at, at)] <= 15
+    say(sprintf("lesion %g mm on 3 cm: scan, marginal map", height),
+        c(mean(hit & near), mean(map)), faces)
+    other <- found$asymmetry$plain
+    row <- ifelse(at %in% side, at, norms$points$partner[at])
+    off_middle <- abs(norms$points$x[at] - stats::median(norms$points$x)) > 15 & row %in% side
+    where <- side[max.col(Reduce(pmax, lapply(other$z, abs)))]
+    hit <- apply(other$largest, 1, max) > limit_of(norms$asymmetry$scan$quantiles)
+    near <- distance[cbind(where, row)] <= 15
+    say("  asymmetry scan, off the mid-line", mean((hit & near)[off_middle]), sum(off_middle))
+  }
+}
+
+healed <- function(norms, settings, faces) {
+  field <- own("prepared_field")(norms, "surface")
+  for (case in list(c(0, 15), c(3, 15), c(5, 30), c(8, 45))) {
+    data <- new_faces(norms, settings, faces, 5000 + seed,
+                      data.frame(height = case[1], radius = case[2]))
+    clean <- new_faces(norms, settings, faces, 5000 + seed,
+                       data.frame(height = 0 * case[1], radius = case[2]))
+    if (case[1] == 0) data$lesions$point <- NA
+    each <- lapply(seq_len(faces), function(i) {
+      age <- data$people$age[i]
+      sex <- data$people$group[i]
+      face <- own("standardised_face")(field, data$y[i, ], age, sex)
+      face$excess <- 0 * face$u
+      made <- own("heal_face")(field, face, age, sex, rep(FALSE, nrow(field$points)), 0.05)
+      took <- matrix((face$u - made$u) * face$spread, ncol = 3)
+      along <- rowSums(took * field$normal) / data$scale[i]
+      at <- match(data$lesions$point[i], norms$points$point)
+      # What was put on, in the same frame
+      put <- own("normal_part")(data$y[i, , drop = FALSE] - clean$y[i, , drop = FALSE],
+                                0 * field$points, field$normal)[1, ] / data$scale[i]
+      sd <- sqrt(own("along_normals")(field$normal, made$variance * face$spread^2)) / data$scale[i]
+      out <- made$out
+      c(touched = any(out), height = if (is.na(at)) NA else along[at],
+        covered = if (any(out)) mean(abs(along - put)[out] <= 1.96 * sd[out]) else NA)
+    })
+    each <- do.call(rbind, each)
+    say(sprintf("healed, %g mm on %g cm: share touched", case[1], case[2] / 5),
+        mean(each[, "touched"]), faces)
+    touched <- each[, "touched"] == 1
+    if (case[1] > 0 && any(touched)) {
+      say("  height recovered where touched, mean, sd",
+          c(mean(each[touched, "height"]), stats::sd(each[touched, "height"])) / case[1],
+          sum(touched))
+      say("  points within the interval", mean(each[touched, "covered"]), sum(touched))
+    }
+  }
+}
+
+if (mode == "look") {
+  faces <- if (length(arguments) > 3) as.integer(arguments[4]) else 1000
+  kept <- readRDS(file)
+  norms <- kept$norms
+  time <- system.time(own("prepared_field")(norms, "surface"))
+  say("preparing the scan, seconds elapsed, user", time[c(3, 1)])
+  calibration(norms, kept$settings, faces)
+  worse_scans(norms, kept$settings, min(faces, 400))
+  own_error(norms, kept$settings, min(faces, 200))
+  lesions(norms, kept$settings, min(faces, 400))
+  healed(norms, kept$settings, min(faces, 30))
+  people <- new_faces(norms, kept$settings, 1, 1)$people
+  patient <- simulate_cohort(1, data = data.frame(age = 20, sex = "male"), seed = 1)
+  suppressWarnings(assess(patient$sample[[1]], norms, 20, "male"))
+  time <- system.time(assess(patient$sample[[1]], norms, 20, "male"))
+  say("assess, seconds elapsed, user", time[c(3, 1)])
+}

@@ -1,0 +1,121 @@
+# One face against a norm.
+
+looked <- function(shape, ..., norms = small_norms()) {
+  suppressWarnings(assess(shape, norms, age = 10, sex = "female", ...))
+}
+
+test_that("z does not depend on the pose, and size only on size", {
+  shape <- small_patient()
+  moved <- larger <- shape
+  xyz <- as.matrix(shape$points[c("x", "y", "z")])
+  turn <- rotation_about(c(0.4, 1, -2))
+  moved$points[c("x", "y", "z")] <- as.data.frame(sweep(xyz %*% turn, 2, c(30, -5, 9), `+`))
+  larger$points[c("x", "y", "z")] <- as.data.frame(1.1 * xyz)
+  a <- looked(shape)
+  b <- looked(moved)
+  # Errors of lengths come from draws, which are not turned with the face.
+  same <- c("name", "value", "z", "centile")
+  expect_equal(a$values[same], b$values[same], tolerance = 1e-8)
+  expect_equal(a$points[-(2:4)], b$points[-(2:4)], tolerance = 1e-6)
+  c <- looked(larger)
+  expect_equal(c$values$value[1], 1.1 * a$values$value[1])
+  expect_equal(c$points$z_map, a$points$z_map, tolerance = 1e-6)
+  ratio <- a$values$name == "index"
+  expect_equal(c$values$z[ratio], a$values$z[ratio], tolerance = 1e-8)
+})
+
+test_that("z, centile and expectation fit each other", {
+  found <- looked(small_patient())$values
+  expect_equal(found$centile, 100 * stats::pnorm(found$z))
+  expect_true(all((found$z > 0) == (found$value > found$expected)))
+  expect_true(all(found$se_norm > 0))
+  norms <- small_norms()
+  expected <- expected_columns(norms$values, 10, "female")
+  expect_equal(found$expected[1], exp(expected$mean[1]))
+})
+
+test_that("a lesion is found where it is, and healed; a plain face is left as it is", {
+  template <- small_template()
+  point <- rownames(coords(template, "surface"))[18]
+  plain <- looked(small_patient())
+  expect_equal(plain$verdicts$verdict[5], "not distinguishable")
+  expect_equal(nrow(plain$findings), 0)
+  expect_equal(plain$healed, as.matrix(plain$points[c("x", "y", "z")]), ignore_attr = TRUE)
+  with <- looked(small_patient(lesions = data.frame(height = 8, radius = 18, point = point)))
+  expect_equal(with$verdicts$verdict[5], "real")
+  expect_lt(with$verdicts$p[5], 0.001)
+  at <- match(with$findings$point[1], rownames(coords(template, "surface")))
+  apart <- as.matrix(stats::dist(coords(template, "surface")))
+  expect_lt(apart[18, at], 20)
+  expect_equal(with$points$healed[18], 8, tolerance = 0.35)
+  out <- with$points$healed_sd > 0
+  expect_equal(with$healed[!out, ], as.matrix(with$points[!out, c("x", "y", "z")]),
+               ignore_attr = TRUE, tolerance = 1e-6)
+  expect_match(paste(utils::capture.output(print(with)), collapse = "\n"), "found at .*height")
+})
+
+test_that("points that are left out are what the whole correlation makes expected", {
+  field <- small_norms()$surface
+  u <- with_seed(3, stats::rnorm(105))
+  out <- rep(seq_len(35) %in% c(4, 5, 12), 3)
+  found <- given_the_rest(field, u, out)
+  k <- kernel_between(field) + diag(field$kernel[1] + 1e-6, 35)
+  pose <- pose_directions(field)
+  whole <- field$vectors %*% (field$values * t(field$vectors)) + kronecker(diag(3), k) +
+    1e6 * tcrossprod(pose)
+  weight <- whole[out, !out] %*% solve(whole[!out, !out])
+  expect_equal(found$fit[out], as.vector(weight %*% u[!out]), tolerance = 1e-3)
+  expect_equal(found$fit[!out], u[!out])
+  expect_equal(found$variance[out], diag(whole[out, out] - weight %*% whole[!out, out]),
+               tolerance = 1e-2)
+})
+
+test_that("a worse scan is judged on a wider scale", {
+  rough <- small_patient(settings = cohort_settings(noise = 1))
+  told <- rough
+  unknown <- rough
+  unknown$points$se <- NA_real_
+  blind <- rough
+  blind$points$se <- 0.1
+  largest <- function(shape) looked(shape)$verdicts$statistic[5]
+  expect_lt(largest(told), largest(blind))
+  expect_lt(largest(unknown), largest(blind))
+  expect_identical(looked(told)$errors, "given")
+  found <- looked(unknown)
+  expect_identical(found$errors, "estimated")
+  expect_gt(found$rough, 2)
+  values <- looked(told)$values
+  expect_true(all(abs(values$z_widened) <= abs(values$z) + 1e-9, na.rm = TRUE))
+})
+
+test_that("missing points are left out, and said", {
+  shape <- small_patient()
+  lost <- shape$points$level == "surface" & shape$points$point %in% c("3 3", "3 4")
+  holed <- shape
+  holed$points[lost, c("x", "y", "z", "se")] <- NA
+  found <- looked(holed)
+  expect_equal(sum(!found$points$assessed), 2)
+  expect_true(all(is.na(found$points$z_map[!found$points$assessed])))
+  whole <- looked(shape)
+  far <- found$points$assessed
+  expect_gt(stats::cor(found$points$z_map[far], whole$points$z_map[far]), 0.95)
+  expect_match(paste(utils::capture.output(print(found)), collapse = " "), "2 surface points")
+})
+
+test_that("ages beyond the norm, other schemes and unknown sexes are refused", {
+  shape <- small_patient()
+  norms <- small_norms()
+  expect_crestline_error(assess(shape, norms, 40, "female"), c("`age`", "range"))
+  expect_crestline_error(assess(shape, norms, 10, "boy"), "`sex`")
+  expect_crestline_error(assess(shape, norms, 10), "`sex`")
+  expect_crestline_error(assess(quad_shape(), norms, 10, "female"), "another scheme")
+  few <- norms
+  few$settings$least <- 1e6
+  expect_crestline_error(assess(shape, few, 10, "female"), "effective")
+  few <- norms
+  few$settings$few <- 1e6
+  expect_warning(assess(shape, few, 10, "female"), class = "crestline_norm_doubt")
+  damaged <- norms
+  damaged$points <- damaged$points[-1, ]
+  expect_crestline_error(assess(shape, damaged, 10, "female"), "damaged")
+})

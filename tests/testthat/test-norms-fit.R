@@ -1,0 +1,103 @@
+# Norms of a small cohort: what they hold, and what is refused.
+
+test_that("a norm has the sizes that it says, and no face", {
+  norms <- small_norms()
+  expect_s3_class(norms, "shape_norms")
+  expect_equal(nrow(norms$points), 35)
+  expect_identical(norms$table$name[1:2], c("size", "width"))
+  expect_equal(sum(norms$counts$n), 120)
+  expect_equal(norms$points$se_norm, rep(0.1, 35), tolerance = 0.05)
+  # Nothing in it has as many rows as there are people.
+  lengths_of <- function(x) if (is.list(x)) unlist(lapply(x, lengths_of)) else NROW(x)
+  expect_false(120 %in% lengths_of(unclass(norms)[names(norms) != "cache"]))
+  expect_match(utils::capture.output(print(norms))[1], "<shape_norms> balls: 120 faces")
+  expect_output(print(summary(norms)), "sex")
+})
+
+test_that("fits do not depend on the session, nor on pose and order of the faces", {
+  cohort <- small_cohort(60)
+  fit <- function(sample, data) {
+    fit_norms(sample, ~ s(age, by = sex), data, table = ball_measurements(),
+              settings = small_settings(), progress = FALSE)
+  }
+  a <- fit(cohort$sample, cohort$data)
+  set.seed(99)
+  b <- fit(cohort$sample[60:1], cohort$data)
+  # Coefficients are rounded, so that the last digit of one in a thousand may differ.
+  at <- function(norms) {
+    expected_columns(norms$values, c(7, 9, 12), factor(rep("male", 3), norms$ages$sex))
+  }
+  expect_equal(at(a)$mean[, 1:9], at(b)$mean[, 1:9], tolerance = 1e-5)
+  expect_equal(at(a)$sd, at(b)$sd, tolerance = 1e-2)
+  expect_equal(a$limits, b$limits, tolerance = 1e-2)
+  expect_equal(a$counts, b$counts)
+  expect_equal(abs(a$surface$vectors), abs(b$surface$vectors), tolerance = 5e-3)
+})
+
+test_that("held-out faces of a new cohort are beyond limits as often as the level says", {
+  norms <- small_norms()
+  fresh <- small_cohort(150, seed = 8)
+  range <- norms$ages[match(fresh$data$sex, norms$ages$sex), ]
+  inside <- fresh$data$age > range$from & fresh$data$age < range$to &
+    effective_faces(norms, fresh$data$age, fresh$data$sex) > 10
+  verdicts <- lapply(which(inside), function(i) {
+    suppressWarnings(assess(fresh$sample[[i]], norms, fresh$data$age[i], fresh$data$sex[i]))
+  })
+  p <- sapply(verdicts, function(one) one$verdicts$p)
+  rownames(p) <- verdicts[[1]]$verdicts$family
+  rate <- rowMeans(p <= 0.05)
+  expect_true(all(rate < 0.13), label = toString(round(rate, 3)))
+  z <- sapply(verdicts, function(one) one$values$z)
+  expect_equal(mean(abs(z) <= 1.96), 0.95, tolerance = 0.025)
+})
+
+test_that("p is 1 - level at a quantile, falls, and goes on beyond the last", {
+  quantiles <- c(1, 1.5, 2, 2.3, 2.6, 3)
+  expect_equal(tail_p(quantiles, quantiles), 1 - limit_levels())
+  grid <- tail_p(seq(0, 6, 0.1), quantiles)
+  expect_true(all(diff(grid) < 0))
+  expect_equal(grid[1], 1)
+})
+
+test_that("skew values are made normal", {
+  z <- with_seed(1, as.vector(scale(stats::rgamma(2000, 2))))
+  skew <- skew_table(cbind(z, with_seed(2, stats::rnorm(2000))))
+  expect_false(is.na(skew$skew_1[1]))
+  expect_true(is.na(skew$skew_1[2]))
+  straight <- straightened(cbind(z, 0), skew)[, 1]
+  expect_equal(c(mean(straight > 1.96), mean(straight < -1.96)), c(0.025, 0.025), tolerance = 0.5)
+  expect_lt(mean(z < -1.96), 0.005)
+  expect_true(all(diff(straight[order(z)]) > 0))
+})
+
+test_that("rules of privacy are kept", {
+  cohort <- small_cohort(60)
+  share <- function(...) {
+    fit_norms(cohort$sample, ~ s(age, by = sex), cohort$data, share = TRUE, progress = FALSE, ...)
+  }
+  expect_crestline_error(share(settings = small_settings()), c("3 components", "at most 1"))
+  few <- small_settings()
+  few$components <- 1L
+  expect_crestline_error(share(settings = few), c("lone person", "least 10"))
+  counts <- data.frame(sex = "f", from = 3:8, to = 4:9, n = c(6, 1, 2, 3, 7, 2))
+  merged <- merged_counts(counts)
+  expect_true(all(merged$n >= 5) && sum(merged$n) == 21)
+  expect_equal(merged$to[-nrow(merged)], merged$from[-1])
+  figures <- privacy_figures(data.frame(member = c(1, 2, 3), stranger = c(4, 5, 6)))
+  expect_equal(figures$auc, 1)
+  expect_equal(figures$ratio, sqrt(14 / 77), tolerance = 1e-3)
+})
+
+test_that("what cannot be a norm is refused by name", {
+  cohort <- small_cohort(60)
+  fit <- function(formula = ~ s(age, by = sex), data = cohort$data, ...) {
+    fit_norms(cohort$sample, formula, data, settings = small_settings(), progress = FALSE, ...)
+  }
+  expect_crestline_error(fit(~ age), c("`formula`", "s(age, by = sex)"))
+  expect_crestline_error(fit(~ s(years)), "`years`")
+  expect_crestline_error(fit_norms(cohort$sample[1:30], data = cohort$data, progress = FALSE),
+                         "at least 20")
+  expect_crestline_error(fit(about = list(owner = "me")), "`about`")
+  expect_crestline_error(fit(table = data.frame(a = 1)), "`table`")
+  expect_crestline_error(norm_settings(radii = 0), "`radii`")
+})
