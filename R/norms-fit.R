@@ -73,8 +73,8 @@ print.norm_settings <- function(x, ...) {
 #' Size is kept apart from shape. Every face is laid on the norm's reference (the Procrustes mean at
 #' mean size) alone, by least squares with scale. All means and spreads are penalised splines of age
 #' on one basis. The smoothing is chosen for each by restricted maximum likelihood. Deviations of
-#' all points together are described by few components and by a kernel of the distance between points.
-#' Limits come from faces that were held out in turn, in parts alike in age and sex.
+#' all points together are described by few components and by a kernel of the distance between
+#' points. Limits come from faces that were held out in turn, in parts alike in age and sex.
 #'
 #' @section What a norm must not be used for:
 #' A norm describes the people and the scanner that it was made of. It does not describe other
@@ -87,8 +87,8 @@ print.norm_settings <- function(x, ...) {
 #' With `share = TRUE` a norm is refused that would tell too much of its people: more components
 #' than a fiftieth of the faces; an age at which one person decides more than a tenth of the mean; a
 #' norm whose components fit its members better than strangers (ratio of residuals below 0.95, or
-#' area under the curve of membership above 0.60, both by held-out faces). Counts below 5 are merged.
-#' This is no formal (differential) privacy. Two norms whose samples differ by one person give that
+#' area under the curve of membership above 0.60, both by held-out faces). Counts below 5 are
+#' merged. This is no formal (differential) privacy. Two norms whose samples differ by one person give that
 #' person's face by subtraction: publish rarely, and never "all but one".
 #'
 #' @param sample A `shape_sample`, as of [homologise()], whose scheme has patches. At least 20 faces
