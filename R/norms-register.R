@@ -106,10 +106,17 @@ norm_data <- function(sample, plan, call) {
     if (paired) off[i, ] <- asymmetric_part(laid$laid, points$partner)[points$side, ]
   }
   points$se_norm <- sample_errors(sample, points$point, scale)
-  measured <- if (length(plan)) t(measure_places(plan, every_place(sample)))
+  measured <- if (length(plan)) t(measure_places(plan, places_array(sample)))
   colnames(measured) <- names(plan)
   list(points = points, triangles = reference$triangles, y = y, off = off,
        values = cbind(size = log(size), measured), estimated = reference$estimated)
+}
+
+#' k x 3 x n: every place of the shapes of a sample once
+#' @noRd
+places_array <- function(sample) {
+  each <- lapply(unname(sample$shapes), places_of)
+  array(unlist(each), c(dim(each[[1]]), length(each)))
 }
 
 #' Root mean square standard errors of points, at the reference's size; NA where none is known
