@@ -68,7 +68,7 @@
 #' without them; see the README.
 #'
 #' * `crestline`: ten minutes with one face, and your own data;
-#' * `own-object`: a scheme for another object, table by table;
+#' * `own-object`: a scheme for another object, by clicks and table by table;
 #' * `without-landmarks`: from a raw scan to its landmarks, and how far to trust them;
 #' * `many`: hundreds of scans on one core, several machines or in a queue;
 #' * `homology`: which sliding of semilandmarks makes points homologous;
