@@ -1,20 +1,5 @@
 # Red parts of a sample: a warning names them, and they are left out on demand.
 
-#' Red parts that have points, of shapes that were measured on a mesh
-#'
-#' A part that is red only because points are missing is none: the points that are there are right.
-#'
-#' @param shapes Named list of shapes.
-#' @return Rows of [quality()]; those of landmarks, curves and patches.
-#' @noRd
-red_parts <- function(shapes, limits) {
-  graded <- Filter(function(shape) !is.null(shape$checks), shapes)
-  if (!length(graded)) return(NULL)
-  limits$missing <- c(Inf, Inf)
-  table <- as.data.frame(quality(graded, limits))
-  table[table$grade == "red" & table$missing < 1, ]
-}
-
 #' The shapes as they go into the sample: with their red parts, after a warning or none, or without
 #' @param red As in [homologise()].
 #' @noRd
@@ -22,31 +7,14 @@ with_red <- function(shapes, red, limits) {
   if (red == "keep") return(shapes)
   parts <- red_parts(shapes, limits)
   if (red == "warn") {
-    warn_red(parts)
+    warn_red(parts, "homologise", paste(
+      "quality(shapes) has the reasons. Leave these parts out with red = \"leave out\", or",
+      "keep them without a warning with red = \"keep\"."
+    ))
     return(shapes)
   }
   lapply(shapes, function(shape) without_parts(shape, parts[parts$specimen == shape$id, ]))
 }
-
-warn_red <- function(parts, most = 6) {
-  if (!NROW(parts)) return(invisible())
-  owners <- split(parts$specimen, factor(titled_parts(parts), unique(titled_parts(parts))))
-  owners <- owners[order(-lengths(owners))]
-  named <- sprintf("%s (%s)", names(owners), vapply(owners, shorten, "", 4))
-  crestline_warn(
-    sprintf("%s: %s.",
-            amount(nrow(parts), "part is red, and is used as it is",
-                   "parts are red, and are used as they are"), shorten(named, most)),
-    paste("quality(shapes) has the reasons. Leave these parts out with red = \"leave out\", or",
-          "keep them without a warning with red = \"keep\"."),
-    stage = "homologise", class = "crestline_red_parts"
-  )
-}
-
-#' Names of parts, patches as such: a curve may have the same name
-#' @noRd
-titled_parts <- function(parts) ifelse(parts$level == "surface", paste("patch", parts$part),
-                                       parts$part)
 
 #' A shape without some parts, as if they could not be measured
 #'

@@ -332,10 +332,12 @@ print.shape_batch <- function(x, most = 8, ...) {
   })
 }
 
-#' Lines that tell of which shapes landmarks were found, and of which some are missing
+#' Lines: of which shapes landmarks were found, of which some are missing, which have red parts
 #' @noRd
 landmark_lines <- function(shapes) {
   told <- lapply(shapes, told_of)
+  red <- Filter(function(one) isTRUE(one$red > 0), told)
+  counts_red <- vapply(red, function(one) as.numeric(one$red), 0)
   found <- names(shapes)[vapply(told, `[[`, NA, "found")]
   lacking <- Filter(function(one) one$lacking[1] > 0, told)
   counts <- vapply(lacking, function(one) paste(one$lacking, collapse = " of "), "")
@@ -346,6 +348,10 @@ landmark_lines <- function(shapes) {
     if (length(lacking)) {
       sprintf("%s: landmarks of the scheme are missing: %s.", amount(length(lacking), "specimen"),
               shorten(sprintf("%s (%s)", names(lacking), counts), 12))
+    },
+    if (length(red)) {
+      sprintf("%s with red parts, see quality(): %s.", amount(length(red), "specimen"),
+              shorten(sprintf("%s (%d)", names(red), counts_red), 12))
     })
 }
 

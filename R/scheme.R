@@ -306,6 +306,43 @@ surface_line <- function(x) {
          amount(sum(model), "triangle"), " and ", sum(!model), " on request")
 }
 
+#' @rdname curve_scheme
+#' @param i Name of a table.
+#' @param value A table in its place.
+#' @details `scheme$curves$radius[3] <- 8` changes a scheme. The whole scheme is checked anew, as by
+#'   `curve_scheme()`, and its `points` and `triangles` follow. For a change of several tables that
+#'   do not fit each other on the way, change the tables first, and give them to `curve_scheme()`.
+#' @export
+`$<-.curve_scheme` <- function(x, name, value) {
+  own <- c("name", names(scheme_columns))
+  if (!name %in% own) {
+    crestline_abort(sprintf(if (name %in% names(unclass(x))) {
+                      "the scheme's `%s` are worked out from its tables."
+                    } else {
+                      "a scheme has no table %s."
+                    }, name),
+                    sprintf("Change one of %s.", shorten(own, 20)), stage = "scheme",
+                    class = "crestline_scheme_error", call = NULL)
+  }
+  fields <- unclass(x)[own]
+  fields[name] <- list(value)
+  # A table without rows is one that is not there
+  tables <- lapply(fields[names(scheme_columns)], function(table) if (NROW(table)) table)
+  names(tables) <- names(scheme_columns)
+  assembled_scheme(tables, fields$name, labels = stats::setNames(names(tables), names(tables)))
+}
+
+#' @rdname curve_scheme
+#' @export
+`[[<-.curve_scheme` <- function(x, i, value) {
+  if (is.numeric(i)) i <- names(unclass(x))[i]
+  if (!is.character(i) || length(i) != 1 || is.na(i)) {
+    crestline_abort("a scheme has no such table.", "Give the name of a table.", stage = "scheme",
+                    class = "crestline_scheme_error", call = NULL)
+  }
+  `$<-.curve_scheme`(x, i, value)
+}
+
 #' A scheme with its lengths in the unit of a specimen's mesh
 #'
 #' @param unit As in [fit_shape()].
@@ -314,12 +351,13 @@ scheme_in_unit <- function(scheme, unit, specimen) {
   if (is.null(unit)) unit <- c(specimen$match$unit, 1)[1]
   check_number(unit, "unit", 0, open = TRUE)
   if (unit == 1) return(scheme)
+  scheme <- unclass(scheme)
   scheme$landmarks[c("x", "y", "z")] <- scheme$landmarks[c("x", "y", "z")] / unit
   for (table in c("curves", "definitions")) {
     lengths <- intersect(c("radius", "width", "reach"), names(scheme[[table]]))
     scheme[[table]][lengths] <- scheme[[table]][lengths] / unit
   }
-  scheme
+  structure(scheme, class = "curve_scheme")
 }
 
 # What a scheme is, in one string.
@@ -335,6 +373,7 @@ scheme_hash <- function(scheme) {
   # A scheme without expected tracks, or with plane cuts only, is what it was before there were
   # others.
   counted <- setdiff(names(scheme_columns), if (!NROW(scheme$tracks)) "tracks")
+  scheme <- unclass(scheme)
   if (all(scheme$curves$path %in% "plane")) scheme$curves[c("path", "via")] <- NULL
   rlang::hash(lapply(unclass(scheme)[counted], function(table) {
     table <- as.list(table)

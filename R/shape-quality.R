@@ -134,7 +134,8 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   table <- table[order(match(table$specimen, names(shapes))), ]
   rownames(table) <- NULL
   found <- vapply(measured, has_found, NA)
-  structure(table, found = names(measured)[found], class = c("shape_quality", "data.frame"))
+  structure(table, found = names(measured)[found], rows = nrow(table),
+            class = c("shape_quality", "data.frame"))
 }
 
 #' Lines of what is not green: each part of one specimen; of several each specimen as a whole, and
@@ -144,9 +145,16 @@ worst_lines <- function(x, several) {
   worst <- x[x$grade > "green", ]
   whole <- worst$level == "specimen"
   worst <- worst[order(!whole, -as.integer(worst$grade)), ]
-  of <- if (several) paste0(" of ", worst$specimen) else ""
+  worst <- worst[!is.na(worst$grade), ]
+  of <- paste0(" of ", worst$specimen)
+  if (!several) {
+    # Parts that one thing is said of share a line
+    said <- paste(worst$grade, worst$why)
+    parts <- tapply(worst$part, factor(said, unique(said)), shorten, 6)
+    once <- worst[!duplicated(said), ]
+    return(sprintf("%s: %s: %s", once$grade, parts, once$why))
+  }
   lines <- sprintf("%s: %s%s: %s", worst$grade, worst$part, of, worst$why)
-  if (!several) return(lines)
   c(lines[seq_len(sum(whole))], reason_lines(worst[worst$level != "specimen", ]))
 }
 
@@ -285,6 +293,7 @@ print.shape_quality <- function(x, most = 10, ...) {
   check_most(most)
   printed(x, {
     if (!all(quality_columns %in% names(x))) return(print(as.data.frame(x), ...))
+    if (!identical(attr(x, "rows"), nrow(x))) return(print_rows(x, most))
     counts <- summary(x)
     counts <- counts[order(-counts$red, -counts$amber), ]
     cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
@@ -316,6 +325,18 @@ print.shape_quality <- function(x, most = 10, ...) {
     if (length(lines) > most) cat("- and", length(lines) - most, "more that are not green\n")
     invisible(x)
   })
+}
+
+#' Rows of a table of quality() that were chosen from it: each with its grade and the reason
+#' @noRd
+print_rows <- function(x, most) {
+  cat("<shape_quality> ", amount(nrow(x), "row"), " of the parts of ",
+      amount(length(unique(x$specimen)), "specimen"), "\n", sep = "")
+  table <- as.data.frame(x)[c("specimen", "part", "level", "grade", "why")]
+  table$part <- ifelse(table$level == "surface", paste("patch", table$part), table$part)
+  print(utils::head(table[setdiff(names(table), "level")], most), row.names = FALSE, right = FALSE)
+  if (nrow(x) > most) cat("and", nrow(x) - most, "more: as.data.frame() has all\n")
+  invisible(x)
 }
 
 # Lengths of many specimens against each other.

@@ -57,6 +57,11 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   own <- as_landmarks(landmarks_of(landmarks, id), id)
   name <- rownames(own)
   changed <- name %in% names(names)
+  unknown <- names(names)[!names(names) %in% name & !names %in% name]
+  if (length(unknown) && length(name)) {
+    refuse_landmarks(sprintf("`names` has %s, but there is no such landmark.", shorten(unknown)),
+                     near_names(unknown[1], name), id)
+  }
   if (length(names) && length(name) && !any(changed)) {
     crestline_inform(sprintf("`names` changes no landmark: there is none named %s.",
                              shorten(names(names))))

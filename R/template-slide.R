@@ -52,6 +52,7 @@
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or the shape has
 #'   no specimen and none is given. Of class `crestline_wrong_mesh`: the specimen has another mesh
 #'   than the shape.
+#' @section Warnings: of class `crestline_red_parts`: parts are red, and are used as they are.
 #' @templateVar where section 4
 #' @template paper
 #' @details The defaults differ from the paper's choices, which are `slide_settings("paper")`.
@@ -78,6 +79,8 @@ slide <- function(shape, template, settings = slide_settings(), specimen = shape
   check_class(settings, "slide_settings", "settings", "slide_settings()")
   check_same_scheme(shape, template)
   specimen <- kept_specimen(shape, specimen)
+  warn_red(red_parts(stats::setNames(list(shape), shape$id), quality_limits()), "slide",
+           "quality(shape) has the reasons. Mend the scan or its landmarks, or do not use them.")
   plan <- slide_plan(template, settings)
   state <- slide_state(shape, settings)
   cut <- cut_between_slid(shape, state, slide_curves(state, plan), specimen)

@@ -15,6 +15,11 @@ test_that("parts that are red are told of with their specimens, once, unless the
   expect_warning(with_red(bad, "warn", quality_limits()),
                  paste0(curve, " (ball2"), fixed = TRUE, class = "crestline_red_parts")
   expect_identical(with_red(bad, "keep", quality_limits()), bad)
+  expect_match(landmark_lines(bad), "1 specimen with red parts, see quality(): ball2 (1)",
+               fixed = TRUE, all = FALSE)
+  template <- symmetrise(shapes[[1]])
+  expect_warning(slide(bad$ball2, template, slide_settings(curves = "held")), curve, fixed = TRUE,
+                 class = "crestline_red_parts")
   bare <- with_fields(shapes[[1]], checks = NULL)
   expect_null(red_parts(list(a = bare), quality_limits()))
 })

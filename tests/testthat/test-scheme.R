@@ -90,3 +90,20 @@ test_that("the hash of a scheme is that of its tables' content", {
     t
   }), hash()))
 })
+
+test_that("a scheme that is changed is checked anew, and its points follow", {
+  scheme <- quad_scheme()
+  before <- scheme
+  scheme$curves$n[3] <- 9
+  expect_identical(sum(scheme$points$part == "left"), 9L)
+  tables <- Filter(NROW, unclass(scheme)[names(scheme_columns)])
+  expect_identical(scheme, do.call(curve_scheme, c(tables, list(name = scheme$name))))
+  expect_crestline_error(scheme$curves$n[3] <- -1, c("curves", "n"))
+  expect_crestline_error(scheme$curves$from[1] <- "nobody", "nobody")
+  expect_crestline_error(scheme[["curves"]] <- 3, "curves")
+  expect_crestline_error(scheme$points <- NULL, c("points", "worked out"))
+  expect_crestline_error(scheme$colour <- "red", "no table colour")
+  expect_crestline_error(scheme[[99]] <- 1, "no such table")
+  before[["name"]] <- "other"
+  expect_identical(before$name, "other")
+})

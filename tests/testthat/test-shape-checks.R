@@ -26,7 +26,9 @@ test_that("triangles that pass through one another are found, those that touch a
 
 test_that("a triangle that is there twice is doubled", {
   shape <- quad_shape()
-  shape$scheme$triangles <- rbind(shape$scheme$triangles, shape$scheme$triangles[5, ])
+  shape$scheme <- tampered(shape$scheme, function(x) {
+    within_list(x, triangles = rbind(x$triangles, x$triangles[5, ]))
+  })
   faults <- surface_faults(shape, quad_specimen())
   expect_equal(faults$fault, "doubled")
   expect_equal(unlist(faults[c("v1", "v2", "v3")]),
@@ -35,7 +37,9 @@ test_that("a triangle that is there twice is doubled", {
 
 test_that("faults of the model are in the status of the patch, beside what was there", {
   shape <- quad_shape()
-  shape$scheme$triangles <- rbind(shape$scheme$triangles, shape$scheme$triangles[5:6, ])
+  shape$scheme <- tampered(shape$scheme, function(x) {
+    within_list(x, triangles = rbind(x$triangles, x$triangles[5:6, ]))
+  })
   noted <- note_faults(shape, surface_faults(shape, quad_specimen()))
   expect_equal(status_of(noted, "quad")$reason, "2 doubled triangles")
   shape$status$reason[shape$status$part == "quad"] <- "before"

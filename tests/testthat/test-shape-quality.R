@@ -371,3 +371,17 @@ test_that("a batch's failures are in its quality and on the page, with the remed
   quality_report(shapes, file, pictures = 0)
   expect_match(paste(readLines(file), collapse = "\n"), "it has no landmarks", fixed = TRUE)
 })
+
+test_that("chosen rows print each with its grade and reason, and one reason is said once", {
+  shape <- spoiled_shape(without_disc(c(0, 0, 50), 6), bridge = 0)
+  graded <- quality(shape)
+  rows <- utils::capture.output(print(graded[graded$part == "left", ]))
+  expect_match(rows, "left *green", all = FALSE)
+  expect_match(utils::capture.output(print(graded[1:20, ], most = 2)), "and 18 more", all = FALSE)
+  said <- utils::capture.output(print(graded), width = 80)
+  graded$grade[1:2] <- "red"
+  graded$why[1:2] <- "one thing"
+  lines <- worst_lines(graded, FALSE)
+  expect_identical(sum(grepl("one thing", lines)), 1L)
+  expect_match(lines, paste(graded$part[1:2], collapse = ", "), all = FALSE, fixed = TRUE)
+})
