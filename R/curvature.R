@@ -64,13 +64,12 @@ curvature <- function(mesh, radius, order = "adaptive",
   of <- mesh_of(mesh)
   whole <- mesh
   mesh <- as_mesh(mesh)
-  settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided)
+  settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided, widen)
   threads <- check_threads(threads)
-  check_number(widen, "widen", lower = 1)
   check_radius(radius, whole)
   n <- ncol(mesh$vb)
   targets <- vertex_indices(vertices, n)
-  out <- curvature_at(mesh, targets, settings, threads, widen)
+  out <- curvature_at(mesh, targets, settings, threads)
   if (length(targets) > 0 && all(is.na(out$k1))) abort_radius(out$neighbours, radius)
   if (!is.null(vertices)) out <- fill_curvature(empty_curvature(n, "not asked for"), out, targets)
   new_curvature(out, radius, order, of)
@@ -122,17 +121,17 @@ validate.curvature <- function(x) validate_curvature(x)
 #' @param settings As of [fit_settings()].
 #' @return List as [curvature()]'s with entries for these vertices only.
 #' @noRd
-curvature_at <- function(mesh, vertices, settings, threads, widen = 2.25) {
+curvature_at <- function(mesh, vertices, settings, threads) {
   out <- empty_curvature(length(vertices))
   radius <- settings$radius
   todo <- seq_along(vertices)
-  while (length(todo) > 0 && settings$radius <= widen * radius) {
+  while (length(todo) > 0 && settings$radius <= settings$widen * radius) {
     found <- cpp_curvature(mesh$vb, mesh$it, vertices[todo], settings, threads)
     fitted <- !is.na(found$k1)
     found$order[!fitted] <- NA_integer_
     out <- fill_curvature(out, found, todo)
     todo <- todo[!fitted]
-    settings$radius <- settings$radius * 1.5
+    settings$radius <- settings$radius * settings$growth
   }
   out$reason[todo] <- ifelse(
     out$neighbours[todo] < settings$points_per_term * 6,
@@ -211,21 +210,23 @@ check_order <- function(order, call = rlang::caller_env()) check_choice(
 #' Settings of the local fit, checked
 #' @noRd
 fit_settings <- function(radius, order = "adaptive", shrinkage = 6, points_per_term = 1.5,
-                         one_sided = 0.2) {
+                         one_sided = 0.2, widen = 2.25) {
   kernel_settings(
     check_number(radius, "radius", lower = 0, open = TRUE), check_order(order),
     check_number(shrinkage, "shrinkage", lower = 0),
     check_number(points_per_term, "points_per_term", lower = 1, upper = 1000),
-    check_number(one_sided, "one_sided", lower = 0)
+    check_number(one_sided, "one_sided", lower = 0), check_number(widen, "widen", lower = 1)
   )
 }
 
 #' Settings of the local fit in the form of the kernel
 #' @noRd
-kernel_settings <- function(radius, order, shrinkage = 6, points_per_term = 1.5, one_sided = 0.2) {
+kernel_settings <- function(radius, order, shrinkage = 6, points_per_term = 1.5, one_sided = 0.2,
+                            widen = 2.25, growth = 1.5) {
   orders <- fit_orders[[order]]
   list(radius = radius, lowest = orders[1], highest = orders[2], forced = order == "forced",
-       shrinkage = shrinkage, points_per_term = points_per_term, one_sided = one_sided)
+       shrinkage = shrinkage, points_per_term = points_per_term, one_sided = one_sided,
+       widen = widen, growth = growth)
 }
 
 vertex_indices <- function(vertices, n) {

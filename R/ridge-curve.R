@@ -327,7 +327,7 @@ judge_curve <- function(job, fit) {
     sprintf("the curvature by its reference path is faint: times the radius it is %.3g, below %.3g",
             fit$scale * job$radius, job$settings$faint)
   } else if (is.na(se) && job$settings$error) {
-    "its window has too few vertices to know its standard error"
+    "its standard error is not known: no strength in its window depends on the heights"
   } else if (!is.na(se) && se > limit) {
     sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
   } else {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #ifdef _OPENMP
@@ -105,55 +106,89 @@ struct Responses {
   std::vector<int> vertex;
   std::vector<std::vector<Entry>> by_function;  // of each such vertex, what is not 0
   std::vector<double> own;                      // sum of squares of the curvatures' own responses
+  int unfitted = 0;                             // number of targets without a fit
 };
 
+// Gathers the responses of the functions, one curvature after the other.
+class Responder {
+ public:
+  // design: functions x targets
+  Responder(int vertices, const double* directions, const double* design, int functions)
+      : directions_(directions), design_(design), height_(functions), column_(vertices, -1) {}
+
+  void add(std::size_t t, const LocalFit& fit, const ConnectedBalls::Workspace& w, const FitSettings& settings,
+           const FitBuffer& buffer) {
+    derivative_.resize(fit.neighbours);
+    curvature_derivative(fit, directions_ + 3 * t, settings, buffer, derivative_.data());
+    row_.clear();
+    for (std::size_t g = 0; g < height_; ++g) {
+      double value = design_[height_ * t + g];
+      if (value != 0) row_.push_back({static_cast<int>(g), value});
+    }
+    for (int i = 0; i < fit.neighbours; ++i) {
+      int v = w.candidate[w.selected[i]];
+      if (column_[v] < 0) {
+        column_[v] = static_cast<int>(out_.vertex.size());
+        out_.vertex.push_back(v);
+        out_.own.push_back(0);
+        total_.resize(out_.vertex.size() * height_, 0.0);
+      }
+      double* sum = &total_[height_ * column_[v]];
+      double slope = derivative_[i];
+      for (const Entry& entry : row_) sum[entry.first] += slope * entry.second;
+      out_.own[column_[v]] += slope * slope;
+    }
+  }
+
+  Responses finish(int unfitted) {
+    out_.unfitted = unfitted;
+    out_.by_function.resize(out_.vertex.size());
+    for (std::size_t c = 0; c < out_.vertex.size(); ++c)
+      for (std::size_t g = 0; g < height_; ++g) {
+        double value = total_[height_ * c + g];
+        if (value != 0) out_.by_function[c].push_back({static_cast<int>(g), value});
+      }
+    return out_;
+  }
+
+ private:
+  const double *directions_, *design_;
+  std::size_t height_;
+  std::vector<int> column_;  // of each vertex, its column of total_
+  std::vector<double> derivative_, total_;
+  std::vector<Entry> row_;
+  Responses out_;
+};
+
+// Where a ball has too few points it is widened, as the curvature itself is.
 Responses responses(const Triangulation& mesh, const std::vector<int>& targets, const double* directions,
                     const double* design, int functions, const FitSettings& settings,
                     const std::function<void()>& between) {
   VertexGraph graph = vertex_graph(mesh);
-  std::vector<double> normals = vertex_normals(mesh), derivative,
-                      total;
-  ConnectedBalls balls(mesh.vb, mesh.n, graph, settings.radius, targets);
-  ConnectedBalls::Workspace space = balls.workspace();
+  std::vector<double> normals = vertex_normals(mesh);
   FitBuffer buffer;
   Patience patience(between);
-  std::vector<int> column(mesh.n, -1);  // of each vertex, its column of `total`
-  std::vector<Entry> row;
-  Responses out;
-  std::size_t height = functions;
-  for (int cell = 0; cell < balls.cells(); ++cell) {
-    fit_cell(balls, cell, mesh, targets, normals, settings, space, buffer, patience, 0,
-             [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace& w) {
-               if (!fit.ok) return;
-               derivative.resize(fit.neighbours);
-               curvature_derivative(fit, directions + 3 * static_cast<std::size_t>(t), settings,
-                                    buffer, derivative.data());
-               row.clear();
-               for (int g = 0; g < functions; ++g) {
-                 double value = design[height * t + g];
-                 if (value != 0) row.push_back({g, value});
-               }
-               for (int i = 0; i < fit.neighbours; ++i) {
-                 int v = w.candidate[w.selected[i]];
-                 if (column[v] < 0) {
-                   column[v] = static_cast<int>(out.vertex.size());
-                   out.vertex.push_back(v);
-                   out.own.push_back(0);
-                   total.resize(out.vertex.size() * height, 0.0);
-                 }
-                 double* sum = &total[height * column[v]];
-                 double slope = derivative[i];
-                 for (const Entry& entry : row) sum[entry.first] += slope * entry.second;
-                 out.own[column[v]] += slope * slope;
-               }
-             });
-    patience.finish();
+  Responder responder(mesh.n, directions, design, functions);
+  std::vector<int> open(targets.size()), places, unfitted;
+  std::iota(open.begin(), open.end(), 0);
+  FitSettings ball = settings;
+  for (; !open.empty() && ball.radius <= settings.widen * settings.radius; ball.radius *= settings.growth) {
+    places.clear();
+    for (int t : open) places.push_back(targets[t]);
+    ConnectedBalls balls(mesh.vb, mesh.n, graph, ball.radius, places);
+    ConnectedBalls::Workspace space = balls.workspace();
+    unfitted.clear();
+    for (int cell = 0; cell < balls.cells(); ++cell) {
+      fit_cell(balls, cell, mesh, places, normals, ball, space, buffer, patience, 0,
+               [&](int i, const LocalFit& fit, const ConnectedBalls::Workspace& w) {
+                 if (fit.ok) responder.add(open[i], fit, w, ball, buffer);
+                 else unfitted.push_back(open[i]);
+               });
+      patience.finish();
+    }
+    open = unfitted;
   }
-  out.by_function.resize(out.vertex.size());
-  for (std::size_t c = 0; c < out.vertex.size(); ++c)
-    for (int g = 0; g < functions; ++g)
-      if (total[height * c + g] != 0) out.by_function[c].push_back({g, total[height * c + g]});
-  return out;
+  return responder.finish(static_cast<int>(open.size()));
 }
 
 // Calls use(j) for every place j (from 0, one of n, itself among them) within `reach` of each i in turn: by a grid
@@ -194,7 +229,7 @@ CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::v
                                          const std::function<void()>& between) {
   Responses r = responses(mesh, targets, directions, design, functions, settings, between);
   std::size_t size = functions;
-  CurvatureCovariance out{std::vector<double>(size * size, 0.0), 0.0};
+  CurvatureCovariance out{std::vector<double>(size * size, 0.0), 0.0, r.unfitted};
   for (std::size_t c = 0; c < r.vertex.size(); ++c) {
     double variance = noise.sigma[r.vertex[c]] * noise.sigma[r.vertex[c]];
     out.trace += variance * r.own[c];

@@ -29,6 +29,7 @@ struct HeightNoise {
 struct CurvatureCovariance {
   std::vector<double> matrix;  // of the functions, square
   double trace;                // sum of the variances of the curvatures themselves, of the independent errors alone
+  int unfitted;                // targets that have no fit in a ball of settings.widen times the radius
 };
 
 // Covariance of linear functions X' k of the normal curvatures k at the targets, when the vertices have errors:

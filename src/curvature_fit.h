@@ -14,6 +14,7 @@ struct FitSettings {
   double points_per_term;  // fewest neighbours a coefficient
   double one_sided;        // a neighbourhood whose centroid lies further off than this share of the
                            // radius is fitted with order 3 at most
+  double widen, growth;    // where the ball has too few points its radius grows by this factor, up to `widen` times
 };
 
 struct Frame {

@@ -65,6 +65,8 @@ crestline::FitSettings fit_settings(const List& s) {
   out.shrinkage = s["shrinkage"];
   out.points_per_term = s["points_per_term"];
   out.one_sided = s["one_sided"];
+  out.widen = s["widen"];
+  out.growth = s["growth"];
   return out;
 }
 
@@ -217,17 +219,25 @@ List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector 
                               List margins, IntegerVector target, IntegerVector vertex, NumericVector sigma,
                               double other, NumericVector smooth, List settings) {
   crestline::FitSettings fit = fit_settings(settings);
-  crestline::Crop near = crop(vb, it, targets, fit.radius);
-  std::vector<double> known(vb.ncol(), other), near_sigma;
+  std::vector<double> known(vb.ncol(), other);
   for (int i = 0; i < vertex.size(); ++i) known[vertex[i] - 1] = sigma[i];
-  for (int v : near.vertex) near_sigma.push_back(known[v]);
   NumericMatrix along = margins["along"], across = margins["across"];
   int size = along.ncol() * across.ncol();
   std::vector<double> design = crestline::summed_tensor(along.begin(), along.ncol(), across.begin(), across.ncol(),
                                                         from_zero(target), targets.size());
-  crestline::CurvatureCovariance c = crestline::curvature_covariance(
-      view_of(near), near.local, directions.begin(), design.data(), size, {near_sigma.data(), smooth[0], smooth[1]},
-      fit, [] { checkUserInterrupt(); });
+  auto covariance = [&](double widen) {
+    crestline::Crop near = crop(vb, it, targets, widen * fit.radius);
+    std::vector<double> near_sigma;
+    for (int v : near.vertex) near_sigma.push_back(known[v]);
+    fit.widen = widen;
+    return crestline::curvature_covariance(view_of(near), near.local, directions.begin(), design.data(), size,
+                                           {near_sigma.data(), smooth[0], smooth[1]}, fit,
+                                           [] { checkUserInterrupt(); });
+  };
+  // Wider balls, and the larger part of the mesh that they need, are rare.
+  double widen = fit.widen;
+  crestline::CurvatureCovariance c = covariance(1);
+  if (c.unfitted > 0 && widen > 1) c = covariance(widen);
   return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
 }
 

@@ -222,14 +222,40 @@ test_that("near an end, which is fixed, the error is no larger than the way from
   expect_lt(max(plain$se), max(way))
 })
 
-test_that("where no local fit has vertices to spare, the error is not known, and this is said", {
-  ridge <- simulate_ridge(0.25, 1, spacing = 0.2, noise = 0.01, seed = 1)
-  expect_warning(
-    curve <- ridge_curve(ridge, rownames(ridge$landmarks)[1], rownames(ridge$landmarks)[2], "ridge",
-                         radius = 0.25, width = 0.4, n = 9),
-    "too few vertices to know its standard error", class = "crestline_undetermined"
-  )
-  expect_true(all(is.na(curve$points$se)))
-  expect_identical(c(curve$se, curve$noise_factor), c(NA_real_, NA_real_))
-  expect_false(curve$determined)
+test_that("where balls are widened, the variance is that of the wider fits", {
+  mesh <- closed_form_mesh(list(x = quote(u), y = quote(v), z = quote(0 * u), u = c(-6, 6),
+                                v = c(-6, 6)))$mesh
+  at <- which.min(colSums(mesh$vb[1:2, ]^2))
+  variance <- function(radius, ...) {
+    curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1),
+                       rep(0.3, ncol(mesh$vb)), kernel_settings(radius, "quadratic", ...))
+  }
+  wide <- curvature(mesh, 4.3, "quadratic", vertices = at)$neighbours[at]
+  expect_equal(variance(4.3 / 1.5, points_per_term = wide / 6), variance(4.3), tolerance = 1e-10)
+  expect_equal(variance(4.3 / 1.5, points_per_term = wide / 6, widen = 1.4), 0)
+})
+
+test_that("on a coarse mesh the standard error is not below the spread", {
+  ridge <- function(seed) simulate_ridge(0.25, 1, spacing = 0.2, noise = 0.01, seed = seed)
+  curves <- lapply(1:20, function(seed) {
+    one <- ridge(seed)
+    ends <- rownames(one$landmarks)
+    suppressWarnings(ridge_curve(one, ends[1], ends[2], "ridge", radius = 0.25, width = 0.4, n = 5))
+  })
+  spread <- stats::sd(vapply(curves, function(curve) curve$points$d[3], 0))
+  said <- stats::median(vapply(curves, function(curve) curve$points$se[3], 0))
+  expect_gt(said / spread, 1)
+  expect_lt(said / spread, 5)
+})
+
+test_that("where no strength depends on the heights, the noise is not known, and this is said", {
+  none <- list(along = matrix(0, 0, 1), across = matrix(0, 0, 1))
+  surface <- list(coefficients = matrix(1), strength = 1, factor = matrix(1))
+  expect_identical(noise_factor(surface, integer(), none, list(trace = 0, matrix = matrix(0))),
+                   NA_real_)
+  job <- list(type = "ridge", route = "plane", radius = 1, settings = ridge_settings())
+  fit <- list(found = TRUE, scale = 1, line = list(se = rep(NA_real_, 5), at_bound = FALSE))
+  judged <- judge_curve(job, fit)
+  expect_false(judged$determined)
+  expect_match(judged$reason, "standard error")
 })
