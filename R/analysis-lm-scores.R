@@ -109,7 +109,7 @@ pillai_scores <- function(u, span, orders) {
 #' @noRd
 effect_z <- function(x, range = c(-2, 2), log_below = 1e-3) {
   if (!all(is.finite(x) & x > 0) || length(unique(x)) == 1) return(NA_real_)
-  power <- function(y, a) if (abs(a) > log_below) (y^a - 1) / a else log(y)
+  power <- function(y, a) if (a == 0) log(y) else expm1(a * log(y)) / a
   others <- x[-1] / exp(mean(log(x[-1])))
   likelihood <- function(a) {
     y <- power(others, a)

@@ -109,3 +109,62 @@ test_that("scallops (geomorph): the table of object symmetry of their example", 
                     theirs$symm.shape[, , i] / sqrt(sum(theirs$symm.shape[, , i]^2))), 1e-3)
   }
 })
+
+test_that("plethodon, pupfish (geomorph) and gorillas: models with size as a covariate", {
+  skip_if_not_installed("RRPP")
+  agree <- function(coords, size, formula, data, ss = "I") {
+    aligned <- as_aligned(coords, size)
+    y <- t(matrix(aligned$coords, length(aligned$mean)))
+    frame <- do.call(RRPP::rrpp.data.frame, c(list(y = y, size = unname(aligned$size)), data))
+    theirs <- anova(RRPP::lm.rrpp(update(formula, y ~ .), data = frame, iter = 199, seed = 1,
+                                  SS.type = ss, print.progress = FALSE))$table
+    orders <- RRPP:::perm.index(length(aligned), 199, seed = 1)
+    rows <- data.frame(id = names(aligned), data)
+    ours <- shape_lm(aligned, formula, rows, settings = model_settings(
+      tests = "shape", permutations = orders, ss = ss
+    ))$tests
+    k <- seq_len(nrow(ours))
+    expect_equal(ours$squares, theirs$SS[k], tolerance = 1e-10)
+    expect_equal(ours$statistic, theirs$F[k], tolerance = 1e-10)
+    expect_lt(max(abs(ours$z - theirs$Z[k])), 1e-8)
+    expect_equal(ours$p_value, theirs[k, 7])
+    ours
+  }
+  numbered <- function(x) `dimnames<-`(x, list(NULL, NULL, paste0("s", seq_len(dim(x)[3]))))
+  plethodon <- package_data("plethodon", "geomorph")$plethodon
+  fit <- geomorph::gpagen(numbered(plethodon$land), print.progress = FALSE)
+  data <- list(species = plethodon$species, site = plethodon$site)
+  plain <- agree(fit$coords, fit$Csize, ~ species * site, data)
+  expect_equal(round(plain$statistic, 3), c(14.544, 32, 15.353))
+  agree(fit$coords, fit$Csize, ~ log(size) + species * site, data)
+  pupfish <- package_data("pupfish", "geomorph")$pupfish
+  data <- list(Sex = pupfish$Sex, Pop = pupfish$Pop)
+  coords <- numbered(pupfish$coords)
+  size <- unname(pupfish$CS)
+  # As tutorials of these data print it, aligned anew there.
+  known <- agree(coords, size, ~ log(size) + Sex + Pop, data)
+  expect_equal(round(known$share, 3), c(0.249, 0.135, 0.136))
+  expect_equal(known$statistic, c(25.926, 14.086, 14.169), tolerance = 1e-3)
+  agree(coords, size, ~ log(size) + Sex * Pop, data, "II")
+  gorilla <- gorillas()
+  aligned <- align(numbered(gorilla$x))
+  agree(aligned$coords, aligned$size, ~ log(size) * sex, list(sex = gorilla$sex))
+})
+
+test_that("gorillas (shapes) with size as a covariate: squares and F of lm()", {
+  gorilla <- gorillas()
+  dimnames(gorilla$x) <- list(NULL, NULL, paste0("s", 1:59))
+  aligned <- align(gorilla$x)
+  rows <- data.frame(id = names(aligned), sex = gorilla$sex)
+  ours <- shape_lm(aligned, ~ log(size) + sex, rows, n_perm = 199, seed = 1,
+                   settings = model_settings(tests = "shape"))$tests
+  y <- t(matrix(aligned$coords, 16))
+  left <- vapply(list(y ~ 1, y ~ log(aligned$size), y ~ log(aligned$size) + gorilla$sex),
+                 function(formula) sum(resid(lm(formula))^2), 0)
+  expect_equal(ours$squares, -diff(left), tolerance = 1e-10)
+  expect_equal(ours$statistic, -diff(left) / (left[3] / 56), tolerance = 1e-10)
+  # Most of the difference of the sexes goes with size.
+  alone <- shape_lm(aligned, ~ sex, rows, n_perm = 199, seed = 1,
+                    settings = model_settings(tests = "shape"))$tests
+  expect_gt(alone$share, 4 * ours$share[2])
+})
