@@ -160,32 +160,39 @@ out <- function() {
   }
 }
 
-# ---- new faces: each left out, its scores against those in the whole sample ----
+# ---- simpop: landmarks, and every or some vertices ----
 
-new <- function() {
+simpop <- function(vertices = NULL) {
   folder <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
   placed <- read.csv(file.path(folder, "landmarks.csv"))
   ids <- unique(placed$id)
   marks <- simplify2array(lapply(ids,
                                  function(id) as.matrix(placed[placed$id == id, c("x", "y", "z")])))
   dimnames(marks) <- list(unique(placed$landmark), c("x", "y", "z"), ids)
-  mesh <- lapply(ids, function(id)
-    Rvcg::vcgImport(file.path(folder, paste0(id, ".ply")), readcolor = FALSE, silent = TRUE))
-  dense <- simplify2array(lapply(mesh, function(one) t(one$vb[1:3, ])))
+  dense <- simplify2array(lapply(ids, function(id) {
+    mesh <- Rvcg::vcgImport(file.path(folder, paste0(id, ".ply")), readcolor = FALSE, silent = TRUE)
+    count <- min(vertices, ncol(mesh$vb))
+    t(mesh$vb[1:3, round(seq(1, ncol(mesh$vb), length.out = count))])
+  }))
   dimnames(dense) <- list(NULL, c("x", "y", "z"), ids)
-  for (level in c("landmarks", "vertices")) {
-    x <- if (level == "landmarks") marks else dense
+  list(landmarks = marks, vertices = dense)
+}
+
+# ---- new faces: each left out, its scores against those in the whole sample ----
+
+new <- function() {
+  for (x in simpop()) {
     whole <- shape_pca(quiet(align(x)))
     own <- max(abs(predict(whole, x) - whole$x))
-    off <- t(vapply(seq_along(ids), function(i) {
+    off <- t(vapply(seq_len(dim(x)[3]), function(i) {
       part <- shape_pca(quiet(align(x[, , -i])))
       score <- predict(part, x[, , i])
       turn <- sign(colSums(part$rotation[, 1:5] * whole$rotation[, 1:5]))
       c(abs(score[1, 1:5] * turn - whole$x[i, 1:5]) / whole$sdev[1:5],
         outside = unname(attr(score, "outside")))
     }, numeric(6)))
-    cat("\nnew faces,", length(ids), level, ": own scores differ by", signif(own, 2),
-        "; left out, median |difference| in sd of PC1 to PC5, and share outside:\n")
+    cat("\nnew faces, ", dim(x)[1], " points: own scores differ by ", signif(own, 2),
+        "; left out, median |difference| in sd of PC1 to PC5, and share outside:\n", sep = "")
     print(round(apply(off, 2, median), 3))
   }
 }
@@ -193,23 +200,18 @@ new <- function() {
 # ---- signs: each face of simpop left out, which of the first five components turn round ----
 
 signs <- function() {
-  folder <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
-  ids <- unique(read.csv(file.path(folder, "landmarks.csv"))$id)
-  faces <- simplify2array(lapply(ids, function(id) {
-    mesh <- Rvcg::vcgImport(file.path(folder, paste0(id, ".ply")), readcolor = FALSE, silent = TRUE)
-    t(mesh$vb[1:3, round(seq(1, ncol(mesh$vb), length.out = 1500))])
-  }))
-  dimnames(faces) <- list(NULL, c("x", "y", "z"), ids)
-  whole <- shape_pca(quiet(align(faces)))
-  found <- lapply(seq_along(ids), function(i) {
-    part <- shape_pca(quiet(align(faces[, , -i])))
-    r <- cor(part$x[, 1:8], whole$x[-i, 1:5])
-    # Another component is nearer: exchanged. The same with the other sign: turned.
-    c(exchanged = sum(apply(abs(r), 2, which.max) != 1:5),
-      turned = sum(apply(abs(r), 2, which.max) == 1:5 & diag(r[1:5, ]) < 0))
-  })
-  cat("\nsigns, of", 5 * length(ids), "components:\n")
-  print(Reduce(`+`, found))
+  for (x in simpop(1500)) {
+    whole <- shape_pca(quiet(align(x)))
+    found <- lapply(seq_len(dim(x)[3]), function(i) {
+      part <- shape_pca(quiet(align(x[, , -i])))
+      r <- cor(part$x[, 1:8], whole$x[-i, 1:5])
+      # Another component is nearer: exchanged. The same with the other sign: turned.
+      c(exchanged = sum(apply(abs(r), 2, which.max) != 1:5),
+        turned = sum(apply(abs(r), 2, which.max) == 1:5 & diag(r[1:5, ]) < 0))
+    })
+    cat("\nsigns, ", dim(x)[1], " points, of ", 5 * dim(x)[3], " components:\n", sep = "")
+    print(Reduce(`+`, found))
+  }
 }
 
 # ---- speed ----
