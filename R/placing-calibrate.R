@@ -57,6 +57,8 @@ calibrate_template <- function(template, specimens, rounds = 4, settings = find_
     template$landmarks <- moved_landmarks(template, off)
   }
   template$predicted <- calibrated_prediction(template, fits)
+  seen <- unlist(lapply(fits, function(fit) rownames(fit$at)))
+  template$ear <- template$ear[!names(template$ear) %in% seen]
   template$calibration <- calibration_table(
     before, template, landmark_offsets(prepared, template, fits)
   )

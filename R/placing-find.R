@@ -32,7 +32,8 @@
 #'     * `landmark`;
 #'     * `state`: "found"; "placed" (the specimen had it before); "predicted" (the template marks it
 #'       so: it is placed by the positions of the others, perhaps off the mesh); or "absent" (the
-#'       scan has no surface there);
+#'       scan has no surface there). Where a face has ears, the predicted tragion is moved to where a
+#'       patch of an ear fits best (setting `ear`); it is still some 6 mm off, and "predicted";
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
 #'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. The
 #'       corners and the middle of the mouth share their doubt (setting `shared_doubt`). If
@@ -270,7 +271,7 @@ carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept 
   found$confidence[found$state == "absent"] <- NA
   found <- with_shared_doubt(found, prepared$modes$slit, settings$shared_doubt)
   if (!nrow(template$predicted)) return(found)
-  rbind(found, predicted_landmarks(template, found, to_scan, kept))
+  rbind(found, predicted_landmarks(template, found, laid, settings, kept))
 }
 
 #' Confidence of landmarks, see [find_landmarks()]; lengths in the template's unit
@@ -317,15 +318,15 @@ local_evidence <- function(prepared, cloud, fit, settings) {
 
 #' Landmarks that the surface tells nothing about, by a similarity fitted to those that were found
 #' @noRd
-predicted_landmarks <- function(template, found, to_scan, kept = NULL) {
+predicted_landmarks <- function(template, found, laid, settings, kept = NULL) {
   own <- template$predicted
   to <- as.matrix(found[c("x", "y", "z")])
   named <- intersect(found$landmark, rownames(kept))
   to[match(named, found$landmark), ] <- kept[named, ]
   on <- found$state == "found" | found$landmark %in% named
-  at <- if (sum(on) < 4) to_scan(own) else {
-    apply_similarity(own, similarity(template$landmarks[on, , drop = FALSE],
-                                     to[on, , drop = FALSE]))
+  at <- if (sum(on) < 4) from_frame(own, laid) else {
+    by <- similarity(template$landmarks[on, , drop = FALSE], to[on, , drop = FALSE])
+    apply_similarity(predicted_places(template, laid, by, settings), by)
   }
   data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_,
              sd = NA_real_,

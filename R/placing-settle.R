@@ -29,7 +29,8 @@ settled_pose <- function(template, scan, unit, settings, threads, start = NULL) 
   laid <- agreed_pose(template, laid, settings)
   good <- laid$agree >= settings$sure || accepted_pose(template, laid, settings)
   if (template$judged && good) return(laid)
-  senses <- if (template$judged && laid$agree >= settings$agree[2]) laid$inverted else c(FALSE, TRUE)
+  likely <- template$judged && laid$agree >= settings$agree[2]
+  senses <- if (likely) laid$inverted else c(FALSE, TRUE)
   cloud <- with_anchors(cloud, settings, threads)
   by_anchors <- anchored_pose(template, cloud, laid, senses, settings)
   if (by_anchors$misfit < laid$misfit) agreed_pose(template, by_anchors, settings) else laid

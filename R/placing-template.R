@@ -25,7 +25,7 @@
 #'   middle of the mouth. Without a `slit` no expressions are tried. They need a `mirror`.
 #' @return Object of class `landmark_template`, a list of `id`, `specimen`, `landmarks`,
 #'   `predicted`, `unit`, `mirror`, `start` (the position of that landmark, or NULL), `modes` (what
-#'   expressions move), and `judged`.
+#'   expressions move), `judged`, and `ear` (for the face: points of an ear with its tragion).
 #'   `landmarks` and `predicted` are k x 3 matrices of the landmarks that are found and predicted.
 #'   `judged` is TRUE if the setting `agree` of [find_settings()] was measured for the template, as
 #'   for the face. All positions are in the template's own frame. With `mirror`, left is at positive
@@ -73,7 +73,8 @@ landmark_template <- function(specimen, predicted = character(),
   modes <- if (length(slit)) template_modes(at, hinge, moves, slit)
   structure(list(id = specimen$id, specimen = specimen, landmarks = at[found, , drop = FALSE],
                  predicted = at[!found, , drop = FALSE], unit = unit, mirror = mirror,
-                 start = if (!is.null(start)) at[start, ], modes = modes, judged = FALSE),
+                 start = if (!is.null(start)) at[start, ], modes = modes, judged = FALSE,
+                 ear = NULL),
             class = "landmark_template")
 }
 
@@ -206,6 +207,7 @@ read_face_template <- function() {
                                 hinge = c("tL", "tR"), moves = c("li", "sl", "gn"),
                                 slit = c("chL", "st", "chR"))
   template$judged <- TRUE
+  template$ear <- read_ears(file.path(folder, "ear.csv"))
   template
 }
 

@@ -360,8 +360,8 @@ asked <- commandArgs(TRUE)
 number <- sub("n=", "", grep("^n=", asked, value = TRUE))
 number <- if (length(number)) as.numeric(number) else 6
 parts <- list(whole = run_whole, rotations = run_rotations, units = run_units, parts = run_parts,
-              expressions = run_expressions, objects = run_objects, time = run_time, kept = run_kept,
-              ears = run_ears)
+              expressions = run_expressions, objects = run_objects, time = run_time,
+              kept = run_kept, ears = run_ears)
 named <- intersect(asked, names(parts))
 for (part in if (length(named)) named else names(parts)) {
   cat("\n", part, "\n", sep = "")

@@ -1,0 +1,52 @@
+# The tragion by a patch of an ear.
+
+ears_of <- function(face) face$landmarks[ear_names, ]
+
+test_that("on the head that the patch is of, the tragion is where it was placed; both sides", {
+  data(dummyhead, package = "Rvcg", envir = environment())
+  file <- system.file("extdata", "dummyhead_landmarks.csv", package = "crestline")
+  placed <- read_landmarks(file)[ear_names, ]
+  settings <- function(ear) find_settings(points = 1000, warp_steps = 10, ear = ear)
+  head <- find_landmarks(dummyhead.mesh, settings = settings(0.55))
+  without <- find_landmarks(dummyhead.mesh, settings = settings(1e-6))
+  off <- row_lengths(ears_of(head) - placed)
+  before <- row_lengths(ears_of(without) - placed)
+  expect_lt(max(off[1:2]), 2)
+  expect_gt(min(before[1:2]), 2 * max(off[1:2]))
+  # The lower end of the ear stays with the prediction, and all are still predicted.
+  expect_equal(off[3:4], before[3:4])
+  state <- head$placing$state[match(ear_names, head$placing$landmark)]
+  expect_equal(state, rep("predicted", 4))
+})
+
+test_that("without ears the others predict the tragion; calibration replaces the patch", {
+  settings <- find_settings(points = 1000, warp_steps = 10, ear = 1e-6)
+  expect_equal(ears_of(find_landmarks(humface_scan(), settings = settings)),
+               ears_of(found_lines()))
+  expect_named(face_template()$ear, c("tL", "tR"))
+  own <- suppressWarnings(specimen(humface_scan(), humface_landmarks(), id = "humface"))
+  mine <- calibrate_template(face_template(), own, rounds = 1, settings = quick_settings())
+  expect_length(mine$ear, 0)
+})
+
+test_that("a patch comes to where it lies in a cloud, and nowhere on a ball", {
+  ear <- face_template()$ear$tR
+  expect_lt(ear$landmark[1], 0)
+  settings <- find_settings()
+  turn <- some_rotation(1)
+  small <- diag(3) + 0.1 * (turn - t(turn)) / 2
+  turn <- svd(small)
+  turn <- turn$u %*% t(turn$v)
+  middle <- rowMeans(ear$xyz)
+  moved <- function(xyz) turn %*% (xyz - middle) + middle + c(3, 8, -6)
+  cloud <- list(xyz = moved(ear$xyz), normal = turn %*% ear$normal, k1 = ear$k1, k2 = ear$k2,
+                border = logical(length(ear$k1)), spacing = c(2.5, 5))
+  place <- place_by_ear(ear, cloud, ear$landmark, settings)
+  expect_equal(place, drop(moved(cbind(ear$landmark))), tolerance = 0.01)
+  ball <- with_seed(1, matrix(stats::rnorm(1200), 3))
+  ball <- ball / rep(sqrt(colSums(ball^2)), each = 3)
+  smooth <- list(xyz = 40 * ball + ear$landmark, normal = ball, k1 = rep(-1 / 40, 400),
+                 k2 = rep(-1 / 40, 400), border = logical(400), spacing = c(2.5, 5))
+  expect_null(place_by_ear(ear, smooth, ear$landmark, settings))
+  expect_null(place_by_ear(ear, smooth, ear$landmark + 500, settings))
+})
