@@ -74,7 +74,6 @@ crest_arcs <- function(scan, stops, cost, radius, search, ends) {
 #' @param reach Greatest distance from a path, in radii.
 #' @noRd
 dearer_beside <- function(scan, cost, paths, reach, radius, search) {
-  most <- search$block_cost * max(cost)
   for (places in paths) {
     s <- c(0, cumsum(row_lengths(diff(places[, 1:3]))))
     free <- search$block_free * radius
@@ -84,7 +83,8 @@ dearer_beside <- function(scan, cost, paths, reach, radius, search) {
     near <- cpp_vertices_in_box(scan$vb, box[1, ], box[2, ])
     vertex <- t(scan$vb[1:3, near, drop = FALSE])
     off <- Rvcg::vcgKDtree(inner, vertex, k = 1)$distance
-    cost[near[off <= reach * radius]] <- most
+    # The greatest cost is 1, off every feature.
+    cost[near[off <= reach * radius]] <- search$block_cost
   }
   cost
 }

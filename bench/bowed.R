@@ -7,8 +7,13 @@ part <- c(commandArgs(TRUE), "open")[1]
 seeds <- as.integer(c(commandArgs(TRUE)[-1], 4)[1])
 
 xyz_of <- function(x) as.matrix(as.data.frame(x)[c("x", "y", "z")])
+# Distance of points from a line, which is made dense: by the nearest of 50,000 places of it.
+dense <- function(path, n = 50000) {
+  at <- seq(0, attr(path, "length"), length.out = n)
+  sapply(c("x", "y", "z"), function(axis) approx(path$s, path[[axis]], at, ties = "ordered")$y)
+}
 off <- function(x, truth) {
-  line <- if (is.matrix(truth)) truth else xyz_of(truth)
+  line <- if (is.matrix(truth)) truth else dense(truth)
   Rvcg::vcgKDtree(line, xyz_of(x), k = 1)$distance
 }
 quiet <- function(code) suppressWarnings(code)
@@ -79,7 +84,7 @@ if (part == "open") {
         beside <- if (height > 0) crest(rival, height) else function(g) 0
         surface <- function(g) pmax(crest(three_quarters)(g), beside(g))
         on <- marked(field(surface, 65, 1, noise, seed), ends)
-        plane <- ridge(on, "a", "b", settings = ridge_settings(longest = Inf))
+        plane <- ridge(on, "a", "b", settings = ridge_settings(longest = Inf), reach = Inf)
         path <- quiet(reference_path(on, "a", "b", "ridge", radius = radius, path = "crest"))
         fit <- ridge(on, "a", "b", path = "crest")
         c(plane = mean(off(plane$points, truth)), path = mean(off(path, truth)),
@@ -167,7 +172,7 @@ if (part == "skull") {
     two <- outline(on, own, own$two, radius)
     four <- outline(on, own, own$four, radius)
     some <- shape$paths[grep(pieces[[name]], names(shape$paths))]
-    from_pieces <- off(two$points, do.call(rbind, lapply(some, xyz_of)))
+    from_pieces <- off(two$points, do.call(rbind, lapply(some, dense)))
     cat(sprintf("%s, radius %g: two from four %.2f at most, %.2f mean; from the scheme's pieces %.2f\n",
                 name, radius, max(off(two$path, four$path)), mean(off(two$path, four$path)),
                 mean(from_pieces)))
