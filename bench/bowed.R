@@ -208,9 +208,31 @@ if (part == "stops") {
 }
 
 if (part == "tooth") {
-  folder <- file.path(Sys.getenv("DOOLKIT"), "data")
-  load(list.files(folder, "dkmodel", full.names = TRUE)[1])
-  print(names(dkmodel))
+  # Four dentine horns: highest places of the enamel-dentine junction of a molar.
+  load(file.path(Sys.getenv("DOOLKIT"), "data", "dkpongo.rda"))
+  tooth <- dkpongo$EDJ
+  horns <- rbind(a = c(-3.191, -2.198, 6.915), b = c(-5.043, 2.446, 6.795),
+                 c = c(3.417, -3.461, 6.209), d = c(3.696, 2.418, 6.440))
+  on <- specimen(tooth, horns, id = "tooth", tolerance = 0.1)
+  rho <- function(curve, radius = 0.4) {
+    sprintf("rho %.2f, length %.2f, %s", radius * curve$strength, curve$length,
+            if (isTRUE(curve$determined)) "determined" else
+              paste0("NOT determined (", curve$reason, ")"))
+  }
+  for (chord in c("ab", "bd", "dc", "ca", "ad")) {
+    ends <- strsplit(chord, "")[[1]]
+    for (path in c("plane", "crest")) {
+      curve <- quiet(ridge_curve(on, ends[1], ends[2], "ridge", radius = 0.4, width = 0.6, n = 40,
+                                 path = path))
+      cat(chord, sprintf("%-5s", path), rho(curve), sprintf(
+        "competing %.2f\n", c(attr(curve$reference, "competing"), NA)[1]
+      ))
+    }
+  }
+  for (via in list(c("b", "d", "c"), c("b", "c"), c("d", "c"))) {
+    ring <- quiet(ridge_curve(on, "a", "a", "ridge", radius = 0.4, width = 0.6, n = 60, via = via))
+    cat("ring", toString(c("a", via)), rho(ring), "\n")
+  }
 }
 
 if (part == "faces") {
