@@ -107,24 +107,30 @@ abort_few_compared <- function(count, id) {
 
 #' The vertices of a scan near some places: `xyz` and `normal` (n x 3), `edge` (their mean spacing),
 #' `extent`
+#'
+#' The normals are those of local fits. Those of the triangles about a vertex lean with its own
+#' error, and what is measured along them comes out too short.
+#'
+#' @param fits Radius of the local fits, in mean edges.
 #' @noRd
-compared_vertices <- function(scan, near, reach, points) {
+compared_vertices <- function(scan, near, reach, points, fits = 5) {
   xyz <- t(scan$vb[1:3, , drop = FALSE])
-  bare <- structure(list(vb = scan$vb, it = scan$it), class = "mesh3d")
-  normal <- t(Rvcg::vcgUpdateNormals(bare, silent = TRUE)$normals[1:3, ])
   span <- function(x) max(apply(x, 2, function(column) diff(range(column, na.rm = TRUE))))
   extent <- span(if (is.null(near)) xyz else near)
   off <- if (is.null(near)) rep(0, nrow(xyz)) else
     sqrt(do.call(pmin, lapply(which(stats::complete.cases(near)), function(i) {
       rowSums(sweep(xyz, 2, near[i, ])^2)
     })))
-  kept <- which(off <= reach * extent & rowSums(normal^2) > 0)
+  kept <- which(off <= reach * extent & seq_along(off) %in% scan$it)
   if (length(kept) > points) kept <- kept[order(off[kept])[seq_len(points)]]
   own <- matrix(scan$it %in% kept, 3)
   inside <- scan$it[, colSums(own) == 3, drop = FALSE]
   edge <- mean(row_lengths(xyz[inside[1, ], , drop = FALSE] - xyz[inside[2, ], , drop = FALSE]))
-  list(xyz = xyz[kept, , drop = FALSE], normal = normal[kept, , drop = FALSE], edge = edge,
-       extent = extent)
+  if (length(kept) < 100) return(list(xyz = xyz[kept, , drop = FALSE]))
+  normal <- curvature_at(scan, kept, kernel_settings(fits * edge, "quadratic"), 1L)$normal
+  fitted <- !is.na(normal[, 1])
+  list(xyz = xyz[kept[fitted], , drop = FALSE], normal = normal[fitted, , drop = FALSE],
+       edge = edge, extent = extent)
 }
 
 #' The vertices of one scan laid on another by iterated closest points, point to plane
@@ -151,8 +157,7 @@ laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
   repeat {
     at <- surface_points(scan, xyz)
     distance <- rowSums((as.matrix(at[c("x", "y", "z")]) - xyz) * normal)
-    centred <- abs(distance - stats::median(distance))
-    kept <- centred <= trim * stats::mad(distance) + 1e-12 * compared$extent
+    kept <- not_astray(distance, trim, compared$extent)
     if (converged || round == rounds) break
     round <- round + 1
     middle <- colMeans(xyz)
@@ -166,8 +171,33 @@ laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
     move(rotation, middle + step[4:6] - as.vector(rotation %*% middle))
     converged <- max(abs(xyz - before)) <= tolerance * compared$extent
   }
-  list(distance = distance, weight = mean(at$w1^2 + at$w2^2 + at$w3^2), kept = kept,
+  at <- along_normals(scan, xyz, normal)
+  distance <- rowSums((at - xyz) * normal)
+  kept <- not_astray(distance, trim, compared$extent)
+  met <- surface_points(scan, at[kept, , drop = FALSE])
+  list(distance = distance, weight = mean(met$w1^2 + met$w2^2 + met$w3^2), kept = kept,
        converged = converged, rounds = round)
+}
+
+#' Which distances are within `trim` median absolute deviations of their median
+#' @noRd
+not_astray <- function(distance, trim, extent) {
+  centred <- abs(distance - stats::median(distance, na.rm = TRUE))
+  !is.na(centred) & centred <= trim * stats::mad(distance, na.rm = TRUE) + 1e-12 * extent
+}
+
+#' Where the lines through places along their normals meet a scan, NA where they do not: n x 3
+#'
+#' The closest place of a rough surface is on a bump of it: distances to closest places are too
+#' short.
+#' @noRd
+along_normals <- function(scan, xyz, normal) {
+  rays <- structure(list(vb = rbind(t(xyz), 1), normals = rbind(t(normal), 1)), class = "mesh3d")
+  surface <- structure(list(vb = rbind(scan$vb[1:3, ], 1), it = scan$it), class = "mesh3d")
+  met <- Rvcg::vcgRaySearch(rays, surface, mindist = TRUE, threads = 1)
+  at <- t(met$vb[1:3, ])
+  at[met$quality != 1, ] <- NA
+  at
 }
 
 #' Mean product of the distances of two vertices, by the vertices' lag
