@@ -51,7 +51,7 @@ run_ridges <- function(n) {
 
 # Bent ridges by the estimators that are compared cell by cell: all simulations. Fewer for the other
 # methods, and for the other factors.
-run_alternatives <- function(n, most = 100L,
+run_alternatives <- function(n, most = 50L,
                              closest = c("crestline", "one pass", "two passes", "paper's settings",
                                          "principal curve")) {
   base <- list(a = 0.25, b = c(1, 2), noise = 0.01)
