@@ -24,9 +24,9 @@
 #' * *Read a scan*: [read_specimen()], [specimen()]; landmarks and curves: [read_landmarks()],
 #'   [write_landmarks()], [read_curves()]; the source of each: `summary()`, see [provenance].
 #' * *Get landmarks without hands*: [find_landmarks()], [check_placing()], [second_opinion()],
-#'   [refine_landmarks()]; by hand, on a page: [place_landmarks()], [review_landmarks()]; a template
-#'   of your own: [landmark_template()], [face_template()], [calibrate_template()], with
-#'   [find_settings()] and [refine_settings()].
+#'   [refine_landmarks()]; by hand, on a page: [place_landmarks()], [review_landmarks()]
+#'   with [review_settings()]; a template of your own: [landmark_template()], [face_template()],
+#'   [calibrate_template()], with [find_settings()] and [refine_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].
 #' * *One curve*: [ridge_curve()] with [ridge_settings()], [curve_route()], [keep_away()],
 #'   [keep_side()] and, for the noise of a scanner, [scan_noise()]; its stages: [reference_path()]

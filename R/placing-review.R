@@ -23,13 +23,11 @@
 #' @param settings [ridge_settings()] of the curves.
 #' @param view Direction of view, see [draw_surface()]. NULL: from the front, as [find_landmarks()]
 #'   determined it, if it found the landmarks.
-#' @param radius Radius of the curvature that `surface` shows, in the unit of the mesh, as in
-#'   [plot.specimen()].
-#' @param faces Number of triangles of the surface that is shown. A finer mesh is reduced for the
-#'   browser. Landmarks are always put on the full mesh.
-#' @param bridge,unit As in [fit_shape()].
+#' @param unit As in [fit_shape()].
+#' @param page Constants of the page, as of [review_settings()].
 #' @param ... Passed to [shiny::runApp()]: `port`, `host`, `quiet`, `launch.browser` (a function
-#'   gets the address of the page).
+#'   gets the address of the page). Fields of [review_settings()], the former form, give a message
+#'   of class `crestline_deprecated`.
 #' @inheritParams curvature
 #' @details The address of the page has a random token. R answers only requests with this token, and
 #'   none from pages of another site. With `launch.browser = FALSE` the address is printed.
@@ -57,9 +55,8 @@
 review_landmarks <- function(specimen, scheme = face_scheme(),
                              surface = c("natural", "shape index", "curvature", "plain"),
                              least = 0.5, settings = ridge_settings(error = FALSE), view = NULL,
-                             radius = mesh_diagonal(specimen$mesh) / 25, faces = 60000, unit = NULL,
-                             bridge = 0.2,
-                             threads = getOption("crestline.threads", 1L), ...) {
+                             unit = NULL, threads = getOption("crestline.threads", 1L),
+                             page = review_settings(), ...) {
   check_given()
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
   rlang::check_installed("shiny", "to review landmarks.")
@@ -70,19 +67,21 @@ review_landmarks <- function(specimen, scheme = face_scheme(),
   }
   surface <- check_choice(surface, c("natural", "shape index", "curvature", "plain"), "surface")
   least <- check_number(least, "least", 0, 1)
-  bridge <- check_number(bridge, "bridge", 0, 1)
   threads <- check_threads(threads)
-  radius <- check_number(radius, "radius", 0, open = TRUE)
-  faces <- check_count(faces, "faces")
   if (!is.null(view)) view_rotation(view)
-  check_dots(..., known = names(formals(shiny::runApp))[-1])
-  review <- begin_review(specimen, scheme, least, settings, bridge, threads)
+  check_class(page, "review_settings", "page", "review_settings()")
+  check_dots(..., known = c(names(formals(shiny::runApp))[-1], names(page)))
+  given <- list(...)
+  page <- with_former(list(page = page), list(page = names(page)), given)$page
+  radius <- if (is.null(page$radius)) mesh_diagonal(specimen$mesh) / 25 else page$radius
+  review <- begin_review(specimen, scheme, least, settings, page$bridge, threads)
   review$selected <- next_open(review)
   if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
-  shown <- shown_surface(specimen, surface, radius, faces)
-  reviewed <- run_review(
-    review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view), ...
-  )
+  shown <- shown_surface(specimen, surface, radius, page$faces)
+  reviewed <- do.call(run_review, c(
+    list(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view)),
+    given[!names(given) %in% names(page)]
+  ))
   warn_exchanged(specimen_slips(reviewed), reviewed$id)
   reviewed
 }
@@ -96,6 +95,38 @@ place_landmarks <- function(mesh, scheme = face_scheme(), id = NULL, ...) {
   check_surface(mesh, "mesh")
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   review_landmarks(without_landmarks(mesh, scheme, id), scheme, ...)
+}
+
+#' Settings of review_landmarks()
+#'
+#' @template setting-names
+#' @param radius Radius of the curvature that `surface` shows, in the unit of the mesh. `NULL`: 1/25
+#'   of the diagonal of the mesh's bounding box, as in [plot.specimen()].
+#' @param faces Number of triangles of the surface that is shown. A finer mesh is reduced for the
+#'   browser. Landmarks are always put on the full mesh.
+#' @param bridge As in [shape_settings()].
+#' @return List of class `review_settings`.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
+#' @template glossary
+#' @examples
+#' review_settings(faces = 20000)
+#' @export
+review_settings <- function(..., radius = NULL, faces = 60000, bridge = 0.2) {
+  new_settings("review_settings", check_review_settings, list(...))
+}
+
+check_review_settings <- function(settings) {
+  if (!is.null(settings$radius)) check_number(settings$radius, "radius", 0, open = TRUE)
+  check_count(settings$faces, "faces")
+  check_number(settings$bridge, "bridge", 0, 1)
+  settings
+}
+
+#' @export
+print.review_settings <- function(x, ...) {
+  check_method_dots(...)
+  print_settings(x, "<review_settings> of review_landmarks()")
 }
 
 #' A specimen on which every landmark of a scheme is missing

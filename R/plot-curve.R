@@ -15,10 +15,10 @@
 #' @param band Whether to draw the band.
 #' @param points Whether to draw the curve's points.
 #' @param width Line width.
-#' @param landmarks Whether to draw the specimen's landmarks.
 #' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
-#' @param engine,... Arguments of [plot.specimen()]: `view`, `curvature`, `radius`, `main`, and the
-#'   settings of the picture. `around = x$path` shows the curve enlarged. `plot()` of a curve also
+#' @param engine,... Arguments of [plot.specimen()]: `view`, `curvature`, `radius`, `main`,
+#'   `landmarks` (FALSE here), and the settings of the picture. `around = x$path` shows the curve
+#'   enlarged. `plot()` of a curve also
 #'   takes the arguments of `plot_curves()`, or those of the panel.
 #' @param what "surface": the curve on its specimen. "panel": the plane of s and d in which the
 #'   curve was found.
@@ -61,7 +61,7 @@ plot.curve <- function(x, specimen, ..., what = c("surface", "panel")) {
 #' @rdname plot.curve
 #' @export
 plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL, band = TRUE,
-                        points = TRUE, width = 2.5, landmarks = FALSE,
+                        points = TRUE, width = 2.5,
                         engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
   if (missing(specimen)) {
     crestline_abort("`specimen` is not given.",
@@ -69,7 +69,7 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
                     stage = "arguments")
   }
   check_given()
-  check_flags(band, points, landmarks, legend)
+  check_flags(band, points, legend)
   if (!is.null(colour)) check_colour(colour, "colour")
   width <- check_number(width, "width", lower = 0)
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
@@ -82,7 +82,8 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
       sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
     check_curve_on(curves[[i]], specimen, label)
   }
-  scene <- plot(specimen, surface, engine = engine, landmarks = landmarks, legend = legend, ...)
+  more <- utils::modifyList(list(landmarks = FALSE), list(...))
+  scene <- do.call(plot, c(list(specimen, surface, engine = engine, legend = legend), more))
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
   if (band) {

@@ -14,24 +14,32 @@
 #' @param level Level. NULL: the first level with a surface for pictures of shapes, else the first
 #'   level.
 #' @param colour Colours of the groups.
-#' @param components For "boxes": numbers of the components.
-#' @param significance For "map": significance level of the outline (0 to 1).
-#' @param adjust For "map": error rate that the level controls. "fwe": the family-wise error, by the
-#'   greatest statistic over all points. "fdr": the false discovery rate ([stats::p.adjust()],
-#'   Benjamini and Hochberg 1995). If the alignment has weights, it is the rate by weight, such as
-#'   area (Benjamini and Hochberg 1997). It needs many permutations: no point can be significant if
-#'   the least p-value times the number of points exceeds the level, unless many points have that
-#'   p-value. "none": the error of each single point.
-#' @param length_unit For "map": name of the unit of lengths, for the legend.
-#' @param limits,palette For "map": range of the distances (two numbers, unit of the meshes;
-#'   default: symmetric about 0), and colours.
-#' @param opacity For "means": opacity of the nearer surface, 0.5 to 1 ("picture"), or of both
-#'   surfaces ("rgl").
-#' @param engine,view,... As in [plot.specimen()] and [draw_surface()]. "map" has more `ambient`
-#'   light by default, as shade would hide colours. For "boxes" `...` is passed to
-#'   [graphics::boxplot()].
+#' @param engine,view As in [plot.specimen()] and [draw_surface()].
+#' @param ... Further arguments of each kind, see below.
 #' @param legend Whether to draw a legend ("picture" only).
 #' @param main Title; `NULL` for the p-value.
+#' @section Further arguments: Of "boxes":
+#'   * `components`: numbers of the components (1, 2 and 3 by default);
+#'   * those of [graphics::boxplot()].
+#'
+#'   Of "means":
+#'   * `opacity` of the nearer surface, 0.5 to 1 ("picture"), or of both surfaces ("rgl"); 0.8 by
+#'     default;
+#'   * those of [draw_surface()].
+#'
+#'   Of "map":
+#'   * `significance`: significance level of the outline (0 to 1; 0.05 by default);
+#'   * `adjust`: error rate that the level controls. "fwe" (the default): the family-wise error, by
+#'     the greatest statistic over all points. "fdr": the false discovery rate
+#'     ([stats::p.adjust()], Benjamini and Hochberg 1995). If the alignment has weights, it is the
+#'     rate by weight, such as area (Benjamini and Hochberg 1997). It needs many permutations: no
+#'     point can be significant if the least p-value times the number of points exceeds the level,
+#'     unless many points have that p-value. "none": the error of each single point;
+#'   * `limits`, `palette`: range of the distances (two numbers, unit of the meshes; symmetric about
+#'     0 by default), and colours;
+#'   * `length_unit`: name of the unit of lengths, for the legend;
+#'   * those of [draw_surface()]. There is more `ambient` light by default, as shade would hide
+#'     colours.
 #' @return Invisibly. "boxes": list with the value of [graphics::boxplot()] for each panel. "means",
 #'   "map": the scene of [draw_surface()].
 #' @section Errors: of class `crestline_error`: there is no such level; a map, or mean surfaces, are
@@ -57,25 +65,19 @@
 #' @export
 plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = NULL,
                                   colour = c("#2F7FD1", "#E0553F"),
-                                  components = 1:3, significance = 0.05, limits = NULL,
-                                  palette = grDevices::hcl.colors(21, "Blue-Red"), opacity = 0.8,
                                   engine = if (interactive()) "rgl" else "picture", view = "front",
-                                  legend = TRUE, main = NULL, adjust = c("fwe", "fdr", "none"),
-                                  length_unit = "unit of the meshes", ...) {
+                                  legend = TRUE, main = NULL, ...) {
   validate(x)
   what <- check_choice(what, c("boxes", "means", "map"), "what")
-  adjust <- check_choice(adjust, c("fwe", "fdr", "none"), "adjust")
-  length_unit <- check_text(length_unit, "length_unit")
   check_colour(colour, "colour")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
   level <- level_to_plot(x, level, what)
   groups <- nlevels(x$group)
   colour <- if (length(colour) >= groups) colour[seq_len(groups)] else
     grDevices::hcl.colors(groups, "Dark 3")
-  drawn <- switch(what, boxes = plot_boxes(x, level, colour, components, main, ...),
-                  means = plot_means(x, level, colour, opacity, engine, view, legend, main, ...),
-                  map = plot_map(x, level, significance, limits, palette, engine, view, legend,
-                                 main, adjust, length_unit, ...))
+  drawn <- switch(what, boxes = plot_boxes(x, level, colour, main, ...),
+                  means = plot_means(x, level, colour, engine, view, legend, main, ...),
+                  map = plot_map(x, level, engine, view, legend, main, ...))
   invisible(drawn)
 }
 
@@ -90,7 +92,7 @@ level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
   level
 }
 
-plot_boxes <- function(x, level, colour, components, main, ...) {
+plot_boxes <- function(x, level, colour, main, ..., components = 1:3) {
   compared <- in_design(x$aligned[[level]], x$design)
   pca <- x$pca[[level]]
   if (is.null(pca)) pca <- shape_pca(compared)

@@ -14,11 +14,9 @@
 #' @param level Level. NULL: the first; for "map" the first with triangles, if there is one.
 #' @param unit For "map": number of units of the term whose effect is shown, such as 10 for 10
 #'   years.
-#' @param significance For "map": family-wise significance level of the outline (0 to 1).
-#' @param limits,palette For "map": range of the effect (two numbers, in the unit of the meshes),
-#'   and colours.
-#' @param engine,view,legend,main,... As in [plot.group_comparison()]. For "scores" `...` is passed
-#'   to [graphics::plot.default()].
+#' @param engine,view,legend,main As in [plot.group_comparison()].
+#' @param ... For "map" those of [plot.group_comparison()], but `adjust`: the significance level is
+#'   family-wise. For "scores" those of [graphics::plot.default()].
 #' @return Invisibly: the scene of [draw_surface()], or for "scores" a data frame with `variable`
 #'   and `score` of each specimen.
 #' @section Errors: of class `crestline_error`: there is no such term or level, or the points were
@@ -41,8 +39,6 @@
 #' plot(model, "scores", "age")
 #' @export
 plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NULL, unit = 1,
-                          significance = 0.05, limits = NULL,
-                          palette = grDevices::hcl.colors(21, "Blue-Red"),
                           engine = if (interactive()) "rgl" else "picture", view = "front",
                           legend = TRUE, main = NULL, ...) {
   validate(x)
@@ -52,7 +48,8 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   term <- if (is.null(term)) terms[1] else check_choice(term, terms, "term")
   level <- level_of_map(x$aligned, level, what == "map")
   if (what == "scores") return(invisible(plot_lm_scores(x, term, level, main, ...)))
-  significance <- check_number(significance, "significance", 0, 1)
+  given <- map_arguments(...)
+  significance <- given$look$significance
   unit <- check_number(unit, "unit")
   points <- x$points[x$points$level %in% level & x$points$term %in% term, ]
   if (!NROW(points)) {
@@ -68,8 +65,7 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
                    if (is.null(triangles)) "ringed" else "outlined", significance, found,
                    nrow(points))
   draw_map(points, if (signed) points$distance * unit else points$displacement, signed, triangles,
-           significance, limits, palette, engine, view, legend, if (is.null(main)) words else main,
-           "unit of the meshes", ...)
+           if (is.null(main)) words else main, given, engine, view, legend)
 }
 
 #' The level that is asked for; of a map the first with triangles, if there is one

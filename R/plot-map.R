@@ -1,8 +1,10 @@
 # Where two means differ: signed distance as colours, the significant region outlined.
 
-plot_map <- function(x, level, significance, limits, palette, engine, view, legend, main, adjust,
-                     length_unit, ...) {
-  significance <- check_number(significance, "significance", 0, 1)
+#' @param ... Fields of [map_look()], and arguments of [draw_surface()].
+#' @noRd
+plot_map <- function(x, level, engine, view, legend, main, ...) {
+  given <- map_arguments(...)
+  look <- given$look
   points <- x$points[x$points$level == level, ]
   if (is.null(points) || !nrow(points)) {
     crestline_abort("points were not compared.", "Give compare_groups() `tests` with \"points\".",
@@ -10,8 +12,8 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
                     call = NULL)
   }
   aligned <- x$aligned[[level]]
-  points$p_adjusted <- held_p(points, adjust, aligned$weights)
-  found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
+  points$p_adjusted <- held_p(points, look$adjust, aligned$weights)
+  found <- sum(points$p_adjusted <= look$significance, na.rm = TRUE)
   surface <- !is.null(aligned$triangles)
   measure <- c(fwe = "family-wise p", fdr = "false discovery rate", none = "p of each point")
   words <- sprintf(
@@ -21,11 +23,11 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
     } else {
       "distance between the means"
     },
-    if (surface) "outlined" else "ringed", measure[[adjust]], significance, found, nrow(points)
+    if (surface) "outlined" else "ringed", measure[[look$adjust]], look$significance, found,
+    nrow(points)
   )
   draw_map(points, if (surface) points$distance else points$displacement, surface,
-           aligned$triangles, significance, limits, palette, engine, view, legend,
-           if (is.null(main)) words else main, length_unit, ...)
+           aligned$triangles, if (is.null(main)) words else main, given, engine, view, legend)
 }
 
 #' Values of points as colours: on the surface, or on the points where there are no triangles
@@ -34,9 +36,12 @@ plot_map <- function(x, level, significance, limits, palette, engine, view, lege
 #' @param value A number a point.
 #' @param signed Whether values have a sign: colours are then symmetric about 0, else they begin at
 #'   0 and take the upper half of the palette.
+#' @param given As of [map_arguments()].
 #' @noRd
-draw_map <- function(points, value, signed, triangles, significance, limits, palette, engine, view,
-                     legend, title, length_unit, ...) {
+draw_map <- function(points, value, signed, triangles, title, given, engine, view, legend) {
+  look <- given$look
+  limits <- look$limits
+  palette <- look$palette
   at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
   rownames(at) <- points$point
   view <- posed_view(view, at)
@@ -44,13 +49,13 @@ draw_map <- function(points, value, signed, triangles, significance, limits, pal
   if (limits[2] <= limits[1]) limits <- limits[1] + c(0, 1)
   if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
   if (is.null(triangles)) {
-    return(invisible(points_map(points, value, limits, palette, significance, view, legend, title,
-                                length_unit)))
+    return(invisible(points_map(points, value, limits, palette, look$significance, view, legend,
+                                title, look$length_unit)))
   }
   mesh <- points_mesh(as.matrix(points[c("x", "y", "z")]), triangles)
   row <- attr(mesh, "row")
   colours <- surface_colours(mesh, value[row], palette, limits)
-  settings <- list(...)
+  settings <- given$more
   if (engine == "picture") {
     old <- graphics::par(mar = c(0.5, 0.5, 2, if (legend) 5 else 0.5))
     on.exit(graphics::par(old))
@@ -58,13 +63,34 @@ draw_map <- function(points, value, signed, triangles, significance, limits, pal
     settings <- utils::modifyList(list(ambient = 0.6, gloss = 0.03), settings)
   }
   scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings))
-  outline <- level_lines(mesh, log(points$p_adjusted[row]), log(significance))
+  outline <- level_lines(mesh, log(points$p_adjusted[row]), log(look$significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
-    if (legend) map_legend(palette, limits, length_unit)
+    if (legend) map_legend(palette, limits, look$length_unit)
     graphics::title(title, font.main = 1, cex.main = 0.8)
   }
   invisible(scene)
+}
+
+#' How a map looks, and the arguments of [draw_surface()] beside that
+#'
+#' @param ... The dots of a `plot()`.
+#' @return List: `look`, as of [map_look()]; `more`, the other arguments.
+#' @noRd
+map_arguments <- function(..., call = rlang::caller_env()) {
+  given <- list(...)
+  own <- names(given) %in% names(formals(map_look))
+  list(look = do.call(map_look, c(given[own], list(call = call))), more = given[!own])
+}
+
+map_look <- function(significance = 0.05, limits = NULL,
+                     palette = grDevices::hcl.colors(21, "Blue-Red"),
+                     adjust = c("fwe", "fdr", "none"), length_unit = "unit of the meshes",
+                     call = rlang::caller_env()) {
+  list(significance = check_number(significance, "significance", 0, 1, call = call),
+       limits = limits, palette = palette,
+       adjust = check_choice(adjust, c("fwe", "fdr", "none"), "adjust", call),
+       length_unit = check_text(length_unit, "length_unit", call = call))
 }
 
 #' p-values of points by what is held

@@ -1,6 +1,6 @@
 # Mean shapes laid over each other: two surfaces, transparent, or points and curves.
 
-plot_means <- function(x, level, colour, opacity, engine, view, legend, main, ...) {
+plot_means <- function(x, level, colour, engine, view, legend, main, ..., opacity = 0.8) {
   aligned <- x$aligned[[level]]
   view <- posed_view(view, aligned$mean)
   size <- if (isFALSE(aligned$scale)) 1 else mean(aligned$size)

@@ -13,12 +13,12 @@
 #' @param table Data frame that is shown below the picture. NULL: none.
 #' @template page-title
 #' @param caption A sentence below the picture.
-#' @param surface,colour,width As in [plot_curves()].
+#' @param surface As in [plot_curves()].
 #' @param selfcontained TRUE: the page is one file. FALSE: a folder named after the file, ending in
 #'   `_files`, is written beside it.
 #' @param size Width and height of the picture, two numbers, in pixels of the browser.
-#' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `curvature`, `radius`,
-#'   `view`, `band`. `specimen`, the former name of `x`, still works.
+#' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `colour`, `width` (4
+#'   here), `curvature`, `radius`, `view`, `band`. `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
 #' @section Errors: of class `crestline_error`: the file has another ending, or its folder does not
 #'   exist; or the curves belong to another mesh.
@@ -37,16 +37,13 @@
 #' @export
 write_page <- function(x, file, curves = list(), table = curve_table(curves),
                        title = paste("Specimen", x$id), caption = NULL,
-                       surface = "shape index",
-                       colour = NULL, width = 4, selfcontained = TRUE, size = c(900, 800), ...) {
+                       surface = "shape index", selfcontained = TRUE, size = c(900, 800), ...) {
   turned <- object_first(x, file, "write_page", "specimen", ...)
   x <- turned$x
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
   title <- check_text(title, "title")
   caption <- check_text(caption, "caption", null = TRUE)
   surface <- check_choice(surface, surface_choices, "surface")
-  if (!is.null(colour)) check_colour(colour, "colour")
-  width <- check_number(width, "width", lower = 0)
   check_flags(selfcontained)
   size <- check_size(size)
   curves <- if (inherits(curves, "shape")) {
@@ -61,7 +58,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
   plot(x, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
-  layers <- do.call(page_layers, c(list(curves, x, surface, colour, width), turned$more))
+  layers <- do.call(page_layers, c(list(curves, x, surface), turned$more))
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
                    tags$h2(title),
@@ -195,8 +192,10 @@ check_page_file <- function(file, call = rlang::caller_env()) {
 #' Draw what a page shows on the specimen
 #' @return Named list of the ids of what belongs together.
 #' @noRd
-page_layers <- function(curves, specimen, surface, colour, width, ..., edges = "#505050",
-                        raised = 0.004) {
+page_layers <- function(curves, specimen, surface, ..., colour = NULL, width = 4,
+                        edges = "#505050", raised = 0.004) {
+  if (!is.null(colour)) check_colour(colour, "colour", call = rlang::caller_env())
+  width <- check_number(width, "width", lower = 0, call = rlang::caller_env())
   of_shape <- inherits(curves, "shape")
   scene <- if (of_shape) {
     chosen <- if (is.null(colour)) list() else list(colour = colour)

@@ -15,13 +15,15 @@
 #'   For the shape's own surface: one colour; a colour or a number for each surface point, or for
 #'   each vertex of [shape_mesh()]; or "patch" for one colour for each patch. Numbers have a scale
 #'   of colours in the right margin ("picture" only).
-#' @param edges Colour of the edges of the shape's own surface, NA for none.
-#' @param band Whether to draw the bands.
-#' @param points Whether to draw the points of the curves.
-#' @param patches Whether to draw the points of the surface, small, on the specimen.
-#' @param width Line width of curves.
 #' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
-#' @param engine,view,... As in [plot.specimen()] and [draw_surface()].
+#' @param engine,view As in [plot.specimen()] and [draw_surface()].
+#' @param ... Further arguments, each with a default:
+#'   * `band`: whether to draw the bands (TRUE);
+#'   * `points`: whether to draw the points of the curves (TRUE);
+#'   * `patches`: whether to draw the points of the surface, small, on the specimen (as `points`);
+#'   * `width`: line width of curves (2);
+#'   * `edges`: colour of the edges of the shape's own surface, NA for none;
+#'   * those of [plot.specimen()] and [draw_surface()].
 #' @return The scene of [draw_surface()], invisibly.
 #' @template glossary
 #' @seealso [fit_shape()]
@@ -35,37 +37,48 @@
 #' plot(shape, engine = "picture")
 #' }
 #' @export
-plot.shape <- function(x, specimen = NULL, parts = "model",
-                       colour = kind_colours,
+plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colours,
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index",
-                       edges = "#00000070", band = TRUE,
-                       points = TRUE, patches = points, width = 2, legend = TRUE,
-                       engine = if (interactive()) "rgl" else "picture", view = "front", ...) {
+                       legend = TRUE, engine = if (interactive()) "rgl" else "picture",
+                       view = "front", ...) {
   check_class(x, "shape", "x", "fit_shape()")
   view <- posed_view(view, coords(x, "landmarks"), x$scheme)
-  scene <- if (is.null(specimen)) {
+  given <- list(...)
+  own <- names(given) %in% names(formals(shape_look))
+  look <- do.call(shape_look, given[own])
+  more <- c(list(engine = engine, view = view, legend = legend), given[!own])
+  if (is.null(specimen)) {
     model <- shape_mesh(x, parts)
     # Values of all surface points, as write_mesh() takes them: those that have triangles.
     every <- length(surface) > 1 && length(surface) == sum(x$points$level == "surface")
     if (every) surface <- surface[attr(model, "row")]
-    draw_values(model, surface, edges, engine, view, legend, ...)
+    scene <- do.call(draw_values, c(list(model, surface, look$edges), more))
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
     check_shape_on(x, specimen)
-    plot(specimen, surface, engine = engine, view = view, landmarks = FALSE, legend = legend, ...)
+    scene <- do.call(plot, c(list(specimen, surface, landmarks = FALSE), more))
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
-  if (patches && !is.null(specimen) &&
+  if (look$patches && !is.null(specimen) &&
       nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
-  scene <- draw_shape_curves(scene, x, if (band) specimen, colour, width, points)
+  scene <- draw_shape_curves(scene, x, if (look$band) specimen, colour, look$width, look$points)
   marks <- coords(x, "landmarks")
   scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
   if (legend && engine == "picture" && !is.null(specimen)) {
-    on_scene(scene, graphics::legend(
-      "bottomleft", names(colour), col = colour, lwd = width, bty = "n", cex = 0.8
-    ))
+    on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = look$width,
+                                     bty = "n", cex = 0.8))
   }
   invisible(scene)
+}
+
+#' How the curves and points of a shape look
+#' @noRd
+shape_look <- function(edges = "#00000070", band = TRUE, points = TRUE, patches = points,
+                       width = 2) {
+  call <- rlang::caller_env()
+  check_flags(band, points, patches, call = call)
+  list(edges = edges, band = band, points = points, patches = patches,
+       width = check_number(width, "width", lower = 0, call = call))
 }
 
 #' The curves of a shape, by kind

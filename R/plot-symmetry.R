@@ -8,9 +8,10 @@
 #'   without triangles the distance. "symmetric", "asymmetric": root mean square displacement of the
 #'   specimens' parts from their own mean. The asymmetric map shows fluctuating asymmetry.
 #' @param level Level. NULL: the first with triangles, if there is one, else the first.
-#' @param limits,palette Range of the colours (two numbers, in the unit of the meshes), and colours.
-#' @param engine,view,legend,main,... As in [plot.group_comparison()].
-#' @param length_unit Name of the unit of lengths, for the legend.
+#' @param engine,view,legend,main As in [plot.group_comparison()].
+#' @param ... `limits` and `palette`: range of the colours (two numbers, in the unit of the meshes),
+#'   and colours; `length_unit`: name of the unit of lengths, for the legend; arguments of
+#'   [draw_surface()].
 #' @return Invisibly: the scene of [draw_surface()], or without triangles a data frame of the drawn
 #'   points.
 #' @section Errors: of class `crestline_error`: there is no such level.
@@ -29,14 +30,12 @@
 #' plot(parts, engine = "picture")
 #' @export
 plot.symmetry_parts <- function(x, what = c("directional", "symmetric", "asymmetric"), level = NULL,
-                                limits = NULL, palette = grDevices::hcl.colors(21, "Blue-Red"),
                                 engine = if (interactive()) "rgl" else "picture", view = "front",
-                                legend = TRUE, main = NULL, length_unit = "unit of the meshes",
-                                ...) {
+                                legend = TRUE, main = NULL, ...) {
   validate(x)
   what <- check_choice(what, c("directional", "symmetric", "asymmetric"), "what")
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
-  length_unit <- check_text(length_unit, "length_unit")
+  given <- map_arguments(...)
   level <- level_of_map(x$symmetric, level, TRUE)
   one <- x[[if (what == "asymmetric") "asymmetric" else "symmetric"]][[level]]
   size <- if (isFALSE(one$scale)) 1 else mean(one$size)
@@ -57,6 +56,6 @@ plot.symmetry_parts <- function(x, what = c("directional", "symmetric", "asymmet
   words <- sprintf(switch(what, directional = "directional asymmetry (%s)",
                           symmetric = "symmetric variation (%s), root mean square",
                           asymmetric = "fluctuating asymmetry (%s), root mean square"), level)
-  invisible(draw_map(points, value, signed, one$triangles, 0.05, limits, palette, engine, view,
-                     legend, if (is.null(main)) words else main, length_unit, ...))
+  invisible(draw_map(points, value, signed, one$triangles, if (is.null(main)) words else main,
+                     given, engine, view, legend))
 }

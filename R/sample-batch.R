@@ -63,8 +63,8 @@
 #'   if the scheme's landmarks are those of the face, else none.
 #' @param doubtful Greatest share of found landmarks with little confidence that are not left out.
 #'   They are used and graded amber.
-#' @param ... Further arguments of [fit_shape()], the same for all. The former argument `chunk` gives
-#'   a message of class `crestline_deprecated`.
+#' @param ... Further arguments of [fit_shape()], the same for all. The former argument `chunk`
+#'   gives a message of class `crestline_deprecated`.
 #' @param found TRUE: landmarks are found for every mesh that has none. FALSE: such a mesh is a
 #'   failure. `NULL`: landmarks are found only if no mesh has any. A mesh without landmarks among
 #'   others with landmarks is then a failure. So found and placed landmarks are not mixed by

@@ -74,7 +74,7 @@ test_that("a shape's page has a button for its surface, a row a curve, none for 
     expect_true(grepl(paste0(">", curve, "</td>"), html, fixed = TRUE))
   }
   expect_false(grepl(">NA</td>", html, fixed = TRUE))
-  layers <- with_null_rgl(page_layers(shape, quad_specimen(), "plain", NULL, 4))
+  layers <- with_null_rgl(page_layers(shape, quad_specimen(), "plain"))
   expect_named(layers, c("plain", "curves", "surface model"))
   expect_false(anyDuplicated(unlist(layers)) > 0)
 })

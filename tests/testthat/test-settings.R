@@ -40,7 +40,7 @@ test_that("fields are arguments of every maker of settings, so that editors comp
   presets <- list(ridge_settings(), slide_settings(), find_settings(), path_settings(),
                   quality_limits(), scan_settings(), align_settings(), comparison_settings(),
                   model_settings(), curve_route(), shape_settings(), refine_settings(),
-                  population_settings(), study_settings())
+                  population_settings(), study_settings(), review_settings())
   for (one in presets) {
     maker <- getExportedValue("crestline", class(one)[1])
     expect_identical(setdiff(names(formals(maker)), c("preset", "...")), names(one))
