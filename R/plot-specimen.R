@@ -10,20 +10,19 @@
 #'   none. "shape index": see [plot_shape_scale()]. "curvature": the principal curvature with the
 #'   greater absolute value; valleys are blue, ridges red, with full colour at the 95 % quantile of
 #'   its absolute value. "plain": one colour.
-#' @param curvature The [curvature()] of the specimen's mesh, for "shape index" and "curvature".
-#'   NULL: it is computed.
-#' @param radius Radius of the curvature if it is computed, in the unit of the mesh. The default,
-#'   1/25 of the diagonal of the mesh's bounding box, is about 10 mm on a face.
+#' @param radius Radius of the curvature for "shape index" and "curvature", in the unit of the mesh.
+#'   The default, 1/25 of the diagonal of the mesh's bounding box, is about 10 mm on a face. Or the
+#'   [curvature()] of the specimen's mesh, if you have it (also as `curvature`).
 #' @param engine "rgl" for an interactive scene, "picture" for base graphics on the current device.
 #'   See [draw_surface()].
 #' @param view Direction of view, see [draw_surface()]: from the front of the face, if it has face
 #'   landmarks.
 #' @param landmarks Whether to draw the landmarks.
-#' @param labels Whether to write the names of the landmarks. TRUE by default for "refinement".
 #' @param legend Whether to draw the scale of colours ("picture" only).
 #' @param main Title.
-#' @param ... Arguments of [draw_surface()], and further arguments of "placing" and "cuts", see
-#'   below.
+#' @param ... `labels`: whether to write the names of the landmarks (TRUE by default for
+#'   "refinement" only). Arguments of [draw_surface()], and further arguments of "placing" and
+#'   "cuts", see below.
 #' @param what Kind of picture, see below.
 #' @section Pictures:
 #'   * `"surface"`: the surface with its landmarks.
@@ -63,44 +62,59 @@
 #' }
 #' @export
 plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "plain"),
-                          curvature = NULL, radius = mesh_diagonal(x$mesh) / 25,
+                          radius = mesh_diagonal(x$mesh) / 25,
                           engine = if (interactive()) "rgl" else "picture", view = "front",
-                          landmarks = TRUE, labels = what == "refinement", legend = TRUE,
-                          main = NULL, ..., what = c("surface", "placing", "refinement", "cuts")) {
+                          landmarks = TRUE, legend = TRUE, main = NULL, ...,
+                          what = c("surface", "placing", "refinement", "cuts")) {
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
   what <- check_choice(what, c("surface", "placing", "refinement", "cuts"), "what")
-  if (what == "placing") return(draw_placing(x, ...))
-  if (what == "refinement") return(draw_refinement(x, view, labels, main, ...))
+  given <- list(...)
+  labels <- if (is.null(given[["labels"]])) what == "refinement" else given[["labels"]]
+  curvature <- if (inherits(radius, "curvature")) radius else given[["curvature"]]
+  more <- given[!names(given) %in% c("labels", "curvature")]
+  if (what == "placing") return(do.call(draw_placing, c(list(x), more)))
+  if (what == "refinement") {
+    return(do.call(draw_refinement, c(list(x, view, labels, main), more)))
+  }
   if (missing(colour) && what == "cuts") colour <- "plain"
   colour <- check_choice(colour, surface_choices, "colour")
   if (what == "cuts") {
-    return(draw_cuts(x, ..., surface = colour, curvature = curvature, radius = radius,
-                     engine = engine, view = view, labels = labels, legend = legend, main = main))
+    of_surface <- list(surface = colour, radius = radius, engine = engine, view = view,
+                       labels = labels, legend = legend, main = main)
+    return(do.call(draw_cuts, c(list(x), more, of_surface, list(curvature = curvature))))
   }
-  if (!is.null(curvature)) check_curvature_on(curvature, x)
   check_flags(landmarks, labels, legend)
   main <- check_text(main, "main", null = TRUE)
   engine <- check_choice(engine, c("rgl", "picture"), "engine")
-  if (colour %in% c("shape index", "curvature") && is.null(curvature)) {
-    curvature <- curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE))
-  }
-  scale <- specimen_scale(x, colour, curvature)
+  scale <- specimen_scale(x, colour, shown_curvature(x, colour, curvature, radius))
   legend <- legend && !is.null(scale$ramp)
   if (engine == "picture") {
     old <- graphics::par(mar = c(0.5, 0.5, if (is.null(main)) 0.5 else 2, if (legend) 7 else 0.5))
     on.exit(graphics::par(old))
   }
-  scene <- draw_surface(x$mesh, scale$colours, posed_view(view, x$landmarks), engine, ...)
-  placed <- x$landmarks[stats::complete.cases(x$landmarks), , drop = FALSE]
-  if (landmarks && nrow(placed) > 0) {
-    scene <- draw_points(scene, placed, "black", halo = "white",
-                         labels = if (labels) rownames(placed))
-  }
+  scene <- do.call(draw_surface, c(
+    list(x$mesh, scale$colours, posed_view(view, x$landmarks), engine), more
+  ))
+  if (landmarks) scene <- draw_landmarks(scene, x$landmarks, labels)
   if (engine == "picture") {
     graphics::title(main)
     if (legend) colour_bar(scale$ramp, scale$at, scale$labels, title = scale$title)
   }
   invisible(scene)
+}
+
+draw_landmarks <- function(scene, landmarks, labels) {
+  placed <- landmarks[stats::complete.cases(landmarks), , drop = FALSE]
+  if (!nrow(placed)) return(scene)
+  draw_points(scene, placed, "black", halo = "white", labels = if (labels) rownames(placed))
+}
+
+#' The curvature that colours show: the given one, after a check, or computed
+#' @noRd
+shown_curvature <- function(x, colour, given, radius, call = rlang::caller_env()) {
+  if (!is.null(given)) check_curvature_on(given, x)
+  if (!is.null(given) || !colour %in% c("shape index", "curvature")) return(given)
+  curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE, call = call))
 }
 
 # An upright bar of colours in the right margin, from the first at the bottom; labels at shares `at`
