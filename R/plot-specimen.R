@@ -73,9 +73,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   curvature <- if (inherits(radius, "curvature")) radius else given[["curvature"]]
   more <- given[!names(given) %in% c("labels", "curvature")]
   if (what == "placing") return(do.call(draw_placing, c(list(x), more)))
-  if (what == "refinement") {
-    return(do.call(draw_refinement, c(list(x, view, labels, main), more)))
-  }
+  if (what == "refinement") return(do.call(draw_refinement, c(list(x, view, labels, main), more)))
   if (missing(colour) && what == "cuts") colour <- "plain"
   colour <- check_choice(colour, surface_choices, "colour")
   if (what == "cuts") {
