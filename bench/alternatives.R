@@ -6,7 +6,8 @@ alternatives <- function() {
                "one pass" = crestline::ridge_settings("one pass", error = FALSE),
                "two passes" = twice,
                "paper's settings" = crestline::ridge_settings("paper", error = FALSE),
-               "forced quadratic" = crestline::ridge_settings(order = "forced", error = FALSE),
+               "forced quadratic" = crestline::ridge_settings("one pass", order = "forced",
+                                                              error = FALSE),
                "reference path" = by_reference, "shortest plane cut" = by_plane,
                geodesic = by_geodesic, "crest points joined" = by_crest_points)
   if (requireNamespace("princurve", quietly = TRUE)) ways$"principal curve" <- by_principal_curve
