@@ -138,8 +138,7 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
          models = models, left = spans[[1]][[1]]$left, formula = formula, ss = ss,
          n_perm = ncol(orders) - 1L, block = design$block, exchange = design$kind, seed = seed,
          provenance = with_settings(aligned[[1]]$provenance, "model", list(
-           formula = deparse1(formula), ss = ss, n_perm = n_perm, exchange = design$kind
-         ))),
+           formula = deparse1(formula), ss = ss, n_perm = n_perm, exchange = design$kind))),
     class = "shape_lm")
   without_constant_terms(found, spans, design)
 }

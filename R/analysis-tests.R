@@ -92,7 +92,7 @@ chi_squared_scale <- function(own, groups, times = 1, counted = 1) {
   if (groups == 2) return(score)
   usual <- (groups - 1) * times
   normal <- ((score / among)^(1 / 3) - 1 + 2 / (9 * among)) / sqrt(2 / (9 * among))
-  usual * pmax(normal * sqrt(2 / (9 * usual)) + 1 - 2 / (9 * usual), 0)^3
+  (score > 0) * usual * pmax(normal * sqrt(2 / (9 * usual)) + 1 - 2 / (9 * usual), 0)^3
 }
 
 #' How many directions share the variance: trace squared over the trace of the square of a

@@ -124,6 +124,7 @@ test_that("F of three groups has Mehrotra's degrees of freedom, and the scale is
   by_scale <- qnorm(pchisq(chi_squared_scale(lapply(many, rep_len, 3), 3), 2))
   expect_lt(max(abs(by_f - by_scale)), 0.05)
   expect_equal(chi_squared_scale(list(f = 2, df = 30, among = 2), 3), 30 * log1p(4 / 30))
+  expect_equal(chi_squared_scale(list(f = 0, df = 30, among = 1.2), 3), 0)
 })
 
 test_that("a variance is raised towards the pooled one, at most to twice itself", {
