@@ -32,7 +32,7 @@
 #'     * `landmark`;
 #'     * `state`: "found"; "placed" (the specimen had it before); "predicted" (the template marks it
 #'       so: it is placed by the positions of the others, perhaps off the mesh); or "absent" (the
-#'       scan has no surface there). Where a face has ears, the predicted tragion is moved to where a
+#'       scan has no surface there). Where a face has ears, the predicted tragion is put where a
 #'       patch of an ear fits best (setting `ear`); it is still some 6 mm off, and "predicted";
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
 #'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. The

@@ -106,18 +106,19 @@
 #'   shares of half the mouth's width). The best is used if it lowers the energy of the warp by at
 #'   least the share `smile_gain`.
 #' @param ear Share of a patch of an ear that may differ from the scan in position or curvature.
-#'   Beyond it the tragion is where the other landmarks predict it. The share was at most 0.50 on the
-#'   ears of 14 faces, 0.59 and 0.64 on two ears that the patch does not fit, and at least 0.72 on
-#'   four faces without ears.
+#'   Beyond it the tragion is where the other landmarks predict it. The share was at most 0.50 on
+#'   the ears of 14 faces, 0.59 and 0.64 on two ears that the patch does not fit, and at least 0.72
+#'   on four faces without ears.
 #' @param ear_radius,ear_shift,ear_tilt,ear_reach The patch is fitted to the scan within
 #'   `ear_radius` of the prediction (length). Starts lie `ear_shift` below and above it, and behind
-#'   and before it (two lengths), and are tilted by `ear_tilt` (radians). `ear_reach` is the greatest
-#'   distance of a match, at the first and at the last step (two lengths).
+#'   and before it (two lengths), and are tilted by `ear_tilt` (radians). `ear_reach` is the
+#'   greatest distance of a match, at the first and at the last step (two lengths).
 #' @param placed Weight of a landmark that the scan has before, as a number of matched points of the
 #'   template. 10 was best of 3, 10, 30 and 100 with four landmarks of 17 faces (the error of the
 #'   others is then lower by 0.03 to 0.09 mm in the mean).
 #' @param contrary Distance from which on such a landmark contradicts what is found without it (two
-#'   lengths): of landmarks that are found, and of those that are predicted.
+#'   lengths): of landmarks that are found, and of those that are predicted, which some put at the
+#'   edge of a mask instead of the ear.
 #' @return List of class `find_settings`.
 #' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is not
 #'   numeric.
@@ -147,7 +148,7 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
                           unit_apart = 1.3, score_apart = 0.03, ball_points = 300,
                           expressive = 0.22, jaw = c(0.1, 0.2, 0.3, 0.4), jaw_gain = 0.03,
                           shared_doubt = 0.5, smile = c(0.2, 0.4), smile_gain = 0.04, placed = 10,
-                          contrary = c(12, 30), ear = 0.55, ear_radius = 65,
+                          contrary = c(12, 80), ear = 0.55, ear_radius = 65,
                           ear_shift = c(14, 14), ear_tilt = 0.2, ear_reach = c(20, 10)) {
   sizes <- lengths(lapply(formals(find_settings)[-1], eval))
   former <- c(kept = "trim_share", kernel_length = "length_scale", kernel_sd = "length_scale_sd",

@@ -1,9 +1,11 @@
 # What is doubted, of good faces and of what is no face: `CRESTLINE_SHARED=../shared/data Rscript
-# bench/doubt.R good|none|exchanged`.
+# bench/doubt.R good|none|exchanged [every=1]`, of every so many of the faces.
 library(crestline)
 options(rgl.useNULL = TRUE)
 data <- Sys.getenv("CRESTLINE_SHARED")
-what <- c(commandArgs(TRUE), "good")[1]
+asked <- commandArgs(TRUE)
+what <- c(grep("=", asked, value = TRUE, invert = TRUE), "good")[1]
+every <- as.integer(c(sub("every=", "", grep("^every=", asked, value = TRUE)), 1)[1])
 scheme <- face_scheme()
 packaged <- function(file) read_landmarks(system.file("extdata", file, package = "crestline"))
 
@@ -33,8 +35,9 @@ good_faces <- function() {
                                        id = paste(folder, id)), own, names(own))
   })
   humface <- get(data(humface, package = "Rvcg", envir = environment()))
-  c(list(specimen(humface, packaged("humface_landmarks.csv"), id = "humface")),
-    unlist(faces, recursive = FALSE))
+  all <- c(list(specimen(humface, packaged("humface_landmarks.csv"), id = "humface")),
+           unlist(faces, recursive = FALSE))
+  all[seq(1, length(all), every)]
 }
 
 no_faces <- function() {
@@ -86,8 +89,9 @@ exchanged <- function(one) {
 }
 
 rows <- switch(what,
-  good = unlist(lapply(good_faces(), function(one) list(graded(one, "placed"), found(one, one$id))),
-                recursive = FALSE),
+  good = unlist(lapply(good_faces(), function(one) {
+    list(graded(one, "placed"), found(one$mesh, one$id))
+  }), recursive = FALSE),
   none = Map(found, no_faces(), names(no_faces())),
   exchanged = lapply(good_faces(), exchanged))
 print(do.call(rbind, rows), row.names = FALSE)

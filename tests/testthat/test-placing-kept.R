@@ -101,3 +101,15 @@ test_that("a start by kept landmarks needs three that are not on a line, of abou
   expect_equal(ncol(kept_start(template, line, settings)), 0)
   expect_equal(ncol(kept_start(template, 5 * kept, settings)), 0)
 })
+
+test_that("ears at the edge of a mask are no contradiction, on the other side they are", {
+  own <- humface_landmarks()[c("tL", "oiL", "pn", "exR"), ]
+  own["tL", ] <- as.matrix(surface_points(humface_scan(), own["tL", ] + c(-10, 0, 45))[1:3])
+  given <- suppressWarnings(specimen(humface_scan(), own, id = "humface"))
+  face <- expect_no_warning(find_landmarks(given, settings = quick_settings()))
+  expect_gt(face$placing$residual[face$placing$landmark == "tL"], 30)
+  own["tL", ] <- humface_landmarks()["tR", ]
+  given <- suppressWarnings(specimen(humface_scan(), own, id = "humface"))
+  expect_warning(find_landmarks(given, settings = quick_settings()), "found: tL",
+                 class = "crestline_contrary_landmarks")
+})
