@@ -22,7 +22,8 @@
 #'   path, in the unit of the mesh. It is limited to `settings$window` radii. Not needed for
 #'   `"plane"`.
 #' @param n Number of points (semilandmarks), both ends included. The straight distances between
-#'   neighbours are equal.
+#'   neighbours are equal. The points of a closed curve go once round: the first is its place nearest
+#'   to the landmark, the last stands before it.
 #' @param settings [ridge_settings()].
 #' @param route Where the curve may run, and where curvature counts: as of [curve_route()].
 #' @param ... Fields of [curve_route()], such as `keep_away`, which need no `route = `. Former
@@ -48,12 +49,15 @@
 #'   * `se`: median standard error; `converged`: whether all iterations converged;
 #'   * `determined`: whether curvature determines the curve; `NA` for plane curves and without
 #'     standard errors. If it is `FALSE`, the plane path (`reference`, or `type = "plane"`) is the
-#'     safer choice. `reason` gives one of five causes:
+#'     safer choice. `reason` gives the cause:
 #'     * the median standard error exceeds `settings$undetermined` radii;
 #'     * the curve runs along the edge of the window;
 #'     * the curvature is fainter than `settings$faint`;
 #'     * the line cannot be lifted onto the mesh;
 #'     * the path has no such curvature near it;
+#'     * of `path = "crest"`: the curve runs twice over. Of a closed curve: it closed in on itself, or
+#'       it is much longer than its stops are apart. The limits are those of [path_settings()];
+#'   * `closed`: whether the curve ends where it begins;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: key of the mesh. Functions that draw or use the curve refuse another mesh.
 #' @section Standard error: `se` is the standard deviation of the curve's position across itself,
@@ -72,6 +76,15 @@
 #'   noise from relief. With [ridge_settings()]`(noise =
 #'   )` of [scan_noise()] the standard error follows the measured noise. A wider radius adds a bias
 #'   that the standard error does not include. `vignette("how-good", "crestline")` has the tables.
+#' @section Curves that bow, curves that close: With `path = "crest"` or a `via` the reference path
+#'   is a path of least cost, see [reference_path()]. Where `from` is `to` and there is a `via` on
+#'   the other side, the curve is closed. Its stops only say which crest is meant, and have no say in
+#'   where it runs. Smooth surface, ridge line and standard error then go round without a seam. Long
+#'   curves get more B-splines and a looser ridge line, see `basis_most` in [ridge_settings()].
+#'
+#'   The path itself moves with noise at wavelengths below eight radii, and may take another crest
+#'   that is as good. The standard error does not know of either, so that its band is too narrow
+#'   where noise is high. `attr(curve$reference, "competing")` shows another path as good.
 #' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,
 #'   or an argument is wrong. The error names the specimen, the stage and the remedy. A hole between
 #'   the landmarks is such an error: unlike [fit_shape()], `ridge_curve()` does not bridge holes.
@@ -380,6 +393,11 @@ print.curve <- function(x, ...) {
                 nrow(x$points)))
     if (!is.na(x$strength)) {
       cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
+    }
+    most <- x$settings$window * c(x$radius, NA)[1]
+    if (x$type != "plane" && isTRUE(x$width > most * (1 + 1e-9))) {
+      cat(sprintf("\n  of its width %.4g only %.4g is used: %g radii", x$width, most,
+                  x$settings$window))
     }
     cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
                 if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))

@@ -50,6 +50,12 @@ test_that("stops on one side are not determined, and say so", {
   expect_false(bad$determined)
 })
 
+test_that("a width that is cut is told", {
+  wide <- ridge_curve(ring_specimen(), "a", "a", "ridge", ring_radius, 9, 24, via = "b")
+  expect_output(print(wide), "of its width 9 only 4.5 is used: 1.5 radii")
+  expect_output(print(closed_ring(ring_specimen(), "b")), "\\n  converged")
+})
+
 test_that("a part of a closed curve cannot be trusted alone", {
   expect_error(closed_ring(ring_specimen(), "b", trust = c(0.1, 1)), "closed curve",
                class = "crestline_path_error")
