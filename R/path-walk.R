@@ -68,8 +68,8 @@ walked_loop <- function(scan, coordinates, s, alpha, tries = c(0, 0.31, 0.62, 0.
     tangent <- unlist(unclass(coordinates)[c("tx", "ty", "tz")], use.names = FALSE)
     tangent <- tangent[row + c(0, 1, 2) * nrow(coordinates)]
     # No face is number 0: the walk ends where it began.
-    walked <- cpp_level_path(scan$vb, scan$it, scan$twin, crossed[first], 0, seq_along(level), level,
-                             tangent)
+    walked <- cpp_level_path(scan$vb, scan$it, scan$twin, crossed[first], 0, seq_along(level),
+                             level, tangent)
     if (walked$end != "round") next
     path <- closed_path(walked$points, scan, lifted = TRUE)
     if (attr(path, "length") > least * length) return(path)

@@ -22,8 +22,8 @@
 #'   path, in the unit of the mesh. It is limited to `settings$window` radii. Not needed for
 #'   `"plane"`.
 #' @param n Number of points (semilandmarks), both ends included. The straight distances between
-#'   neighbours are equal. The points of a closed curve go once round: the first is its place nearest
-#'   to the landmark, the last stands before it.
+#'   neighbours are equal. The points of a closed curve go once round. The first is its place
+#'   nearest to the landmark; the last stands before it.
 #' @param settings [ridge_settings()].
 #' @param route Where the curve may run, and where curvature counts: as of [curve_route()].
 #' @param ... Fields of [curve_route()], such as `keep_away`, which need no `route = `. Former
@@ -55,8 +55,8 @@
 #'     * the curvature is fainter than `settings$faint`;
 #'     * the line cannot be lifted onto the mesh;
 #'     * the path has no such curvature near it;
-#'     * of `path = "crest"`: the curve runs twice over. Of a closed curve: it closed in on itself, or
-#'       it is much longer than its stops are apart. The limits are those of [path_settings()];
+#'     * of `path = "crest"`: the curve runs twice over. Of a closed curve: it closed in on itself,
+#'       or it is much longer than its stops are apart. The limits are those of [path_settings()];
 #'   * `closed`: whether the curve ends where it begins;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: key of the mesh. Functions that draw or use the curve refuse another mesh.
@@ -78,8 +78,8 @@
 #'   that the standard error does not include. `vignette("how-good", "crestline")` has the tables.
 #' @section Curves that bow, curves that close: With `path = "crest"` or a `via` the reference path
 #'   is a path of least cost, see [reference_path()]. Where `from` is `to` and there is a `via` on
-#'   the other side, the curve is closed. Its stops only say which crest is meant, and have no say in
-#'   where it runs. Smooth surface, ridge line and standard error then go round without a seam. Long
+#'   the other side, the curve is closed. Its stops only say which crest is meant, and have no say
+#'   in where it runs. Smooth surface, ridge line and standard error then go round without a seam. Long
 #'   curves get more B-splines and a looser ridge line, see `basis_most` in [ridge_settings()].
 #'
 #'   The path itself moves with noise at wavelengths below eight radii, and may take another crest

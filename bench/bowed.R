@@ -108,7 +108,8 @@ if (part == "closed") {
   rim <- circle(40)
   shapes <- list(
     ring = list(curve = cbind(rim, 4), mesh = function(...) field(crest(rim), 60, 1, ...)),
-    trefoil = list(curve = cbind(trefoil, 4), mesh = function(...) field(crest(trefoil), 65, 1, ...)),
+    trefoil = list(curve = cbind(trefoil, 4),
+                   mesh = function(...) field(crest(trefoil), 65, 1, ...)),
     cone = list(curve = cbind(rim, 0), mesh = function(...) {
       revolved(function(t) cbind(46 - sqrt((18 * t)^2 + 36), 16 * t), 50, 1, ...)
     }),
@@ -173,7 +174,8 @@ if (part == "skull") {
     four <- outline(on, own, own$four, radius)
     some <- shape$paths[grep(pieces[[name]], names(shape$paths))]
     from_pieces <- off(two$points, do.call(rbind, lapply(some, dense)))
-    cat(sprintf("%s, radius %g: two from four %.2f at most, %.2f mean; from the scheme's pieces %.2f\n",
+    cat(sprintf(paste("%s, radius %g: two from four %.2f at most, %.2f mean; from the scheme's",
+                      "pieces %.2f\n"),
                 name, radius, max(off(two$path, four$path)), mean(off(two$path, four$path)),
                 mean(from_pieces)))
     cat("  two:  ", described(two), "\n  four: ", described(four), "\n")
