@@ -60,9 +60,9 @@ build_scheme <- function(mesh, scheme = NULL, dir = NULL,
   check_class(settings, "ridge_settings", "settings", "ridge_settings()")
   faces <- check_count(faces, "faces")
   view_rotation(view)
-  check_dots(..., known = names(formals(shiny::runApp))[-1])
   if (!inherits(mesh, "specimen")) mesh <- specimen(mesh)
   check_radius(radius, mesh)
+  check_dots(..., known = names(formals(shiny::runApp))[-1])
   name <- c(scheme$name, if (!is.null(dir)) basename(dir), "scheme")[1]
   begin <- begin_build(mesh, scheme, list(
     ridge = settings, bridge = shape_settings()$bridge,

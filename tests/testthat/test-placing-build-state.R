@@ -52,6 +52,39 @@ test_that("landmarks, curves and a patch make the scheme that tables make", {
   unlink(folder, recursive = TRUE)
 })
 
+test_that("more than two landmarks make a route along the crest, and closed it returns", {
+  # A ring: the crest of a torus is its outermost circle
+  v <- expand.grid(a = seq_len(60) * pi / 30, b = seq_len(24) * pi / 12)
+  ring <- rbind((30 + 8 * cos(v$b)) * cos(v$a), (30 + 8 * cos(v$b)) * sin(v$a), 12 * sin(v$b), 1)
+  at <- function(i, j) (i - 1) %% 60 + 60 * ((j - 1) %% 24) + 1
+  cell <- expand.grid(i = seq_len(60), j = seq_len(24))
+  it <- with(cell, cbind(rbind(at(i, j), at(i + 1, j), at(i + 1, j + 1)),
+                         rbind(at(i, j), at(i + 1, j + 1), at(i, j + 1))))
+  state <- begin_build(specimen(structure(list(vb = ring, it = it), class = "mesh3d")), NULL,
+                       list(ridge = ridge_settings(error = FALSE), bridge = 0.2, threads = 1L,
+                            radius = 6, name = "ring"))
+  top <- function(angle) ball_point(state, 30 * c(cos(angle), sin(angle), 0) + c(0, 0, 12))
+  for (i in 1:3) state <- place_mark(state, paste0("m", i), top(2 * i))
+  open <- joined(state, c("m1", "m2", "m3"), "part", "ridge", n = 20, radius = 6, width = 9)
+  expect_equal(unlist(open$curves[c("from", "to", "via", "path")]),
+               c(from = "m1", to = "m3", via = "m2", path = "crest"))
+  loop <- joined(state, c("m1", "m2", "m3"), "loop", "ridge", n = 20, radius = 6, width = 9,
+                 closed = TRUE)
+  expect_equal(unlist(loop$curves[c("from", "to", "via")]),
+               c(from = "m1", to = "m1", via = "m2 m3"))
+  expect_match(loop$said, "^loop: ridge")
+  points <- loop$fitting$fits$loop$points
+  expect_equal(loop$fitting$fits$loop$length, 2 * pi * 30, tolerance = 0.02)
+  expect_lt(max(abs(sqrt(points$x^2 + points$y^2) - 30)), 1)
+  # Any of its landmarks leads to it: moved, it is fitted again
+  moved <- place_mark(loop, "m3", top(6.1))
+  expect_equal(moved$fitting$refitted, "loop")
+  expect_match(try_build(loop, function(s) remove_mark(s, "m2"))$said, "on the curve loop")
+  expect_equal(rename_mark(loop, "m2", "new")$curves$via, "new m3")
+  expect_match(try_build(state, function(s) joined(s, c("m1", "m2", "m3"), "x"))$said,
+               "two landmarks only")
+})
+
 test_that("only what a change touches is fitted again; every step can be taken back", {
   state <- with_corners(built_begin())
   one <- joined(state, c("a", "b"), "bottom")
