@@ -171,7 +171,7 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
   base <- ifelse(is.na(norms$points$se_norm), 0, norms$points$se_norm)
   known <- !is.na(patient$se)
   extra <- if (patient$errors == "given") pmax(0, ifelse(known, patient$se, 0)^2 - base^2) else
-    along_normals(field$normal, patient$excess * as.vector(patient$expected$sd)^2)
+    variance_along(field$normal, patient$excess * as.vector(patient$expected$sd)^2)
   z <- as.vector(predicted_z(along, expected, extra))
   plain <- predicted_z(along, expected)
   took <- matrix((patient$u - healed$u) * patient$spread, ncol = 3)
@@ -189,7 +189,7 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
     se_norm = as.vector(norm_error(plain, expected)),
     z_scan = healed$scan$z[cbind(seq_along(best), best)], z_asymmetry = asymmetry,
     healed = row_products(took, field$normal) / patient$scale,
-    healed_sd = sqrt(along_normals(field$normal, healed$variance * patient$spread^2)) /
+    healed_sd = sqrt(variance_along(field$normal, healed$variance * patient$spread^2)) /
       patient$scale, assessed = !lost
   )
   columns <- c("distance", "z_map", "se_scan", "se_norm", "z_scan", "z_asymmetry")
@@ -199,7 +199,7 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
 
 #' Variance along the normals of variances of co-ordinates, 3k
 #' @noRd
-along_normals <- function(normal, variance) rowSums(normal^2 * matrix(variance, ncol = 3))
+variance_along <- function(normal, variance) rowSums(normal^2 * matrix(variance, ncol = 3))
 
 #' The discs that were healed
 #' @noRd
