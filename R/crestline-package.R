@@ -51,7 +51,7 @@
 #' * *Measurements*: [measurements()] of distances, angles, lengths, areas and volumes by a table
 #'   such as [face_measurements()].
 #' * *Norms by age and sex*: [fit_norms()] with [norm_settings()]; one face against them:
-#'   [assess()].
+#'   [assess()], [plot.assessment()]; files: [write_norms()], [read_norms()].
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
 #'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].

@@ -100,10 +100,19 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
          findings = healed_discs(norms, patient, healed, points),
          healed = matrix(as.vector(patient$expected$mean) + healed$u * patient$spread, ncol = 3),
          triangles = norms$triangles, errors = patient$errors, rough = patient$rough,
-         scale = patient$scale, alpha = alpha, finished = healed$finished,
+         scale = patient$scale, limits = map_limits(norms), alpha = alpha, finished = healed$finished,
          norms = list(name = norms$about$name, n = norms$n, few = norms$settings$few)),
     class = "assessment"
   )
+}
+
+#' Limits of the maps at 5 %
+#' @noRd
+map_limits <- function(norms) {
+  at <- limit_levels() == 0.95
+  scan <- function(name) norms[[name]]$scan$quantiles[at]
+  c(map = norms$limits$map[at], scan = scan("surface"),
+    if (!is.null(norms$asymmetry)) c(asymmetry = scan("asymmetry")))
 }
 
 check_norm_sex <- function(sex, norms, call = rlang::caller_env()) {

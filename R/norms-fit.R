@@ -51,9 +51,10 @@ check_norm_settings <- function(settings) {
     refuse_argument("radii", settings$radii, "Give `radii`, `ranges` above 0 and 3 `bins` or more.",
                     NULL)
   }
-  for (name in c("nugget", "smooth_below", "least", "few", "unit")) {
+  for (name in c("nugget", "smooth_below", "least", "few")) {
     settings[[name]] <- check_number(settings[[name]], name, lower = 0)
   }
+  settings$unit <- check_number(settings$unit, "unit", lower = 0, open = TRUE)
   settings
 }
 
@@ -147,7 +148,7 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   table <- norm_measurements(table, scheme)
   people <- norm_people(formula, data, names(sample))
   made <- norm_data(sample, if (!is.null(table)) measurement_plan(table, scheme),
-                    rlang::current_env())
+                    settings$unit, rlang::current_env())
   made$people <- people
   made$table <- table
   made <- transformed_values(made)
@@ -179,7 +180,8 @@ norm_measurements <- function(table, scheme, call = rlang::caller_env()) {
 norm_plan <- function(settings, people) {
   n <- length(people$age)
   or <- function(value, default) if (is.null(value)) default else value
-  range <- range(people$age)
+  # No exact age of a person is kept.
+  range <- c(floor(10 * min(people$age)), ceiling(10 * max(people$age))) / 10
   large <- n >= 1000
   list(size = list(k = 10, k_spread = 6, range = range),
        size_values = list(k = or(settings$k, if (large) 20 else 10),

@@ -40,8 +40,8 @@ new_shape_norms <- function(made, parts, held, plan, settings) {
 
 age_ranges <- function(people) {
   each <- lapply(split(people$age, people$group), range)
-  data.frame(sex = names(each), from = vapply(each, `[`, 0, 1), to = vapply(each, `[`, 0, 2),
-             row.names = NULL)
+  data.frame(sex = names(each), from = ceiling(10 * vapply(each, `[`, 0, 1)) / 10,
+             to = floor(10 * vapply(each, `[`, 0, 2)) / 10, row.names = NULL)
 }
 
 year_counts <- function(people) {

@@ -54,7 +54,7 @@ norm_reference <- function(sample, call) {
 
 #' The table of a norm's points
 #' @noRd
-norm_points <- function(reference, scheme) {
+norm_points <- function(reference, scheme, unit) {
   points <- scheme$points[scheme$points$level == "surface", ]
   name <- paste(points$part, points$point)
   own <- match(rownames(reference$xyz), name)
@@ -73,13 +73,14 @@ norm_points <- function(reference, scheme) {
   row <- seq_along(own)
   side <- part %in% left | (!part %in% right & !is.na(partner) & row < partner)
   data.frame(point = name[own], part = part, index = points$point[own],
-             rounded_points(reference$xyz), stats::setNames(
+             rounded_points(reference$xyz, unit), stats::setNames(
                as.data.frame(rounded_to(normal, 1e-6)), c("nx", "ny", "nz")
-             ), partner = partner, side = side & !is.na(partner) & partner != row)
+             ), partner = partner, side = side & !is.na(partner) & partner != row,
+             row.names = NULL)
 }
 
-rounded_points <- function(xyz) {
-  as.data.frame(matrix(rounded_to(xyz, 1e-4), ncol = 3, dimnames = list(NULL, c("x", "y", "z"))))
+rounded_points <- function(xyz, unit) {
+  as.data.frame(matrix(rounded_to(xyz, unit), ncol = 3, dimnames = list(NULL, c("x", "y", "z"))))
 }
 
 #' What a norm is made of: all faces of a sample laid on the reference
@@ -89,9 +90,9 @@ rounded_points <- function(xyz) {
 #'   (n x 3l: the asymmetric part on the side), `values` (n x m: log size and measurements),
 #'   `estimated`.
 #' @noRd
-norm_data <- function(sample, plan, call) {
+norm_data <- function(sample, plan, unit, call) {
   reference <- norm_reference(sample, call)
-  points <- norm_points(reference, sample$template$scheme)
+  points <- norm_points(reference, sample$template$scheme, unit)
   xyz <- as.matrix(points[c("x", "y", "z")])
   n <- dim(reference$coords)[3]
   y <- matrix(0, n, 3 * nrow(xyz))

@@ -203,8 +203,6 @@ healed <- function(norms, settings, faces) {
   for (case in list(c(0, 15), c(3, 15), c(5, 30), c(8, 45))) {
     data <- new_faces(norms, settings, faces, 5000 + seed,
                       data.frame(height = case[1], radius = case[2]))
-    clean <- new_faces(norms, settings, faces, 5000 + seed,
-                       data.frame(height = 0 * case[1], radius = case[2]))
     if (case[1] == 0) data$lesions$point <- NA
     each <- lapply(seq_len(faces), function(i) {
       age <- data$people$age[i]
@@ -215,9 +213,10 @@ healed <- function(norms, settings, faces) {
       took <- matrix((face$u - made$u) * face$spread, ncol = 3)
       along <- rowSums(took * field$normal) / data$scale[i]
       at <- match(data$lesions$point[i], norms$points$point)
-      # What was put on, in the same frame
-      put <- own("normal_part")(data$y[i, , drop = FALSE] - clean$y[i, , drop = FALSE],
-                                0 * field$points, field$normal)[1, ] / data$scale[i]
+      # What was put on
+      put <- if (is.na(at)) 0 * along else {
+        case[1] * own("bump")(as.matrix(stats::dist(field$points))[at, ], case[2])
+      }
       sd <- sqrt(own("along_normals")(field$normal, made$variance * face$spread^2)) / data$scale[i]
       out <- made$out
       c(touched = any(out), height = if (is.na(at)) NA else along[at],

@@ -114,6 +114,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
   quick <- norm_settings(components = 2, radii = 15, ranges = c(10, 30), bins = c(0, 1, 20, 70),
                          folds = 2, least = 1)
   norms <- fit_norms(cohort$sample, data = cohort$data, settings = quick, progress = FALSE)
+  write_norms(norms, path("norms_read"))
   faces <- NULL
   fitted <- list(measuring = shape_settings(column_angles = 5))
   fitted_kinds <- c(measuring = "object")
@@ -281,6 +282,9 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                          error = NULL, alpha = 0.05),
                    shape = "object", norms = "object", age = "number", sex = "choice",
                    error = "any", alpha = "number"),
+    write_norms = entry(given(norms = norms, dir = path("norms"), share = FALSE),
+                        norms = "object", dir = "text", share = "flag"),
+    read_norms = entry(given(dir = path("norms_read")), dir = "object"),
     landmark_template = entry(given(specimen = one, predicted = character(), unit = 1, mirror = NA,
                                     start = NULL, hinge = character(), moves = character(),
                                     slit = character()),

@@ -1,0 +1,154 @@
+# A norm from a folder: every table is compared with its checksum before it is used.
+
+#' @rdname write_norms
+#' @export
+read_norms <- function(dir) {
+  check_given()
+  if (!is_path(dir) || !dir.exists(dir)) {
+    crestline_abort(sprintf("`dir`: there is no folder %s.", describe_value(dir)),
+                    sprintf("Check the path; the working directory is %s.", getwd()),
+                    stage = "reading", call = NULL)
+  }
+  header <- read_norm_header(dir)
+  tables <- lapply(stats::setNames(nm = names(header$tables)), function(file) {
+    read_norm_table(file.path(dir, file), header$tables[[file]])
+  })
+  names(tables) <- sub("[.]csv$", "", names(tables))
+  norms <- tryCatch(norms_from_tables(header, tables), error = function(e) {
+    if (inherits(e, "crestline_error")) rlang::cnd_signal(e)
+    refuse_norm("norms.json", "its tables do not fit each other")
+  })
+  check_norm_numbers(norms)
+  validate_shape_norms(norms)
+  for (name in intersect(c("surface", "asymmetry"), names(Filter(Negate(is.null), norms)))) {
+    tryCatch(prepared_field(norms, name), error = function(e) {
+      refuse_norm("norms.json", "its kernel is not positive definite")
+    })
+  }
+  norms
+}
+
+refuse_norm <- function(file, problem, remedy = "Copy the whole folder again.") {
+  crestline_abort(sprintf("%s cannot be read as norms: %s.", basename(file), problem), remedy,
+                  stage = "reading", class = "crestline_norm_file", call = NULL)
+}
+
+read_norm_header <- function(dir) {
+  file <- file.path(dir, "norms.json")
+  if (!file.exists(file)) refuse_norm(dir, "it has no norms.json", "Give the folder of a norm.")
+  text <- paste(readLines(file, warn = FALSE, encoding = "UTF-8"), collapse = "\n")
+  header <- tryCatch(jsonlite::fromJSON(text), error = function(e) {
+    refuse_norm(file, "it is no JSON, or cut short")
+  })
+  if (!is.list(header) || !identical(header$format, "crestline-norms")) {
+    refuse_norm(file, "it is no norm of crestline", "Give the folder of a norm.")
+  }
+  version <- header$version
+  if (!is.numeric(version) || length(version) != 1 || version > norm_version()) {
+    refuse_norm(file, sprintf("it is of version %s, this crestline reads up to %d",
+                              describe_value(version), norm_version()), "Update crestline.")
+  }
+  # The checksum is of the text without its own line.
+  plain <- sub(",\n  \"checksum\": \"[0-9a-f]*\"", "", text)
+  if (!identical(cli::hash_sha256(plain), header$checksum)) {
+    refuse_norm(file, "it was changed: its checksum does not fit")
+  }
+  header
+}
+
+read_norm_table <- function(file, checksum) {
+  if (!grepl("^[a-z-]+[.]csv$", basename(file))) refuse_norm(file, "it has a strange name")
+  if (!file.exists(file)) refuse_norm(file, "it is missing")
+  if (!identical(cli::hash_file_sha256(file), checksum)) {
+    refuse_norm(file, "it was changed: its checksum does not fit")
+  }
+  utils::read.csv(file, encoding = "UTF-8", na.strings = "", stringsAsFactors = FALSE,
+                  check.names = FALSE)
+}
+
+#' @return A `shape_norms`.
+#' @noRd
+norms_from_tables <- function(header, tables) {
+  points <- tables$reference
+  points$index <- as.character(points$index)
+  sexes <- as.character(header$sexes)
+  settings <- header$settings
+  field <- function(name) {
+    if (is.null(header[[name]])) return(NULL)
+    field_from_tables(name, header, tables, points, sexes)
+  }
+  measurements <- tables$measurements
+  table <- tables$table
+  skew <- paste0("skew_", 1:4)
+  table[skew] <- lapply(table[skew], as.numeric)
+  structure(
+    list(points = points, triangles = unname(t(as.matrix(tables$triangles))), n = header$n,
+         ages = tables$ages, counts = tables$counts, names = unlist(header$names),
+         measurements = measurements, table = table,
+         values = splines_from_tables("values", header$splines$values, 1e-6, 0, tables, sexes),
+         surface = field("surface"), asymmetry = field("asymmetry"), limits = header$limits,
+         privacy = header$privacy, settings = settings, scheme = header$scheme,
+         about = header$about, cache = new.env(parent = emptyenv())),
+    class = "shape_norms"
+  )
+}
+
+field_from_tables <- function(name, header, tables, points, sexes) {
+  own <- header[[name]]
+  side <- if (name == "surface") rep(TRUE, nrow(points)) else points$side
+  unit <- header$units$points
+  xyz <- as.matrix(points[side, c("x", "y", "z")])
+  off <- if (name == "surface") round(as.vector(xyz) / unit) else 0
+  loadings <- as.matrix(tables[[paste0("components-", name)]])
+  size <- header$splines$points
+  by_age <- lapply(own$by_age, function(x) matrix(x, ncol = length(own$radii)))
+  list(points = xyz, normal = as.matrix(points[side, c("nx", "ny", "nz")]),
+       columns = splines_from_tables(name, size, unit, off, tables, sexes),
+       along = splines_from_tables(paste0(name, "-along"), size, unit, 0, tables, sexes),
+       sd = unname(loadings[, 1]) * 1e-4, vectors = unname(loadings[, -1, drop = FALSE]) * 1e-4,
+       values = own$values, kernel = own$kernel, ranges = own$ranges,
+       scan = list(radii = own$radii, s = unname(as.matrix(tables[[paste0("scan-", name)]])),
+                   by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
+       rough = own$rough)
+}
+
+splines_from_tables <- function(name, size, unit, off, tables, sexes) {
+  table <- function(what) tables[[paste0(what, "-", name)]]
+  groups <- lapply(seq_along(sexes), function(i) {
+    rows <- function(what) table(what)[table(what)$sex == i, ]
+    coefficients <- function(what) unname(as.matrix(rows(what)[-(1:2)]))
+    basis <- function(of, k) {
+      own <- rows("basis")
+      own <- own[own$of == of, ]
+      list(turn = unname(as.matrix(own[paste0("t", seq_len(k))])), s = own$s)
+    }
+    list(n = NA_integer_, mean = t((coefficients("mean") + off) * unit),
+         lambda = 10^(rows("mean")$e / 100), basis = basis(1, size$k),
+         spread = t(coefficients("spread") * 1e-3), lambda_spread = 10^(rows("spread")$e / 100),
+         basis_spread = basis(2, size$k_spread))
+  })
+  list(size = size, groups = stats::setNames(groups, sexes))
+}
+
+#' Numbers that no norm has
+#' @noRd
+check_norm_numbers <- function(norms) {
+  sets <- norm_sets(norms)
+  for (name in names(sets)) {
+    for (one in sets[[name]]$groups) {
+      numbers <- unlist(one[c("mean", "lambda", "spread", "lambda_spread", "basis",
+                              "basis_spread")])
+      if (!all(is.finite(numbers))) {
+        refuse_norm(paste0("mean-", name, ".csv"), "it has numbers that are not finite")
+      }
+    }
+  }
+  for (name in c("surface", "asymmetry")) {
+    field <- norms[[name]]
+    if (is.null(field)) next
+    positive <- c(field$sd, field$values, field$scan$s, field$kernel[1], field$ranges)
+    if (!all(is.finite(positive) & positive > 0)) {
+      refuse_norm(paste0("components-", name, ".csv"), "a spread is not above 0")
+    }
+  }
+}
