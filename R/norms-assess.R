@@ -100,7 +100,8 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
          findings = healed_discs(norms, patient, healed, points),
          healed = matrix(as.vector(patient$expected$mean) + healed$u * patient$spread, ncol = 3),
          triangles = norms$triangles, errors = patient$errors, rough = patient$rough,
-         scale = patient$scale, limits = map_limits(norms), alpha = alpha, finished = healed$finished,
+         scale = patient$scale, limits = map_limits(norms), alpha = alpha,
+         finished = healed$finished,
          norms = list(name = norms$about$name, n = norms$n, few = norms$settings$few)),
     class = "assessment"
   )
@@ -203,6 +204,7 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
   )
   columns <- c("distance", "z_map", "se_scan", "se_norm", "z_scan", "z_asymmetry")
   found[lost, columns] <- NA
+  rownames(found) <- NULL
   found
 }
 

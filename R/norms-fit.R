@@ -89,8 +89,8 @@ print.norm_settings <- function(x, ...) {
 #' than a fiftieth of the faces; an age at which one person decides more than a tenth of the mean; a
 #' norm whose components fit its members better than strangers (ratio of residuals below 0.95, or
 #' area under the curve of membership above 0.60, both by held-out faces). Counts below 5 are
-#' merged. This is no formal (differential) privacy. Two norms whose samples differ by one person give that
-#' person's face by subtraction: publish rarely, and never "all but one".
+#' merged. This is no formal (differential) privacy. Two norms whose samples differ by one person
+#' give that person's face by subtraction: publish rarely, and never "all but one".
 #'
 #' @param sample A `shape_sample`, as of [homologise()], whose scheme has patches. At least 20 faces
 #'   of each sex.

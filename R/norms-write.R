@@ -1,4 +1,4 @@
-# A norm as a folder of text: tables of whole numbers with their units, and a header that names them.
+# A norm as a folder of text: tables of whole numbers, and a header with their units.
 
 #' Write norms to a folder, and read them
 #'
@@ -17,8 +17,8 @@
 #' * `counts.csv`, `ages.csv`: numbers of faces and range of ages, by sex;
 #' * `table.csv`, `measurements.csv`: size, measurements and components, and their definitions;
 #' * `mean-*.csv`, `spread-*.csv`: coefficients of splines by column and sex, with `e`, the
-#'   logarithm (base 10, in hundredths) of the smoothing parameter. Means of points are relative to the
-#'   reference. The sets are `values`, `surface`, `surface-along` (along the normals), `asymmetry`
+#'   logarithm (base 10, in hundredths) of the smoothing parameter. Means of points are relative to
+#'   the reference. The sets are `values`, `surface`, `surface-along` (along the normals), `asymmetry`
 #'   and `asymmetry-along`;
 #' * `basis-*.csv`: the bases in which leverages are computed;
 #' * `components-*.csv`: mean spread and loadings of co-ordinates (all x first), in 0.0001;
