@@ -1,9 +1,10 @@
 # How good are norms? Simulated cohorts of known truth: calibration, family-wise errors, lesions,
 # the healed face, errors of the scan, privacy, speed.
 #
-#   Rscript bench/norms.R fit N SEED [SYMMETRIC]  one norm of N faces: time, memory, privacy; kept
-#                                                 as norms-N-SEED.rds in $CRESTLINE_NORMS
-#   Rscript bench/norms.R look N SEED [FACES]     everything else of that norm, by FACES new faces
+#   Rscript bench/norms.R fit N SEED [SYMMETRIC]  one norm of N faces: time, memory, privacy, file,
+#                                                 and all that `look` measures; kept as
+#                                                 norms-N-SEED.rds in $CRESTLINE_NORMS
+#   Rscript bench/norms.R look N SEED [FACES]     a kept norm by FACES new faces
 #
 # Each row printed is `what value count`. Faces have the fields, errors and ages of
 # simulate_cohort(); new faces go through the same functions as assess() uses, many at once.
@@ -33,6 +34,12 @@ if (mode == "fit") {
   say("fit, MB at most above what was there", sum(gc()[, 6]))
   say("privacy: ratio, auc, least effective", unlist(norms$privacy))
   saveRDS(list(norms = norms, settings = settings), file)
+  dir <- tempfile("norms")
+  write_norms(norms, dir)
+  say("file, KB", sum(file.size(list.files(dir, full.names = TRUE))) / 1024)
+  time <- system.time(read <- read_norms(dir))
+  say("reading, seconds elapsed, user", time[c(3, 1)])
+  norms <- read
 }
 
 # New faces: data as fit_parts() has it, from a seed of their own.
@@ -235,8 +242,9 @@ healed <- function(norms, settings, faces) {
   }
 }
 
-if (mode == "look") {
-  faces <- if (length(arguments) > 3) as.integer(arguments[4]) else 1000
+if (mode %in% c("fit", "look")) {
+  looks <- mode == "look" && length(arguments) > 3
+  faces <- if (looks) as.integer(arguments[4]) else if (n < 1000) 400 else 1000
   kept <- readRDS(file)
   norms <- kept$norms
   time <- system.time(own("prepared_field")(norms, "surface"))
@@ -246,7 +254,6 @@ if (mode == "look") {
   own_error(norms, kept$settings, min(faces, 200))
   lesions(norms, kept$settings, min(faces, 400))
   healed(norms, kept$settings, min(faces, 30))
-  people <- new_faces(norms, kept$settings, 1, 1)$people
   patient <- simulate_cohort(1, data = data.frame(age = 20, sex = "male"), seed = 1)
   suppressWarnings(assess(patient$sample[[1]], norms, 20, "male"))
   time <- system.time(assess(patient$sample[[1]], norms, 20, "male"))
