@@ -18,8 +18,8 @@
 #' * `table.csv`, `measurements.csv`: size, measurements and components, and their definitions;
 #' * `mean-*.csv`, `spread-*.csv`: coefficients of splines by column and sex, with `e`, the
 #'   logarithm (base 10, in hundredths) of the smoothing parameter. Means of points are relative to
-#'   the reference. The sets are `values`, `surface`, `surface-along` (along the normals), `asymmetry`
-#'   and `asymmetry-along`;
+#'   the reference. The sets are `values`, `surface`, `surface-along` (along the normals),
+#'   `asymmetry` and `asymmetry-along`;
 #' * `basis-*.csv`: the bases in which leverages are computed;
 #' * `components-*.csv`: mean spread and loadings of co-ordinates (all x first), in 0.0001;
 #' * `scan-*.csv`: the spread of the scan's statistic by point and radius.

@@ -1,0 +1,92 @@
+# Two visits: what has changed, and what has not.
+
+two_visits <- function(height = 0, n = 1, ..., seed = 1) {
+  people <- data.frame(age = rep(20, n), sex = rep("female", n))
+  simulate_cohort(n, data = people, template = small_template(), visits = 2, seed = seed,
+                  lesions = data.frame(height = height, radius = 18, point = "mid 4 3", visit = 2),
+                  settings = cohort_settings(noise = 0.1, ...))
+}
+
+test_that("a change is found where it is, and its size is right", {
+  made <- two_visits(4)
+  found <- compare_visits(made$sample[[1]], made$second[[1]])
+  own <- found$points[found$points$level == "surface", ]
+  at <- which(paste(own$part, own$point) == "mid 4 3")
+  expect_equal(own$change[at], 4, tolerance = 0.1)
+  expect_true(own$called[at])
+  expect_equal(own$se[at], sqrt(2) * 0.1)
+  expect_equal(own$detectable[at], 1.96 * sqrt(2) * 0.1)
+  far <- as.matrix(stats::dist(own[c("x", "y", "z")]))[at, ] > 22
+  expect_lt(max(abs(own$change[far])), 0.6)
+  expect_true(found$converged)
+  expect_match(utils::capture.output(print(found))[1], "<visit_comparison>")
+})
+
+test_that("the pose of the second visit does not count, its size does", {
+  made <- two_visits(4)
+  moved <- made$second[[1]]
+  xyz <- as.matrix(moved$points[c("x", "y", "z")])
+  moved$points[c("x", "y", "z")] <- as.data.frame(
+    sweep(xyz %*% rotation_about(c(1, -1, 0.5)), 2, c(20, 30, -4), `+`)
+  )
+  a <- compare_visits(made$sample[[1]], made$second[[1]], table = ball_measurements())
+  b <- compare_visits(made$sample[[1]], moved, table = ball_measurements())
+  expect_equal(a$points, b$points, tolerance = 1e-5)
+  expect_equal(a$measurements$change, b$measurements$change, tolerance = 1e-6)
+  same <- compare_visits(made$sample[[1]], made$sample[[1]])
+  expect_lt(max(abs(same$points$change)), 1e-9)
+})
+
+test_that("least squares by patches that did not change, and wrong names", {
+  made <- two_visits(0)
+  a <- compare_visits(made$sample[[1]], made$second[[1]], unchanged = "mid")
+  b <- as.array(made$sample[[1]], "surface")[, , 1]
+  after <- as.array(made$second[[1]], "surface")[, , 1]
+  laid <- laid_onto(after, b, FALSE)
+  normal <- place_normals(places_of(made$sample[[1]]), made$sample[[1]]$scheme)
+  scheme <- made$sample[[1]]$scheme
+  row <- match(scheme$points$place[scheme$points$level == "surface"], unique(scheme$points$place))
+  expect_equal(a$points$change[a$points$level == "surface"],
+               unname(rowSums((laid - b) * normal[row, ])), tolerance = 1e-8)
+  expect_crestline_error(compare_visits(made$sample[[1]], made$second[[1]], unchanged = "nose"),
+                         "`unchanged`")
+  expect_crestline_error(compare_visits(made$sample[[1]], quad_shape()), "scheme")
+})
+
+test_that("without a change points are called as often as the level says", {
+  made <- two_visits(0, 120)
+  called <- sapply(seq_along(made$sample), function(i) {
+    found <- compare_visits(made$sample[[i]], made$second[[i]])
+    own <- found$points[found$points$level == "surface", ]
+    c(any = any(own$called), points = mean(abs(own$score) > 1.96))
+  })
+  expect_lt(mean(called["any", ]), 0.11)
+  expect_equal(mean(called["points", ]), 0.05, tolerance = 0.6)
+})
+
+test_that("the limit is that of the largest of many errors", {
+  points <- data.frame(x = 1:40 * 100, y = 0, z = 0, score = 0)
+  free <- visit_limit(points, visit_settings())
+  expect_equal(free, stats::qnorm((1 + 0.95^(1 / 40)) / 2))
+  # Far apart, drawn errors are independent; close together, they are one.
+  drawn <- visit_limit(points, visit_settings(range = 1, draws = 4000))
+  expect_equal(drawn, free, tolerance = 0.04)
+  one <- visit_limit(points, visit_settings(range = 1e6, draws = 4000))
+  expect_equal(one, 1.96, tolerance = 0.05)
+  # A mean of errors that go together has their error.
+  own <- data.frame(level = "surface", part = "a", point = 1:4, x = 1:4, y = 0, z = 0, change = 1,
+                    se = 0.5, score = 2)
+  expect_equal(changed_parts(own, visit_settings())$se, 0.25)
+  expect_equal(changed_parts(own, visit_settings(range = 1e6))$se, 0.5, tolerance = 1e-6)
+})
+
+test_that("points without an error are not assessed, and said", {
+  made <- two_visits(0)
+  bare <- made$second[[1]]
+  bare$points$se <- NA_real_
+  found <- compare_visits(made$sample[[1]], bare)
+  expect_true(all(is.na(found$points$score)))
+  expect_false(any(found$points$called))
+  expect_match(paste(utils::capture.output(print(found)), collapse = " "), "not assessed")
+  expect_false(anyNA(compare_visits(made$sample[[1]], bare, error = 0.2)$points$score))
+})
