@@ -4,7 +4,7 @@ small_template <- function() symmetrise(argument_objects()$shapes[[1]])
 
 small_settings <- function() {
   norm_settings(components = 3, radii = c(12, 18), ranges = c(10, 30),
-                bins = c(0, 0.01, 10, 20, 30, 45, 70), folds = 4)
+                bins = c(0, 0.01, 10, 20, 30, 45, 70), folds = 2)
 }
 
 small_cohort <- function(n = 120, ..., seed = 1) {

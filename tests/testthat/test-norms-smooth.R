@@ -46,17 +46,17 @@ test_that("lambda has the greatest restricted likelihood, and leverages are the 
 })
 
 test_that("z of new people is normal, even from few", {
-  share <- sapply(1:30, function(seed) {
+  share <- sapply(1:15, function(seed) {
     made <- grown_columns(60, seed)
     fit <- smooth_columns(made$y, made$age, made$sex,
                                       list(k = 10, k_spread = 6, range = c(3, 40)))
-    new <- grown_columns(300, seed + 100)
+    new <- grown_columns(200, seed + 100)
     expected <- expected_columns(fit, new$age, new$sex)
     plain <- (new$y - expected$mean) / expected$sd
     c(mean(abs(plain) <= 1.96), mean(abs(predicted_z(new$y, expected)) <= 1.96))
   })
   expect_lt(mean(share[1, ]), 0.93)
-  expect_equal(mean(share[2, ]), 0.95, tolerance = 0.015)
+  expect_equal(mean(share[2, ]), 0.95, tolerance = 0.02)
 })
 
 test_that("columns do not depend on each other, and rounding is as said", {
