@@ -224,7 +224,7 @@ healed <- function(norms, settings, faces) {
       put <- if (is.na(at)) 0 * along else {
         case[1] * own("bump")(as.matrix(stats::dist(field$points))[at, ], case[2])
       }
-      sd <- sqrt(own("along_normals")(field$normal, made$variance * face$spread^2)) / data$scale[i]
+      sd <- sqrt(own("variance_along")(field$normal, made$variance * face$spread^2)) / data$scale[i]
       out <- made$out
       c(touched = any(out), height = if (is.na(at)) NA else along[at],
         covered = if (any(out)) mean(abs(along - put)[out] <= 1.96 * sd[out]) else NA)
