@@ -59,6 +59,6 @@ plot.assessment <- function(x, what = c("map", "scan", "healed", "distance", "as
              asymmetry = "asymmetry against the norm's: z")[[what]]
   if (is.null(main)) main <- sprintf("%s\n%s", x$id, title)
   draw_map(points, value, TRUE, x$triangles, 0.5, limits, palette, engine, view, legend, main,
-           "unit of the mesh", ...)
+           if (what %in% c("healed", "distance")) "unit of the mesh" else "z", ...)
   invisible(x)
 }
