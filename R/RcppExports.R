@@ -193,8 +193,8 @@ cpp_permuted_forms <- function(gram, own, whole, orders) {
     .Call(`_crestline_cpp_permuted_forms`, gram, own, whole, orders)
 }
 
-cpp_centred_rows <- function(x, m, from, factor) {
-    .Call(`_crestline_cpp_centred_rows`, x, m, from, factor)
+cpp_centred_rows <- function(x, from, factor) {
+    .Call(`_crestline_cpp_centred_rows`, x, from, factor)
 }
 
 cpp_weighted_sum <- function(x, weight) {

@@ -80,8 +80,7 @@ lm_point_table <- function(aligned, term, span, found, along, permutations) {
 term_effect <- function(aligned, span) {
   if (is.null(span$column)) return(NULL)
   own <- span$basis[, 1]
-  moved <- cpp_weighted_sum(aligned$coords, own / sum(own * span$column))
-  matrix(moved, nrow(aligned$mean))
+  unname(weighted_shape(aligned, own / sum(own * span$column)))
 }
 
 #' The curve or patch that each point of an alignment lies on; NULL of other levels, and where no

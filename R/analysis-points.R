@@ -68,8 +68,7 @@ mean_differences <- function(aligned, code) {
 }
 
 mean_shape_of <- function(aligned, chosen) {
-  mean <- cpp_weighted_sum(aligned$coords, chosen / sum(chosen))
-  matrix(mean, nrow(aligned$mean), dimnames = dimnames(aligned$mean))
+  weighted_shape(aligned, chosen / sum(chosen))
 }
 
 #' List of one n x k matrix: displacements from the mean along its normals

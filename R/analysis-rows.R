@@ -12,8 +12,25 @@
 shape_rows <- function(aligned, factor = sqrt(aligned$weights),
                        dimension = seq_len(ncol(aligned$mean))) {
   k <- nrow(aligned$mean)
-  cpp_centred_rows(aligned$coords, length(aligned$mean), (dimension[1] - 1L) * k + 1L,
+  cpp_centred_rows(numbers_by_specimen(aligned), (dimension[1] - 1L) * k + 1L,
                    rep(rep_len(as.double(factor), k), length(dimension)))
+}
+
+#' The specimens as matrices of doubles, without an array of all
+#' @noRd
+numbers_by_specimen <- function(aligned) {
+  each <- as.list(aligned)
+  whole <- !vapply(each, is.double, NA)
+  each[whole] <- lapply(each[whole], `storage.mode<-`, "double")
+  each
+}
+
+#' Sum of the specimens, each times its weight
+#' @return k x d matrix.
+#' @noRd
+weighted_shape <- function(aligned, weight) {
+  matrix(cpp_weighted_sum(numbers_by_specimen(aligned), as.double(weight)), nrow(aligned$mean),
+         dimnames = dimnames(aligned$mean))
 }
 
 #' Squares of all entries by row, about the mean of the row's group

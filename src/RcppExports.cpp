@@ -717,26 +717,25 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_centred_rows
-NumericMatrix cpp_centred_rows(NumericVector x, int m, int from, NumericVector factor);
-RcppExport SEXP _crestline_cpp_centred_rows(SEXP xSEXP, SEXP mSEXP, SEXP fromSEXP, SEXP factorSEXP) {
+NumericMatrix cpp_centred_rows(List x, int from, NumericVector factor);
+RcppExport SEXP _crestline_cpp_centred_rows(SEXP xSEXP, SEXP fromSEXP, SEXP factorSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
-    Rcpp::traits::input_parameter< int >::type m(mSEXP);
+    Rcpp::traits::input_parameter< List >::type x(xSEXP);
     Rcpp::traits::input_parameter< int >::type from(fromSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type factor(factorSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_centred_rows(x, m, from, factor));
+    rcpp_result_gen = Rcpp::wrap(cpp_centred_rows(x, from, factor));
     return rcpp_result_gen;
 END_RCPP
 }
 // cpp_weighted_sum
-NumericVector cpp_weighted_sum(NumericVector x, NumericVector weight);
+NumericVector cpp_weighted_sum(List x, NumericVector weight);
 RcppExport SEXP _crestline_cpp_weighted_sum(SEXP xSEXP, SEXP weightSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
+    Rcpp::traits::input_parameter< List >::type x(xSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type weight(weightSEXP);
     rcpp_result_gen = Rcpp::wrap(cpp_weighted_sum(x, weight));
     return rcpp_result_gen;
@@ -838,7 +837,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_face_normals", (DL_FUNC) &_crestline_cpp_face_normals, 2},
     {"_crestline_cpp_vertex_normals", (DL_FUNC) &_crestline_cpp_vertex_normals, 2},
     {"_crestline_cpp_permuted_forms", (DL_FUNC) &_crestline_cpp_permuted_forms, 4},
-    {"_crestline_cpp_centred_rows", (DL_FUNC) &_crestline_cpp_centred_rows, 4},
+    {"_crestline_cpp_centred_rows", (DL_FUNC) &_crestline_cpp_centred_rows, 3},
     {"_crestline_cpp_weighted_sum", (DL_FUNC) &_crestline_cpp_weighted_sum, 2},
     {"_crestline_cpp_squared_distances", (DL_FUNC) &_crestline_cpp_squared_distances, 3},
     {"_crestline_cpp_common_form_t2", (DL_FUNC) &_crestline_cpp_common_form_t2, 7},

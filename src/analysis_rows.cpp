@@ -14,15 +14,16 @@ constexpr int kTile = 32;
 
 }  // namespace
 
-void centred_rows(const double* x, int m, int n, int from, int q, const double* factor, double* out,
-                  const std::function<void()>& between) {
+void centred_rows(const std::vector<const double*>& x, int from, int q, const double* factor,
+                  double* out, const std::function<void()>& between) {
   Patience patience(between);
+  const int n = static_cast<int>(x.size());
   for (int j = 0; j < q; j += kTile) {
     if (patience.over()) patience.finish();
     const int end = std::min(j + kTile, q);
     for (int i = 0; i < n; i += kTile) {
       for (int r = i; r < std::min(i + kTile, n); ++r) {
-        const double* own = x + static_cast<std::size_t>(r) * m + from;
+        const double* own = x[r] + from;
         for (int c = j; c < end; ++c) out[r + static_cast<std::size_t>(c) * n] = own[c];
       }
     }
@@ -54,10 +55,10 @@ void squared_distances(const double* y, int n, int q, const double* means, int g
   }
 }
 
-void weighted_sum(const double* x, int m, int n, const double* weight, double* out) {
+void weighted_sum(const std::vector<const double*>& x, int m, const double* weight, double* out) {
   std::fill(out, out + m, 0.0);
-  for (int i = 0; i < n; ++i) {
-    const double* own = x + static_cast<std::size_t>(i) * m;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double* own = x[i];
     if (weight[i] == 0) continue;
     for (int j = 0; j < m; ++j) out[j] += weight[i] * own[j];
   }

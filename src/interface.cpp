@@ -804,23 +804,28 @@ NumericMatrix cpp_permuted_forms(NumericMatrix gram, NumericMatrix own, NumericM
   return out;
 }
 
-// x: m variables of n specimens, one after the other. from: the first that is taken, from 1. factor:
-// of those that are taken, whose number it gives.
+// The numbers of every specimen, a matrix each.
+static std::vector<const double*> numbers_of(List specimens) {
+  std::vector<const double*> out;
+  for (R_xlen_t i = 0; i < specimens.size(); ++i) out.push_back(REAL(specimens[i]));
+  return out;
+}
+
+// x: a matrix of doubles by specimen. from: the first variable that is taken, from 1. factor: of
+// those that are taken, whose number it gives.
 // [[Rcpp::export]]
-NumericMatrix cpp_centred_rows(NumericVector x, int m, int from, NumericVector factor) {
-  const int n = x.size() / m, q = factor.size();
-  NumericMatrix out = no_init(n, q);
-  crestline::centred_rows(x.begin(), m, n, from - 1, q, factor.begin(), out.begin(),
+NumericMatrix cpp_centred_rows(List x, int from, NumericVector factor) {
+  NumericMatrix out = no_init(x.size(), factor.size());
+  crestline::centred_rows(numbers_of(x), from - 1, factor.size(), factor.begin(), out.begin(),
                           [] { checkUserInterrupt(); });
   return out;
 }
 
-// x: m variables of each specimen, one after the other. weight: of each specimen.
+// x: a matrix of doubles by specimen. weight: of each specimen.
 // [[Rcpp::export]]
-NumericVector cpp_weighted_sum(NumericVector x, NumericVector weight) {
-  const int n = weight.size(), m = x.size() / n;
-  NumericVector out(m);
-  crestline::weighted_sum(x.begin(), m, n, weight.begin(), out.begin());
+NumericVector cpp_weighted_sum(List x, NumericVector weight) {
+  NumericVector out(Rf_xlength(x[0]));
+  crestline::weighted_sum(numbers_of(x), out.size(), weight.begin(), out.begin());
   return out;
 }
 

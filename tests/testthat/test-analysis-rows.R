@@ -33,5 +33,5 @@ test_that("a mean of some specimens is the mean of their co-ordinates", {
   some <- seq_len(70) %in% c(3, 8, 50)
   expect_equal(mean_shape_of(aligned, some), apply(aligned$coords[, , some], 1:2, mean))
   off <- with_seed(2, stats::rnorm(70))
-  expect_equal(cpp_weighted_sum(aligned$coords, off), drop(matrix(aligned$coords, 15) %*% off))
+  expect_equal(as.vector(weighted_shape(aligned, off)), drop(matrix(aligned$coords, 15) %*% off))
 })
