@@ -79,12 +79,12 @@
 #' @section Curves that bow, curves that close: With `path = "crest"` or a `via` the reference path
 #'   is a path of least cost, see [reference_path()]. Where `from` is `to` and there is a `via` on
 #'   the other side, the curve is closed. Its stops only say which crest is meant, and have no say
-#'   in where it runs. Smooth surface, ridge line and standard error then go round without a seam. Long
-#'   curves get more B-splines and a looser ridge line, see `basis_most` in [ridge_settings()].
+#'   in where it runs. Smooth surface, ridge line and standard error then go round without a seam.
+#'   Long curves get more B-splines and a looser ridge line, see `basis_most` in [ridge_settings()].
 #'
 #'   The path itself moves with noise at wavelengths below eight radii, and may take another crest
 #'   that is as good. The standard error does not know of either, so that its band is too narrow
-#'   where noise is high. `attr(curve$reference, "competing")` shows another path as good.
+#'   where noise is high.
 #' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,
 #'   or an argument is wrong. The error names the specimen, the stage and the remedy. A hole between
 #'   the landmarks is such an error: unlike [fit_shape()], `ridge_curve()` does not bridge holes.

@@ -50,7 +50,9 @@ learn_tracks <- function(shapes, fewest = 5, least = 0.1, places = 19) {
   least <- check_number(least, "least", lower = 0, open = TRUE)
   shapes <- Filter(Negate(is.null), named_shapes(shapes, "shapes"))
   scheme <- learning_scheme(shapes)
-  curves <- scheme$curves[scheme$curves$kind != "plane" & scheme$curves$n > 2, ]
+  # A closed curve has no distance between its ends to be in units of.
+  open <- scheme$curves$kind != "plane" & !closed_curves(scheme$curves)
+  curves <- scheme$curves[open & scheme$curves$n > 2, ]
   tracks <- lapply(seq_len(nrow(curves)), function(i) {
     learnt_track(as.list(curves[i, ]), shapes, typical_landmarks(scheme), fewest, least, places)
   })

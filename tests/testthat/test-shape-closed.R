@@ -131,3 +131,20 @@ test_that("a closed curve is drawn, graded and told", {
   expect_equal(as.character(graded$grade[graded$part == "rim"]), "green")
   expect_output(print(shape), "1 of 1 curves with 16 of 16 points")
 })
+
+test_that("closed curves have no expected track; the others learn theirs", {
+  scheme <- curve_scheme(
+    data.frame(landmark = c("a", "b", "c", "d"), x = c(11, -11, -4, 4), y = c(4, -4, 11, -11),
+               z = 3),
+    data.frame(curve = c("rim", "half"), from = "a", to = c("a", "b"), kind = "ridge",
+               radius = ring_radius, width = 4.5, n = 9, via = c("c b d", "c")), name = "ring"
+  )
+  shapes <- lapply(1:3, function(i) {
+    ring <- ring_specimen(c(a = 20, b = 200, c = 110, d = 290), noise = 0.01 * i)
+    ring <- specimen(ring$mesh, ring$landmarks, id = paste0("s", i), outward = "keep",
+                     tolerance = 0.5)
+    fit_shape(ring, scheme, progress = FALSE)
+  })
+  learnt <- learn_tracks(shapes, fewest = 3)
+  expect_equal(unique(learnt$tracks$curve), "half")
+})
