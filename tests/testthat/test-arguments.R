@@ -75,3 +75,13 @@ test_that("a path that no system takes is refused, whichever way R was started",
   expect_crestline_error(fit_shapes("face.ply", dir = long), "`dir`")
   expect_crestline_error(read_specimen(long), "`file`")
 })
+
+test_that("no function has more than nine arguments, but makers of settings and of records", {
+  space <- asNamespace("crestline")
+  count <- vapply(ls(space), function(name) {
+    if (is.function(space[[name]])) sum(names(formals(space[[name]])) != "...") else 0L
+  }, 0L)
+  # Their arguments are fields; those of compiled functions are arrays.
+  exempt <- grepl("_(settings|limits)$|^new_|^cpp_", names(count))
+  expect_identical(names(count)[count > 9 & !exempt], character())
+})
