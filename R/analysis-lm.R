@@ -112,18 +112,17 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
   check_class(settings, "model_settings", "settings", "model_settings()")
   settings <- settings_with_former(settings, "model_settings", ...)
   ss <- settings$ss
-  tests <- settings$tests
   terms <- model_terms(formula)
+  tests <- setdiff(settings$tests, if ("size" %in% all.vars(terms)) "size")
   aligned <- aligned_levels(sample, level, settings$scale, settings$weights, settings$missing)
   columns <- model_data(terms, data, names(aligned[[1]]))
-  if ("size" %in% all.vars(terms)) tests <- setdiff(tests, "size")
   design <- model_blocks(block, terms, columns, names(aligned[[1]]))
   units <- if (design$kind == "whole") lapply(aligned, in_design, design) else aligned
   if (design$kind == "whole") columns <- of_first(columns, design$block)
   orders <- model_orders(length(units[[1]]), design, n_perm, settings$permutations, seed)
   here <- rlang::current_env()
-  models <- lapply(units, function(one) level_model(terms, columns, one, settings$contrasts,
-                                                       here))
+  models <- lapply(units, level_model, terms = terms, columns = columns,
+                   contrasts = settings$contrasts, call = here)
   warn_contrasts(models[[1]], ss)
   spans <- lapply(models, term_spans, ss, here)
   warn_few_orders(least_of_orders(orders, design), "model")

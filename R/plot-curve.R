@@ -82,7 +82,8 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
       sprintf("the curve from %s to %s", curves[[i]]$from, curves[[i]]$to)
     check_curve_on(curves[[i]], specimen, label)
   }
-  more <- utils::modifyList(list(landmarks = FALSE), list(...))
+  more <- list(...)
+  if (!"landmarks" %in% names(more)) more$landmarks <- FALSE
   scene <- do.call(plot, c(list(specimen, surface, engine = engine, legend = legend), more))
   key <- curve_key(curves, colour)
   each <- seq_along(curves)

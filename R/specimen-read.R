@@ -57,15 +57,7 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   own <- as_landmarks(landmarks_of(landmarks, id), id)
   name <- rownames(own)
   changed <- name %in% names(names)
-  unknown <- names(names)[!names(names) %in% name & !names %in% name]
-  if (length(unknown) && length(name)) {
-    refuse_landmarks(sprintf("`names` has %s, but there is no such landmark.", shorten(unknown)),
-                     near_names(unknown[1], name), id)
-  }
-  if (length(names) && length(name) && !any(changed)) {
-    crestline_inform(sprintf("`names` changes no landmark: there is none named %s.",
-                             shorten(names(names))))
-  }
+  if (length(name)) check_new_names(names, name, id)
   name[changed] <- names[name[changed]]
   twice <- unique(name[duplicated(name)])
   if (length(twice)) {
@@ -74,4 +66,18 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   }
   rownames(own) <- name
   from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
+}
+
+#' Refuse new names of landmarks that are not there; say if all landmarks have theirs already
+#' @noRd
+check_new_names <- function(names, there, id) {
+  unknown <- names(names)[!names(names) %in% there & !names %in% there]
+  if (length(unknown)) {
+    refuse_landmarks(sprintf("`names` has %s, but there is no such landmark.", shorten(unknown)),
+                     near_names(unknown[1], there), id)
+  }
+  if (length(names) && !any(names(names) %in% there)) {
+    crestline_inform(sprintf("`names` changes no landmark: there is none named %s.",
+                             shorten(names(names))))
+  }
 }
