@@ -187,7 +187,7 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   settings <- settings_with_former(settings, "comparison_settings", ...)
   tests <- settings$tests
   aligned <- aligned_levels(sample, level, settings$scale, settings$weights, settings$missing)
-  group <- check_group(group, dimnames(aligned[[1]]$coords)[[3]])
+  group <- check_group(group, names(aligned[[1]]))
   check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
   design <- comparison_design(group, block)
   exact <- if (is.null(settings$exact)) n_perm else settings$exact
@@ -340,7 +340,7 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
   }
   if (is.list(sample) && length(sample) && !is.null(names(sample))) {
     aligned <- Map(as_aligned, sample, names(sample))
-    ids <- lapply(aligned, function(one) dimnames(one$coords)[[3]])
+    ids <- lapply(aligned, names)
     if (!all(vapply(ids, identical, NA, ids[[1]]))) {
       crestline_abort("the levels have different specimens.",
                       "Give arrays with the same specimens in the same order.",
