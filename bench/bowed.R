@@ -84,7 +84,7 @@ if (part == "open") {
         beside <- if (height > 0) crest(rival, height) else function(g) 0
         surface <- function(g) pmax(crest(three_quarters)(g), beside(g))
         on <- marked(field(surface, 65, 1, noise, seed), ends)
-        plane <- ridge(on, "a", "b", settings = ridge_settings(longest = Inf), reach = Inf)
+        plane <- ridge(on, "a", "b", settings = ridge_settings(longest = Inf))
         path <- quiet(reference_path(on, "a", "b", "ridge", radius = radius, path = "crest"))
         fit <- ridge(on, "a", "b", path = "crest")
         c(plane = mean(off(plane$points, truth)), path = mean(off(path, truth)),
