@@ -224,7 +224,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                            mesh = "object", template = "object", id = "id?", settings = "object",
                            unit = "number?", threads = "count"),
     find_settings = fields(find_settings),
-    curve_route = fields(curve_route, keep_away = "list?", path = "choice", via = "object?",
+    curve_route = fields(curve_route, keep_away = "list?", path = "choice", via = "any",
                          trust = "size", reach = "reach"),
     shape_settings = fields(shape_settings, column_angles = "count"),
     fit_shape = entry(c(given(specimen = one, scheme = made$scheme, settings = ridge_settings(),
