@@ -84,7 +84,8 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   }
   more <- list(...)
   if (!"landmarks" %in% names(more)) more$landmarks <- FALSE
-  scene <- do.call(plot, c(list(specimen, surface, engine = engine, legend = legend), more))
+  scene <- do.call(plot, c(list(specimen, surface, engine = engine, legend = legend), more),
+                   quote = TRUE)
   key <- curve_key(curves, colour)
   each <- seq_along(curves)
   if (band) {

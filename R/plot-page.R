@@ -58,7 +58,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   device <- rgl::cur3d()
   on.exit(rgl::close3d(device))
   plot(x, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
-  layers <- do.call(page_layers, c(list(curves, x, surface), turned$more))
+  layers <- do.call(page_layers, c(list(curves, x, surface), turned$more), quote = TRUE)
   tags <- htmltools::tags
   page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
                    tags$h2(title),

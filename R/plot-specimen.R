@@ -92,7 +92,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   }
   scene <- do.call(draw_surface, c(
     list(x$mesh, scale$colours, posed_view(view, x$landmarks), engine), more
-  ))
+  ), quote = TRUE)
   if (landmarks) scene <- draw_landmarks(scene, x$landmarks, labels)
   if (engine == "picture") {
     graphics::title(main)
