@@ -52,13 +52,15 @@ plot.assessment <- function(x, what = c("map", "scan", "healed", "distance", "as
                     stage = "picture", id = x$id, call = NULL)
   }
   most <- if (what %in% names(x$limits)) x$limits[[what]] else Inf
-  # The outline is where p_adjusted crosses the level: 0 beyond the limit, 1 elsewhere.
-  points$p_adjusted <- ifelse(!is.na(value) & abs(value) > most, 0, 1)
+  # The outline is where p_adjusted crosses 0.5: 0.25 beyond the limit, 1 elsewhere.
+  points$p_adjusted <- ifelse(!is.na(value) & abs(value) > most, 0.25, 1)
   title <- c(map = "z of each point", scan = "does each place fit the rest of the face: z",
              healed = "taken away by healing", distance = "distance from the expected face",
              asymmetry = "asymmetry against the norm's: z")[[what]]
   if (is.null(main)) main <- sprintf("%s\n%s", x$id, title)
-  draw_map(points, value, TRUE, x$triangles, 0.5, limits, palette, engine, view, legend, main,
-           if (what %in% c("healed", "distance")) "unit of the mesh" else "z", ...)
+  unit <- if (what %in% c("healed", "distance")) "unit of the mesh" else "z"
+  look <- list(significance = 0.5, limits = limits, palette = palette, length_unit = unit)
+  draw_map(points, value, TRUE, x$triangles, main, list(look = look, more = list(...)), engine,
+           view, legend)
   invisible(x)
 }
