@@ -331,7 +331,7 @@ check_given <- function(but = character(), frame = parent.frame(),
   arguments <- formals(fn)
   arguments <- arguments[vapply(arguments, is.symbol, NA)]
   needed <- names(arguments)[!nzchar(vapply(arguments, as.character, ""))]
-  is_missing <- function(name) eval(call("missing", as.name(name)), frame)
+  is_missing <- function(name) eval(as.call(list(base::missing, as.name(name))), frame)
   absent <- Filter(is_missing, setdiff(needed, c("...", but)))
   if (!length(absent)) return(invisible())
   crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "),

@@ -62,7 +62,7 @@ draw_map <- function(points, value, signed, triangles, title, given, engine, vie
     # More light from all sides, so that shade hides no colour.
     settings <- utils::modifyList(list(ambient = 0.6, gloss = 0.03), settings)
   }
-  scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings))
+  scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings), quote = TRUE)
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(look$significance))
   if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
   if (engine == "picture") {
@@ -80,7 +80,7 @@ draw_map <- function(points, value, signed, triangles, title, given, engine, vie
 map_arguments <- function(..., call = rlang::caller_env()) {
   given <- list(...)
   own <- names(given) %in% names(formals(map_look))
-  list(look = do.call(map_look, c(given[own], list(call = call))), more = given[!own])
+  list(look = do.call(map_look, c(given[own], list(call = call)), quote = TRUE), more = given[!own])
 }
 
 map_look <- function(significance = 0.05, limits = NULL,

@@ -200,7 +200,7 @@ page_layers <- function(curves, specimen, surface, ..., colour = NULL, width = 4
   scene <- if (of_shape) {
     chosen <- if (is.null(colour)) list() else list(colour = colour)
     do.call(plot, c(list(curves, specimen, surface = surface, width = width, engine = "rgl",
-                         patches = FALSE), chosen, list(...)))
+                         patches = FALSE), chosen, list(...)), quote = TRUE)
   } else {
     plot_curves(check_curves(curves), specimen, surface, colour, width = width, engine = "rgl", ...)
   }

@@ -45,18 +45,19 @@ plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colour
   view <- posed_view(view, coords(x, "landmarks"), x$scheme)
   given <- list(...)
   own <- names(given) %in% names(formals(shape_look))
-  look <- do.call(shape_look, given[own])
+  look <- do.call(shape_look, given[own], quote = TRUE)
   more <- c(list(engine = engine, view = view, legend = legend), given[!own])
   if (is.null(specimen)) {
     model <- shape_mesh(x, parts)
     # Values of all surface points, as write_mesh() takes them: those that have triangles.
     every <- length(surface) > 1 && length(surface) == sum(x$points$level == "surface")
     if (every) surface <- surface[attr(model, "row")]
-    scene <- do.call(draw_values, c(list(model, surface, look$edges), more))
+    scene <- do.call(draw_values, c(list(model, surface, look$edges), more), quote = TRUE)
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
     check_shape_on(x, specimen)
-    scene <- do.call(plot, c(list(specimen, surface, landmarks = FALSE), more))
+    scene <- do.call(plot, c(list(specimen, surface, landmarks = FALSE), more),
+                     quote = TRUE)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
   if (look$patches && !is.null(specimen) &&

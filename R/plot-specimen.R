@@ -72,14 +72,17 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   labels <- if (is.null(given[["labels"]])) what == "refinement" else given[["labels"]]
   curvature <- if (inherits(radius, "curvature")) radius else given[["curvature"]]
   more <- given[!names(given) %in% c("labels", "curvature")]
-  if (what == "placing") return(do.call(draw_placing, c(list(x), more)))
-  if (what == "refinement") return(do.call(draw_refinement, c(list(x, view, labels, main), more)))
+  if (what == "placing") return(do.call(draw_placing, c(list(x), more), quote = TRUE))
+  if (what == "refinement") {
+    return(do.call(draw_refinement, c(list(x, view, labels, main), more), quote = TRUE))
+  }
   if (missing(colour) && what == "cuts") colour <- "plain"
   colour <- check_choice(colour, surface_choices, "colour")
   if (what == "cuts") {
     of_surface <- list(surface = colour, radius = radius, engine = engine, view = view,
                        labels = labels, legend = legend, main = main)
-    return(do.call(draw_cuts, c(list(x), more, of_surface, list(curvature = curvature))))
+    return(do.call(draw_cuts, c(list(x), more, of_surface, list(curvature = curvature)),
+                   quote = TRUE))
   }
   check_flags(landmarks, labels, legend)
   main <- check_text(main, "main", null = TRUE)
