@@ -72,17 +72,14 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   labels <- if (is.null(given[["labels"]])) what == "refinement" else given[["labels"]]
   curvature <- if (inherits(radius, "curvature")) radius else given[["curvature"]]
   more <- given[!names(given) %in% c("labels", "curvature")]
-  if (what == "placing") return(do.call(draw_placing, c(list(x), more), quote = TRUE))
-  if (what == "refinement") {
-    return(do.call(draw_refinement, c(list(x, view, labels, main), more), quote = TRUE))
-  }
+  with_more <- function(f, ...) do.call(f, c(list(...), more), quote = TRUE)
+  if (what == "placing") return(with_more(draw_placing, x))
+  if (what == "refinement") return(with_more(draw_refinement, x, view, labels, main))
   if (missing(colour) && what == "cuts") colour <- "plain"
   colour <- check_choice(colour, surface_choices, "colour")
   if (what == "cuts") {
-    of_surface <- list(surface = colour, radius = radius, engine = engine, view = view,
-                       labels = labels, legend = legend, main = main)
-    return(do.call(draw_cuts, c(list(x), more, of_surface, list(curvature = curvature)),
-                   quote = TRUE))
+    return(with_more(draw_cuts, x, surface = colour, curvature = curvature, radius = radius,
+                     engine = engine, view = view, labels = labels, legend = legend, main = main))
   }
   check_flags(landmarks, labels, legend)
   main <- check_text(main, "main", null = TRUE)
@@ -93,9 +90,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
     old <- graphics::par(mar = c(0.5, 0.5, if (is.null(main)) 0.5 else 2, if (legend) 7 else 0.5))
     on.exit(graphics::par(old))
   }
-  scene <- do.call(draw_surface, c(
-    list(x$mesh, scale$colours, posed_view(view, x$landmarks), engine), more
-  ), quote = TRUE)
+  scene <- with_more(draw_surface, x$mesh, scale$colours, posed_view(view, x$landmarks), engine)
   if (landmarks) scene <- draw_landmarks(scene, x$landmarks, labels)
   if (engine == "picture") {
     graphics::title(main)
