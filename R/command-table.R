@@ -5,8 +5,9 @@
 #' @return Named list; of each: `says`, `takes` (in words), `options` (list of [command_option()]),
 #'   `run` (function of what [read_options()] gives, with the exit code as value).
 #' @noRd
-commands <- function() {
-  option <- command_option
+commands <- function() c(measuring_commands(), sample_commands())
+
+measuring_commands <- function(option = command_option) {
   scheme <- option("scheme", "DIR", "folder of a scheme's tables", "the face's")
   list(
     find = list(
@@ -24,6 +25,16 @@ commands <- function() {
         option("workers", "N", "number of processes", 1, number = TRUE)
       ), run = command_fit
     ),
+    page = list(
+      says = "Write a page with the face and its curves, which turns in the browser.",
+      takes = "SCAN|RESULT", options = list(option("out", "FILE", "page, .html"), scheme),
+      run = command_page
+    )
+  )
+}
+
+sample_commands <- function(option = command_option) {
+  list(
     quality = list(
       says = "Grade all parts of measured specimens: green, amber or red, with the reason.",
       takes = "DIR|RESULT ...",
@@ -52,11 +63,6 @@ commands <- function() {
                number = TRUE),
         out_option("the tests")
       ), run = command_compare
-    ),
-    page = list(
-      says = "Write a page with the face and its curves, which turns in the browser.",
-      takes = "SCAN|RESULT", options = list(option("out", "FILE", "page, .html"), scheme),
-      run = command_page
     )
   )
 }

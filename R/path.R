@@ -237,8 +237,8 @@ new_mesh_path <- function(columns, length, key = NULL, id = NULL, angle = NULL, 
                           closed = NULL, smoothed = NULL) {
   structure(columns, row.names = .set_row_names(length(columns[[1]])), length = length, key = key,
             id = id, angle = angle, side = side, type = type, criterion = criterion,
-            optima = optima, competing = competing, trusted = trusted, lifted = lifted, closed = closed,
-            smoothed = smoothed,
+            optima = optima, competing = competing, trusted = trusted, lifted = lifted,
+            closed = closed, smoothed = smoothed,
             class = c("mesh_path", "data.frame"))
 }
 

@@ -16,8 +16,8 @@
 #' 1/2 in the second. c is the centre of the template's vertices, and s the size: \eqn{\log s} has
 #' mean \eqn{g \log(1 + size\_effect)} and standard deviation `size_sd`. The effect e is a sum of
 #' bumps, each along one direction and 0 beyond its radius. The default bumps, at brow and cheek
-#' ([face_effect()]), reach no landmark. With the same `seed`, faces with another effect, size or scan have the same random
-#' fields. With a larger `n`, the first faces are the same.
+#' ([face_effect()]), reach no landmark. With the same `seed`, faces with another effect, size or
+#' scan have the same random fields. With a larger `n`, the first faces are the same.
 #'
 #' @param n Number of faces. They belong to the first and the second group in turn.
 #' @param effect Difference of the groups' means in the middle of each place, in the unit of the

@@ -75,7 +75,8 @@ run_factors <- function(factors, methods, n, dir) {
     own <- names(factors[[name]]) %in% names(study_settings())
     study <- do.call(ridge_study, c(
       factors[[name]][!own],
-      list(settings = methods, n = n, dir = dir, study = do.call(study_settings, factors[[name]][own]))
+      list(settings = methods, n = n, dir = dir,
+           study = do.call(study_settings, factors[[name]][own]))
     ))
     cbind(factor = name, summarise(study))
   })

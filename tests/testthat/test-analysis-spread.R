@@ -24,8 +24,8 @@ test_that("sizes and scores are tested by Welch's t, on Satterthwaite's degrees 
   expect_equal(row("PC2")$p_parametric, theirs$p.value, tolerance = 1e-8)
 })
 
-# T2 of groups whose covariances have one form, from singular values of the specimens: `rounds` times
-# components of the specimens on one scale, and the scales on these components.
+# T2 of groups whose covariances have one form, from singular values of the specimens: `rounds`
+# times components of the specimens on one scale, and the scales on these components.
 one_form <- function(y, code, count, rounds = 3) {
   n <- nrow(y)
   df <- tabulate(code) - 1

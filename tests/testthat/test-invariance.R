@@ -90,7 +90,8 @@ test_that("a ridge on an irregular noisy mesh: unit, turn, shift and numbering",
 })
 
 test_that("the same with the other settings", {
-  expect_invariant(noisy_bent(), function(s, factor) bent_curve(s, factor, settings = ridge_settings(passes = 2)),
+  twice <- ridge_settings(passes = 2)
+  expect_invariant(noisy_bent(), function(s, factor) bent_curve(s, factor, settings = twice),
                    factors = 1e3)
   principal <- ridge_settings(strength = "principal", wrong_sign = "drop",
                               order = "forced", df = 12)

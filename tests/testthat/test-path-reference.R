@@ -223,8 +223,8 @@ test_that("the demo's eye sockets keep to the lower lid, as those of the face's 
   for (name in c("lower eye socket left", "lower eye socket right")) {
     row <- rows[rows$curve == name, ]
     side <- keep_side(row$keep_from, row$keep_to, row$keep_towards)
-    curve <- ridge_curve(face, row$from, row$to, row$kind, row$radius, row$half_width, row$n, keep_away = side,
-                         trust = c(0, row$trust_to))
+    curve <- ridge_curve(face, row$from, row$to, row$kind, row$radius, row$half_width,
+                         row$n, keep_away = side, trust = c(0, row$trust_to))
     own <- scheme$curves[scheme$curves$curve == name, ]
     expect_equal(c(row$radius, row$half_width, row$n, row$trust_to),
                  c(own$radius, own$width, own$n, own$trust_to))

@@ -6,9 +6,9 @@ crossed_ridges <- function(spacing = 0.9) {
   hump <- function(d) 4 * exp(-d^2 / 8)
   z <- pmax(hump(at$y) * stats::plogis(at$x + 15), hump(at$x - 3) * (at$y > 0))
   n <- length(side)
-  list(vb = t(cbind(as.matrix(at), z, 1)), it = grid_triangles(n, n, rep(c(TRUE, FALSE),
-                                                                         length.out = (n - 1)^2))) |>
-    structure(class = "mesh3d")
+  turned <- rep(c(TRUE, FALSE), length.out = (n - 1)^2)
+  mesh <- list(vb = t(cbind(as.matrix(at), z, 1)), it = grid_triangles(n, n, turned))
+  structure(mesh, class = "mesh3d")
 }
 
 test_that("an ellipsoid has its caps at the ends of its longest axis, to a thousandth of it", {
@@ -31,7 +31,9 @@ test_that("a ridge ends and meets another where it was made to", {
   mesh <- crossed_ridges()
   found <- suggest_landmarks(mesh, 3, n = 1, kinds = c("end", "crossing"))
   expect_equal(found$landmark, c("crossing1", "end1"))
-  gap <- function(kind, x, y) sqrt(sum((unlist(found[found$kind == kind, c("x", "y")]) - c(x, y))^2))
+  gap <- function(kind, x, y) {
+    sqrt(sum((unlist(found[found$kind == kind, c("x", "y")]) - c(x, y))^2))
+  }
   expect_lt(gap("crossing", 3, 0), 1)
   expect_lt(gap("end", -15, 0), 2.5)
   expect_match(found$reason[1], "3 ridges meet")

@@ -79,7 +79,8 @@ test_that("a key is of content, scheme, settings, reading, not of names, threads
   file.copy(c(job$mesh, job$landmarks), copy)
   expect_identical(key(list(id = "b", mesh = copy[1], landmarks = copy[2])), key(job))
   expect_identical(key(job, settings = list(threads = 2, progress = TRUE)), key(job))
-  others <- list(key(job, edge_scheme(7)), key(job, settings = list(settings = ridge_settings(passes = 2))),
+  twice <- list(settings = ridge_settings(passes = 2))
+  others <- list(key(job, edge_scheme(7)), key(job, settings = twice),
                  key(c(job, list(reading = list(1)))),
                  key(c(job, list(finder = list(key = "x")))),
                  key(list(mesh = meshes_in(dir)[2], landmarks = job$landmarks)),
