@@ -34,7 +34,8 @@
 #'   * `via`: landmarks on the way, separated by spaces; the path is then "crest". If `from` and
 #'     `to` are one landmark, the curve is closed. It needs a `via` on its other side. It begins at
 #'     its place nearest to the landmark, and its n points go once round; none of them is a
-#'     landmark. With one `via` it runs anticlockwise as seen from outside, with more in their order;
+#'     landmark. With one `via` it runs anticlockwise as seen from outside, with more in their
+#'     order;
 #'   * `angle_limit`: greatest angle in radians (at most pi / 2) between the plane of a cut and the
 #'     mean of the surface normals at the ends, see [plane_path()];
 #'   * `note`, and any further columns; they are kept.
