@@ -4,7 +4,6 @@
 #' @noRd
 plotted_instead <- c(
   align_settings = "Plot the alignment: plot(align(sample)).",
-  assessment = "Plot the shape that was assessed: plot(shape).",
   bending_energy = "Plot the shape itself: plot(shape), or draw_surface() for a mesh.",
   cohort_settings = "Plot specimens of the cohort: plot(specimen).",
   comparison_settings = "Plot a comparison: plot(compare_groups(sample, group)).",
@@ -44,12 +43,13 @@ plotted_instead <- c(
   simulated_faces = "Plot the aligned points: plot(align(true_points(faces, points))).",
   slide_settings = "Plot the sample that was slid with them: plot(sample).",
   study_settings = "Plot columns of the study, a data frame.",
-  summary_shape_pca = "Plot the components: plot(pca)."
+  summary_shape_pca = "Plot the components: plot(pca).",
+  visit_comparison = "Plot the shapes of the two visits: plot(shape).",
+  visit_settings = "Plot the shapes of the two visits: plot(shape)."
 )
 
 #' @rawNamespace
 #' S3method(plot,align_settings,refuse_plot)
-#' S3method(plot,assessment,refuse_plot)
 #' S3method(plot,bending_energy,refuse_plot)
 #' S3method(plot,cohort_settings,refuse_plot)
 #' S3method(plot,comparison_settings,refuse_plot)
@@ -88,6 +88,8 @@ plotted_instead <- c(
 #' S3method(plot,simulated_faces,refuse_plot)
 #' S3method(plot,slide_settings,refuse_plot)
 #' S3method(plot,study_settings,refuse_plot)
+#' S3method(plot,visit_comparison,refuse_plot)
+#' S3method(plot,visit_settings,refuse_plot)
 #' S3method(plot,summary_shape_pca,refuse_plot)
 #' @noRd
 refuse_plot <- function(x, ...) {

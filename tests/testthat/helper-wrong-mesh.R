@@ -193,6 +193,9 @@ any_mesh_calls <- function() {
     draw_surface = function(case, one) draw_surface(one, engine = "picture"),
     write_mesh = function(case, one) write_mesh(one, temporary(".ply")),
     find_landmarks = function(case, one) find_landmarks(one),
+    suggest_landmarks = function(case, one) suggest_landmarks(one, 15, n = 2),
+    snap = function(case, one) snap(one, case$places, "ridge", radius = 15, reach = 10),
+    build_scheme = function(case, one) build_scheme(one, launch.browser = FALSE),
     place_landmarks = function(case, one)
       place_landmarks(one, case$shape$scheme, launch.browser = FALSE),
     path_coordinates = function(case, one) path_coordinates(one, case$path, 10),
@@ -223,6 +226,8 @@ specimen_calls <- function() {
     review_landmarks = function(case, one)
       review_landmarks(one, case$shape$scheme, launch.browser = FALSE),
     check_placing = function(case, one) check_placing(one),
+    second_opinion = function(case, one) second_opinion(one, case$places),
+    check_scheme = function(case, one) check_scheme(case$shape$scheme, one),
     plot_placing = function(case, one) plot(one, what = "placing"),
     plot_refinement = function(case, one) plot(one, what = "refinement"),
     simulate_faces = function(case, one)

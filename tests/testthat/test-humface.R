@@ -93,8 +93,8 @@ test_that("the second marking has the same landmarks, on the surface, and is ano
 test_that("the ridge of a lower lid is the same from either marking, off its ends", {
   ridge <- function(name) {
     face <- specimen(humface_mesh()$humface, humface_points(name), id = "humface")
-    ridge_curve(face, "exL", "enL", "ridge", 5, 15, 9, keep_side("exL", "enL", "acL"),
-                ridge_settings(error = FALSE), trust = c(0, 0.75))
+    route <- curve_route(keep_away = keep_side("exL", "enL", "acL"), trust = c(0, 0.75))
+    ridge_curve(face, "exL", "enL", "ridge", 5, 15, 9, ridge_settings(error = FALSE), route)
   }
   first <- ridge("humface_landmarks.csv")$path
   second <- ridge("humface_landmarks_2.csv")$path

@@ -48,12 +48,14 @@ test_that("landmarks are renamed on reading, and never onto another's name", {
   file <- tempfile(fileext = ".ply")
   write_mesh(ball_mesh(), file)
   at <- rbind(prn = c(1, 0, 0), top = c(0, 0, 1))
-  one <- read_specimen(file, at, names = c(prn = "pn", other = "x"))
+  one <- read_specimen(file, at, names = c(prn = "pn"))
   expect_identical(rownames(one$landmarks), c("pn", "top"))
   expect_identical(unname(one$landmarks["pn", ]),
                    unname(read_specimen(file, at)$landmarks["prn", ]))
   expect_crestline_error(read_specimen(file, at, names = c(prn = "top")),
                          "two landmarks the name top")
+  expect_crestline_error(read_specimen(file, at, names = c(prn = "pn", other = "x")),
+                         "`names` has other")
   expect_crestline_error(read_specimen(file, at, names = "pn"), "`names`")
   expect_crestline_error(read_specimen(file, at, names = c(a = "x", b = "x")), "`names`")
 })
