@@ -24,7 +24,8 @@
 #' @param id Name of the specimen, one string. NULL: the file's name without its extension (and
 #'   without `.gz`).
 #' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` renames
-#'   the landmark `prn` of the file to `pn`. Names that the specimen does not have are ignored.
+#'   the landmark `prn` of the file to `pn`. A warning lists the names that the specimen does not
+#'   have; if it has none of them, that is an error.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`; they name the specimen and the
 #'   remedy.
@@ -68,13 +69,16 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
 }
 
-#' Refuse new names of landmarks that are not there; say if all landmarks have theirs already
+#' Warn of new names for landmarks that are not there, as a scan may lack one; refuse them where none
+#' is there; say if all landmarks have theirs already
 #' @noRd
 check_new_names <- function(names, there, id) {
   unknown <- names(names)[!names(names) %in% there & !names %in% there]
   if (length(unknown)) {
-    refuse_landmarks(sprintf("`names` has %s, but there is no such landmark.", shorten(unknown)),
-                     near_names(unknown[1], there), id)
+    problem <- sprintf("`names` has %s, but there is no such landmark.", shorten(unknown))
+    remedy <- near_names(unknown[1], there)
+    if (length(unknown) == length(names)) refuse_landmarks(problem, remedy, id)
+    crestline_warn(problem, paste(remedy, "If the scan lacks it, this is right."), "landmarks", id)
   }
   if (length(names) && !any(names(names) %in% there)) {
     crestline_inform(sprintf("`names` changes no landmark: there is none named %s.",

@@ -54,8 +54,10 @@ test_that("landmarks are renamed on reading, and never onto another's name", {
                    unname(read_specimen(file, at)$landmarks["prn", ]))
   expect_crestline_error(read_specimen(file, at, names = c(prn = "top")),
                          "two landmarks the name top")
-  expect_crestline_error(read_specimen(file, at, names = c(prn = "pn", other = "x")),
-                         "`names` has other")
+  expect_warning(some <- read_specimen(file, at, names = c(prn = "pn", other = "x")),
+                 "`names` has other", class = "crestline_warning")
+  expect_identical(rownames(some$landmarks), c("pn", "top"))
+  expect_crestline_error(read_specimen(file, at, names = c(other = "x")), "`names` has other")
   expect_crestline_error(read_specimen(file, at, names = "pn"), "`names`")
   expect_crestline_error(read_specimen(file, at, names = c(a = "x", b = "x")), "`names`")
 })
