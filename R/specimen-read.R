@@ -69,8 +69,8 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
 }
 
-#' Warn of new names for landmarks that are not there, as a scan may lack one; refuse them where none
-#' is there; say if all landmarks have theirs already
+#' Warn of new names for landmarks that are not there, as a scan may lack one; refuse them where
+#' none is there; say if all landmarks have theirs already
 #' @noRd
 check_new_names <- function(names, there, id) {
   unknown <- names(names)[!names(names) %in% there & !names %in% there]

@@ -36,6 +36,6 @@ test_that("new names of which none is there are named", {
   landmarks <- rbind(pn = c(0, 0, 1))
   expect_message(read_specimen(file, landmarks, names = c(prn = "pn")), "none named prn")
   expect_no_message(read_specimen(file, landmarks, names = c(pn = "prn")))
-  expect_crestline_error(read_specimen(file, landmarks, names = c(pn = "prn", nobody = "x")),
-                         c("`names`", "nobody"))
+  expect_warning(read_specimen(file, landmarks, names = c(pn = "prn", nobody = "x")),
+                 "`names` has nobody", class = "crestline_warning")
 })
