@@ -201,7 +201,7 @@ warn_alignment <- function(rounds, moved) {
 
 #' @rdname align
 #' @param x An `aligned`.
-#' @template as-data-frame
+#' @param row.names,optional Ignored.
 #' @export
 as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

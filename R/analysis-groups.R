@@ -379,7 +379,7 @@ check_group <- function(group, ids, call = rlang::caller_env()) {
 
 #' @rdname compare_groups
 #' @param x,object A `group_comparison`.
-#' @template as-data-frame
+#' @param row.names,optional Ignored.
 #' @export
 as.data.frame.group_comparison <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

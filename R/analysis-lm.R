@@ -251,7 +251,7 @@ validate.shape_lm <- function(x) {
 
 #' @rdname shape_lm
 #' @param x,object A `shape_lm`.
-#' @template as-data-frame
+#' @param row.names,optional Ignored.
 #' @export
 as.data.frame.shape_lm <- function(x, row.names = NULL, optional = FALSE, ...) {
   check_method_dots(...)

@@ -29,7 +29,7 @@ build_page <- function(title, defaults) {
   )
 }
 
-build_file <- function(name) system.file("build", name, package = "crestline", mustWork = TRUE)
+build_file <- function(name) system.file("builder", name, package = "crestline", mustWork = TRUE)
 
 #' A labelled field of a form
 #' @noRd

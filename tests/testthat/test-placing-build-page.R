@@ -83,7 +83,7 @@ test_that("the page has what its script and its server look for", {
     expect_match(html, sprintf('id="%s"', id))
   }
   expect_match(html, "Scheme of &lt;a&gt;")
-  expect_lt(sum(file.size(list.files(system.file("build", package = "crestline"),
+  expect_lt(sum(file.size(list.files(system.file("builder", package = "crestline"),
                                      full.names = TRUE))), 2e4)
 })
 
