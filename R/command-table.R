@@ -116,9 +116,9 @@ command_scheme <- function(given) {
 command_find <- function(given) {
   if (!is.null(given$out)) check_path_to_write(given$out, "--out", c("csv", "json"))
   failed <- 0L
-  tables <- lapply(given$files, function(file) {
+  tables <- Map(function(file, id) {
     table <- tryCatch({
-      found <- find_landmarks(read_specimen(file))
+      found <- find_landmarks(read_specimen(file, id = id))
       data.frame(specimen = found$id, found$placing)
     }, crestline_error = function(e) {
       write(sprintf("%s: %s %s", file, e$problem, e$remedy), stderr())
@@ -126,9 +126,9 @@ command_find <- function(given) {
     })
     if (is.null(table)) failed <<- failed + 1L
     table
-  })
+  }, given$files, file_ids(given$files))
   if (failed == length(given$files)) return(2L)
-  write_command_table(do.call(rbind, tables), given$out)
+  write_command_table(do.call(rbind, unname(tables)), given$out)
   as.integer(failed > 0)
 }
 

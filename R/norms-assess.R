@@ -52,9 +52,11 @@
 #'
 #'   `as.data.frame()` gives `values`.
 #' @section Errors: of class `crestline_error`: another scheme; an age outside the norm's range for
-#'   the sex, or where fewer than 10 faces are effective; more than half of the points are missing.
+#'   the sex, or where fewer than 10 faces are effective; more than half of the points are missing;
+#'   a size more than 5 times that of the norm's mean face, or its inverse, which is another unit.
 #' @section Warnings: of class `crestline_norm_doubt`: fewer than 30 faces are effective at this
-#'   age.
+#'   age. Of class `crestline_not_slid`: a measured shape was not slid. Of class
+#'   `crestline_red_parts`: parts of the shape are red.
 #' @template glossary
 #' @template experimental
 #' @seealso [fit_norms()], [plot.assessment()]
@@ -86,6 +88,7 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
                     "Measure it by the scheme of the norm.", stage = "norms", id = shape$id)
   }
   effective <- check_norm_age(age, sex, norms, shape$id)
+  warn_unready(shape, "norms")
   patient <- patient_surface(shape, norms, age, sex)
   mirror <- patient_asymmetry(patient, norms, age, sex)
   healed <- heal_face(prepared_field(norms, "surface"), patient, age, sex, patient$missing, alpha)

@@ -32,13 +32,14 @@
 #'   * `measurements`: data frame: `measurement`, `before`, `after`, `change`, `se`, `detectable`,
 #'     `p`, `p_holm`, `unit`;
 #'   * `limit` (of the scores), `weights` (of the registration, by surface point), `converged`,
-#'     `ids`.
+#'     `ids`, `alpha` (1 - `level` of the settings).
 #'
 #'   `as.data.frame()` gives `points`.
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or fewer than
-#'   three points in common; `unchanged` names no patch.
+#'   three points in common; `unchanged` names no patch; the sizes differ as units do (5 times).
 #' @section Warnings: of class `crestline_not_converged`: the weights still change after the last
-#'   round.
+#'   round. Of class `crestline_not_slid`: a measured shape was not slid. Of class
+#'   `crestline_red_parts`: parts of a shape are red.
 #' @template glossary
 #' @template experimental
 #' @seealso [assess()], [repeatability()]
@@ -64,13 +65,15 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
     unchanged <- check_choices(unchanged, unique(before$points$part[surface]), "unchanged")
   }
   used <- surface & (is.null(unchanged) | before$points$part %in% unchanged)
+  for (shape in list(before, after)) warn_unready(shape, "visits")
   fit <- lay_visit(before, after, used, is.null(unchanged), error, settings)
   points <- changed_points(before, after, fit$laid, error)
   limit <- visit_limit(points[points$level == "surface", ], settings)
   points$called <- points$level == "surface" & !is.na(points$score) & abs(points$score) > limit
   structure(list(points = points, parts = changed_parts(points, settings),
                  measurements = changed_measurements(before, after, table, error), limit = limit,
-                 weights = fit$weights, converged = fit$converged, ids = c(before$id, after$id)),
+                 weights = fit$weights, converged = fit$converged, ids = c(before$id, after$id),
+                 alpha = 1 - settings$level),
             class = "visit_comparison")
 }
 
@@ -132,6 +135,9 @@ lay_visit <- function(before, after, used, robust, error, settings) {
                     "Measure them again, or name other `unchanged` patches.", stage = "visits",
                     id = after$id)
   }
+  spread <- function(x) sqrt(sum(sweep(x, 2, colMeans(x))^2))
+  check_size_ratio(spread(b[used, ]) / spread(a[used, ]), paste("the first visit,", before$id),
+                   after$id, "visits")
   se <- visit_error(before, after, error)[used]
   own <- if (anyNA(se)) rep(1, length(used)) else se
   weight <- rep(1, length(used))
@@ -273,7 +279,7 @@ print.visit_comparison <- function(x, most = 6, ...) {
       cat(sprintf("  %s: mean change %.3g +- %.2g\n", called$part[i], called$change[i],
                   called$se[i]))
     }
-    found <- x$measurements[which(x$measurements$p_holm <= 0.05), ]
+    found <- x$measurements[which(x$measurements$p_holm <= x$alpha), ]
     for (i in seq_len(min(most, NROW(found)))) {
       cat(sprintf("  %s: %.4g to %.4g, change %.3g +- %.2g\n", found$measurement[i],
                   found$before[i], found$after[i], found$change[i], found$se[i]))

@@ -73,7 +73,7 @@ component_ends <- function(x, component, sd) {
 #' The curves of a shape as tubes: `xyz`, `it`, `normals`, `rgb` of each
 #' @noRd
 curve_tubes <- function(shape, radius, sides) {
-  paths <- Filter(Negate(is.null), shape$paths)
+  paths <- Filter(function(path) NROW(path) > 1, shape$paths)
   kind <- shape$scheme$curves$kind[match(names(paths), shape$scheme$curves$curve)]
   Map(function(path, kind) {
     xyz <- as.matrix(as.data.frame(path)[c("x", "y", "z")])

@@ -77,6 +77,26 @@ test_that("a wrong line gives 2 and one line that names what is wrong", {
   expect_error(run_command(1), class = "crestline_error")
 })
 
+# A face as a file, thinned out, so that it is found quickly.
+mesh_path_of_humface <- function() {
+  file <- tempfile(fileext = ".ply")
+  data <- new.env()
+  utils::data("humface", package = "Rvcg", envir = data)
+  write_mesh(Rvcg::vcgQEdecim(data$humface, tarface = 8000, silent = TRUE), file)
+  file
+}
+
+test_that("two scans of one file name in two folders keep two ids", {
+  dirs <- file.path(withr_tempdir(environment()), c("visit 1", "visit 2"))
+  for (dir in dirs) {
+    dir.create(dir)
+    file.copy(mesh_path_of_humface(), file.path(dir, "anna.ply"))
+  }
+  found <- run("find", file.path(dirs, "anna.ply"))
+  expect_equal(found$status, 0L)
+  expect_equal(unique(read.csv(text = found$out)$specimen), c("visit 1/anna", "visit 2/anna"))
+})
+
 test_that("scans go through fit, quality, homologise and compare", {
   skip_if_not_installed("future")
   skip_if_not_installed("progressr")

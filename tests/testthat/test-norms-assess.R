@@ -119,3 +119,23 @@ test_that("ages beyond the norm, other schemes and unknown sexes are refused", {
   damaged$points <- damaged$points[-1, ]
   expect_crestline_error(assess(shape, damaged, 10, "female"), "damaged")
 })
+
+test_that("another unit is refused; red parts and a shape that was not slid are said", {
+  shape <- small_patient()
+  metres <- shape
+  metres$points[c("x", "y", "z")] <- metres$points[c("x", "y", "z")] / 1000
+  error <- expect_error(looked(metres), class = "crestline_unit_error")
+  expect_match(conditionMessage(error), "0[.]001[0-9]* times .* another unit")
+  # As if it had been measured on a scan
+  measured <- shape
+  measured$key <- "a mesh"
+  expect_warning(assess(measured, small_norms(), age = 10, sex = "female"), "not slid",
+                 class = "crestline_not_slid") |> suppressWarnings()
+  heard <- character()
+  withCallingHandlers(assess(shape, small_norms(), age = 10, sex = "female"),
+                      warning = function(w) {
+                        heard <<- c(heard, class(w))
+                        rlang::cnd_muffle(w)
+                      })
+  expect_false("crestline_not_slid" %in% heard)
+})

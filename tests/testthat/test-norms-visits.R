@@ -90,3 +90,11 @@ test_that("points without an error are not assessed, and said", {
   expect_match(paste(utils::capture.output(print(found)), collapse = " "), "not assessed")
   expect_false(anyNA(compare_visits(made$sample[[1]], bare, error = 0.2)$points$score))
 })
+
+test_that("a second visit in another unit is refused", {
+  made <- two_visits()
+  metres <- made$second[[1]]
+  metres$points[c("x", "y", "z")] <- metres$points[c("x", "y", "z")] / 1000
+  expect_error(compare_visits(made$sample[[1]], metres), "0[.]00[0-9]* times",
+               class = "crestline_unit_error")
+})
