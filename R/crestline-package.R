@@ -41,7 +41,8 @@
 #'   [surface_faults()].
 #' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()], [read_batch()].
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],
-#'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample].
+#'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample]; a sample in files:
+#'   [write_blocks()], [open_sample()].
 #' * *Statistics*: generalised Procrustes analysis [align()], with warnings by [sample_limits()];
 #'   principal components [shape_pca()], [shape_at()]; groups [compare_groups()], [shape_lda()];
 #'   covariates and allometry [shape_lm()]; asymmetry [symmetry_parts()]; settings

@@ -115,6 +115,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                          folds = 2, least = 1)
   norms <- fit_norms(cohort$sample, data = cohort$data, settings = quick, progress = FALSE)
   write_norms(norms, path("norms_read"))
+  if (requireNamespace("nanoparquet", quietly = TRUE)) write_blocks(sample, path("blocks_read"))
   faces <- NULL
   fitted <- list(measuring = shape_settings(column_angles = 5))
   fitted_kinds <- c(measuring = "object")
@@ -283,6 +284,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                          error = NULL, alpha = 0.05),
                    shape = "object", norms = "object", age = "number", sex = "choice",
                    error = "any", alpha = "number"),
+    write_blocks = entry(given(sample = sample, dir = path("blocks"), block = 3, triangles = NULL),
+                         sample = "object", dir = "text", block = "count", triangles = "object?"),
     write_norms = entry(given(norms = norms, dir = path("norms"), share = FALSE),
                         norms = "object", dir = "text", share = "flag"),
     read_norms = entry(given(dir = path("norms_read")), dir = "object"),
@@ -308,6 +311,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                                rows = NULL, block = NULL), fitted),
                        x = "object", specimen = "object", patch = "choice", columns = "count?",
                        rows = "count?", block = "any", fitted_kinds),
+    open_sample = entry(given(dir = path("blocks_read")), dir = "object"),
     path_coordinates = entry(given(specimen = one, path = path_on, width = 10, margin = 10),
                              specimen = "object", path = "object", width = "number",
                              margin = "number"),
