@@ -52,7 +52,8 @@
 #' * *Measurements*: [measurements()] of distances, angles, lengths, areas and volumes by a table
 #'   such as [face_measurements()].
 #' * *Norms by age and sex*: [fit_norms()] with [norm_settings()]; one face against them:
-#'   [assess()], [plot.assessment()]; files: [write_norms()], [read_norms()].
+#'   [assess()], [plot.assessment()], its page [write_page()]; files: [write_norms()],
+#'   [read_norms()].
 #' * *Two visits of one person*: [compare_visits()] with [visit_settings()].
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],

@@ -34,9 +34,10 @@
 #' @param alpha Level of the verdicts.
 #' @return Object of class `assessment`, a list:
 #'   * `values`: data frame with a row for size, each measurement and each component: `name`,
-#'     `value` and `expected` (in the unit of the mesh, degrees or none; scores of components have
-#'     no unit), `z`, `se_scan`, `se_norm` (standard errors of z), `centile`, `z_widened` (on the
-#'     wider scale), `reason` (why it was not assessed; NA otherwise);
+#'     `value` and `expected` in `unit` ("mm", "mm^2", "mm^3" for [face_scheme()], otherwise "unit"
+#'     and its powers; "degrees"; "1": none), `lower` and `upper` (value -+ 1.96 standard errors of
+#'     the scan, NA where unknown), `z`, `se_scan`, `se_norm` (standard errors of z), `centile`,
+#'     `z_widened` (on the wider scale), `reason` (why it was not assessed; NA otherwise);
 #'   * `points`: data frame with a row for each surface point: `point`, `x`, `y`, `z` (laid on the
 #'     norm), `distance` (along the normal from what is expected at this age and sex, in the unit
 #'     of the mesh), `z_map`, `se_scan`, `se_norm`, `z_scan` (the radius that gives most),
@@ -47,8 +48,12 @@
 #'   * `findings`: data frame with a row for each disc that was healed: `point`, `radius`, `z`,
 #'     `height` and `sd` at its centre, `volume`, in the unit of the mesh;
 #'   * `healed`: k x 3 matrix, the face laid on the norm with the discs replaced;
+#'   * `chart`: data frame of the growth curves of size and measurements: `name`, `age`, `centile`,
+#'     `value`; NA at ages that are refused;
 #'   * `id`, `age`, `sex`, `effective` (number of faces behind the mean at this age), `errors`,
-#'     `rough` (variance of the roughness over the norm's), `norms` (name and number of faces).
+#'     `rough` (variance of the roughness over the norm's), `unit` (of lengths), `front` (3 x 3
+#'     rotation that shows the laid face from its front), `norms` (number of faces, and what its
+#'     makers say of it), `provenance` of the shape.
 #'
 #'   `as.data.frame()` gives `values`.
 #' @section Errors: of class `crestline_error`: another scheme; an age outside the norm's range for
@@ -102,10 +107,12 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
          points = points, verdicts = verdict_table(norms, values, points, healed, other, alpha),
          findings = healed_discs(norms, patient, healed, points),
          healed = matrix(as.vector(patient$expected$mean) + healed$u * patient$spread, ncol = 3),
-         triangles = norms$triangles, errors = patient$errors, rough = patient$rough,
-         scale = patient$scale, limits = map_limits(norms), alpha = alpha,
-         finished = healed$finished,
-         norms = list(name = norms$about$name, n = norms$n, few = norms$settings$few)),
+         triangles = norms$triangles, front = own_pose(coords(shape, "landmarks"), shape$scheme) %*%
+           patient$turn, chart = growth_chart(norms, sex), errors = patient$errors,
+         rough = patient$rough, scale = patient$scale, unit = length_unit(norms$scheme$hash),
+         limits = map_limits(norms), alpha = alpha, finished = healed$finished,
+         norms = c(list(n = norms$n, few = norms$settings$few), norms$about),
+         provenance = shape$provenance),
     class = "assessment"
   )
 }
@@ -168,8 +175,9 @@ assessed_values <- function(shape, norms, patient, age, sex, error) {
   z <- straightened(predicted_z(matrix(y, 1), expected), table)
   widened <- straightened(predicted_z(matrix(y, 1), expected, extra), table)
   back <- function(x) ifelse(table$transform == "log", exp(x), x)
-  data.frame(name = table$name, value = back(y), expected = back(as.vector(expected$mean)),
-             z = as.vector(z), se_scan = se / as.vector(expected$sd),
+  data.frame(name = table$name, value = back(y), unit = value_units(norms),
+             expected = back(as.vector(expected$mean)), lower = back(y - 1.96 * se),
+             upper = back(y + 1.96 * se), z = as.vector(z), se_scan = se / as.vector(expected$sd),
              se_norm = as.vector(norm_error(z, expected)), centile = 100 * stats::pnorm(z[1, ]),
              z_widened = as.vector(widened),
              reason = ifelse(is.na(y), "a point that it needs is missing", NA_character_))

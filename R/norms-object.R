@@ -151,7 +151,9 @@ own_errors <- function(shape, norms, error = NULL, draws = 100) {
   laid <- lay_face(xyz, as.matrix(norms$points[c("x", "y", "z")]))
   off <- sweep(xyz, 2, colMeans(xyz, na.rm = TRUE))
   # Of log size: each point moves it by its distance from the centre over the size's square.
-  se <- sqrt(sum(points$se[row]^2 * rowSums(off^2))) / laid$size^2
+  known <- !is.na(points$se[row])
+  se <- sqrt(sum((points$se[row]^2 * rowSums(off^2))[known])) / laid$size^2
+  if (mean(known) < 0.5) se <- NA_real_
   found <- list(value = log(laid$size), se = se)
   if (!NROW(norms$measurements)) return(found)
   own <- measurements(shape, norms$measurements, error = error, draws = draws)

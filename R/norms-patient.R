@@ -20,8 +20,8 @@ patient_surface <- function(shape, norms, age, sex) {
   field <- prepared_field(norms, "surface")
   found <- standardised_face(field, as.vector(laid$laid), age, sex)
   se <- points$se[row] * laid$scale
-  c(list(xyz = matrix(found$y, ncol = 3), scale = laid$scale, missing = unname(is.na(xyz[, 1])),
-         se = se),
+  c(list(xyz = matrix(found$y, ncol = 3), scale = laid$scale, turn = laid$turn,
+         missing = unname(is.na(xyz[, 1])), se = se),
     found, excess_variance(field, found, rep(se, 3), rep(norms$points$se_norm, 3)))
 }
 

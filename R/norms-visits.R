@@ -32,7 +32,9 @@
 #'   * `measurements`: data frame: `measurement`, `before`, `after`, `change`, `se`, `detectable`,
 #'     `p`, `p_holm`, `unit`;
 #'   * `limit` (of the scores), `weights` (of the registration, by surface point), `converged`,
-#'     `ids`, `alpha` (1 - `level` of the settings).
+#'     `robust` (whether the registration was), `ids`, `alpha` (1 - `level` of the settings), `unit`
+#'     (of lengths: "mm" for [face_scheme()], otherwise "unit"), `triangles` (3 x m, rows of the
+#'     surface points), `front` (3 x 3 rotation to the front of the first visit), `provenance`.
 #'
 #'   `as.data.frame()` gives `points`.
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or fewer than
@@ -73,7 +75,11 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
   structure(list(points = points, parts = changed_parts(points, settings),
                  measurements = changed_measurements(before, after, table, error), limit = limit,
                  weights = fit$weights, converged = fit$converged, ids = c(before$id, after$id),
-                 alpha = 1 - settings$level),
+                 alpha = 1 - settings$level, robust = is.null(unchanged),
+                 unit = length_unit(scheme_hash(scheme)),
+                 triangles = model_triangles(scheme, FALSE),
+                 front = own_pose(coords(before, "landmarks"), scheme),
+                 provenance = shapes_provenance(list(before, after))),
             class = "visit_comparison")
 }
 

@@ -2,11 +2,14 @@
 
 #' Write a page with the turning specimen and its curves
 #'
-#' Writes one self-contained HTML file, or a file and a folder. The page has the surface coloured by
-#' shape index, the curves with their bands, the colour scale and a table. For a shape it also has
-#' the triangles of its surface. Buttons hide each layer of the scene.
+#' Writes one self-contained HTML file, or a file and a folder. Of a specimen, the page has the
+#' surface coloured by shape index, the curves with their bands, the colour scale and a table. For a
+#' shape it also has the triangles of its surface. Buttons hide each layer of the scene. Of an
+#' assessment ([assess()]) or of two visits ([compare_visits()]) it is a page without scripts, which
+#' prints on A4, also in black and white; see the sections below.
 #'
-#' @param x A [specimen()].
+#' @param x A [specimen()], or an `assessment` of [assess()] or a `visit_comparison` of
+#'   [compare_visits()]; for these only `file` and `title` may be given.
 #' @template page-file
 #' @param curves One curve of [ridge_curve()], or a list of curves, whose names are in the table. Or
 #'   a `shape`, as [fit_shape()] returns it.
@@ -20,9 +23,18 @@
 #' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `colour`, `width` (4
 #'   here), `curvature`, `radius`, `view`, `band`. `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
+#' @section Page of an assessment: The person, the norm and the errors; the verdicts; pictures of
+#'   the face, of both maps and of the expected shape; the places that do not fit; growth charts of
+#'   size and of the measurements with the largest z; all measurements with z, centile and both
+#'   errors; what could not be assessed; limits; where it came from. Lengths are in mm for a norm of
+#'   [face_scheme()]. The page gives no diagnosis.
+#' @section Page of two visits: The change along the normals as a picture, the curves, patches and
+#'   measurements that changed, their standard errors and smallest detectable changes, and the
+#'   limits.
 #' @section Errors: of class `crestline_error`: the file has another ending, or its folder does not
-#'   exist; or the curves belong to another mesh.
+#'   exist; the curves belong to another mesh; an argument is given that the page has not.
 #' @template glossary
+#' @seealso [assess()], [compare_visits()], [quality_report()]
 #' @examples
 #' \donttest{
 #' data(humface, package = "Rvcg")
@@ -40,6 +52,10 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
                        surface = "shape index", selfcontained = TRUE, size = c(900, 800), ...) {
   turned <- object_first(x, file, "write_page", "specimen", ...)
   x <- turned$x
+  if (inherits(x, c("assessment", "visit_comparison"))) {
+    given <- setdiff(names(match.call())[-1], c("", "x", "file", "title"))
+    return(other_page(x, turned$file, if (!missing(title)) title, given))
+  }
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
   title <- check_text(title, "title")
   caption <- check_text(caption, "caption", null = TRUE)
@@ -68,6 +84,27 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   save_page(page, file, selfcontained)
   invisible(file)
 }
+
+#' The page of an object that is no specimen
+#'
+#' @param given Names of other arguments, which such a page has not.
+#' @noRd
+other_page <- function(x, file, title, given, call = rlang::caller_env()) {
+  if (length(given)) {
+    crestline_abort(sprintf("`%s` is for pages of a specimen.", given[1]),
+                    sprintf("Of an object of class %s give a file, and perhaps a `title`.",
+                            class(x)[1]), stage = "arguments", call = call)
+  }
+  title <- check_text(title, "title", null = TRUE, call = call)
+  rlang::check_installed("htmltools", "to write a page.")
+  file <- check_page_file(file, call)
+  page_of(x, file, title)
+  invisible(file)
+}
+
+#' Methods are where their pages are made
+#' @noRd
+page_of <- function(x, file, title) UseMethod("page_of")
 
 #' The object and the file of a writer; those of a call in the former order, file first, turned
 #' round

@@ -95,6 +95,12 @@ grade_picture <- function(shape, graded, specimen, size, resolution = 120) {
   type <- if (capabilities("cairo")) "cairo" else getOption("bitmapType")
   grDevices::png(file, size[1], size[2], res = resolution, type = type)
   tryCatch(draw_grades(shape, graded, specimen), finally = grDevices::dev.off())
+  png_address(file)
+}
+
+#' A picture in a file as a data address
+#' @noRd
+png_address <- function(file) {
   bytes <- readBin(file, "raw", file.size(file))
   paste0("data:image/png;base64,", gsub("\n", "", jsonlite::base64_enc(bytes), fixed = TRUE))
 }
@@ -104,12 +110,14 @@ report_text <- function(name) {
   paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
 }
 
-write_report <- function(page, title, file) {
+#' @param styles Names of style sheets of the package.
+#' @noRd
+write_report <- function(page, title, file, styles = "quality.css") {
   lines <- c(
     "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\">",
     "<meta name=\"viewport\" content=\"width=device-width\">",
     as.character(htmltools::tags$title(title)),
-    "<style>", report_text("quality.css"), "</style>", "</head>", as.character(page), "</html>"
+    "<style>", vapply(styles, report_text, ""), "</style>", "</head>", as.character(page), "</html>"
   )
   write_html(lines, file)
 }

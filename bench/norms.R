@@ -1,10 +1,12 @@
 # How good are norms? Simulated cohorts of known truth: calibration, family-wise errors, lesions,
 # the healed face, errors of the scan, privacy, speed.
 #
-#   Rscript bench/norms.R fit N SEED [SYMMETRIC]  one norm of N faces: time, memory, privacy, file,
-#                                                 and all that `look` measures; kept as
-#                                                 norms-N-SEED.rds in $CRESTLINE_NORMS
-#   Rscript bench/norms.R look N SEED [FACES]     a kept norm by FACES new faces
+#   Rscript bench/norms.R fit N SEED [SYMMETRIC]  one norm of N faces: time, memory, privacy, file;
+#                                                 kept as norms-N-SEED.rds in $CRESTLINE_NORMS
+#   Rscript bench/norms.R look N SEED PART [FACES]  a kept norm by FACES new faces; PART:
+#                                                 calibration, worse, own, lesions, healed, time
+#   Rscript bench/norms.R pool N                  the figures of all kept looks at norms of N faces,
+#                                                 mean over norms by number of faces, and range
 #
 # Each row printed is `what value count`. Faces have the fields, errors and ages of
 # simulate_cohort(); new faces go through the same functions as assess() uses, many at once.
@@ -14,13 +16,21 @@ options(rgl.useNULL = TRUE)
 arguments <- commandArgs(TRUE)
 mode <- arguments[1]
 n <- as.integer(arguments[2])
-seed <- as.integer(arguments[3])
+seed <- if (mode == "pool") NA else as.integer(arguments[3])
 own <- function(name) getFromNamespace(name, "crestline")
 folder <- Sys.getenv("CRESTLINE_NORMS", tempdir())
-file <- file.path(folder, sprintf("norms-%d-%d.rds", n, seed))
+kept_file <- function(what) file.path(folder, sprintf("norms-%d-%s.rds", n, what))
+rows <- NULL
 say <- function(what, value, count = NA) {
   cat(sprintf("%-52s %s %s\n", what, paste(signif(value, 3), collapse = " "),
-              if (is.na(count)) "" else paste0("(", count, ")")))
+              if (anyNA(count)) "" else paste0("(", toString(unique(count)), ")")))
+  keep(what, value, count)
+}
+# Kept for `pool` without being printed
+keep <- function(what, value, count = NA) {
+  own <- if (is.null(names(value))) seq_along(value) else names(value)
+  names <- if (length(value) > 1) paste(what, own, sep = ": ") else what
+  rows <<- rbind(rows, data.frame(what = names, value = as.vector(value), count = count))
 }
 
 if (mode == "fit") {
@@ -33,21 +43,21 @@ if (mode == "fit") {
   say("fit, seconds elapsed, user", time[c(3, 1)])
   say("fit, MB at most above what was there", sum(gc()[, 6]))
   say("privacy: ratio, auc, least effective", unlist(norms$privacy))
-  saveRDS(list(norms = norms, settings = settings), file)
+  saveRDS(list(norms = norms, settings = settings), kept_file(seed))
   dir <- tempfile("norms")
   write_norms(norms, dir)
   say("file, KB", sum(file.size(list.files(dir, full.names = TRUE))) / 1024)
   time <- system.time(read <- read_norms(dir))
   say("reading, seconds elapsed, user", time[c(3, 1)])
-  norms <- read
+  saveRDS(rows, kept_file(paste0(seed, "-fit")))
 }
 
 # New faces: data as fit_parts() has it, from a seed of their own.
-new_faces <- function(norms, settings, count, seed, lesions = NULL, truth = FALSE) {
+new_faces <- function(norms, settings, count, seed, lesions = NULL, ages = c(4, 39)) {
   template <- own("cohort_template")()
   model <- own("cohort_model")(template, settings)
   given <- own("check_lesions")(lesions, count, model)
-  drawn <- own("with_seed")(seed, own("draw_people")(model, count, c(4, 39), NULL, given, settings,
+  drawn <- own("with_seed")(seed, own("draw_people")(model, count, ages, NULL, given, settings,
                                                       1))
   xyz <- drawn$visits[[1]]
   plan <- own("measurement_plan")(norms$measurements, template$scheme)
@@ -82,15 +92,12 @@ looked_at <- function(norms, data, noise) {
     field <- own("prepared_field")(norms, name)
     u <- own("field_deviations")(field, y, age, group)
     t <- lapply(field$weights, function(w) u %*% w)
-    sd <- mean(field$sd)
-    # The extra variance of a worse scan, by the spread at the mean age
-    rows <- if (name == "surface") rep(norms$points$se_norm, 3) else
-      rep(norms$points$se_norm[norms$points$side], 3) / sqrt(2)
-    se <- noise * mean(data$scale) / if (name == "surface") 1 else sqrt(2)
-    excess <- pmax(0, se^2 - rows^2) / field$sd^2
-    extra <- lapply(field$weights, function(w) {
-      matrix(crossprod(excess, w^2), length(age), ncol(w), byrow = TRUE)
-    })
+    # The extra variance of a worse scan, by each face's own spread and scale, as assess() has it
+    sd <- own("expected_columns")(field$columns, age, group)$sd
+    both <- if (name == "surface") 1 else sqrt(2)
+    base <- norms$points$se_norm[if (name == "surface") TRUE else norms$points$side] / both
+    excess <- pmax(0, outer((noise * data$scale / both)^2, rep(base, 3)^2, `-`)) / sd^2
+    extra <- lapply(field$weights, function(w) excess %*% w^2)
     list(plain = own("scan_maps")(t, field$scan, age, group),
          widened = own("scan_maps")(t, field$scan, age, group, extra))
   }
@@ -99,38 +106,43 @@ looked_at <- function(norms, data, noise) {
 }
 
 limit_of <- function(quantiles) quantiles[own("limit_levels")() == 0.95]
-beyond <- function(maps, norms, name) {
-  mean(apply(maps$largest, 1, max) > limit_of(norms[[name]]$scan$quantiles))
+beyond <- function(maps, norms, name, kept = TRUE) {
+  mean((apply(maps$largest, 1, max) > limit_of(norms[[name]]$scan$quantiles))[kept])
 }
 
 calibration <- function(norms, settings, faces) {
-  data <- new_faces(norms, settings, faces, 1000 + seed)
+  data <- new_faces(norms, settings, faces, 1000 + seed, ages = c(3, 40))
   effective <- own("effective_faces")(norms, data$people$age, data$people$group)
-  say("refused by effective number", mean(effective < 10), faces)
+  range <- norms$ages[match(data$people$group, norms$ages$sex), ]
+  kept <- effective >= 10 & data$people$age >= range$from & data$people$age <= range$to
+  say("refused by effective number or age", mean(!kept), faces)
   found <- looked_at(norms, data, settings$noise)
   kind <- ifelse(colnames(found$z) == "size", "size",
                  ifelse(grepl("^component ", colnames(found$z)), "components", "measurements"))
   band <- cut(data$people$age, c(3, 8, 13, 18, 40), include.lowest = TRUE)
-  kept <- effective >= 10
   for (one in unique(kind)) {
-    inside <- abs(found$z[, kind == one, drop = FALSE]) <= 1.96
-    say(paste("within 1.96:", one), mean(inside[kept, ]), sum(kept))
-    cells <- tapply(rowMeans(inside)[kept], list(band, data$people$group)[1:2] |>
-                      lapply(`[`, kept), mean)
-    say(paste("  female by band:", one), cells[, 1])
-    say(paste("  male by band:", one), cells[, 2])
+    inside <- rowMeans(abs(found$z[, kind == one, drop = FALSE]) <= 1.96)
+    say(paste("within 1.96:", one), mean(inside[kept]), sum(kept))
+    for (sex in c("female", "male")) {
+      own_rows <- kept & data$people$group == sex
+      cells <- tapply(inside[own_rows], band[own_rows], mean)
+      say(paste0("  ", one, ", ", sex, ", by band"), cells, as.vector(table(band[own_rows])))
+    }
   }
-  tails <- rbind(colMeans(found$z[kept, kind == "measurements"] > 1.96),
-                 colMeans(found$z[kept, kind == "measurements"] < -1.96))
+  measured <- found$z[kept, kind == "measurements"]
+  names <- paste(rep(colnames(measured), 2), rep(c("above", "below"), each = ncol(measured)))
+  tails <- stats::setNames(c(colMeans(measured > 1.96), colMeans(measured < -1.96)), names)
+  keep("tail", tails, sum(kept))
   say("tails of measurements, least, median, largest", stats::quantile(tails, c(0, 0.5, 1)),
-      length(tails))
-  say("tails within 0.02-0.03, share", mean(tails >= 0.02 & tails <= 0.03), length(tails))
+      sum(kept))
   limit <- if (norms$n < 200) NA else limit_of(norms$limits$map)
-  say("family-wise: marginal map", mean(found$map > limit), faces)
-  say("family-wise: scan", beyond(found$surface$plain, norms, "surface"), faces)
-  say("  by band", tapply(apply(found$surface$plain$largest, 1, max) >
-                            limit_of(norms$surface$scan$quantiles), band, mean))
-  say("family-wise: asymmetry scan", beyond(found$asymmetry$plain, norms, "asymmetry"), faces)
+  say("family-wise: marginal map", mean(found$map[kept] > limit), sum(kept))
+  say("family-wise: scan", beyond(found$surface$plain, norms, "surface", kept), sum(kept))
+  say("  scan, by band", tapply((apply(found$surface$plain$largest, 1, max) >
+                                   limit_of(norms$surface$scan$quantiles))[kept], band[kept],
+                                mean), as.vector(table(band[kept])))
+  say("family-wise: asymmetry scan", beyond(found$asymmetry$plain, norms, "asymmetry", kept),
+      sum(kept))
   u <- data$off
   expected <- own("expected_columns")(norms$asymmetry$along, data$people$age, data$people$group)
   off <- own("normal_part")(u, norms$asymmetry$points, norms$asymmetry$normal)
@@ -148,12 +160,14 @@ worse_scans <- function(norms, settings, faces) {
         c(beyond(found$surface$plain, norms, "surface"),
           beyond(found$surface$widened, norms, "surface")), faces)
     measured <- !grepl("^component |^size$", colnames(found$z))
-    # On the wider scale: the errors of measurements grow with the noise
-    se <- norms$table$se_norm[measured] * noise / settings$noise
+    # On the wider scale: errors on the scales of the norm grow with noise and with 1 / size
+    se <- outer(data$scale / sqrt(mean(data$scale^2)),
+                norms$table$se_norm[measured] * noise / settings$noise)
     expected <- own("expected_columns")(norms$values, data$people$age, data$people$group)
-    extra <- outer(rep(1, faces), se^2 - norms$table$se_norm[measured]^2)
+    extra <- pmax(0, se^2 - rep(norms$table$se_norm[measured]^2, each = faces))
     part <- lapply(expected, function(x) x[, which(measured)])
-    wide <- own("predicted_z")(data$values[, -1], part, extra)
+    wide <- own("straightened")(own("predicted_z")(data$values[, -1], part, extra),
+                                norms$table[measured, ])
     say(sprintf("noise %g: measurements within 1.96, plain, widened", noise),
         c(mean(abs(found$z[, measured]) <= 1.96), mean(abs(wide) <= 1.96)), faces)
   }
@@ -201,7 +215,8 @@ lesions <- function(norms, settings, faces) {
     where <- side[max.col(Reduce(pmax, lapply(other$z, abs)))]
     hit <- apply(other$largest, 1, max) > limit_of(norms$asymmetry$scan$quantiles)
     near <- distance[cbind(where, row)] <= 15
-    say("  asymmetry scan, off the mid-line", mean((hit & near)[off_middle]), sum(off_middle))
+    say(sprintf("lesion %g mm, asymmetry scan, off the mid-line", height),
+        mean((hit & near)[off_middle]), sum(off_middle))
   }
 }
 
@@ -234,28 +249,48 @@ healed <- function(norms, settings, faces) {
         mean(each[, "touched"]), faces)
     touched <- each[, "touched"] == 1
     if (case[1] > 0 && any(touched)) {
-      say("  height recovered where touched, mean, sd",
+      label <- sprintf("healed, %g mm on %g cm:", case[1], case[2] / 5)
+      say(paste(label, "height where touched, mean, sd"),
           c(mean(each[touched, "height"]), stats::sd(each[touched, "height"])) / case[1],
           sum(touched))
-      say("  points within the interval", mean(each[touched, "covered"]), sum(touched))
+      say(paste(label, "points within the interval"), mean(each[touched, "covered"]),
+          sum(touched))
     }
   }
 }
 
-if (mode %in% c("fit", "look")) {
-  looks <- mode == "look" && length(arguments) > 3
-  faces <- if (looks) as.integer(arguments[4]) else if (n < 1000) 400 else 1000
-  kept <- readRDS(file)
-  norms <- kept$norms
+# assess() itself, of one face.
+timed <- function(norms, settings, faces) {
   time <- system.time(own("prepared_field")(norms, "surface"))
   say("preparing the scan, seconds elapsed, user", time[c(3, 1)])
-  calibration(norms, kept$settings, faces)
-  worse_scans(norms, kept$settings, min(faces, 400))
-  own_error(norms, kept$settings, min(faces, 200))
-  lesions(norms, kept$settings, min(faces, 400))
-  healed(norms, kept$settings, min(faces, 30))
   patient <- simulate_cohort(1, data = data.frame(age = 20, sex = "male"), seed = 1)
   suppressWarnings(assess(patient$sample[[1]], norms, 20, "male"))
   time <- system.time(assess(patient$sample[[1]], norms, 20, "male"))
   say("assess, seconds elapsed, user", time[c(3, 1)])
+}
+
+if (mode == "look") {
+  part <- arguments[4]
+  usual <- c(calibration = 1000, worse = 400, own = 200, lesions = 400, healed = 30, time = 1)
+  faces <- if (length(arguments) > 4) as.integer(arguments[5]) else usual[[part]]
+  kept <- readRDS(kept_file(seed))
+  looks <- list(calibration = calibration, worse = worse_scans, own = own_error,
+                lesions = lesions, healed = healed, time = timed)
+  looks[[part]](kept$norms, kept$settings, faces)
+  saveRDS(rows, kept_file(paste0(seed, "-", part)))
+}
+
+if (mode == "pool") {
+  files <- list.files(folder, sprintf("^norms-%d-[0-9]+-.*rds$", n), full.names = TRUE)
+  all <- do.call(rbind, lapply(files, readRDS))
+  for (what in unique(all$what)) {
+    own_rows <- all[all$what == what & is.finite(all$value), ]
+    if (!nrow(own_rows)) next
+    weight <- if (anyNA(own_rows$count)) NULL else own_rows$count
+    mean <- if (is.null(weight)) mean(own_rows$value) else
+      stats::weighted.mean(own_rows$value, weight)
+    cat(sprintf("%-58s %.4g (%.4g to %.4g; %d norms%s)\n", what, mean, min(own_rows$value),
+                max(own_rows$value), nrow(own_rows),
+                if (is.null(weight)) "" else sprintf(", %d", sum(weight))))
+  }
 }
