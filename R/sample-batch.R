@@ -115,14 +115,16 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   rlang::check_installed(c("future", "progressr"), "to measure many specimens.")
   settings <- check_fit_arguments(list(...))
   chunk <- check_chunk(settings$chunk)
-  settings$chunk <- NULL
+  part <- check_part(settings$part)
+  embed <- if (is.null(settings$embed)) FALSE else check_flag(settings$embed, "embed")
+  settings[c("chunk", "part", "embed")] <- NULL
   if (is.list(reading) && !is.null(reading[["unit"]])) {
     settings <- with_unit(settings, reading$unit)
     reading$unit <- NULL
   }
   if (!is.null(dir)) dir <- results_folder(dir)
   run <- list(settings = settings, dir = dir, template = template, doubtful = doubtful,
-              found = found)
+              found = found, part = part, embed = embed)
   if (inherits(x, "shape_batch")) {
     if (!missing(scheme)) refuse_other_scheme(rlang::current_env())
     given <- c("settings", names(match.call()))
@@ -184,7 +186,7 @@ check_fit_arguments <- function(settings, call = rlang::caller_env()) {
   given <- names(settings)
   if (is.null(given)) given <- rep("", length(settings))
   takes <- setdiff(names(formals(fit_shape)), c("specimen", "scheme", "..."))
-  strange <- setdiff(given, c(takes, "chunk", unlist(former_fit_fields())))
+  strange <- setdiff(given, c(takes, "chunk", "part", "embed", unlist(former_fit_fields())))
   if (!length(strange)) return(with_former_fields(settings))
   for_reading <- intersect(strange, unlist(reading_arguments()))
   crestline_abort(

@@ -28,26 +28,83 @@
 #' @export
 read_batch <- function(x) {
   check_given()
-  files <- result_paths(x)
-  opened <- lapply(files, function(file) {
-    opened <- open_kept(file)
-    c(opened[c("state", "about")], list(file = file, time = file.mtime(file)))
+  index <- results_index(x)
+  index$id <- ifelse(nzchar(index$id), index$id, vapply(index$path, stem_id, ""))
+  index <- newest_results(without_old_failures(index))
+  whole <- index$state == "whole"
+  failed <- index$state == "failed"
+  scheme <- common_scheme(index[whole | failed, ])
+  tell_settings(index[whole, ])
+  results <- vector("list", nrow(index))
+  results[whole] <- kept_in_index(index[whole, ])
+  results[failed] <- failures_in_index(index[failed, ])
+  results[!whole & !failed] <- lapply(which(!whole & !failed), function(i) {
+    one <- list(file = index$path[i], key = index$key[i], name = index$id[i])
+    kept_fault(kept_shape(one, NULL), list(state = index$state[i]))
   })
-  id <- vapply(opened, function(one) c(one$about$id, stem_id(one$file))[1], "")
-  opened <- newest_results(stats::setNames(opened, id))
-  whole <- Filter(function(one) one$state == "whole", opened)
-  scheme <- common_scheme(whole)
-  tell_settings(whole)
-  results <- Map(function(one, id) {
-    shape <- kept_shape(list(file = one$file, key = one$about$key, name = id), one$about)
-    if (one$state == "whole") shape else kept_fault(shape, one)
-  }, opened, names(opened))
-  failed <- vapply(results, inherits, NA, "shape_failure")
-  shapes <- replace(results, failed, list(NULL))
-  batch <- validate_shape_batch(new_shape_batch(shapes, results[failed], scheme,
-                                                names(shapes)[!failed]))
+  batch <- batch_in_order(stats::setNames(results, index$id), scheme, waiting_in(x, index$id))
   tell_twins(batch, "batch")
   batch
+}
+
+#' A batch of what was read, those that wait behind
+#' @noRd
+batch_in_order <- function(results, scheme, waiting) {
+  results <- c(results, waiting)
+  failed <- vapply(results, inherits, NA, "shape_failure")
+  shapes <- replace(results, failed, list(NULL))
+  read <- names(shapes)[!failed]
+  validate_shape_batch(new_shape_batch(shapes, results[failed], scheme, read))
+}
+
+#' The index of a folder, or of files by their paths
+#' @noRd
+results_index <- function(x, call = rlang::caller_env()) {
+  if (length(x) == 1 && is.character(x) && !is.na(x) && dir.exists(x)) {
+    index <- folder_index(normalizePath(x))
+    if (nrow(index)) return(index)
+  }
+  files <- result_paths(x, call)
+  do.call(rbind, lapply(files, function(file) cbind(index_row(file), path = file)))
+}
+
+#' Failures that a folder remembers
+#' @noRd
+failures_in_index <- function(index) {
+  lapply(index$more, function(text) {
+    known <- tryCatch(jsonlite::fromJSON(text), error = function(e) list())
+    warned <- if (NROW(known$warnings)) as.data.frame(known$warnings) else no_warnings()
+    new_failure(c(known$stage, "unforeseen")[1], c(known$message, "its failure is damaged.")[1],
+                c(known$remedy, "Run fit_shapes() again.")[1], warned)
+  })
+}
+
+#' Without failures of specimens that have a result
+#' @noRd
+without_old_failures <- function(index) {
+  failed <- index$state == "failed"
+  index[!failed | !index$id %in% index$id[!failed], ]
+}
+
+#' Remember the ids of a cohort that is measured in parts
+#' @noRd
+note_cohort <- function(ids, dir) {
+  file <- file.path(dir, sprintf("cohort-%s.value", content_hash(ids)))
+  if (!file.exists(file)) keep(ids, list(key = "cohort", mesh = "none"), file)
+}
+
+#' Failures for those of the newest cohort of a folder that have no result, and have not failed
+#' @noRd
+waiting_in <- function(x, there) {
+  if (length(x) != 1 || !dir.exists(x)) return(list())
+  files <- list.files(x, "^cohort-.*[.]value$", full.names = TRUE)
+  if (!length(files)) return(list())
+  opened <- open_kept(files[which.max(as.numeric(file.mtime(files)))])
+  ids <- if (opened$state == "whole") setdiff(kept_value(opened), there)
+  failure <- new_failure("waiting", paste("it is not measured yet: its part waits or runs, or the",
+                                          "machine that had it has died."),
+                         "When no job runs any more, run the same part again.")
+  stats::setNames(rep(list(failure), length(ids)), ids)
 }
 
 #' Paths of results: those of a folder, or as given
@@ -68,49 +125,47 @@ result_paths <- function(x, call = rlang::caller_env()) {
 
 #' The id that a file's name is of, as far as it says
 #' @noRd
-stem_id <- function(file) utils::URLdecode(sub("[.]shape$", "", basename(file)))
+stem_id <- function(file) utils::URLdecode(sub("[.](shape|failure)$", "", basename(file)))
 
 #' One result for each specimen, the newest, and a message that names the others
 #' @noRd
-newest_results <- function(opened) {
-  time <- vapply(opened, function(one) as.numeric(one$time), 0)
-  newest <- order(names(opened), -time, method = "radix")
-  newest <- sort(newest[!duplicated(names(opened)[newest])])
-  others <- opened[-newest]
-  if (length(others)) {
+newest_results <- function(index) {
+  newest <- order(index$id, -suppressWarnings(as.numeric(index$time)), method = "radix")
+  newest <- sort(newest[!duplicated(index$id[newest])])
+  others <- index[-newest, ]
+  if (nrow(others)) {
     crestline_inform(c(
       sprintf("Of %s there are several results; the newest is taken.",
-              shorten(unique(names(others)), 8)),
+              shorten(unique(others$id), 8)),
       i = sprintf("Not taken: %s. To have these, give the paths of files.",
-                  shorten(basename(vapply(others, `[[`, "", "file")), 4))
+                  shorten(basename(others$path), 4))
     ))
   }
-  opened[newest]
+  index[newest, ]
 }
 
 #' The scheme of all results; NULL where files of a former version do not name it
 #' @noRd
-common_scheme <- function(opened, call = rlang::caller_env()) {
-  schemes <- lapply(opened, function(one) one$about$scheme)
-  key <- vapply(schemes, function(scheme) c(scheme$key, NA_character_)[1], "")
-  known <- unique(key[!is.na(key)])
+common_scheme <- function(index, call = rlang::caller_env()) {
+  known <- unique(index$scheme_key[nzchar(index$scheme_key)])
   if (length(known) > 1) {
-    count <- table(factor(key, known))
-    named <- vapply(schemes[match(known, key)], `[[`, "", "name")
+    count <- table(factor(index$scheme_key, known))
+    named <- index$scheme[match(known, index$scheme_key)]
     crestline_abort(
       sprintf("the results are of different schemes: %s.",
               shorten(sprintf("%s (%s)", named, vapply(count, amount, "", "specimen")))),
       "Give the paths of the files of one scheme.", stage = "batch", call = call
     )
   }
-  if (length(known) && !anyNA(key)) as.list(schemes[[1]])
+  if (length(known) && all(nzchar(index$scheme_key))) {
+    list(name = index$scheme[1], key = index$scheme_key[1])
+  }
 }
 
 #' Say with which settings specimens were measured, where these are not the same
 #' @noRd
-tell_settings <- function(opened) {
-  words <- vapply(opened, function(one) c(one$about$words, NA_character_)[1], "")
-  count <- table(words)
+tell_settings <- function(index) {
+  count <- table(index$words[nzchar(index$words)])
   if (length(count) < 2) return(invisible())
   each <- sprintf("%s (%s)", names(count), vapply(count, amount, "", "specimen"))
   crestline_inform(sprintf("Specimens were measured in different ways: %s.",
@@ -124,48 +179,64 @@ tell_settings <- function(opened) {
 #' new one. Any other file stays, and the new result stands beside it, with a part of a hash in its
 #' name.
 #'
+#' @param jobs Jobs by id, each with its `stem`.
 #' @param contents List of what [job_content()] gives, by id.
+#' @param index Of the folder.
 #' @return Paths; attributes `beside`, `replaced`: numbers of the tasks that it is told of, and
 #'   `before`, the paths of results of other settings.
 #' @noRd
-result_files <- function(dir, ids, contents) {
-  there <- list.files(dir, "[.]shape$", full.names = TRUE)
-  inside <- lapply(there, peek_kept)
-  kept <- vapply(inside, `[[`, "", "key")
-  stems <- file.path(dir, file_stems(ids))
+result_files <- function(dir, jobs, contents, index) {
+  inside <- files_inside(index[grepl("[.]shape$", index$path), ])
+  there <- inside$path
+  stems <- file.path(dir, vapply(jobs, `[[`, "", "stem"))
   keys <- vapply(contents, `[[`, "", "key")
-  # The first name that is free for a task, or whose result is out of date
-  place <- function(stem, content) {
-    first <- match(paste0(stem, ".shape"), there)
-    other_mesh <- !is.na(first) && !inside[[first]]$mesh %in% content$mesh
-    setting <- paste0("-", substr(content$setting, 1, 8))
-    mesh <- paste0("-", substr(content$mesh, 1, 8))
-    ends <- if (other_mesh) c("", mesh, paste0(mesh, setting)) else c("", setting)
-    for (file in paste0(stem, ends, ".shape")) {
-      at <- match(file, there)
-      if (is.na(at)) return(list(file = file))
-      one <- inside[[at]]
-      stale <- one$own && !one$key %in% keys &&
-        (is.na(one$mesh) || one$mesh == content$mesh && one$setting %in% content$setting)
-      if (stale) return(list(file = file, replaced = !is.na(one$mesh)))
-    }
-    list(file = file)
-  }
-  placed <- Map(function(stem, content) {
-    if (is.na(content$key)) return(list(file = paste0(stem, ".shape")))
-    own <- c(paste0(stem, ".shape"), there[kept %in% content$key])
-    own <- own[match(own, there, nomatch = 0) > 0 & own %in% there[kept %in% content$key]]
-    if (length(own)) list(file = own[1]) else place(stem, content)
-  }, stems, contents)
-  files <- vapply(placed, `[[`, "", "file", USE.NAMES = FALSE)
   first <- match(paste0(stems, ".shape"), there)
-  same_mesh <- vapply(seq_along(files), function(i) {
-    !is.na(first[i]) && inside[[first[i]]]$mesh %in% contents[[i]]$mesh
-  }, NA)
+  by_key <- match(keys, inside$key, incomparables = NA)
+  placed <- Map(function(stem, content, first, by_key) {
+    if (is.na(content$key)) return(list(file = paste0(stem, ".shape")))
+    if (!is.na(first) && inside$key[first] %in% content$key) return(list(file = there[first]))
+    if (!is.na(by_key)) return(list(file = there[by_key]))
+    place_beside(stem, content, inside, keys)
+  }, stems, contents, first, by_key)
+  files <- vapply(placed, `[[`, "", "file", USE.NAMES = FALSE)
+  same_mesh <- (inside$mesh[first] == vapply(contents, `[[`, "", "mesh")) %in% TRUE
   new <- !files %in% there
   structure(files, beside = which(new & same_mesh),
             replaced = which(vapply(placed, function(one) isTRUE(one$replaced), NA)),
             before = there[first[new & same_mesh]])
+}
+
+#' What the results of a folder say of themselves: the index's word of whole ones, of others the
+#' first line
+#' @return Data frame `path`, `key`, `mesh`, `setting`, `own`.
+#' @noRd
+files_inside <- function(index) {
+  known <- data.frame(path = index$path, key = index$key, mesh = text_or_na(index$mesh),
+                      setting = text_or_na(index$setting), own = rep(TRUE, nrow(index)))
+  for (i in which(index$state != "whole")) {
+    known[i, c("key", "mesh", "setting", "own")] <- peek_kept(index$path[i])
+  }
+  known
+}
+
+#' The first name that is free for a result, or whose result is out of date
+#' @param keys Of all results that are wanted.
+#' @noRd
+place_beside <- function(stem, content, inside, keys) {
+  first <- match(paste0(stem, ".shape"), inside$path)
+  other_mesh <- !is.na(first) && !inside$mesh[first] %in% content$mesh
+  setting <- paste0("-", substr(content$setting, 1, 8))
+  mesh <- paste0("-", substr(content$mesh, 1, 8))
+  ends <- if (other_mesh) c("", mesh, paste0(mesh, setting)) else c("", setting)
+  for (file in paste0(stem, ends, ".shape")) {
+    at <- match(file, inside$path)
+    if (is.na(at)) return(list(file = file))
+    one <- inside[at, ]
+    stale <- one$own && !one$key %in% keys &&
+      (is.na(one$mesh) || one$mesh == content$mesh && one$setting %in% content$setting)
+    if (stale) return(list(file = file, replaced = !is.na(one$mesh)))
+  }
+  list(file = file)
 }
 
 #' Say which results are replaced, and which stay beside new ones of other settings

@@ -5,7 +5,10 @@
 # then measured again.
 answers_version <- 2L
 
-kept_layout <- "crestline-result 2"
+kept_layout <- "crestline-result 3"
+
+# Layouts that are read: in the second, a shape was stored as it is in memory.
+known_layouts <- c(kept_layout, "crestline-result 2")
 
 #' Hash of a value's content
 #'
@@ -83,17 +86,32 @@ file_stem <- function(id, capitals, longest) {
 #' @param about List: `key`, `mesh` and, perhaps, `setting`, strings without a blank, and what else
 #'   is to be known without reading the value.
 #' @param compression Of gzip, 1 to 9: a scan is hardly smaller with 6 than with 1, and takes five
-#'   times as long.
-#' @return Nothing; an error of class `crestline_keeping_error` where it cannot be written.
+#'   times as long. "xz": for what is packed, a third smaller.
+#' @param new Whether the file must not be there yet: of two processes only one writes it.
+#' @return Whether it was written; an error of class `crestline_keeping_error` where it cannot be.
 #' @noRd
-keep <- function(value, about, file, compression = 1) {
+keep <- function(value, about, file, compression = 1, new = FALSE) {
   part <- tempfile(part_prefix(), dirname(file), ".tmp")
   on.exit(unlink(part))
   refuse <- function(e) refuse_keeping(file, conditionMessage(e))
   tryCatch({
     write_whole(kept_bytes(value, about, compression), part)
+    if (new) return(named_first(part, file))
     if (!file.rename(part, file)) stop("it cannot be given its name")
+    TRUE
   }, error = refuse, warning = refuse)
+}
+
+#' Give a whole file its name where no other has it
+#'
+#' By a second name for it, which a disk gives once; where it has no second names (some shares), by
+#' looking first.
+#' @noRd
+named_first <- function(part, file) {
+  if (suppressWarnings(file.link(part, file))) return(TRUE)
+  if (file.exists(file)) return(FALSE)
+  if (!file.rename(part, file)) stop("it cannot be given its name")
+  TRUE
 }
 
 refuse_keeping <- function(file, reason) {
@@ -128,6 +146,7 @@ checksum <- function(first, about, packed) rlang::hash(list(first, about, packed
 #' @noRd
 packed_bytes <- function(value, compression) {
   bytes <- serialize(value, NULL)
+  if (identical(compression, "xz")) return(memCompress(bytes, "xz"))
   file <- tempfile("packed-")
   on.exit(unlink(file))
   to <- suppressWarnings(gzfile(file, "wb", compression = compression))
@@ -156,11 +175,13 @@ peek_kept <- function(file, most = 200) {
   none <- list(key = NA_character_, mesh = NA_character_, setting = NA_character_, own = FALSE)
   start <- read_raw(file, most)
   if (is.null(start)) return(none)
-  layout <- charToRaw(kept_layout)
-  known <- min(length(start), length(layout))
-  none$own <- identical(start[seq_len(known)], layout[seq_len(known)]) || is_former(start)
+  known <- min(length(start), nchar(kept_layout))
+  own <- vapply(known_layouts, function(layout) {
+    identical(start[seq_len(known)], charToRaw(layout)[seq_len(known)])
+  }, NA)
+  none$own <- any(own) || is_former(start)
   end <- match(as.raw(10L), start)
-  if (known < length(layout) || !none$own || is_former(start) || is.na(end)) return(none)
+  if (known < nchar(kept_layout) || !none$own || is_former(start) || is.na(end)) return(none)
   line <- start[seq_len(end - 1)]
   if (!all(line >= as.raw(0x20) & line < as.raw(0x7f))) return(none)
   words <- strsplit(rawToChar(line), " ", fixed = TRUE)[[1]]
@@ -177,7 +198,7 @@ is_former <- function(bytes) identical(bytes[1:2], as.raw(c(0x1f, 0x8b)))
 #' over one that is not.
 #'
 #' @return List: `state`, "whole", "absent", "damaged" or "former" (of the former layout); of a
-#'   whole one `about`, and `packed` (raw).
+#'   whole one `about`, `packed` (raw) and `layout`.
 #' @noRd
 open_kept <- function(file) {
   if (!file.exists(file)) return(list(state = "absent"))
@@ -190,13 +211,17 @@ open_kept <- function(file) {
     line <- function(i) bytes[(c(0, end)[i] + 1):(end[i] - 1)]
     packed <- bytes[(end[3] + 1):length(bytes)]
     sound <- identical(rawToChar(line(2)), checksum(line(1), line(3), packed))
-    if (!sound || !startsWith(rawToChar(line(1)), kept_layout)) return(damaged())
+    layout <- substr(rawToChar(line(1)), 1, nchar(kept_layout))
+    if (!sound || !layout %in% known_layouts) return(damaged())
     about <- rawToChar(line(3))
     Encoding(about) <- "UTF-8"
-    list(state = "whole", about = jsonlite::fromJSON(about), packed = packed)
+    list(state = "whole", about = jsonlite::fromJSON(about), packed = packed, layout = layout)
   }, error = damaged, warning = damaged)
 }
 
 #' The value of a whole file that was opened
 #' @noRd
-kept_value <- function(opened) unserialize(memDecompress(opened$packed, "gzip"))
+kept_value <- function(opened) {
+  gzip <- identical(opened$packed[1:2], as.raw(c(0x1f, 0x8b)))
+  unserialize(memDecompress(opened$packed, if (gzip) "gzip" else "xz"))
+}

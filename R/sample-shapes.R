@@ -57,7 +57,7 @@ renewed_batch <- function(x) {
   attributes(results) <- list(names = names(results))
   kept <- !vapply(files, is.null, NA)
   results[kept] <- Map(function(file, id) {
-    kept_shape(list(key = NA_character_, file = file, name = id), list())
+    kept_shape(list(key = NA_character_, file = file, name = id), NULL)
   }, files[kept], names(results)[kept])
   failed <- vapply(results, inherits, NA, "shape_failure")
   shapes <- results
@@ -70,17 +70,25 @@ renewed_batch <- function(x) {
 #'
 #' @param task List: `file`, `key` that it must have, `name` (id).
 #' @param about Of the file: `warnings`, and what [told_of()] gives.
+#' @param seen Size and time of the file when it was whole, as the index has them; NULL where it was
+#'   not looked at.
 #' @noRd
-kept_shape <- function(task, about) {
-  warnings <- if (NROW(about$warnings)) as.data.frame(about$warnings) else no_warnings()
-  told <- Map(function(value, none) {
-    if (length(value) != length(none)) return(none)
-    storage.mode(value) <- storage.mode(none)
-    value
-  }, as.list(about)[names(nothing_told)], nothing_told)
-  names(told) <- names(nothing_told)
-  do.call(structure, c(list(list(), file = task$file, key = task$key, id = task$name,
-                            warnings = warnings), told, list(class = c("kept_shape", "shape"))))
+kept_shape <- function(task, about, seen = NULL) {
+  kept <- list()
+  attributes(kept) <- c(list(file = task$file, key = task$key, id = task$name,
+                             warnings = if (NROW(about$warnings)) as.data.frame(about$warnings),
+                             seen = seen), as_told(about), list(class = c("kept_shape", "shape")))
+  kept
+}
+
+#' Which kept shapes have files that were not touched since they were whole
+#' @param kept List of `kept_shape`s.
+#' @noRd
+untouched <- function(kept) {
+  if (!length(kept)) return(logical())
+  info <- file.info(vapply(kept, attr, "", "file"), extra_cols = FALSE)
+  seen <- vapply(kept, function(one) paste(c("", attr(one, "seen")), collapse = " "), "")
+  unname(!is.na(info$size) & seen == paste("", size_text(info), time_text(info)))
 }
 
 #' What keeps a shape from being read from its file: a failure, or NULL
@@ -101,7 +109,7 @@ kept_fault <- function(x, opened = open_kept(attr(x, "file"))) {
     paste("If the folder was moved, read it where it is:",
           read_remedy(file, "path of the folder"), "Else run fit_shapes() again.")
   } else "Run fit_shapes() again: it is measured again."
-  new_failure("keeping", sprintf(problem, file), remedy, attr(x, "warnings"))
+  new_failure("keeping", sprintf(problem, file), remedy, kept_warnings(x))
 }
 
 read_remedy <- function(file, dir = dirname(file)) sprintf("read_batch(\"%s\").", dir)
@@ -116,7 +124,10 @@ read_shape <- function(x) {
   opened <- open_kept(attr(x, "file"))
   fault <- kept_fault(x, opened)
   if (!is.null(fault)) return(fault)
-  shape <- kept_value(opened)
+  shape <- tryCatch(shape_in_file(opened, attr(x, "file")), crestline_keeping_error = function(e) {
+    new_failure("keeping", e$problem, e$remedy, kept_warnings(x))
+  })
+  if (!inherits(shape, "shape")) return(shape)
   if (!identical(shape$id, attr(x, "id"))) shape <- renamed_shape(shape, attr(x, "id"))
   last_read$what <- now
   last_read$shape <- shape
@@ -125,11 +136,25 @@ read_shape <- function(x) {
 
 last_read <- new.env(parent = emptyenv())
 
+kept_warnings <- function(x) {
+  warned <- attr(x, "warnings")
+  if (is.null(warned)) no_warnings() else warned
+}
+
+#' The shape in a file that was opened; one of the former layout is written anew in today's
+#' @noRd
+shape_in_file <- function(opened, file) {
+  value <- kept_value(opened)
+  if (inherits(value, "stored_shape")) return(from_stored(value, dirname(file)))
+  if (inherits(value, "shape")) renew_file(value, opened$about, file)
+  value
+}
+
 #' A shape whose mesh had another name when it was measured
 #' @noRd
 renamed_shape <- function(shape, id) {
   shape$id <- id
-  shape$specimen$id <- id
+  if (inherits(shape$specimen, "specimen")) shape$specimen <- with_fields(shape$specimen, id = id)
   shape
 }
 
@@ -397,16 +422,16 @@ failures <- function(x) {
   x <- renewed_batch(x)
   elements <- unclass(x)
   failed <- attr(x, "failed")
-  rows <- lapply(names(x), function(name) {
-    one <- elements[[name]]
-    lost <- if (is.null(one)) failed[[name]] else if (inherits(one, "kept_shape")) kept_fault(one)
-    if (!is.null(lost)) {
-      data.frame(id = name, stage = lost$stage, message = lost$message, remedy = lost$remedy)
-    }
-  })
-  empty <- data.frame(id = character(), stage = character(), message = character(),
-                      remedy = character())
-  structure(do.call(rbind, c(list(empty), rows)), warnings = warnings_of(x))
+  kept <- names(x)[vapply(elements, inherits, NA, "kept_shape")]
+  touched <- kept[!untouched(elements[kept])]
+  faults <- Filter(Negate(is.null), lapply(elements[touched], kept_fault))
+  lost <- c(failed[intersect(names(x), names(failed))], faults)
+  lost <- lost[order(match(names(lost), names(x)))]
+  text <- function(field) vapply(lost, function(one) as.character(one[[field]])[1], "",
+                                 USE.NAMES = FALSE)
+  rows <- data.frame(id = as.character(names(lost)), stage = text("stage"),
+                     message = text("message"), remedy = text("remedy"))
+  structure(rows, warnings = warnings_of(x))
 }
 
 #' Warnings of measured specimens

@@ -8,11 +8,17 @@
 #' @param placed Number of other specimens of the batch with landmarks of their own.
 #' @noRd
 fit_jobs <- function(jobs, run, chunk, progress, placed = 0, call = rlang::caller_env()) {
-  plain <- jobs
-  jobs <- with_finder(jobs, run$dir, run$template, run$doubtful, run$scheme, run$found, placed,
-                      call)
-  tasks <- batch_tasks(jobs, run$dir, run$scheme, run$settings)
-  results <- if (is.null(run$dir)) vector("list", length(tasks)) else lapply(tasks, kept_result)
+  jobs <- with_finder(with_plain(jobs), run$dir, run$template, run$doubtful, run$scheme, run$found,
+                      placed, call)
+  jobs <- jobs_of_part(jobs, run)
+  plain <- lapply(jobs, `[[`, "plain")
+  jobs <- lapply(jobs, function(job) job[names(job) != "plain"])
+  if (!is.null(run$part)) {
+    run <- rlang::env_clone(run)
+    run$part <- NULL
+  }
+  tasks <- batch_tasks(jobs, run$dir, run$scheme, run$settings, run$embed)
+  results <- lapply(tasks, `[[`, "kept")
   open <- vapply(results, is.null, NA)
   read <- names(jobs)[!open]
   if (length(read) && any(open)) {
@@ -37,17 +43,56 @@ fit_jobs <- function(jobs, run, chunk, progress, placed = 0, call = rlang::calle
   batch_of(stats::setNames(results, names(jobs)), run$scheme, read)
 }
 
+#' Jobs that remember what they were before landmarks were to be found, and which file's name is
+#' theirs among all
+#' @noRd
+with_plain <- function(jobs) {
+  Map(function(job, stem) c(job, list(plain = job, stem = stem)), jobs, file_stems(names(jobs)))
+}
+
+#' The jobs of one part of a cohort: every n-th, from the i-th
+#'
+#' The folder remembers the ids of all, so that [read_batch()] tells which are not measured yet.
+#' @noRd
+jobs_of_part <- function(jobs, run) {
+  if (is.null(run$part)) return(jobs)
+  if (!is.null(run$dir)) note_cohort(names(jobs), run$dir)
+  jobs[seq_along(jobs) %% run$part[2] == run$part[1] %% run$part[2]]
+}
+
+#' Which part of all specimens is to be measured
+#' @noRd
+check_part <- function(part, call = rlang::caller_env()) {
+  if (is.null(part)) return(NULL)
+  right <- is.numeric(part) && length(part) == 2 && all(is.finite(part)) &&
+    all(part == round(part)) && part[1] >= 1 && part[1] <= part[2]
+  if (!right) {
+    refuse_argument("part", part, "Give the number of the part and of all: part = c(3, 8).", call)
+  }
+  as.numeric(part)
+}
+
 #' All tasks: what is measured, where it is kept, and the key that tells whether it is kept already
 #' @noRd
-batch_tasks <- function(jobs, dir, scheme, settings) {
+batch_tasks <- function(jobs, dir, scheme, settings, embed) {
   tasks <- lapply(jobs, function(job) list(job = job, name = job$id))
-  if (is.null(dir)) return(tasks)
+  if (is.null(dir) || !length(jobs)) return(tasks)
   contents <- lapply(jobs, job_content, scheme, settings)
-  files <- result_files(dir, names(jobs), contents)
+  index <- folder_index(dir)
+  files <- result_files(dir, jobs, contents, index)
   tell_places(files, names(jobs), contents)
   about <- list(name = scheme$name, key = content_hash(unclass(scheme)))
-  Map(function(task, content, file) c(task, content, list(scheme = about, file = file)), tasks,
-      contents, as.vector(files))
+  at <- match(files, index$path)
+  whole <- which(index$state[at] == "whole" &
+                   index$key[at] == vapply(contents, `[[`, "", "key"))
+  kept <- vector("list", length(jobs))
+  kept[whole] <- Map(function(one, id) {
+    attr(one, "id") <- id
+    one
+  }, kept_in_index(index[at[whole], ]), names(jobs)[whole])
+  Map(function(task, content, file, kept) {
+    c(task, content, list(scheme = about, file = file, kept = kept, embed = embed))
+  }, tasks, contents, as.vector(files), kept)
 }
 
 #' The result of a task from its file; NULL where that has not its key or is not whole
@@ -71,8 +116,10 @@ measure_tasks <- function(tasks, scheme, settings, chunk) {
   if (any(again)) {
     results[again] <- run_tasks(tasks[again], measure_task, arguments, 1, alone = TRUE)
   }
-  lapply(results,
-         function(result) if (inherits(result, "lost_task")) lost_failure(result) else result)
+  Map(function(result, task) {
+    if (!inherits(result, "lost_task")) return(result)
+    note_failure(lost_failure(result), task)
+  }, results, tasks)
 }
 
 #' One specimen measured
@@ -87,14 +134,78 @@ measure_task <- function(task, scheme, settings) {
   ear <- new_ear()
   shape <- tryCatch(fit_job(task$job, scheme, settings, ear),
                     error = function(e) failure_of(e, ear$heard))
-  if (is.null(task$file) || !inherits(shape, "shape")) return(shape)
+  if (is.null(task$file)) return(shape)
+  if (!inherits(shape, "shape")) return(note_failure(shape, task))
+  tryCatch(keep_shape(shape, task),
+           crestline_keeping_error = function(e) failure_of(e, ear$heard, fault = TRUE))
+}
+
+#' A shape written to its file, and to the index
+#' @return A `kept_shape`.
+#' @noRd
+keep_shape <- function(shape, task) {
   about <- c(task[c("key", "mesh", "setting", "words", "scheme")],
              list(id = task$name, warnings = shape$warnings), told_of(shape))
-  tryCatch({
-    keep(shape, about, task$file)
-    kept_shape(task, about)
-  }, crestline_keeping_error = function(e) failure_of(e, ear$heard, fault = TRUE))
+  dir <- dirname(task$file)
+  source <- task_source(task, shape, dir)
+  stored <- stored_shape(shape, dir, source)
+  about$scan <- if (is.null(source)) "embedded" else source$file
+  small <- if (is.null(source)) 1 else "xz"
+  task$file <- keep_apart(task, function(file, new) keep(stored, about, file, small, new))
+  row <- index_row(task$file, list(state = "whole", about = about))
+  append_index(row, dir)
+  unlink(failure_file(task$file))
+  kept_shape(task, about, c(row$size, row$time))
 }
+
+#' Where the scan of a task lies, NULL where it is stored with its result
+#' @noRd
+task_source <- function(task, shape, dir) {
+  embedded <- isTRUE(task$embed) || is.null(task$job$mesh) || !inherits(shape$specimen, "specimen")
+  if (!embedded) scan_source(task$job$mesh, task$mesh, task$job$reading$specimen, dir)
+}
+
+#' Write to a task's file, or, where another process has put a result measured in another way there
+#' meanwhile, to one beside it
+#' @param write Function of the path and whether it must be new; gives whether it was written.
+#' @return The path.
+#' @noRd
+keep_apart <- function(task, write) {
+  ends <- c("", paste0("-", substr(c(task$setting, task$key), 1, 8)))
+  for (file in sub("[.]shape$", "", task$file) |> paste0(ends, ".shape")) {
+    if (file.exists(file)) {
+      there <- peek_kept(file)
+      ours <- there$own && (identical(there$key, task$key) || is.na(there$mesh) ||
+                              identical(there$mesh, task$mesh) &&
+                                identical(there$setting, task$setting))
+      if (ours && write(file, FALSE)) return(file)
+    } else if (write(file, TRUE) || identical(peek_kept(file)$key, task$key)) {
+      return(file)
+    }
+  }
+  write(file, FALSE)
+  file
+}
+
+#' A failure, remembered in the folder of results, so that [read_batch()] tells of it
+#' @noRd
+note_failure <- function(failure, task) {
+  if (is.null(task$file)) return(failure)
+  file <- failure_file(task$file)
+  about <- c(task[c("key", "mesh", "setting", "words", "scheme")], list(
+    id = task$name, failure = unclass(failure)[c("stage", "message", "remedy", "warnings")]
+  ))
+  about[c("key", "mesh", "setting")] <- lapply(about[c("key", "mesh", "setting")], function(one) {
+    if (is.na(one)) "none" else one
+  })
+  tryCatch({
+    keep(list(), about, file)
+    append_index(index_row(file, list(state = "whole", about = about)), dirname(file))
+  }, crestline_keeping_error = function(e) NULL)
+  failure
+}
+
+failure_file <- function(file) sub("[.]shape$", ".failure", file)
 
 fit_job <- function(job, scheme, settings, ear) {
   one <- hear(job_specimen(job), "reading", ear)

@@ -19,6 +19,18 @@ told_of <- function(shape) {
 nothing_told <- list(found = FALSE, lacking = c(0L, NA), unit = NA_real_, surface = NA_character_,
                      marks = NA_character_, red = NA_integer_)
 
+#' What a file says that [told_of()] gives; nothing_told where it does not
+#' @noRd
+as_told <- function(about) {
+  told <- Map(function(value, none) {
+    if (length(value) != length(none)) return(none)
+    storage.mode(value) <- storage.mode(none)
+    value
+  }, as.list(about)[names(nothing_told)], nothing_told)
+  names(told) <- names(nothing_told)
+  told
+}
+
 #' The elements of a batch as they are, without what makes it one
 #' @noRd
 plain_list <- function(x) {

@@ -29,11 +29,13 @@ batch_warnings <- function(x) {
 }
 
 bind_warnings <- function(each) {
-  rows <- Map(function(id, one) cbind(id = rep(id, NROW(one)), one), names(each), each)
-  rows <- do.call(rbind,
-                  c(list(cbind(id = character(), no_warnings())), unname(rows[lengths(each) > 0])))
-  rownames(rows) <- NULL
-  rows
+  each <- each[vapply(each, NROW, 0L) > 0]
+  none <- cbind(id = character(), no_warnings())
+  if (!length(each)) return(none)
+  column <- function(name) unlist(lapply(each, function(one) as.character(one[[name]])),
+                                  use.names = FALSE)
+  data.frame(id = rep(names(each), vapply(each, NROW, 0L)),
+             lapply(stats::setNames(nm = names(none)[-1]), column))
 }
 
 #' Lines that tell warnings, one a kind with the ids

@@ -217,11 +217,19 @@ with_row <- function(x, row, values, name) {
   x
 }
 
+#' An object with its scan, which may still be in its file
+#' @noRd
+whole_specimen <- function(x) UseMethod("whole_specimen")
+
+#' @exportS3Method
+whole_specimen.default <- function(x) x
+
 #' An object with some fields at other values, without the checks of `$<-`
 #' @noRd
 with_fields <- function(x, ...) {
-  fields <- unclass(x)
   new <- list(...)
+  if (!identical(names(new), "id")) x <- whole_specimen(x)
+  fields <- unclass(x)
   fields[names(new)] <- new
   class(fields) <- oldClass(x)
   fields

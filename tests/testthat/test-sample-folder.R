@@ -30,7 +30,7 @@ test_that("other settings in one folder overwrite nothing, and are told", {
   on.exit(unlink(out, recursive = TRUE))
   two <- batch_specimens(2)
   first <- fit_shapes(two, quad_scheme(), out)
-  before <- tools::md5sum(list.files(out, full.names = TRUE))
+  before <- tools::md5sum(list.files(out, "shape$", full.names = TRUE))
   expect_message(second <- fit_shapes(two, quad_scheme(), out,
                                       measuring = shape_settings(column_angle = 0.01)),
                  "Now: scheme quad .*column_angle = 0.01, in files such as ball 1-")
