@@ -23,8 +23,23 @@
 #' landmarks is replaced. [read_batch()] opens a folder of results in another session. `saveRDS()`
 #' of a batch with `dir` stores only the paths of its files.
 #'
+#' A result takes less than 0.1 MB: points, paths and checks. Scheme and settings lie once in the
+#' folder (`common-*.value`). The scan stays in its own file. The result has its path and a hash of
+#' its content, and reads it only when you ask for the mesh. If the scan is gone or has changed, an
+#' error names it. Move scans and results together, or name the new folder of the scans:
+#' `options(crestline.scans = "folder")`. Specimens that are not in files are stored with their
+#' result. Co-ordinates of points keep every bit, those of paths 40 bits. Results of former versions
+#' are read, and written anew in this way.
+#'
+#' An index (`index-*.tsv`) lists the results. [print()], [failures()] and [warnings_of()] read it
+#' alone. It is made anew where it is lost or out of date.
+#'
+#' For thousands of scans, run `fit_shapes(files, scheme, dir, part = c(i, n))` in n jobs, each with
+#' its own `i`. Every job measures every n-th specimen. [read_batch()] opens the whole. If a job is
+#' killed, run it again. See `vignette("many")`.
+#'
 #' The file of a result has a checksum, which is compared before the file is read. A damaged or
-#' truncated result is measured again. Several runs may share a folder. A run deletes only its own
+#' truncated result is measured again. Several runs may share a folder, at the same time too. A run deletes only its own
 #' unfinished files. Unfinished files of a run that was killed (`part-*.tmp`) remain. They are never
 #' read, and you may delete them.
 #'
@@ -63,8 +78,13 @@
 #'   if the scheme's landmarks are those of the face, else none.
 #' @param doubtful Greatest share of found landmarks with little confidence that are not left out.
 #'   They are used and graded amber.
-#' @param ... Further arguments of [fit_shape()], the same for all. The former argument `chunk`
-#'   gives a message of class `crestline_deprecated`.
+#' @param ... Further arguments of [fit_shape()], the same for all, and by name:
+#'   * `part`: two whole numbers, `c(i, n)`: of all specimens, only the i-th and every n-th after it
+#'     are measured. Give the same `x` in every part;
+#'   * `embed`: TRUE: results in `dir` have their scans with them. FALSE (default): scans in files
+#'     are stored by path and hash. Results that exist stay as they are.
+#'
+#'   The former argument `chunk` gives a message of class `crestline_deprecated`.
 #' @param found TRUE: landmarks are found for every mesh that has none. FALSE: such a mesh is a
 #'   failure. `NULL`: landmarks are found only if no mesh has any. A mesh without landmarks among
 #'   others with landmarks is then a failure. So found and placed landmarks are not mixed by

@@ -4,7 +4,9 @@
 #'
 #' Opens the results that [fit_shapes()] has written to a folder, as a batch. It needs neither the
 #' meshes nor the arguments of the run. It works in another session, and after the folder was moved.
-#' Shapes are read when they are used. Specimens that failed have no file, and are not in the batch.
+#' Shapes are read when they are used. Specimens that failed are failures of the batch. So are
+#' specimens of a cohort (`part` of [fit_shapes()]) that are not measured yet, with the stage
+#' "waiting".
 #'
 #' @param x Path of the folder (`dir` of [fit_shapes()]), or paths of `.shape` files.
 #' @return A `shape_batch`, as of [fit_shapes()], in the order of the files' names.

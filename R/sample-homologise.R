@@ -25,6 +25,11 @@
 #'
 #' Look at parts that [quality()] grades red first, see `red`.
 #'
+#' Specimens are slid by the workers of your plan of the package future, as in [fit_shapes()]:
+#' `future::plan("multisession", workers = 4)`. Each worker has one scan in memory at a time. The
+#' result does not depend on the number of workers. For thousands of specimens use `template_from`
+#' and `dir`; then not all shapes are in memory either.
+#'
 #' @param shapes List of `shape`s of one scheme with different `id`s, as [fit_shape()] returns them,
 #'   or a `shape_batch` of [fit_shapes()]. Failed specimens are left out. For a batch in files one
 #'   scan at a time is in memory. The ends of trimmed curves are homologous only if all shapes were
@@ -47,6 +52,13 @@
 #'   of the sample the number of points. [align()] estimates missing points or drops them. A part
 #'   that is red only because points are missing is used with the points that it has.
 #' @param limits [quality_limits()] by which parts are red.
+#' @param ... For large samples, by name:
+#'   * `template_from`: number of specimens, drawn at random, whose mean is the template. All
+#'     specimens are then slid against it, each by itself. Its parts are graded by itself too, not
+#'     against the lengths of other specimens. By default the template is the mean of all.
+#'   * `seed`: number that the draw starts from. `NULL`: it depends on R's random numbers.
+#'   * `dir`: path of a folder for the slid shapes. The result is then a sample in files, see
+#'     [open_sample()], and a run that was interrupted continues.
 #' @return Object of class `shape_sample`, a list:
 #'   * `shapes`: named list of the slid shapes, as of [slide()], without their specimens;
 #'   * `template`: the `shape` against which they were slid. `slide(shape, template)` gives a slid
@@ -60,7 +72,8 @@
 #'   * `provenance`: versions, scheme, specimens and settings, see [summary.shape_sample()].
 #'
 #'   It is a container of its shapes: `sample[ids]`, `sample[-3]`, `c()`, see [shape_sample].
-#'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()].
+#'   `as.array(x, level)` gives k x 3 x n co-ordinates, see [as.array.shape_sample()]. With `dir`:
+#'   an object of class `sample_files`.
 #' @section Errors: of class `crestline_error`: `shapes` is not a list of shapes; schemes differ;
 #'   two shapes have one id; a specimen is missing, or has another mesh than its shape. Of class
 #'   `crestline_unit_error`: the shapes have different units (`unit` of [fit_shape()]).
@@ -69,7 +82,8 @@
 #'   Of class `crestline_red_parts`: parts are red, see `red`. Of class `crestline_twin`: two
 #'   specimens have the same mesh and the same landmarks. Of class
 #'   `crestline_cut_scale`: curves were trimmed by different `cut_scale`s; the warning gives the one
-#'   to use for all.
+#'   to use for all. Of class `crestline_not_slid`: with `template_from`, specimens that could not be
+#'   slid are left out; the warning names them.
 #' @templateVar where section 4
 #' @template paper
 #' @details The defaults of [slide_settings()] differ from the paper's. The paper does not space the
@@ -97,9 +111,15 @@
 #' @export
 homologise <- function(shapes, template = NULL, settings = slide_settings(), specimens = NULL,
                        tolerance = 2e-4, rounds = 20, progress = interactive(),
-                       red = c("warn", "leave out", "keep"), limits = quality_limits()) {
+                       red = c("warn", "leave out", "keep"), limits = quality_limits(), ...) {
   check_given()
   check_flags(progress)
+  check_dots(..., known = c("template_from", "seed", "dir"))
+  if (...length()) {
+    given <- list(template = template, settings = settings, specimens = specimens,
+                  tolerance = tolerance, rounds = rounds, red = red, limits = limits)
+    return(homologise_cohort(shapes, cohort_settings(list(...)), given, progress))
+  }
   red <- check_choice(red, c("warn", "leave out", "keep"), "red")
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   check_specimens(specimens)
@@ -132,40 +152,99 @@ homologise <- function(shapes, template = NULL, settings = slide_settings(), spe
 #' @noRd
 slide_together <- function(shapes, states, template, settings, specimens, own_mean, tick) {
   plan <- slide_plan(template, settings)
-  cuts <- Map(function(shape, state) {
-    tick()
-    cut <- cut_between_slid(shape, state, slide_curves(state, plan), specimen_of(shape, specimens))
-    cut$store[places_left_out(shape), ] <- NA
-    cut
+  tasks <- Map(function(shape, state) {
+    list(name = shape$id, shape = shape, state = state, specimen = worker_specimen(shape, specimens))
   }, shapes, states)
+  with_part <- function(tasks, name, values) {
+    Map(function(task, value) replace(task, name, list(value)), tasks, values)
+  }
+  cuts <- each_in_workers(tasks, cut_task, list(plan = plan), tick)
   if (own_mean) {
     template <- with_mean_surface(template, lapply(cuts, `[[`, "store"))
     plan <- slide_plan(template, settings)
   }
-  starts <- joint_starts(shapes, cuts, plan, specimens, tick)
+  tasks <- with_part(tasks, "cut", cuts)
+  starts <- each_in_workers(tasks, start_task, list(plan = plan), tick)
   if (slides_free(settings)) {
     if (is.null(plan$scale)) plan$scale <- energy_scale(starts, own_mean)
     template$energy_scale <- plan$scale
   }
-  slid <- Map(function(shape, cut, start) {
-    tick()
-    shape <- finish_slide(shape, cut, start, plan, specimen_of(shape, specimens))
-    shape$specimen <- NULL
-    shape
-  }, shapes, cuts, starts)
+  slid <- each_in_workers(with_part(tasks, "start", starts), finish_task, list(plan = plan), tick)
   list(shapes = slid, template = template, plan = plan)
 }
 
-#' Where the joint step of every shape begins: list by shape of [joint_start()], of NULL where
-#' curve points are held
+#' One shape's patches cut between its slid curves
+#' @param task List: `name`, `shape`, `state` of [slide_state()], `specimen` of [worker_specimen()].
 #' @noRd
-joint_starts <- function(shapes, cuts, plan, specimens, tick) {
-  Map(function(shape, cut) {
+cut_task <- function(task, plan) {
+  cut <- cut_between_slid(task$shape, task$state, slide_curves(task$state, plan),
+                          task_specimen(task))
+  cut$store[places_left_out(task$shape), ] <- NA
+  cut
+}
+
+#' Where the joint step of one shape begins; NULL where curve points are held
+#' @noRd
+start_task <- function(task, plan) {
+  if (slides_free(plan$settings)) {
+    joint_start(task$shape, task$cut$store, plan, task_specimen(task))
+  }
+}
+
+finish_task <- function(task, plan) {
+  shape <- finish_slide(task$shape, task$cut, task$start, plan, task_specimen(task))
+  shape["specimen"] <- list(NULL)
+  shape
+}
+
+#' What a worker needs to have a shape's scan: the result in its file, the scan itself, or, in this
+#' process, a function that gives it
+#' @noRd
+worker_specimen <- function(shape, specimens) {
+  kept <- if (is.function(specimens)) attr(specimens, "kept")[[shape$id]]
+  stored <- inherits(shape$specimen, "stored_specimen")
+  if (is.null(specimens) || stored && !is.null(kept)) return(shape$specimen)
+  if (is.null(kept)) function() specimen_of(shape, specimens) else kept
+}
+
+task_specimen <- function(task) {
+  specimen <- task$specimen
+  if (inherits(specimen, "kept_shape")) specimen <- specimen$specimen
+  if (is.function(specimen)) specimen() else kept_specimen(task$shape, specimen)
+}
+
+#' A piece of work for each shape: by the user's plan where it has several workers, else one after
+#' the other
+#'
+#' Scans that a function of the user gives stay in this process. Work that a worker did not give
+#' back is done again, here.
+#'
+#' @param tasks List of lists by id, with `name`.
+#' @param arguments Further arguments of `work`, the same for all.
+#' @param tick Called once for each.
+#' @noRd
+each_in_workers <- function(tasks, work, arguments, tick) {
+  here <- function(task) {
+    value <- do.call(work, c(list(task), arguments))
     tick()
-    if (slides_free(plan$settings)) {
-      joint_start(shape, cut$store, plan, specimen_of(shape, specimens))
-    }
-  }, shapes, cuts)
+    value
+  }
+  local <- any(vapply(tasks, function(task) is.function(task$specimen), NA))
+  workers <- if (local) 1 else plan_workers()
+  if (workers < 2) return(lapply(tasks, here))
+  chunk <- c(check_chunk(NULL), ceiling(length(tasks) / (2 * workers)))[1]
+  values <- run_tasks(unname(tasks), work, arguments, chunk)
+  lost <- vapply(values, inherits, NA, "lost_task")
+  values[lost] <- lapply(unname(tasks[lost]), here)
+  for (i in which(!lost)) tick()
+  stats::setNames(values, names(tasks))
+}
+
+#' How many workers the user's plan has; 1 without the packages for them
+#' @noRd
+plan_workers <- function() {
+  there <- all(vapply(c("future", "progressr"), requireNamespace, NA, quietly = TRUE))
+  if (there) future::nbrOfWorkers() else 1
 }
 
 check_shapes <- function(shapes, call = rlang::caller_env()) {
@@ -201,16 +280,18 @@ measured <- function(batch) {
   bare <- !is.null(specimens_in_files(batch))
   shapes <- lapply(names(batch), function(name) {
     shape <- batch[[name]]
-    if (bare) shape$specimen <- NULL
+    if (bare && !inherits(shape$specimen, "stored_specimen")) shape$specimen <- NULL
     shape
   })
   Filter(Negate(is.null), shapes)
 }
 
+#' A function that gives the specimen of an id, for a batch in files; attribute `kept`: its results
+#' @noRd
 specimens_in_files <- function(x) {
-  kept <- inherits(x, "shape_batch") &&
-    any(vapply(unclass(renewed_batch(x)), inherits, NA, "kept_shape"))
-  if (kept) function(id) x[[id]]$specimen
+  if (!inherits(x, "shape_batch")) return(NULL)
+  kept <- Filter(function(one) inherits(one, "kept_shape"), plain_list(renewed_batch(x)))
+  if (length(kept)) structure(function(id) x[[id]]$specimen, kept = kept)
 }
 
 #' @param specimens As in [homologise()].

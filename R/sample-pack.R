@@ -114,12 +114,15 @@ unpack_places <- function(packed) {
   at
 }
 
-#' Points of a shape: those of a place once; level, part and point are the scheme's
+#' Points of a shape: those of a place once; level, part and point are the scheme's; further
+#' numbers, such as standard errors, as they are
 #' @noRd
 pack_points <- function(points, scheme) {
   first <- !duplicated(scheme$points$place)
   at <- columns_of(points)[first, , drop = FALSE]
-  list(places = pack_places(at, exact = TRUE), se = pack_exact(as.numeric(points$se)))
+  more <- setdiff(names(points), c("level", "part", "point", mesh_columns))
+  list(places = pack_places(at, exact = TRUE),
+       more = lapply(points[more], function(x) pack_exact(as.numeric(x))))
 }
 
 unpack_points <- function(packed, scheme) {
@@ -127,7 +130,8 @@ unpack_points <- function(packed, scheme) {
   at <- unpack_places(packed$places)[match(place, unique(place)), , drop = FALSE]
   at <- as.data.frame(at, row.names = FALSE)
   at$face <- as.integer(at$face)
-  cbind(scheme$points[c("level", "part", "point")], at, se = unpack_exact(packed$se))
+  cbind(scheme$points[c("level", "part", "point")], at,
+        as.data.frame(lapply(packed$more, unpack_exact)))
 }
 
 #' Paths, in one pool of places: a path and its track share most of theirs

@@ -84,13 +84,14 @@ restart_plan <- function() {
 #'
 #' @param read Number of results that were there already.
 #' @param every Seconds between lines; a run that takes less writes none.
+#' @param what Whose progress it is.
 #' @noRd
-with_told_progress <- function(code, progress, read = 0, every = 60) {
+with_told_progress <- function(code, progress, read = 0, every = 60, what = "fit_shapes()") {
   if (!progress) return(code)
   if (isTRUE(getOption("progressr.enable", interactive()))) {
     return(progressr::with_progress(code))
   }
-  lines <- progress_lines(read)
+  lines <- progress_lines(read, what)
   handler <- progressr::make_progression_handler("crestline", lines, intrusiveness = 0,
                                                  interval = every, enable = TRUE)
   progressr::with_progress(code, handlers = handler, enable = TRUE)
@@ -98,11 +99,11 @@ with_told_progress <- function(code, progress, read = 0, every = 60) {
 
 #' What writes progress as lines: how many are measured, since when, and about how long it will take
 #' @noRd
-progress_lines <- function(read, since = Sys.time()) {
+progress_lines <- function(read, what, since = Sys.time()) {
   list(update = function(config, state, progression, ...) {
     minutes <- as.numeric(difftime(Sys.time(), since, units = "mins"))
     left <- minutes * (config$max_steps - state$step) / max(state$step, 1)
-    message(sprintf("fit_shapes(): %d of %d measured%s, %.0f min, about %.0f min left", state$step,
+    message(sprintf("%s: %d of %d done%s, %.0f min, about %.0f min left", what, state$step,
                     config$max_steps, if (read) sprintf(" (%d read)", read) else "", minutes,
                     left))
   })

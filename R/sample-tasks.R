@@ -171,8 +171,8 @@ task_source <- function(task, shape, dir) {
 #' @return The path.
 #' @noRd
 keep_apart <- function(task, write) {
-  ends <- c("", paste0("-", substr(c(task$setting, task$key), 1, 8)))
-  for (file in sub("[.]shape$", "", task$file) |> paste0(ends, ".shape")) {
+  beside <- sub("[.]shape$", paste0("-", substr(task$key, 1, 8), ".shape"), task$file)
+  for (file in c(task$file, beside)) {
     if (file.exists(file)) {
       there <- peek_kept(file)
       ours <- there$own && (identical(there$key, task$key) || is.na(there$mesh) ||
@@ -183,8 +183,8 @@ keep_apart <- function(task, write) {
       return(file)
     }
   }
-  write(file, FALSE)
-  file
+  write(beside, FALSE)
+  beside
 }
 
 #' A failure, remembered in the folder of results, so that [read_batch()] tells of it

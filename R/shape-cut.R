@@ -75,8 +75,14 @@ asked_cut_scale <- function(shape) {
 #' @noRd
 warn_cut_scales <- function(shapes, stage, apart = 0.02) {
   scale <- vapply(unname(shapes), asked_cut_scale, 0)
-  ids <- vapply(unname(shapes), `[[`, "", "id")[!is.na(scale)]
-  scale <- scale[!is.na(scale)]
+  warn_cut_factors(stats::setNames(scale, vapply(unname(shapes), `[[`, "", "id")), stage, apart)
+}
+
+#' @param scale Factors by id, NA where there is none.
+#' @noRd
+warn_cut_factors <- function(scale, stage, apart) {
+  ids <- names(scale)[!is.na(scale)]
+  scale <- unname(scale[!is.na(scale)])
   if (length(scale) < 2 || min(scale) >= (1 - apart) * max(scale)) return(invisible())
   far <- order(-abs(log(scale / stats::median(scale))))
   crestline_warn(

@@ -138,7 +138,8 @@ test_that("a renamed scan is not measured again; two of one name never answer fo
   }
   renamed <- fit_shapes(meshes_in(dir), edge_scheme(), out)
   expect_named(renamed, c("anna", "ball 1", "ball 3"))
-  expect_identical(format(file.mtime(list.files(out, full.names = TRUE)), "%Y"), rep("2001", 3))
+  results <- list.files(out, "shape$", full.names = TRUE)
+  expect_identical(format(file.mtime(results), "%Y"), rep("2001", 3))
   expect_identical(coords(renamed$anna, "curves"), coords(all[["ball 1"]], "curves"))
   expect_identical(coords(renamed[["ball 1"]], "curves"), coords(all[["ball 2"]], "curves"))
   expect_identical(vapply(as.list(renamed), `[[`, "", "id"), stats::setNames(nm = names(renamed)))
@@ -162,12 +163,12 @@ test_that("a folder that two runs share has the results of both, each for its ow
   two[[2]]$id <- two[[1]]$id
   first <- fit_shapes(two[1], edge_scheme(), out)
   second <- fit_shapes(two[2], edge_scheme(), out)
-  expect_length(list.files(out), 2)
+  expect_length(list.files(out, "shape$"), 2)
   expect_false(identical(coords(first[[1]], "curves"), coords(second[[1]], "curves")))
   expect_equal(coords(first[[1]], "curves"),
                coords(fit_shape(two[[1]], edge_scheme(), progress = FALSE), "curves"))
   # Had the other one taken its file, it would be told.
-  files <- list.files(out, full.names = TRUE)
+  files <- list.files(out, "shape$", full.names = TRUE)
   file.copy(files[grepl("-", basename(files))], files[!grepl("-", basename(files))],
             overwrite = TRUE)
   expect_match(failures(first)$message, "another result")
@@ -244,12 +245,13 @@ test_that("a result that cannot be written costs one specimen", {
   content <- job_content(batch_jobs(three, NULL, list())[[2]], edge_scheme(), list())
   mesh <- paste0("-", substr(content$mesh, 1, 8))
   ends <- c("", mesh, paste0(mesh, "-", substr(content$setting, 1, 8)))
+  ends <- c(ends, paste0(ends[3], "-", substr(content$key, 1, 8)))
   taken <- file.path(out, paste0("ball 2", ends, ".shape"))
   for (folder in taken) dir.create(folder, recursive = TRUE)
   shapes <- fit_shapes(three, edge_scheme(), out)
   expect_identical(failures(shapes)[c("id", "stage")], data.frame(id = "ball 2", stage = "keeping"))
   expect_match(failures(shapes)$message, "cannot be written")
-  expect_setequal(list.files(out), c("ball 1.shape", "ball 3.shape", basename(taken)))
+  expect_setequal(list.files(out, "shape$"), c("ball 1.shape", "ball 3.shape", basename(taken)))
   unlink(taken[2], recursive = TRUE)
   expect_identical(nrow(failures(fit_shapes(three, edge_scheme(), out))), 0L)
 })

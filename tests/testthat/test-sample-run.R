@@ -51,7 +51,7 @@ test_that("without a user, progress is a line now and then", {
   }
   said <- capture.output(expect_identical(with_told_progress(work(), TRUE, 2, every = 0), "done"),
                          type = "message")
-  expect_match(said, "3 of 3 measured (2 read)", fixed = TRUE, all = FALSE)
+  expect_match(said, "3 of 3 done (2 read)", fixed = TRUE, all = FALSE)
   quiet <- capture.output(with_told_progress(work(), TRUE), type = "message")
   expect_length(quiet, 0)
   expect_length(capture.output(with_told_progress(work(), FALSE, every = 0), type = "message"), 0)
