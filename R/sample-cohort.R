@@ -2,9 +2,10 @@
 # against it by itself, one in memory at a time.
 
 #' Further arguments of [homologise()] for large samples
-#' @return List: `template_from`, `seed`, `dir`; NULL where not given.
+#' @return List: `template_from`, `seed`, `dir`, NULL where not given; NULL where nothing is.
 #' @noRd
-cohort_settings <- function(given, call = rlang::caller_env()) {
+share_settings <- function(given, call = rlang::caller_env()) {
+  if (!length(given)) return(NULL)
   from <- given$template_from
   if (is.null(from)) {
     refuse_argument("template_from", from, paste("`seed` and `dir` go with the number of specimens",
@@ -17,15 +18,15 @@ cohort_settings <- function(given, call = rlang::caller_env()) {
        dir = if (!is.null(given$dir)) empty_sample_folder(given$dir, call))
 }
 
-#' @param many As of [cohort_settings()].
+#' @param many As of [share_settings()].
 #' @param given Arguments of [homologise()].
 #' @noRd
-homologise_cohort <- function(shapes, many, given, progress, call = rlang::caller_env()) {
+homologise_share <- function(shapes, many, given, progress, call = rlang::caller_env()) {
   elements <- cohort_elements(shapes, call)
   ids <- names(elements)
   share <- with_seed(many$seed, sort(sample(length(ids), min(many$template_from, length(ids)))))
-  base <- do.call(homologise, c(list(if (inherits(shapes, "shape_batch")) shapes[ids[share]] else
-    elements[share], progress = progress), given))
+  some <- if (inherits(shapes, "shape_batch")) shapes[ids[share]] else elements[share]
+  base <- homologise_all(some, given, progress, call)
   settings <- given$settings
   tasks <- slide_tasks(elements, base$template, given, many$dir)
   arguments <- list(plan = slide_plan(base$template, settings), template = base$template,

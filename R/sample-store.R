@@ -68,7 +68,8 @@ with_unpacked_paths <- function(fields) {
 }
 
 refuse_stored <- function(problem, remedy) {
-  crestline_abort(problem, remedy, stage = "keeping", class = "crestline_keeping_error", call = NULL)
+  crestline_abort(problem, remedy, stage = "keeping", class = "crestline_keeping_error",
+                  call = NULL)
 }
 
 #' Where a scan comes from, as it is stored
