@@ -61,7 +61,7 @@
 #' * *Pages for the browser*: [write_page()], [write_pca_page()], [quality_report()].
 #' * *From a shell, Python or Slicer*: [run_command()].
 #' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
-#'   [visible_points()], [picture_settings()].
+#'   [visible_points()], [picture_settings()], [widget_settings()], [drawing_engine()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()] with [study_settings()], [simulate_faces()]
 #'   with [face_effect()], [population_settings()] and [scan_settings()], [true_points()],
 #'   [true_effect()]; [simulate_cohort()] with [cohort_settings()].

@@ -50,13 +50,6 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
        inside = check_colour(inside, "inside", none = TRUE))
 }
 
-#' Settings from the dots of a function that draws, where a misspelt one is told of
-#' @noRd
-known_settings <- function(..., call = rlang::caller_env()) {
-  check_dots(..., known = names(formals(picture_settings)), call = call)
-  picture_settings(...)
-}
-
 picture_surface <- function(mesh, colour, rotation, settings) {
   turned <- rotation %*% mesh$vb[1:3, , drop = FALSE]
   shown <- if (is.null(settings$around)) turned else rotation %*% t(settings$around)
@@ -155,7 +148,8 @@ on_scene <- function(scene, drawing) {
 }
 
 #' @export
-draw_lines.picture_scene <- function(scene, x, colour = "black", width = 2, halo = NA) {
+draw_lines.picture_scene <- function(scene, x, colour = "black", width = 2, halo = NA,
+                                     name = NULL) {
   view <- view_points(scene, point_matrix(x))
   view[!seen_from(scene, view), ] <- NA
   on_scene(scene, {
@@ -166,7 +160,7 @@ draw_lines.picture_scene <- function(scene, x, colour = "black", width = 2, halo
 
 #' @export
 draw_points.picture_scene <- function(scene, x, colour = "black", size = 1, halo = NA,
-                                      labels = NULL) {
+                                      labels = NULL, name = NULL) {
   x <- point_matrix(x)
   view <- view_points(scene, x)
   seen <- seen_from(scene, view)

@@ -17,12 +17,13 @@ add_ids <- function(scene, ids) {
 }
 
 #' @export
-draw_lines.rgl_scene <- function(scene, x, colour = "black", width = 2, halo = NA) {
+draw_lines.rgl_scene <- function(scene, x, colour = "black", width = 2, halo = NA, name = NULL) {
   add_ids(scene, rgl::lines3d(point_matrix(x), color = colour, lwd = width, lit = FALSE))
 }
 
 #' @export
-draw_points.rgl_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
+draw_points.rgl_scene <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL,
+                                  name = NULL) {
   x <- point_matrix(x)
   scene <- add_ids(scene, rgl::spheres3d(
     x, radius = size * scene$diagonal / 400, color = colour, specular = "black"

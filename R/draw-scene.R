@@ -1,12 +1,22 @@
-# One way to draw on two engines: a surface makes a scene, lines, points and bands are added to it.
+# One way to draw on three engines: a surface makes a scene, lines, points and bands are added to it.
 
 #' Draw a surface, and lines, points and bands on it
 #'
 #' `draw_surface()` draws a mesh and returns a scene. The other functions add lines, points and
 #' bands on the surface to the scene; hidden parts are not drawn. The engine "picture" draws on the
 #' current graphics device with base graphics (orthographic, smoothly shaded, no display needed).
-#' The engine "rgl" draws in the current rgl scene or a new one. With `options(rgl.useNULL = TRUE)`
-#' it uses rgl's null device.
+#' The engine "widget" makes a scene for the browser or the viewer of RStudio, that turns without a
+#' display or X11 (rgl's WebGL). The engine "rgl" draws in the current rgl scene or a new one. With
+#' `options(rgl.useNULL = TRUE)` it uses rgl's null device. The package sets this option when it is
+#' loaded without a display.
+#'
+#' A widget is shown when it is printed, as at the prompt or in a document of knitr. A pointer that
+#' rests on a point or a line shows its name. A click prints the name and the place below the scene.
+#' Ticks below it hide its layers.
+#'
+#' `drawing_engine()` is the engine that is used if none is given. It is that of
+#' `options(crestline.engine = )`. If the option is not set it is "widget" in interactive sessions and
+#' "picture" elsewhere.
 #'
 #' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
@@ -22,14 +32,17 @@
 #'   [face_scheme()] for a specimen, an alignment and the results of an analysis, and of its own
 #'   scheme for a shape. The landmarks are laid on these places first. So a face with landmarks is
 #'   shown from the front, in whatever pose it was scanned.
-#' @param engine "picture" or "rgl".
-#' @param ... For "picture", the arguments of [picture_settings()]; for "rgl", properties of
-#'   [rgl::material3d()] and `zoom`, as in [rgl::par3d()].
+#' @param engine "widget", "picture" or "rgl".
+#' @param ... For "picture", the arguments of [picture_settings()]; for "widget", those of
+#'   [widget_settings()]; for "rgl", properties of [rgl::material3d()] and `zoom`, as in
+#'   [rgl::par3d()]. Settings of another of these engines have no effect.
 #' @return `draw_surface()`: a scene. For the engine "picture" it is a list of class
 #'   `picture_scene`. It has `rotation` (3 x 3), `pixel` (size of a pixel, in the unit of the mesh),
 #'   `depth` (matrix, by pixel), and the map from pixels to the plot. For "rgl" a list of class
-#'   `rgl_scene`: `ids` of the rgl objects, `diagonal` of the mesh's bounding box. `draw_lines()`,
-#'   `draw_points()`, `draw_band()`: the scene with the added rgl `ids`, invisibly.
+#'   `rgl_scene`: `ids` of the rgl objects, `diagonal` of the mesh's bounding box. For "widget" a list
+#'   of class `widget_scene`: `drawn`, what is drawn (an environment), and `diagonal`. `draw_lines()`,
+#'   `draw_points()`, `draw_band()`: the scene, with added rgl `ids` for "rgl"; invisibly, if it is
+#'   not a widget. `drawing_engine()`: the name of an engine.
 #'   `visible_points()`: a logical value for each point of `x`, TRUE if it is visible.
 #' @template glossary
 #' @template experimental
@@ -40,39 +53,44 @@
 #' draw_lines(scene, cbind(cos(turn), 0, sin(turn)), "navy", width = 3)
 #' @export
 draw_surface <- function(mesh, colour = "#D8C3B0", view = "front",
-                         engine = c("picture", "rgl"), ...) {
+                         engine = drawing_engine(), ...) {
   check_given()
   check_surface(mesh, "mesh")
-  engine <- check_choice(engine, c("picture", "rgl"), "engine")
+  engine <- check_engine(engine)
   mesh <- with_normals(as_mesh(mesh))
   colour <- check_colours(colour, ncol(mesh$vb))
   rotation <- view_rotation(view)
   switch(engine,
-         picture = picture_surface(mesh, colour, rotation, known_settings(...)),
-         rgl = rgl_surface(mesh, colour, rotation, ...))
+         picture = picture_surface(mesh, colour, rotation, settings_of(engine, ...)),
+         widget = widget_surface(mesh, colour, rotation, settings_of(engine, ...)),
+         rgl = do.call(rgl_surface, c(list(mesh, colour, rotation), settings_of(engine, ...)),
+                       quote = TRUE))
 }
 
 #' @rdname draw_surface
 #' @param scene Value of `draw_surface()`.
 #' @param x Points: a matrix with three columns, or a data frame with columns `x`, `y` and `z`, such
 #'   as a `mesh_path`; in the unit of the mesh. In lines a row of NA makes a gap.
-#' @param width Line width, as `lwd` of [graphics::par()].
+#' @param width Line width, as `lwd` of [graphics::par()]; pixels for "widget".
+#' @param name Name that a widget shows. One for a line; for points one, or one for each. NULL:
+#'   `labels` or the row names of points, none for a line.
 #' @param halo Colour of a wider line below the line, or of a ring about the points ("picture"
 #'   only). NA: none.
 #' @export
-draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA) {
+draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA, name = NULL) {
   check_given()
   check_scene(scene)
   point_matrix(x)
   check_drawn(colour, halo)
   check_number(width, "width", lower = 0)
+  check_names(name, "name", null = TRUE)
   UseMethod("draw_lines")
 }
 
 #' A scene of one engine or the other
 #' @noRd
 check_scene <- function(scene, call = rlang::caller_env()) {
-  if (inherits(scene, "rgl_scene")) return(invisible(scene))
+  if (inherits(scene, c("rgl_scene", "widget_scene"))) return(invisible(scene))
   check_class(scene, "picture_scene", "scene", "draw_surface()", call)
 }
 
@@ -84,17 +102,19 @@ check_drawn <- function(colour, halo = NA, call = rlang::caller_env()) {
 }
 
 #' @rdname draw_surface
-#' @param size Diameter of points, as `cex` of [graphics::par()]. "rgl" draws balls; at size 1 their
-#'   diameter is 1/200 of the diagonal of the mesh's bounding box.
+#' @param size Diameter of points, as `cex` of [graphics::par()]. "rgl" and "widget" draw balls; at
+#'   size 1 their diameter is 1/200 of the diagonal of the mesh's bounding box.
 #' @param labels Names to write beside the points, or NULL.
 #' @export
-draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL) {
+draw_points <- function(scene, x, colour = "black", size = 1, halo = NA, labels = NULL,
+                        name = NULL) {
   check_given()
   check_scene(scene)
   point_matrix(x)
   check_drawn(colour, halo)
   check_number(size, "size", lower = 0)
   check_names(labels, "labels", null = TRUE)
+  check_names(name, "name", null = TRUE)
   UseMethod("draw_points")
 }
 

@@ -2,7 +2,8 @@
 
 specimen_scale <- function(x, colour, curvature) {
   natural <- x$mesh$material$color
-  switch(colour, "shape index" = shape_legend(shape_index(curvature)),
+  switch(colour, "shape index" = shape_legend(shape_index(curvature),
+                                               attr(curvature, "radius")),
          "curvature" = curvature_legend(curvature),
          list(colours = if (colour == "natural" && length(natural) == ncol(x$mesh$vb)) {
            natural
@@ -11,10 +12,11 @@ specimen_scale <- function(x, colour, curvature) {
          }))
 }
 
-shape_legend <- function(index) {
+shape_legend <- function(index, radius) {
   scale <- shape_scale()
   list(colours = shape_colours(index), ramp = shape_colours(seq(-1, 1, length.out = 200)),
-       at = (scale$index + 1) / 2, labels = scale$category)
+       at = (scale$index + 1) / 2, labels = scale$category,
+       title = sprintf("shape index, radius %.3g (unit of the mesh)", radius))
 }
 
 curvature_legend <- function(curvature, quantile = 0.95,
@@ -27,7 +29,7 @@ curvature_legend <- function(curvature, quantile = 0.95,
   list(colours = ramp_colours(share, palette, missing),
        ramp = ramp_colours(seq(0, 1, length.out = 200), palette, missing), at = (at + 1) / 2,
        labels = paste(signif(abs(at) * limit, 2), c("valley", "", "", "", "ridge")),
-       title = "1 / unit of the mesh")
+       title = sprintf("1 / unit of the mesh, radius %.3g", attr(curvature, "radius")))
 }
 
 # The colour of every vertex; for a legend the colours from bottom to top, and labels at shares of

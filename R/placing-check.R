@@ -64,16 +64,25 @@ placing_of <- function(specimen, call = rlang::caller_env()) {
 #'   radians, in the frame of the template.
 #' @return The specimen, invisibly.
 #' @noRd
-draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
+draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ..., engine = "picture") {
   least <- check_number(least, "least", 0, 1)
   views <- check_numbers(views, "views")
   placing <- placing_of(specimen)
-  old <- graphics::par(mfrow = c(1, length(views)), mar = c(0.5, 0.5, 2, 0.5))
-  on.exit(graphics::par(old))
   at <- as.matrix(placing[c("x", "y", "z")])
   sure <- placing$state == "placed" & is.na(placing$confidence) |
     placing$state %in% c("found", "placed") & placing$confidence >= least
   colour <- ifelse(placing$state == "predicted", "#3060C0", ifelse(sure, "#1B9E77", "#C8102E"))
+  title <- sprintf("%s: score %.2f", specimen$id, specimen$match$score)
+  engine <- check_engine(engine)
+  if (engine == "widget") {
+    scene <- draw_surface(specimen$mesh, "#E3CDB8", t(specimen$match$rotation), engine, ...)
+    words <- sprintf("%s: %s, confidence %.2f", placing$landmark, placing$state, placing$confidence)
+    draw_points(in_layer(scene, "landmarks"), at, colour, labels = placing$landmark, name = words)
+    draw_key(scene, c(found = "#1B9E77", doubtful = "#C8102E", predicted = "#3060C0"))
+    return(draw_title(scene, title))
+  }
+  old <- graphics::par(mfrow = c(1, length(views)), mar = c(0.5, 0.5, 2, 0.5))
+  on.exit(graphics::par(old))
   for (round in views) {
     turn <- rbind(c(cos(round), 0, -sin(round)), c(0, 1, 0), c(sin(round), 0, cos(round)))
     scene <- draw_surface(specimen$mesh, "#E3CDB8", turn %*% t(specimen$match$rotation), "picture",
@@ -82,9 +91,7 @@ draw_placing <- function(specimen, least = 0.5, views = c(-0.7, 0, 0.7), ...) {
       draw_points(scene, at[colour == one, , drop = FALSE], one, halo = "white",
                   labels = placing$landmark[colour == one])
     }
-    if (round == views[1]) {
-      graphics::title(sprintf("%s: score %.2f", specimen$id, specimen$match$score), adj = 0)
-    }
+    if (round == views[1]) graphics::title(title, adj = 0)
   }
   invisible(specimen)
 }

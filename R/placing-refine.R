@@ -266,7 +266,7 @@ refinement_table <- function(specimen, definitions, places) {
 #'
 #' @return The scene of [draw_surface()], invisibly.
 #' @noRd
-draw_refinement <- function(specimen, view, labels, main, ...) {
+draw_refinement <- function(specimen, view, labels, main, ..., engine = "picture") {
   check_flags(labels)
   main <- check_text(main, "main", null = TRUE)
   table <- specimen$refinement
@@ -275,17 +275,24 @@ draw_refinement <- function(specimen, view, labels, main, ...) {
                     "Give a specimen of refine_landmarks().", stage = "picture",
                     id = specimen$id)
   }
-  old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
-  on.exit(graphics::par(old))
+  engine <- check_engine(engine)
+  if (engine == "picture") {
+    old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
+    on.exit(graphics::par(old))
+  }
   view <- posed_view(view, specimen$landmarks)
-  scene <- draw_surface(specimen$mesh, "#E3CDB8", view, "picture", ...)
+  scene <- draw_surface(specimen$mesh, "#E3CDB8", view, engine, ...)
   table <- table[table$state == "found", ]
   given <- as.matrix(table[paste0("given_", c("x", "y", "z"))])
   place <- as.matrix(table[c("x", "y", "z")])
-  for (i in seq_len(nrow(table))) draw_lines(scene, rbind(given[i, ], place[i, ]), "#C04000",
-                                             width = 2)
-  draw_points(scene, given, "black", halo = "white")
-  draw_points(scene, place, "#FF7A00", halo = "white", labels = if (labels) table$landmark)
-  graphics::title(if (is.null(main)) specimen$id else main)
-  invisible(scene)
+  for (i in seq_len(nrow(table))) {
+    scene <- draw_lines(in_layer(scene, "ways"), rbind(given[i, ], place[i, ]), "#C04000", width = 2)
+  }
+  scene <- draw_points(in_layer(scene, "given"), given, "black", halo = "white",
+                       name = paste(table$landmark, "as given"))
+  scene <- draw_points(in_layer(scene, "defined"), place, "#FF7A00", halo = "white",
+                       labels = if (labels) table$landmark,
+                       name = paste(table$landmark, "as defined"))
+  draw_title(scene, if (is.null(main)) specimen$id else main)
+  shown(scene)
 }

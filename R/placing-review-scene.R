@@ -9,21 +9,6 @@ review_colours <- function() {
        selected = "#E08A00", curve = kind_colours)
 }
 
-#' The frame of the scene: the middle of the mesh's box, and a diagonal of 200
-#'
-#' rgl works in single precision, and paints balls black whose radius is far below 1: neither a scan
-#' in metres nor one far from its origin is to suffer.
-#' @noRd
-scene_frame <- function(mesh, diagonal = 200) {
-  range <- apply(mesh$vb[1:3, ], 1, range)
-  list(middle = colMeans(range), scale = diagonal / mesh_diagonal(mesh))
-}
-
-#' Points, n x 3, into the frame of the scene and back
-#' @noRd
-into_scene <- function(xyz, frame) sweep(xyz, 2, frame$middle) * frame$scale
-from_scene <- function(xyz, frame) sweep(xyz / frame$scale, 2, frame$middle, `+`)
-
 #' The mesh that is shown: coarser where it has many triangles, in the colours of the specimen
 #'
 #' @param most Number of triangles.

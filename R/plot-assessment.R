@@ -14,10 +14,10 @@
 #' @param palette Colours from the lowest to the highest value.
 #' @param view As in [plot.shape()].
 #' @param main Title; `NULL`: one that names the map.
-#' @param engine "picture" or "rgl", see [draw_surface()].
+#' @param engine See [draw_surface()].
 #' @param legend TRUE: a scale of the colours.
 #' @param ... Settings of the picture, see [picture_settings()].
-#' @return `x`, invisibly.
+#' @return `x`, invisibly; with the engine "widget" the scene.
 #' @section Errors: of class `crestline_error`: an argument is out of its range, or the norm has no
 #'   asymmetry.
 #' @template glossary
@@ -36,12 +36,12 @@
 #' @export
 plot.assessment <- function(x, what = c("map", "scan", "healed", "distance", "asymmetry"),
                             limits = NULL, palette = c("#2166AC", "#F7F7F7", "#B2182B"),
-                            view = "front", main = NULL, engine = c("picture", "rgl"),
+                            view = "front", main = NULL, engine = drawing_engine(),
                             legend = TRUE, ...) {
   check_class(x, "assessment", "x", "assess()")
   names <- c("map", "scan", "healed", "distance", "asymmetry")
   what <- check_choice(what, names, "what")
-  engine <- check_choice(engine, c("picture", "rgl"), "engine")
+  engine <- check_engine(engine)
   check_flags(legend)
   if (!is.null(limits)) limits <- check_numbers(limits, "limits", 2)
   palette <- grDevices::colorRampPalette(check_colour(palette, "palette"))(101)
@@ -60,7 +60,7 @@ plot.assessment <- function(x, what = c("map", "scan", "healed", "distance", "as
   if (is.null(main)) main <- sprintf("%s\n%s", x$id, title)
   unit <- if (what %in% c("healed", "distance")) "unit of the mesh" else "z"
   look <- list(significance = 0.5, limits = limits, palette = palette, length_unit = unit)
-  draw_map(points, value, TRUE, x$triangles, main, list(look = look, more = list(...)), engine,
-           view, legend)
-  invisible(x)
+  scene <- draw_map(points, value, TRUE, x$triangles, main, list(look = look, more = list(...)),
+                    engine, view, legend)
+  if (engine == "widget") scene else invisible(x)
 }

@@ -15,7 +15,7 @@
 #' @param band Whether to draw the band.
 #' @param points Whether to draw the curve's points.
 #' @param width Line width.
-#' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
+#' @param legend Whether to draw the scale of colours and the key of the curves (not by "rgl").
 #' @param engine,... Arguments of [plot.specimen()]: `view`, `curvature`, `radius`, `main`,
 #'   `landmarks` (FALSE here), and the settings of the picture. `around = x$path` shows the curve
 #'   enlarged. `plot()` of a curve also
@@ -62,7 +62,7 @@ plot.curve <- function(x, specimen, ..., what = c("surface", "panel")) {
 #' @export
 plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL, band = TRUE,
                         points = TRUE, width = 2.5,
-                        engine = if (interactive()) "rgl" else "picture", legend = TRUE, ...) {
+                        engine = drawing_engine(), legend = TRUE, ...) {
   if (missing(specimen)) {
     crestline_abort("`specimen` is not given.",
                     "Give the specimen of the curve; plot(curve, what = \"panel\") needs none.",
@@ -72,7 +72,7 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   check_flags(band, points, legend)
   if (!is.null(colour)) check_colour(colour, "colour")
   width <- check_number(width, "width", lower = 0)
-  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  engine <- check_engine(engine)
   surface <- check_choice(surface, surface_choices, "surface")
   curves <- check_curves(curves)
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
@@ -87,20 +87,35 @@ plot_curves <- function(curves, specimen, surface = "shape index", colour = NULL
   scene <- do.call(plot, c(list(specimen, surface, engine = engine, legend = legend), more),
                    quote = TRUE)
   key <- curve_key(curves, colour)
-  each <- seq_along(curves)
   if (band) {
-    for (i in each) scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+    scene <- in_layer(scene, "bands of error")
+    for (i in seq_along(curves)) {
+      scene <- draw_curve_band(scene, curves[[i]], specimen$mesh, key$colours[i])
+    }
   }
-  if (engine == "picture") for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
-  for (i in each) scene <- draw_lines(scene, curves[[i]]$path, key$colours[i], width)
-  if (points) for (i in each) scene <- draw_points(scene, curves[[i]]$points, key$colours[i],
-                                                   0.28 * width, "white")
-  if (legend && engine == "picture" && length(key$names)) {
-    on_scene(scene, graphics::legend(
-      "bottomleft", names(key$names), col = key$names, lwd = width, bty = "n", cex = 0.8
-    ))
+  scene <- draw_curve_lines(in_layer(scene, "curves"), curves, key$colours, points, width)
+  if (legend && length(key$names)) draw_key(scene, key$names, width = width)
+  shown(scene)
+}
+
+#' Curves of [ridge_curve()] with their points, all lines below all points
+#' @noRd
+draw_curve_lines <- function(scene, curves, colours, points, width) {
+  each <- seq_along(curves)
+  name <- vapply(each, function(i) {
+    own <- c(names(curves)[i], "")[1]
+    if (nzchar(own)) own else paste(curves[[i]]$from, "to", curves[[i]]$to)
+  }, "")
+  if (inherits(scene, "picture_scene")) {
+    for (curve in curves) draw_lines(scene, curve$path, "white", 2.2 * width)
   }
-  invisible(scene)
+  for (i in each) scene <- draw_lines(scene, curves[[i]]$path, colours[i], width, name = name[i])
+  if (points) for (i in each) {
+    own <- curves[[i]]$points
+    scene <- draw_points(scene, own, colours[i], 0.28 * width, "white",
+                         name = paste(name[i], own$point))
+  }
+  scene
 }
 
 # The colour of each curve, and what the legend says of them: colours named by type, or by curve

@@ -16,7 +16,7 @@
 #' @param colour Colours of the groups.
 #' @param engine,view As in [plot.specimen()] and [draw_surface()].
 #' @param ... Further arguments of each kind, see below.
-#' @param legend Whether to draw a legend ("picture" only).
+#' @param legend Whether to draw a legend (not by "rgl").
 #' @param main Title; `NULL` for the p-value.
 #' @section Further arguments: Of "boxes":
 #'   * `components`: numbers of the components (1, 2 and 3 by default);
@@ -40,7 +40,7 @@
 #'   * `length_unit`: name of the unit of lengths, for the legend;
 #'   * those of [draw_surface()]. There is more `ambient` light by default, as shade would hide
 #'     colours.
-#' @return Invisibly. "boxes": list with the value of [graphics::boxplot()] for each panel. "means",
+#' @return Invisibly, if it is not a widget. "boxes": list with the value of [graphics::boxplot()] for each panel. "means",
 #'   "map": the scene of [draw_surface()].
 #' @section Errors: of class `crestline_error`: there is no such level; a map, or mean surfaces, are
 #'   asked for more than two groups.
@@ -65,12 +65,12 @@
 #' @export
 plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = NULL,
                                   colour = c("#2F7FD1", "#E0553F"),
-                                  engine = if (interactive()) "rgl" else "picture", view = "front",
+                                  engine = drawing_engine(), view = "front",
                                   legend = TRUE, main = NULL, ...) {
   validate(x)
   what <- check_choice(what, c("boxes", "means", "map"), "what")
   check_colour(colour, "colour")
-  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  engine <- check_engine(engine)
   level <- level_to_plot(x, level, what)
   groups <- nlevels(x$group)
   colour <- if (length(colour) >= groups) colour[seq_len(groups)] else
@@ -78,7 +78,7 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
   drawn <- switch(what, boxes = plot_boxes(x, level, colour, main, ...),
                   means = plot_means(x, level, colour, engine, view, legend, main, ...),
                   map = plot_map(x, level, engine, view, legend, main, ...))
-  invisible(drawn)
+  shown(drawn)
 }
 
 level_to_plot <- function(x, level, what, call = rlang::caller_env()) {

@@ -39,11 +39,11 @@
 #' plot(model, "scores", "age")
 #' @export
 plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NULL, unit = 1,
-                          engine = if (interactive()) "rgl" else "picture", view = "front",
+                          engine = drawing_engine(), view = "front",
                           legend = TRUE, main = NULL, ...) {
   validate(x)
   what <- check_choice(what, c("map", "scores"), "what")
-  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  engine <- check_engine(engine)
   terms <- attr(x$models[[1]]$terms, "term.labels")
   term <- if (is.null(term)) terms[1] else check_choice(term, terms, "term")
   level <- level_of_map(x$aligned, level, what == "map")

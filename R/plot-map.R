@@ -49,6 +49,10 @@ draw_map <- function(points, value, signed, triangles, title, given, engine, vie
   if (limits[2] <= limits[1]) limits <- limits[1] + c(0, 1)
   if (!signed) palette <- utils::tail(palette, ceiling(length(palette) / 2))
   if (is.null(triangles)) {
+    if (engine == "widget") {
+      look[c("limits", "palette")] <- list(limits, palette)
+      return(points_scene(points, value, look, view, legend, title, given$more))
+    }
     return(invisible(points_map(points, value, limits, palette, look$significance, view, legend,
                                 title, look$length_unit)))
   }
@@ -64,12 +68,10 @@ draw_map <- function(points, value, signed, triangles, title, given, engine, vie
   }
   scene <- do.call(draw_surface, c(list(mesh, colours, view, engine), settings), quote = TRUE)
   outline <- level_lines(mesh, log(points$p_adjusted[row]), log(look$significance))
-  if (nrow(outline)) scene <- draw_lines(scene, outline, "black", 2)
-  if (engine == "picture") {
-    if (legend) map_legend(palette, limits, look$length_unit)
-    graphics::title(title, font.main = 1, cex.main = 0.8)
-  }
-  invisible(scene)
+  if (nrow(outline)) scene <- draw_lines(in_layer(scene, "outline"), outline, "black", 2)
+  if (legend) map_legend(scene, palette, limits, look$length_unit)
+  draw_title(scene, title, font.main = 1, cex.main = 0.8)
+  shown(scene)
 }
 
 #' How a map looks, and the arguments of [draw_surface()] beside that
@@ -113,12 +115,6 @@ weighted_fdr <- function(p, weights) {
   p
 }
 
-map_legend <- function(palette, limits, title = NULL) {
-  at <- pretty(limits, 5)
-  at <- at[at >= limits[1] & at <= limits[2]]
-  colour_bar(palette, (at - limits[1]) / diff(limits), format(at), title = title)
-}
-
 #' A map of points that have no triangles: seen from `view`, those in front last
 #' @noRd
 points_map <- function(points, value, limits, palette, significance, view, legend, title,
@@ -138,9 +134,39 @@ points_map <- function(points, value, limits, palette, significance, view, legen
   graphics::points(at[order, 1:2], pch = 21, bg = colour[order], cex = 1.1,
                    col = ifelse(found %in% TRUE, "black", "grey80"),
                    lwd = ifelse(found %in% TRUE, 1.6, 0.4))
-  if (legend) map_legend(palette, limits, length_unit)
+  ticks <- scale_ticks(limits)
+  if (legend) colour_bar(palette, ticks$at, ticks$labels, title = length_unit)
   graphics::title(title, font.main = 1, cex.main = 0.8)
   points
+}
+
+#' The same as a scene: significant points are larger, and black rings become a layer of their own
+#'
+#' @param look As of [map_look()], with `limits`.
+#' @noRd
+points_scene <- function(points, value, look, view, legend, title, more) {
+  at <- as.matrix(points[intersect(c("x", "y", "z"), names(points))])
+  rownames(at) <- points$point
+  scene <- configuration_scene(list(at), view, more)
+  breaks <- seq(look$limits[1], look$limits[2], length.out = length(look$palette) + 1)
+  colour <- look$palette[findInterval(value, breaks, all.inside = TRUE)]
+  in_layer(scene, "lines")
+  for (own in curve_rows(points$point, points$level[1])) {
+    draw_lines(scene, with_depth(at[own, , drop = FALSE]), "grey70", 1)
+  }
+  in_layer(scene, "points")
+  found <- points$p_adjusted <= look$significance & !is.na(points$p_adjusted)
+  words <- sprintf("%s: %.3g", points$point, value)
+  for (paint in unique(colour)) for (sure in c(FALSE, TRUE)) {
+    own <- colour == paint & found == sure
+    if (!any(own)) next
+    draw_points(scene, with_depth(at[own, , drop = FALSE]), paint, if (sure) 1.6 else 0.9,
+                name = words[own])
+  }
+  if (any(found)) draw_title(scene, paste0(title, "\n(larger points: significant)"))
+  else draw_title(scene, title)
+  if (legend) map_legend(scene, look$palette, look$limits, look$length_unit)
+  scene
 }
 
 #' Lines on a mesh where a function of its vertices, linear in every triangle, has a value

@@ -10,13 +10,19 @@ plot_means <- function(x, level, colour, engine, view, legend, main, ..., opacit
   words <- c(sprintf("mean shapes (%s)", level), p_value_of(x, level, c(test, NA)[1]))
   title <- if (is.null(main)) paste(words, collapse = ", ") else main
   if (is.null(aligned$triangles)) {
-    return(plot_configurations(means, aligned$level, colour, view, legend, title))
+    draw <- if (engine == "widget") configurations_scene else plot_configurations
+    return(draw(means, aligned$level, colour, view, legend, title))
   }
   meshes <- lapply(means, points_mesh, aligned$triangles)
   if (engine == "rgl") return(rgl_overlay(meshes, colour, opacity, view, ...))
+  if (engine == "widget") {
+    scene <- widget_overlay(meshes, colour, opacity, view, ...)
+    if (legend) draw_key(scene, stats::setNames(colour, names(meshes)))
+    return(draw_title(scene, title))
+  }
   old <- graphics::par(mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
-  scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), known_settings(...))
+  scene <- picture_overlay(meshes, colour, opacity, view_rotation(view), settings_of(engine, ...))
   graphics::title(title, font.main = 1, cex.main = 1)
   if (legend) {
     words <- paste(names(meshes), "in front")
@@ -66,6 +72,17 @@ blend_by_depth <- function(a, b, opacity) {
                                                          channel] + (1 - of_a) * b$rgba[, , channel]
   out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
   out
+}
+
+#' Both surfaces as layers of one scene
+#' @noRd
+widget_overlay <- function(meshes, colour, opacity, view, ...) {
+  all <- do.call(rbind, lapply(meshes, function(mesh) t(mesh$vb[1:3, ])))
+  scene <- configuration_scene(list(all), view, list(...))
+  for (i in seq_along(meshes)) {
+    add_surface(in_layer(scene, names(meshes)[i]), meshes[[i]], colour[i], opacity)
+  }
+  scene
 }
 
 rgl_overlay <- function(meshes, colour, opacity, view, ...) {

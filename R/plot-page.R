@@ -3,10 +3,11 @@
 #' Write a page with the turning specimen and its curves
 #'
 #' Writes one self-contained HTML file, or a file and a folder. Of a specimen, the page has the
-#' surface coloured by shape index, the curves with their bands, the colour scale and a table. For a
-#' shape it also has the triangles of its surface. Buttons hide each layer of the scene. Of an
-#' assessment ([assess()]) or of two visits ([compare_visits()]) it is a page without scripts, which
-#' prints on A4, also in black and white; see the sections below.
+#' surface coloured by shape index, the curves with their bands, the colour scale with its radius, and
+#' a table with the meaning and unit of each column. For a shape it also has the triangles of its
+#' surface. Ticks hide each layer of the scene. A pointer that rests on a curve or point shows its
+#' name. Of an assessment ([assess()]) or of two visits ([compare_visits()]) it is a page without
+#' scripts, which prints on A4, also in black and white; see the sections below.
 #'
 #' @param x A [specimen()], or an `assessment` of [assess()] or a `visit_comparison` of
 #'   [compare_visits()]; for these only `file` and `title` may be given.
@@ -21,7 +22,8 @@
 #'   `_files`, is written beside it.
 #' @param size Width and height of the picture, two numbers, in pixels of the browser.
 #' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `colour`, `width` (4
-#'   here), `curvature`, `radius`, `view`, `band`. `specimen`, the former name of `x`, still works.
+#'   here), `curvature`, `radius`, `view`, `band`. Settings of [widget_settings()]. `length_unit`: name
+#'   of the unit of lengths, such as "mm". `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
 #' @section Page of an assessment: The person, the norm and the errors; the verdicts; pictures of
 #'   the face, of both maps and of the expected shape; the places that do not fit; growth charts of
@@ -70,17 +72,20 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(turned$file)
-  rgl::open3d(useNULL = TRUE)
-  device <- rgl::cur3d()
-  on.exit(rgl::close3d(device))
-  plot(x, "plain", engine = "rgl", landmarks = FALSE, polygon_offset = 2)
-  layers <- do.call(page_layers, c(list(curves, x, surface), turned$more), quote = TRUE)
-  tags <- htmltools::tags
-  page <- tags$div(style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)),
-                   tags$h2(title),
-                   page_scene(layers, size), page_legend(surface), tags$p(caption),
-                   html_table(table),
-                   provenance_block(provenance_of(if (inherits(curves, "shape")) curves else x)))
+  more <- turned$more
+  unit <- check_text(if (is.null(more$length_unit)) "unit of the mesh" else more$length_unit,
+                     "length_unit")
+  more$length_unit <- NULL
+  scene <- page_scene(curves, x, surface, size, more)
+  scene$drawn$bar$title <- sub("unit of the mesh", unit, scene$drawn$bar$title, fixed = TRUE)
+  of <- provenance_of(if (inherits(curves, "shape")) curves else x)
+  page <- page_document(
+    title, widget_html(scene, "crestline"),
+    if (!is.null(caption)) htmltools::tags$p(caption),
+    if (NROW(table)) page_section(if (inherits(curves, "shape")) "Curves of the shape" else "Curves",
+                                  page_table(table, curve_meanings(unit))),
+    lead = page_lead(curves, x), provenance = of
+  )
   save_page(page, file, selfcontained)
   invisible(file)
 }
@@ -106,182 +111,50 @@ other_page <- function(x, file, title, given, call = rlang::caller_env()) {
 #' @noRd
 page_of <- function(x, file, title) UseMethod("page_of")
 
-#' The object and the file of a writer; those of a call in the former order, file first, turned
-#' round
+#' What a page shows on the specimen, as a scene
 #'
-#' @param x,file Arguments of the writer, given or not.
-#' @param writer Its name.
-#' @param former Former name of `x`.
-#' @param ... The dots of the writer.
-#' @return List `x`, `file` and `more`, the rest of the dots.
+#' @param more Dots of [write_page()].
 #' @noRd
-object_first <- function(x, file, writer, former, ..., call = rlang::caller_env()) {
-  more <- list(...)
-  given <- c(x = !missing(x), file = !missing(file))
-  if (former %in% names(more)) {
-    if (sum(given) != 1) {
-      crestline_abort(sprintf("`%s`, the former name of `x`, does not go with these arguments.",
-                              former),
-                      sprintf("Write %s(x, file), and all that follows by name.", writer),
-                      stage = "arguments", call = call)
-    }
-    inform_former(paste0(writer, "(", former, " = )"), sprintf("%s(x, file)", writer))
-    return(list(x = more[[former]], file = if (given[["file"]]) file else x,
-                more = more[names(more) != former]))
-  }
-  check_given(frame = call, fn = rlang::caller_fn())
-  if (!is.character(x) || is.character(file)) return(list(x = x, file = file, more = more))
-  inform_former(sprintf("%s(file, x)", writer), sprintf("%s(x, file)", writer))
-  list(x = file, file = x, more = more)
-}
-
-#' Make a page in a folder of our own, then put it where it belongs: what stands there may be the
-#' user's
-#' @noRd
-save_page <- function(page, file, selfcontained) {
-  made <- tempfile("page")
-  dir.create(made)
-  on.exit(unlink(made, recursive = TRUE))
-  draft <- file.path(made, "page.html")
-  files <- basename(made)
-  htmltools::save_html(page, draft, libdir = files)
-  html <- safe_scripts(paste(readLines(draft, encoding = "UTF-8", warn = FALSE), collapse = "\n"))
-  if (selfcontained) {
-    html <- inline_files(html, made, '<script src="([^"]+)"></script>', "script", "</script")
-    html <- inline_files(html, made, '<link href="([^"]+)" rel="stylesheet" />', "style", "</style")
-  } else {
-    folder <- paste0(tools::file_path_sans_ext(basename(file)), "_files")
-    # Copy the files that a page needs into a folder, which may be there already; none of another
-    # content is written over
-    from <- file.path(made, files)
-    to <- file.path(dirname(file), folder)
-    found <- list.files(from, recursive = TRUE, all.files = TRUE)
-    target <- file.path(to, found)
-    there <- file.exists(target)
-    same <- unname(tools::md5sum(file.path(from, found))) == unname(tools::md5sum(target))
-    if (any(there & !same %in% TRUE)) {
-      crestline_abort(sprintf("`file` needs the folder %s, where %s is another file already.", to,
-                              shorten(found[there & !same %in% TRUE])),
-                      "Give another name to the page, or move that folder.", stage = "page",
-                      call = NULL)
-    }
-    new <- which(!there)
-    for (dir in unique(dirname(target[new]))) dir.create(dir, FALSE, recursive = TRUE)
-    if (!all(suppressWarnings(file.copy(file.path(from, found[new]), target[new])))) refuse_page(to)
-    address <- utils::URLencode(folder, reserved = TRUE, repeated = TRUE)
-    html <- gsub(paste0('"', files, "/"), paste0('"', address, "/"), html, fixed = TRUE)
-  }
-  write_html(html, file)
-}
-
-write_html <- function(html, file) {
-  tryCatch(suppressWarnings(writeLines(enc2utf8(html), file, useBytes = TRUE)),
-           error = function(e) refuse_page(file))
-}
-
-refuse_page <- function(path) {
-  crestline_abort(sprintf("`file`: %s cannot be written.", path),
-                  "Check the folder, and the right to write there.",
-                  stage = "page", call = NULL)
-}
-
-#' The data of widgets in a page, so written that no text in them can end or open a script
-#' @noRd
-safe_scripts <- function(html, opening = '<script type="application/json"') {
-  part <- strsplit(html, opening, fixed = TRUE)[[1]]
-  end <- regexpr("</script>", part, fixed = TRUE)
-  data <- seq_along(part) > 1 & end > 0
-  part[data] <- paste0(script_json(substr(part[data], 1, end[data] - 1)),
-                       substr(part[data], end[data], nchar(part[data])))
-  paste(part, collapse = opening)
-}
-
-#' JSON as it may stand between script tags: `<!--<script>` and the line ends of JavaScript are
-#' written as escapes
-#' @noRd
-script_json <- function(json) {
-  json <- enc2utf8(json)
-  for (sign in c("<", "\u2028", "\u2029")) {
-    json <- gsub(sign, sprintf("\\u%04x", utf8ToInt(sign)), json, fixed = TRUE)
-  }
-  json
-}
-
-# Every reference to a file, as `pattern` finds it in the page, replaced by an element that holds
-# the file's text.
-inline_files <- function(html, folder, pattern, element, closing) {
-  for (reference in unique(regmatches(html, gregexpr(pattern, html))[[1]])) {
-    name <- utils::URLdecode(sub(pattern, "\\1", reference))
-    text <- paste(readLines(file.path(folder, name), encoding = "UTF-8", warn = FALSE),
-                  collapse = "\n")
-    text <- gsub(closing, sub("/", "\\/", closing, fixed = TRUE), text, fixed = TRUE)
-    parts <- strsplit(html, reference, fixed = TRUE)[[1]]
-    html <- paste(parts, collapse = paste0("<", element, ">\n", text, "\n</", element, ">"))
-  }
-  html
-}
-
-check_page_file <- function(file, call = rlang::caller_env()) {
-  file <- check_path_to_write(file, "file", c("html", "htm"), "page", call)
-  file.path(normalizePath(dirname(file)), basename(file))
-}
-
-#' Draw what a page shows on the specimen
-#' @return Named list of the ids of what belongs together.
-#' @noRd
-page_layers <- function(curves, specimen, surface, ..., colour = NULL, width = 4,
-                        edges = "#505050", raised = 0.004) {
-  if (!is.null(colour)) check_colour(colour, "colour", call = rlang::caller_env())
-  width <- check_number(width, "width", lower = 0, call = rlang::caller_env())
+page_scene <- function(curves, specimen, surface, size, more, edges = "#505050", raised = 0.004) {
+  more <- utils::modifyList(list(width = 4, view = "front"), more)
+  more$engine <- "widget"
+  more$size <- size
+  more$surface <- surface
   of_shape <- inherits(curves, "shape")
-  scene <- if (of_shape) {
-    chosen <- if (is.null(colour)) list() else list(colour = colour)
-    do.call(plot, c(list(curves, specimen, surface = surface, width = width, engine = "rgl",
-                         patches = FALSE), chosen, list(...)), quote = TRUE)
-  } else {
-    plot_curves(check_curves(curves), specimen, surface, colour, width = width, engine = "rgl", ...)
-  }
-  layers <- stats::setNames(list(scene$ids[1], scene$ids[-1]), c(surface, "curves"))
+  if (!is.null(more$colour)) check_colour(more$colour, "colour", call = NULL)
+  if (of_shape && is.null(more$patches)) more$patches <- FALSE
+  scene <- do.call(if (of_shape) plot.shape else plot_curves, c(list(curves, specimen), more),
+                   quote = TRUE)
   if (of_shape && any(curves$status$level == "surface" & curves$status$ok)) {
-    layers[["surface model"]] <- draw_edges(scene, shape_mesh(curves), edges, width / 4,
-                                            raised)$ids[-seq_along(scene$ids)]
+    draw_edges(in_layer(scene, "surface model"), shape_mesh(curves), edges, 1, raised)
   }
-  Filter(length, layers)
+  scene
 }
 
-# The turning scene, with a button that hides each of its layers.
-page_scene <- function(layers, size) {
-  scene <- rgl::rglwidget(width = size[1], height = size[2], elementId = "crestline")
-  buttons <- Map(function(ids, label) rgl::toggleWidget("crestline", ids = ids, label = label),
-                 layers, names(layers))
-  htmltools::tagList(scene, htmltools::tags$div(style = "display:flex;gap:8px", unname(buttons)))
+#' What the page is about, in one line
+#' @noRd
+page_lead <- function(curves, specimen) {
+  mesh <- sprintf("surface of %d triangles", ncol(specimen$mesh$it))
+  words <- if (inherits(curves, "shape")) {
+    found <- curves$status$level == "curves" & curves$status$ok
+    c(amount(sum(found), "curve"), amount(sum(!is.na(curves$points$x)), "point"),
+      paste("scheme", curves$scheme$name))
+  } else if (length(curves)) amount(length(curves), "curve")
+  htmltools::tags$p(paste(c(words, mesh), collapse = ", "))
 }
 
-page_legend <- function(surface) {
-  if (surface != "shape index") return(NULL)
-  scale <- shape_scale()
-  cells <- Map(function(category, colour) {
-    style <- paste0("background:", colour, ";color:", if (category == "rut") "white" else "black",
-                    ";padding:4px 8px;display:inline-block;font:12px sans-serif")
-    htmltools::tags$span(style = style, category)
-  }, scale$category, scale$colour)
-  htmltools::tags$div(style = "margin:10px 0", unname(cells))
-}
-
-html_table <- function(table, digits = 3) {
-  if (is.null(table) || nrow(table) == 0) return(NULL)
-  cell <- "padding:3px 12px;border-bottom:1px solid #ddd;text-align:left"
-  shown <- vapply(table, function(column) {
-    if (is.numeric(column)) column <- signif(column, digits)
-    ifelse(is.na(column), "", vapply(column, format, "", USE.NAMES = FALSE))
-  }, character(nrow(table)))
-  shown <- matrix(shown, nrow(table))
-  rows <- apply(shown, 1,
-                function(row) htmltools::tags$tr(lapply(row, htmltools::tags$td, style = cell)),
-                simplify = FALSE)
-  htmltools::tags$table(style = "border-collapse:collapse;font:13px sans-serif",
-                        htmltools::tags$tr(lapply(names(table), htmltools::tags$th, style = cell)),
-                        rows)
+#' What each column of the table of curves means, with its unit
+#' @noRd
+curve_meanings <- function(unit) {
+  list(
+    kind = "ridge or valley: found by curvature; plane: shortest plane cut between its landmarks",
+    length = sprintf("arc length (%s)", unit),
+    strength = sprintf("mean curvature of the kind sought along the curve (1 / %s)", unit),
+    se = sprintf("median standard error of the curve's place, across it (%s)", unit),
+    competing = "how good the best other path is, as a share of the one chosen; near 1 is doubtful",
+    converged = "whether the search for the curve came to an end",
+    reason = "why a curve is not there, or what had to be done without"
+  )
 }
 
 # One row a curve: what it is, how long, how strong, how sure.

@@ -15,9 +15,10 @@
 #' @param labels For "scores": whether to write the names of the specimens.
 #' @param ellipse For "scores": share of a normal distribution inside the ellipse of each group,
 #'   such as 0.95. 0: no ellipses. A group of two has no ellipse.
-#' @param view,... For "shapes", as in [draw_surface()]. For "scores", passed to
-#'   [graphics::plot.default()].
-#' @return Invisibly: the scores that are drawn (n x 2 matrix), or a list of the two scenes.
+#' @param view,... For "shapes", as in [draw_surface()], `engine` too ("rgl" draws as "picture"). For
+#'   "scores", passed to [graphics::plot.default()].
+#' @return Invisibly: the scores that are drawn (n x 2 matrix), or a list of the two scenes. With
+#'   `engine = "widget"` one scene.
 #' @template glossary
 #' @seealso [shape_pca()], [write_pca_page()]
 #' @examples
@@ -38,7 +39,7 @@ plot.shape_pca <- function(x, what = c("scores", "shapes"),
   for (one in component) check_number(one, "component", 1, length(x$sdev))
   drawn <- if (what == "scores") plot_scores(x, component, group, colour, labels, ellipse, ...) else
     plot_ends(x, component[1], colour, sd, view, ...)
-  invisible(drawn)
+  shown(drawn)
 }
 
 plot_scores <- function(pca, component, group, colour, labels, ellipse, ...) {
@@ -85,17 +86,24 @@ normal_ellipse <- function(xy, share, n = 100) {
   t(axes %*% rbind(cos(turn), sin(turn)) + colMeans(xy))
 }
 
-plot_ends <- function(pca, component, colour, sd, view, ...) {
+plot_ends <- function(pca, component, colour, sd, view, ..., engine = drawing_engine()) {
   view <- posed_view(view, pca$mean)
+  engine <- check_engine(engine)
+  if (engine == "rgl") engine <- "picture"
   if (is.null(pca$triangles)) {
     shapes <- lapply(c(0, -sd, sd), function(at) shape_at(pca, component, at))
     names(shapes) <- c("mean", sprintf("%+g sd", c(-sd, sd)))
     title <- sprintf("PC%d (%.0f %%)", component, 100 * pca$share[component])
-    return(plot_configurations(
-      shapes, pca$level, c("grey70", rep_len(colour, 2)), view, TRUE, title
-    ))
+    draw <- if (engine == "widget") configurations_scene else plot_configurations
+    return(draw(shapes, pca$level, c("grey70", rep_len(colour, 2)), view, TRUE, title))
   }
   meshes <- lapply(c(-sd, sd), function(at) shape_at(pca, component, at, "mesh"))
+  if (engine == "widget") {
+    names(meshes) <- sprintf("%+g sd", c(-sd, sd))
+    scene <- widget_overlay(beside(meshes, view), rep_len(colour, 2), 1, view, ...)
+    return(draw_title(scene, sprintf("PC%d (%.0f %%), %+g sd and %+g sd", component,
+                                     100 * pca$share[component], -sd, sd)))
+  }
   around <- t(do.call(cbind, lapply(meshes, function(mesh) mesh$vb[1:3, ])))
   old <- graphics::par(mfrow = c(1, 2), mar = c(0.5, 0.5, 2, 0.5))
   on.exit(graphics::par(old))
@@ -108,24 +116,36 @@ plot_ends <- function(pca, component, colour, sd, view, ...) {
   }, meshes, c(-sd, sd), rep_len(colour, 2))
 }
 
+#' Two meshes moved apart across the direction of view
+#' @noRd
+beside <- function(meshes, view, gap = 0.1) {
+  across <- view_rotation(view)[1, ]
+  reach <- range(unlist(lapply(meshes, function(mesh) across %*% mesh$vb[1:3, ])))
+  Map(function(mesh, shift) {
+    mesh$vb[1:3, ] <- mesh$vb[1:3, ] + shift * (1 + gap) * diff(reach) * across
+    mesh
+  }, meshes, c(-0.5, 0.5))
+}
+
 #' Write a page with a slider for every principal component
 #'
-#' Writes one self-contained HTML file. For each component it shows the turning mean surface, and a
-#' slider that moves it along the component.
+#' Writes one self-contained HTML file. For each component it shows the turning mean, and a slider
+#' that moves it along the component. A level with triangles is shown as a surface, curves as tubes,
+#' landmarks as balls.
 #'
-#' @param x A `shape_pca` of a level with a surface.
+#' @param x A `shape_pca`.
 #' @template page-file
 #' @param component Numbers of the components.
 #' @param sd Range of the sliders on either side of the mean, in standard deviations.
-#' @param colour Colour of the surface.
+#' @param colour Colour of the surface, tubes or balls.
 #' @template page-title
 #' @param size Width and height of each picture, two numbers, in pixels of the browser.
 #' @param view First direction of view, as in [draw_surface()].
 #' @param selfcontained As in [write_page()].
 #' @param ... `pca`, the former name of `x`.
 #' @return The path of the file, invisibly.
-#' @section Errors: of class `crestline_error`: the level has no surface, there is no such
-#'   component, or the folder of the file does not exist.
+#' @section Errors: of class `crestline_error`: there is no such component, or the folder of the file
+#'   does not exist.
 #' @template glossary
 #' @examplesIf requireNamespace("htmltools", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(2)
@@ -158,11 +178,12 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
   sd <- check_number(sd, "sd", lower = 0, open = TRUE)
   blocks <- lapply(component, component_block, x, sd, colour, size, view)
   tags <- htmltools::tags
-  page <- tags$div(
-    style = "font-family:sans-serif;margin:20px", tags$head(tags$title(title)), tags$h2(title),
-    tags$p(sprintf("%d specimens, %d points (%s). ", nrow(x$x), nrow(x$mean), x$level),
-           sprintf("Sliders: standard deviations from the mean, -%g to %g.", sd, sd)),
-    tags$div(style = "display:flex;flex-wrap:wrap;gap:16px", blocks), provenance_block(x$provenance)
+  page <- page_document(
+    title, tags$div(class = "blocks", blocks),
+    lead = tags$p(sprintf(paste("%d specimens, %d points (%s). The sliders move the mean by -%g to",
+                                "%g standard deviations of a component."),
+                          nrow(x$x), nrow(x$mean), x$level, sd, sd)),
+    provenance = x$provenance
   )
   save_page(page, file, selfcontained)
   invisible(file)
@@ -171,31 +192,64 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
 #' One component's scene with its slider
 #' @noRd
 component_block <- function(component, pca, sd, colour, size, view) {
-  rgl::open3d(useNULL = TRUE)
-  device <- rgl::cur3d()
-  on.exit(rgl::close3d(device))
-  scene <- draw_surface(shape_at(pca, component, 0, "mesh"), colour, view, "rgl")
-  stops <- c(-sd, 0, sd)
-  values <- t(vapply(stops, function(at) {
-    mesh <- shape_at(pca, component, at, "mesh")
-    c(t(mesh$vb[1:3, ]), t(mesh$normals[1:3, ]))
-  }, numeric(6 * ncol(shape_at(pca, component, 0, "mesh")$vb))))
-  vertices <- rep(seq_len(ncol(values) / 6), 6)
-  attributes <- rep(c("x", "y", "z", "nx", "ny", "nz"), each = ncol(values) / 6)
-  id <- paste0("crestline-pc", component)
-  control <- rgl::vertexControl(
-    value = 0, values = values, vertices = vertices, attributes = attributes, objid = scene$ids[1],
-    param = stops
-  )
-  steps <- seq(-sd, sd, length.out = 61)
-  player <- rgl::playwidget(
-    id, control, start = -sd, stop = sd, step = sd / 30, components = c("Slider", "Label"),
-    labels = sprintf("%+.1f", steps)
-  )
-  # It begins at the mean.
-  player$x$value <- 0
+  moving <- moving_parts(pca, component, sd, colour)
+  scene <- new_widget_scene(points_frame(with_depth(pca$mean)), view_rotation(view),
+                            widget_settings(size, triangles = max(1, ncol(moving$mesh$it))))
+  add_surface(in_layer(scene, moving$layer), moving$mesh, moving$colour)
+  scale <- scene$drawn$frame$scale
+  flat <- function(x) as.list(signif(as.vector(t(x)), 5))
+  scene$drawn$moves <- list(by = flat(scale * moving$by), normals = flat(moving$turns),
+                            layer = moving$layer)
   tags <- htmltools::tags
-  tags$div(tags$h4(style = "margin:4px 0",
-                   sprintf("PC%d, %.1f %% of the variance", component, 100 * pca$share[component])),
-           rgl::rglwidget(width = size[1], height = size[2], elementId = id), player)
+  slider <- tags$label(
+    class = "slider", sprintf("PC%d", component),
+    tags$input(type = "range", min = -sd, max = sd, step = sd / 30, value = 0), tags$output("0 sd")
+  )
+  tags$section(class = "component",
+               tags$h2(sprintf("PC%d, %.1f %% of the variance", component,
+                               100 * pca$share[component])),
+               widget_html(scene, paste0("crestline-pc", component)), slider)
+}
+
+#' The mean as triangles, and how far each vertex and normal moves for one standard deviation
+#'
+#' Surfaces are themselves; curves are tubes, other points balls.
+#'
+#' @return List: `mesh`, `colour`, `by` and `turns` (a row a vertex), `layer`.
+#' @noRd
+moving_parts <- function(pca, component, sd, colour) {
+  if (!is.null(pca$triangles)) {
+    ends <- lapply(c(-sd, 0, sd), function(at) shape_at(pca, component, at, "mesh"))
+    moved <- function(field) t(ends[[3]][[field]][1:3, ] - ends[[1]][[field]][1:3, ]) / (2 * sd)
+    return(list(mesh = ends[[2]], colour = colour, by = moved("vb"), turns = moved("normals"),
+                layer = pca$level))
+  }
+  mean <- with_depth(shape_at(pca, component, 0))
+  by <- (with_depth(shape_at(pca, component, sd)) - mean) / sd
+  radius <- sqrt(sum(apply(mean, 2, function(v) diff(range(v)))^2)) / 200
+  rows <- curve_rows(rownames(mean), pca$level)
+  parts <- if (length(rows)) lapply(rows, function(own) tube_of(mean, own, radius)) else {
+    lapply(seq_len(nrow(mean)), function(own) ball_at(mean, own, 2 * radius))
+  }
+  before <- c(0, cumsum(vapply(parts, function(one) nrow(one$xyz), 0L)))
+  it <- do.call(rbind, lapply(seq_along(parts), function(i) parts[[i]]$it + before[i]))
+  of <- function(field) do.call(rbind, unname(lapply(parts, `[[`, field)))
+  mesh <- structure(list(vb = rbind(t(of("xyz")), 1), it = t(it), normals = t(of("normals"))),
+                    class = "mesh3d")
+  row <- unlist(lapply(parts, `[[`, "row"))
+  list(mesh = mesh, colour = colour, by = by[row, , drop = FALSE],
+       turns = matrix(0, length(row), 3), layer = pca$level)
+}
+
+tube_of <- function(xyz, own, radius, sides = 6) {
+  if (length(own) < 2) return(ball_at(xyz, own, radius))
+  tube <- tube_around(xyz[own, , drop = FALSE], radius, sides)
+  c(tube[c("xyz", "it", "normals")], list(row = rep(own, each = sides)))
+}
+
+ball_at <- function(xyz, own, radius) {
+  ball <- Rvcg::vcgSphere(2)
+  normals <- t(ball$vb[1:3, ])
+  list(xyz = sweep(radius * normals, 2, xyz[own, ], "+"), it = t(ball$it), normals = normals,
+       row = rep(own, nrow(normals)))
 }

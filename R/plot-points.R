@@ -51,6 +51,33 @@ plot_configurations <- function(shapes, level, colour, view, legend, title) {
   invisible(seen)
 }
 
+#' A scene without a surface, that holds configurations
+#'
+#' @param more Dots of `draw_surface()`.
+#' @noRd
+configuration_scene <- function(shapes, view, more) {
+  all <- with_depth(do.call(rbind, unname(shapes)))
+  new_widget_scene(points_frame(all), view_rotation(view),
+                   do.call(settings_of, c(list("widget"), more), quote = TRUE))
+}
+
+#' Configurations over each other as such a scene, each a layer
+#' @noRd
+configurations_scene <- function(shapes, level, colour, view, legend, title, ...) {
+  scene <- configuration_scene(shapes, view, list(...))
+  colour <- rep_len(colour, length(shapes))
+  for (i in seq_along(shapes)) {
+    in_layer(scene, names(shapes)[i])
+    xyz <- with_depth(shapes[[i]])
+    rows <- curve_rows(rownames(xyz), level)
+    for (own in rows) draw_lines(scene, xyz[own, , drop = FALSE], colour[i], 2)
+    draw_points(scene, xyz, colour[i], if (length(rows)) 0.5 else 1,
+                name = if (!is.null(rownames(xyz))) paste0(rownames(xyz), ", ", names(shapes)[i]))
+  }
+  if (legend) draw_key(scene, stats::setNames(colour, names(shapes)))
+  draw_title(scene, title)
+}
+
 #' Plot an alignment
 #'
 #' Draws all specimens over their mean. The farthest are coloured and named.

@@ -44,6 +44,7 @@ plotted_instead <- c(
   slide_settings = "Plot the sample that was slid with them: plot(sample).",
   study_settings = "Plot columns of the study, a data frame.",
   summary_shape_pca = "Plot the components: plot(pca).",
+  widget_scene = "Print it; add to it by draw_lines() and draw_points().",
   visit_comparison = "Plot the shapes of the two visits: plot(shape).",
   visit_settings = "Plot the shapes of the two visits: plot(shape)."
 )
@@ -89,6 +90,7 @@ plotted_instead <- c(
 #' S3method(plot,slide_settings,refuse_plot)
 #' S3method(plot,study_settings,refuse_plot)
 #' S3method(plot,visit_comparison,refuse_plot)
+#' S3method(plot,widget_scene,refuse_plot)
 #' S3method(plot,visit_settings,refuse_plot)
 #' S3method(plot,summary_shape_pca,refuse_plot)
 #' @noRd

@@ -14,8 +14,8 @@
 #' @param surface With a specimen: quantity that its colours show, as `colour` of [plot.specimen()].
 #'   For the shape's own surface: one colour; a colour or a number for each surface point, or for
 #'   each vertex of [shape_mesh()]; or "patch" for one colour for each patch. Numbers have a scale
-#'   of colours in the right margin ("picture" only).
-#' @param legend Whether to draw the scale of colours and the key of the curves ("picture" only).
+#'   of colours in the right margin (not by "rgl").
+#' @param legend Whether to draw the scale of colours and the key of the curves (not by "rgl").
 #' @param engine,view As in [plot.specimen()] and [draw_surface()].
 #' @param ... Further arguments, each with a default:
 #'   * `band`: whether to draw the bands (TRUE);
@@ -39,7 +39,7 @@
 #' @export
 plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colours,
                        surface = if (is.null(specimen)) "#E3CDB8" else "shape index",
-                       legend = TRUE, engine = if (interactive()) "rgl" else "picture",
+                       legend = TRUE, engine = drawing_engine(),
                        view = "front", ...) {
   check_class(x, "shape", "x", "fit_shape()")
   view <- posed_view(view, coords(x, "landmarks"), x$scheme)
@@ -60,16 +60,16 @@ plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colour
                      quote = TRUE)
   }
   patch <- x$points[x$points$level == "surface" & !is.na(x$points$x), ]
-  if (look$patches && !is.null(specimen) &&
-      nrow(patch)) scene <- draw_points(scene, patch, "white", 0.35, "#40404080")
+  if (look$patches && !is.null(specimen) && nrow(patch)) {
+    scene <- draw_points(in_layer(scene, "surface points"), patch, "white", 0.35, "#40404080",
+                         name = paste(patch$part, patch$point))
+  }
   scene <- draw_shape_curves(scene, x, if (look$band) specimen, colour, look$width, look$points)
   marks <- coords(x, "landmarks")
-  scene <- draw_points(scene, marks[!is.na(marks[, 1]), , drop = FALSE], "black", halo = "white")
-  if (legend && engine == "picture" && !is.null(specimen)) {
-    on_scene(scene, graphics::legend("bottomleft", names(colour), col = colour, lwd = look$width,
-                                     bty = "n", cex = 0.8))
-  }
-  invisible(scene)
+  scene <- draw_points(in_layer(scene, "landmarks"), marks[!is.na(marks[, 1]), , drop = FALSE],
+                       "black", halo = "white")
+  if (legend && !is.null(specimen)) draw_key(scene, unlist(colour), width = look$width)
+  shown(scene)
 }
 
 #' How the curves and points of a shape look
@@ -96,10 +96,13 @@ draw_shape_curves <- function(scene, x, specimen, colour, width, points) {
       s <- arc_lengths_on(path, columns_of(own)[, 1:3, drop = FALSE],
                           1e-6 * mesh_diagonal(specimen$mesh))
       on_curve <- list(path = path, points = data.frame(s = s, se = own$se)[!is.na(s), ])
-      scene <- draw_curve_band(scene, on_curve, specimen$mesh, paint)
+      scene <- draw_curve_band(in_layer(scene, "bands of error"), on_curve, specimen$mesh, paint)
     }
-    scene <- draw_lines(scene, path, paint, width, halo = "white")
-    if (points) scene <- draw_points(scene, own, paint, 0.28 * width, "white")
+    scene <- draw_lines(in_layer(scene, "curves"), path, paint, width, halo = "white", name = name)
+    if (points) {
+      scene <- draw_points(in_layer(scene, "points of curves"), own, paint, 0.28 * width, "white",
+                           name = paste(name, own$point))
+    }
   }
   scene
 }
@@ -107,14 +110,16 @@ draw_shape_curves <- function(scene, x, specimen, colour, width, points) {
 #' The surface of a shape, with the scale of its colours where these stand for numbers
 #' @noRd
 draw_values <- function(model, surface, edges, engine, view, legend, ...) {
-  scaled <- legend && engine == "picture" && is.numeric(surface) && any(is.finite(surface))
+  scaled <- legend && is.numeric(surface) && any(is.finite(surface))
   if (!scaled) return(draw_model(model, surface, edges, engine, view, ...))
-  old <- graphics::par(mar = c(0.5, 0.5, 0.5, 6))
-  on.exit(graphics::par(old))
+  if (engine == "picture") {
+    old <- graphics::par(mar = c(0.5, 0.5, 0.5, 6))
+    on.exit(graphics::par(old))
+  }
   scene <- draw_model(model, surface, edges, engine, view, ...)
   limits <- range(surface[is.finite(surface)])
   if (limits[2] <= limits[1]) limits <- limits[1] + 0:1
-  on_scene(scene, map_legend(grDevices::hcl.colors(11, "Viridis"), limits))
+  map_legend(scene, grDevices::hcl.colors(11, "Viridis"), limits)
 }
 
 #' The surface of a shape with the edges of its triangles
@@ -130,7 +135,7 @@ draw_model <- function(mesh, colour, edges, engine, view, ..., inside = "#8C7F76
   } else {
     draw_surface(mesh, colour, view, engine, ...)
   }
-  if (is.na(edges)) scene else draw_edges(scene, mesh, edges, 0.5)
+  if (is.na(edges)) scene else draw_edges(in_layer(scene, "triangles"), mesh, edges, 0.5)
 }
 
 #' The edges of the triangles of a mesh, each once

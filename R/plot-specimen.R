@@ -13,12 +13,12 @@
 #' @param radius Radius of the curvature for "shape index" and "curvature", in the unit of the mesh.
 #'   The default, 1/25 of the diagonal of the mesh's bounding box, is about 10 mm on a face. Or the
 #'   [curvature()] of the specimen's mesh, if you have it (also as `curvature`).
-#' @param engine "rgl" for an interactive scene, "picture" for base graphics on the current device.
-#'   See [draw_surface()].
+#' @param engine "widget" for a scene that turns in the browser, "picture" for base graphics on the
+#'   current device, "rgl" for rgl's window. See [draw_surface()].
 #' @param view Direction of view, see [draw_surface()]: from the front of the face, if it has face
 #'   landmarks.
 #' @param landmarks Whether to draw the landmarks.
-#' @param legend Whether to draw the scale of colours ("picture" only).
+#' @param legend Whether to draw the scale of colours (not by "rgl").
 #' @param main Title.
 #' @param ... `labels`: whether to write the names of the landmarks (TRUE by default for
 #'   "refinement" only). Arguments of [draw_surface()], and further arguments of "placing" and
@@ -30,7 +30,8 @@
 #'     ones are green, doubtful ones red, and predicted ones blue. Predicted landmarks off the scan
 #'     are not drawn. Further argument `least`: the least confidence of a landmark that is not
 #'     doubtful (0 to 1, 0.5 by default). Further argument `views`: directions of view, as angles in
-#'     radians towards the subject's left (`c(-0.7, 0, 0.7)` by default). Of the arguments above
+#'     radians towards the subject's left (`c(-0.7, 0, 0.7)` by default; a widget is one scene, from
+#'     the front). Of the arguments above
 #'     only those of [draw_surface()] have an effect.
 #'   * `"refinement"`: the landmarks of [refine_landmarks()]. Given ones are black, their defined
 #'     places orange, with lines between. Of the arguments above `view`, `labels` and `main` have an
@@ -41,8 +42,9 @@
 #'     of the lines. `angles` are those of the planes about the axis, in radians, as in
 #'     [plane_path()]. The default of `angles` is `c(-pi / 6, 0, pi / 6)`. `colour` is "plain" by
 #'     default.
-#' @return Invisibly: the scene of [draw_surface()], for [draw_lines()] and similar functions.
-#'   "placing": the specimen. "cuts": a list with a `mesh_path` for each angle that has a path.
+#' @return The scene of [draw_surface()], for [draw_lines()] and similar functions; invisibly, if it
+#'   is not a widget. With another engine than "widget": for "placing" the specimen, for "cuts" a list
+#'   with a `mesh_path` for each angle that has a path.
 #' @section Errors: of class `crestline_error`: the landmarks were not found by [find_landmarks()]
 #'   ("placing") or not refined ("refinement"); no cut joins the two landmarks ("cuts").
 #' @section Warnings: of class `crestline_warning`: some cuts end at a border of the mesh, and are
@@ -63,7 +65,7 @@
 #' @export
 plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "plain"),
                           radius = mesh_diagonal(x$mesh) / 25,
-                          engine = if (interactive()) "rgl" else "picture", view = "front",
+                          engine = drawing_engine(), view = "front",
                           landmarks = TRUE, legend = TRUE, main = NULL, ...,
                           what = c("surface", "placing", "refinement", "cuts")) {
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
@@ -73,8 +75,8 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   curvature <- if (inherits(radius, "curvature")) radius else given[["curvature"]]
   more <- given[!names(given) %in% c("labels", "curvature")]
   with_more <- function(f, ...) do.call(f, c(list(...), more), quote = TRUE)
-  if (what == "placing") return(with_more(draw_placing, x))
-  if (what == "refinement") return(with_more(draw_refinement, x, view, labels, main))
+  if (what == "placing") return(with_more(draw_placing, x, engine = engine))
+  if (what == "refinement") return(with_more(draw_refinement, x, view, labels, main, engine = engine))
   if (missing(colour) && what == "cuts") colour <- "plain"
   colour <- check_choice(colour, surface_choices, "colour")
   if (what == "cuts") {
@@ -83,7 +85,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   }
   check_flags(landmarks, labels, legend)
   main <- check_text(main, "main", null = TRUE)
-  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  engine <- check_engine(engine)
   scale <- specimen_scale(x, colour, shown_curvature(x, colour, curvature, radius))
   legend <- legend && !is.null(scale$ramp)
   if (engine == "picture") {
@@ -92,17 +94,16 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   }
   scene <- with_more(draw_surface, x$mesh, scale$colours, posed_view(view, x$landmarks), engine)
   if (landmarks) scene <- draw_landmarks(scene, x$landmarks, labels)
-  if (engine == "picture") {
-    graphics::title(main)
-    if (legend) colour_bar(scale$ramp, scale$at, scale$labels, title = scale$title)
-  }
-  invisible(scene)
+  draw_title(scene, main)
+  if (legend) draw_bar(scene, scale$ramp, scale$at, scale$labels, scale$title)
+  shown(scene)
 }
 
 draw_landmarks <- function(scene, landmarks, labels) {
   placed <- landmarks[stats::complete.cases(landmarks), , drop = FALSE]
   if (!nrow(placed)) return(scene)
-  draw_points(scene, placed, "black", halo = "white", labels = if (labels) rownames(placed))
+  draw_points(in_layer(scene, "landmarks"), placed, "black", halo = "white",
+              labels = if (labels) rownames(placed), name = rownames(placed))
 }
 
 #' The curvature that colours show: the given one, after a check, or computed
@@ -111,26 +112,4 @@ shown_curvature <- function(x, colour, given, radius, call = rlang::caller_env()
   if (!is.null(given)) check_curvature_on(given, x)
   if (!is.null(given) || !colour %in% c("shape index", "curvature")) return(given)
   curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE, call = call))
-}
-
-# An upright bar of colours in the right margin, from the first at the bottom; labels at shares `at`
-# of its height; what they are above it.
-colour_bar <- function(ramp, at, labels, share = 0.6, width = 0.8, title = NULL) {
-  line <- diff(graphics::grconvertX(0:1, "lines", "user"))
-  usr <- graphics::par("usr")
-  left <- usr[2] + 0.3 * line
-  middle <- mean(usr[3:4])
-  half <- share * (usr[4] - usr[3]) / 2
-  old <- graphics::par(xpd = NA)
-  on.exit(graphics::par(old))
-  graphics::rasterImage(as.matrix(rev(ramp)), left, middle - half, left + width * line,
-                        middle + half)
-  graphics::rect(left, middle - half, left + width * line, middle + half, border = "grey40",
-                 lwd = 0.5)
-  graphics::text(left + width * line, middle - half + 2 * half * at, labels, pos = 4, offset = 0.3,
-                 cex = 0.75)
-  if (!is.null(title)) {
-    graphics::text(left, middle + half + 0.4 * line, paste(strwrap(title, 12), collapse = "\n"),
-                   adj = c(0, 0), cex = 0.75)
-  }
 }

@@ -12,8 +12,8 @@
 #' @param ... `limits` and `palette`: range of the colours (two numbers, in the unit of the meshes),
 #'   and colours; `length_unit`: name of the unit of lengths, for the legend; arguments of
 #'   [draw_surface()].
-#' @return Invisibly: the scene of [draw_surface()], or without triangles a data frame of the drawn
-#'   points.
+#' @return The scene of [draw_surface()], or without triangles and with another engine than "widget" a
+#'   data frame of the drawn points; invisibly, if it is not a widget.
 #' @section Errors: of class `crestline_error`: there is no such level.
 #' @template glossary
 #' @seealso [symmetry_parts()], [plot.group_comparison()]
@@ -30,11 +30,11 @@
 #' plot(parts, engine = "picture")
 #' @export
 plot.symmetry_parts <- function(x, what = c("directional", "symmetric", "asymmetric"), level = NULL,
-                                engine = if (interactive()) "rgl" else "picture", view = "front",
+                                engine = drawing_engine(), view = "front",
                                 legend = TRUE, main = NULL, ...) {
   validate(x)
   what <- check_choice(what, c("directional", "symmetric", "asymmetric"), "what")
-  engine <- check_choice(engine, c("rgl", "picture"), "engine")
+  engine <- check_engine(engine)
   given <- map_arguments(...)
   level <- level_of_map(x$symmetric, level, TRUE)
   one <- x[[if (what == "asymmetric") "asymmetric" else "symmetric"]][[level]]
@@ -56,6 +56,6 @@ plot.symmetry_parts <- function(x, what = c("directional", "symmetric", "asymmet
   words <- sprintf(switch(what, directional = "directional asymmetry (%s)",
                           symmetric = "symmetric variation (%s), root mean square",
                           asymmetric = "fluctuating asymmetry (%s), root mean square"), level)
-  invisible(draw_map(points, value, signed, one$triangles, if (is.null(main)) words else main,
-                     given, engine, view, legend))
+  shown(draw_map(points, value, signed, one$triangles, if (is.null(main)) words else main, given,
+                 engine, view, legend))
 }

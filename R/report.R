@@ -105,11 +105,6 @@ png_address <- function(file) {
   paste0("data:image/png;base64,", gsub("\n", "", jsonlite::base64_enc(bytes), fixed = TRUE))
 }
 
-report_text <- function(name) {
-  file <- system.file("report", name, package = "crestline", mustWork = TRUE)
-  paste(readLines(file, encoding = "UTF-8", warn = FALSE), collapse = "\n")
-}
-
 #' @param styles Names of style sheets of the package.
 #' @noRd
 write_report <- function(page, title, file, styles = "quality.css") {

@@ -2,3 +2,9 @@
 # once():
 # no session waits for it.
 if (nzchar(system.file("extdata", "face_scheme", package = "crestline"))) face_scheme()
+
+# Where there is no display rgl would warn twice that it has none; the other engines need none.
+.onLoad <- function(libname, pkgname) {
+  display <- nzchar(Sys.getenv("DISPLAY")) || .Platform$OS.type == "windows"
+  if (!display && is.null(getOption("rgl.useNULL"))) options(rgl.useNULL = TRUE)
+}

@@ -23,16 +23,33 @@ test_that("the page has a slider a component, which holds the shapes at its ends
   on.exit(unlink(file))
   expect_identical(basename(write_pca_page(pca, file, 1:2, sd = 2)), basename(file))
   html <- paste(readLines(file, warn = FALSE), collapse = "\n")
-  expect_equal(lengths(regmatches(html, gregexpr("\"type\":\"vertexSetter\"", html))), 2)
-  json <- regmatches(html, regexpr("\\{\"x\":\\{\"actions\".*?</script>", html, perl = TRUE))
-  player <- jsonlite::fromJSON(sub("</script>$", "", json), simplifyVector = TRUE)$x
-  expect_equal(player$value, 0)
-  values <- player$actions$values
-  if (is.list(values)) values <- values[[1]]
-  first <- as.vector(t(shape_at(pca, 1, -2, "mesh")$vb[1:3, ]))
-  expect_equal(as.vector(values[1, seq_along(first)]), first, tolerance = 1e-5)
+  expect_length(gregexpr("type=\"range\" min=\"-2\" max=\"2\"", html, fixed = TRUE)[[1]], 2)
+  expect_true(grepl("\"moves\":{\"by\":[", html, fixed = TRUE))
   expect_crestline_error(write_pca_page(pca, "x.txt"), "ends in .html")
-  expect_crestline_error(write_pca_page(shape_pca(align(posed_sample())), file), "triangles")
+})
+
+test_that("a slider's ends are the shapes at the ends, of surfaces, curves and points", {
+  pca <- stretched_balls()
+  moving <- moving_parts(pca, 1, 2, "wheat")
+  for (at in c(-2, 2)) {
+    expect_equal(t(moving$mesh$vb[1:3, ]) + at * moving$by, t(shape_at(pca, 1, at, "mesh")$vb[1:3, ]))
+  }
+  shapes <- simplify2array(lapply(1:6, function(i) cbind(0:4, (0:4)^2 * i / 10, i %% 2)))
+  rownames(shapes) <- c(paste("arc", 1:3), paste("bow", 1:2))
+  for (level in c("curves", "landmarks")) {
+    of_points <- shape_pca(align(shapes, level))
+    moving <- moving_parts(of_points, 1, 3, "wheat")
+    by <- (shape_at(of_points, 1, 3) - shape_at(of_points, 1, 0)) / 3
+    expect_equal(unique(round(moving$by, 9)), unique(round(by, 9)), ignore_attr = TRUE)
+    middle <- rowsum(t(moving$mesh$vb[1:3, ]), match(data.frame(t(round(moving$by, 9))),
+                                                     data.frame(t(round(by, 9)))))
+    count <- table(match(data.frame(t(round(moving$by, 9))), data.frame(t(round(by, 9)))))
+    expect_equal(unname(middle / as.vector(count)), unname(shape_at(of_points, 1, 0)),
+                 tolerance = 1e-6, ignore_attr = TRUE)
+  }
+  scene <- plot(pca, "shapes", engine = "widget")
+  expect_equal(drawn_layers(scene$drawn), c("-3 sd", "+3 sd"))
+  expect_s3_class(plot(of_points, "shapes", engine = "widget"), "widget_scene")
 })
 
 test_that("scores have labels and ellipses, and shapes without a surface are drawn as points", {
