@@ -17,3 +17,8 @@ points_frame <- function(xyz, diagonal = 200) {
 #' @noRd
 into_scene <- function(xyz, frame) sweep(xyz, 2, frame$middle) * frame$scale
 from_scene <- function(xyz, frame) sweep(xyz / frame$scale, 2, frame$middle, `+`)
+
+with_normals <- function(mesh) {
+  if (is.null(mesh$normals)) mesh$normals <- vertex_normals(mesh)
+  mesh
+}

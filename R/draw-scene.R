@@ -161,8 +161,3 @@ view_rotation <- function(view, call = rlang::caller_env()) {
         c(-sin(round) * sin(up), cos(up), -cos(round) * sin(up)),
         c(sin(round) * cos(up), sin(up), cos(round) * cos(up)))
 }
-
-with_normals <- function(mesh) {
-  if (is.null(mesh$normals)) mesh$normals <- vertex_normals(mesh)
-  mesh
-}
