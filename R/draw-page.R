@@ -33,7 +33,7 @@ page_section <- function(heading, ..., note = NULL) {
 #' @param meanings Named texts: what a column of the name is, with its unit.
 #' @return NULL without rows.
 #' @noRd
-page_table <- function(table, meanings = NULL, digits = 3) {
+column_table <- function(table, meanings = NULL, digits = 3) {
   if (is.null(table) || nrow(table) == 0) return(NULL)
   tags <- htmltools::tags
   numeric <- vapply(table, is.numeric, NA)

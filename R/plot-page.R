@@ -83,7 +83,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
     title, widget_html(scene, "crestline"),
     if (!is.null(caption)) htmltools::tags$p(caption),
     if (NROW(table)) page_section(if (inherits(curves, "shape")) "Curves of the shape" else "Curves",
-                                  page_table(table, curve_meanings(unit))),
+                                  column_table(table, curve_meanings(unit))),
     lead = page_lead(curves, x), provenance = of
   )
   save_page(page, file, selfcontained)

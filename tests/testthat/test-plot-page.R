@@ -40,11 +40,11 @@ test_that("the table has a row a curve, numbers shortened, names only where ther
   expect_equal(table$kind, c("ridge", "valley"))
   expect_equal(table$se, c(0.05, 0.05))
   expect_false("curve" %in% names(curve_table(list(equator_curve()))))
-  html <- as.character(page_table(data.frame(length = pi, x = NA), list(length = "in mm", y = "z")))
+  html <- as.character(column_table(data.frame(length = pi, x = NA), list(length = "in mm", y = "z")))
   expect_match(html, "3.14<", fixed = TRUE)
   expect_match(html, "<dd>in mm</dd>", fixed = TRUE)
   expect_no_match(html, "NA<|<dd>z")
-  expect_null(page_table(NULL))
+  expect_null(column_table(NULL))
 })
 
 test_that("a page needs a name that ends in .html and a folder", {
