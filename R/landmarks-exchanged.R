@@ -229,7 +229,13 @@ exchange_words <- function(found) {
 
 #' @noRd
 warn_exchanged <- function(found, id) {
-  if (found$mirrored) warn_mirrored(id)
+  if (found$mirrored) crestline_warn(
+    paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
+          "should be on the viewer's right (the subject's own left)."),
+    paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
+          "change the sign of x of mesh and landmarks."),
+    stage = "landmarks", id = id, class = "crestline_mirrored"
+  )
   groups <- exchange_words(found)
   if (!length(groups)) return(invisible())
   crestline_warn(
@@ -237,16 +243,6 @@ warn_exchanged <- function(found, id) {
     paste0("Look at them (plot() with labels = TRUE) and exchange their names: what ends on them ",
            "is elsewhere."),
     stage = "landmarks", id = id, class = "crestline_exchanged"
-  )
-}
-
-warn_mirrored <- function(id) {
-  crestline_warn(
-    paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
-          "should be on the viewer's right (the subject's own left)."),
-    paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
-          "change the sign of x of mesh and landmarks."),
-    stage = "landmarks", id = id, class = "crestline_mirrored"
   )
 }
 

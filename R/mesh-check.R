@@ -241,20 +241,18 @@ describe_topology <- function(mesh, topology, area) {
     }
     length(unique(loop)) - length(unique(topology$piece[(side - 1) %/% 3 + 1]))
   }
+  # How large the largest piece besides the main one is, in words; none of one piece
+  size <- sort(tabulate(topology$piece), decreasing = TRUE)
+  other_piece_words <- if (length(size) < 2) "" else {
+    sprintf("; the largest has %s of the triangles", per_cent(size[2] / length(topology$piece)))
+  }
   list(
     report_row("faces without area", sum(area == 0), "kept, so that no slit opens"),
     report_row("non-manifold edges", topology$nonmanifold_edges, "kept; they act as borders"),
     report_row("isolated pieces", topology$pieces - 1,
-               paste0("kept; no curve leaves its piece", other_piece_words(topology$piece))),
+               paste0("kept; no curve leaves its piece", other_piece_words)),
     report_row("holes", holes, "kept; see `bridge` of shape_settings()")
   )
-}
-
-# How large the largest piece besides the main one is, in words; none of one piece.
-other_piece_words <- function(piece) {
-  size <- sort(tabulate(piece), decreasing = TRUE)
-  if (length(size) < 2) return("")
-  sprintf("; the largest has %s of the triangles", per_cent(size[2] / length(piece)))
 }
 
 # Whether that `share` of the triangles, and so many at `least`, have no neighbour.

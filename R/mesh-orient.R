@@ -56,7 +56,17 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
   mesh <- with_topology(mesh)
   piece <- mesh$topology$piece
   normal <- face_normals(mesh)
-  out <- outwardness(mesh, piece, normal)
+  # For each piece the area-weighted mean of cos(normal, direction away from the mesh's centroid):
+  # positive outside a closed surface, and on the outer side of an open, mainly convex one. Unlike
+  # the signed volume a far rim counts no more than its area
+  corner <- face_corners(mesh)
+  middle <- (corner[[1]] + corner[[2]] + corner[[3]]) / 3
+  area <- row_lengths(normal)
+  away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin),
+                       each = nrow(middle))
+  cosine <- row_products(normal, away) / pmax(row_lengths(away), .Machine$double.xmin)
+  total <- pmax(rowsum(area, piece), .Machine$double.xmin)
+  out <- as.vector(rowsum(cosine, piece) / total)
   size <- tabulate(piece)
   unclear <- abs(out) < certainty
   out[unclear] <- if (unclear[which.max(size)]) 0 else out[which.max(size)]
@@ -71,20 +81,6 @@ turn_outward <- function(mesh, id, outward, certainty = 0.4) {
     )
   }
   mended(turn_faces(mesh, face), check, length(face), "turned round")
-}
-
-# For each piece the area-weighted mean of cos(normal, direction away from the mesh's centroid):
-# positive outside a closed surface, and on the outer side of an open, mainly convex one. Unlike
-# the signed volume a far rim counts no more than its area.
-outwardness <- function(mesh, piece, normal = face_normals(mesh)) {
-  corner <- face_corners(mesh)
-  middle <- (corner[[1]] + corner[[2]] + corner[[3]]) / 3
-  area <- row_lengths(normal)
-  away <- middle - rep(colSums(middle * area) / max(sum(area), .Machine$double.xmin),
-                       each = nrow(middle))
-  cosine <- row_products(normal, away) / pmax(row_lengths(away), .Machine$double.xmin)
-  total <- pmax(rowsum(area, piece), .Machine$double.xmin)
-  as.vector(rowsum(cosine, piece) / total)
 }
 
 # Three m x 3 matrices, the corners of the faces.

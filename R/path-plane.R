@@ -108,7 +108,8 @@ path_ends <- function(scan, exact, names, via = NULL, inside = 1e-6) {
     no_result(sprintf(said, names[1], names[2]), remedy, "path", scan$id, "crestline_path_error")
   }
   if (all(exact[1, 1:3] == exact[2, 1:3])) {
-    if (!is.null(via)) return(loop_ends(scan, exact, names, via))
+    if (!is.null(via)) return(list(scan = scan, exact = exact, names = names, via = via,
+                                   closed = TRUE))
     return(refuse("%s and %s are the same point.",
                   paste("Choose two different landmarks, or correct the one that was misplaced.",
                         "A closed ridge or valley has a `via`.")))
@@ -127,12 +128,6 @@ path_ends <- function(scan, exact, names, via = NULL, inside = 1e-6) {
   }
   list(scan = scan, from = from, to = to, exact = exact, names = names, via = via, closed = FALSE,
        axis = axis$axis, across = axis$across, span = axis$span)
-}
-
-#' The ends of a closed path: one place, and those on the way
-#' @noRd
-loop_ends <- function(scan, exact, names, via) {
-  list(scan = scan, exact = exact, names = names, via = via, closed = TRUE)
 }
 
 #' Normals of the planes at given angles, 3 x k

@@ -225,7 +225,18 @@ cut_optima <- function(measure, rate, search, weight = function(angle) 1, digits
   step <- pi / angles
   coarse <- measure(rep(-pi / 2 + step * seq_len(angles), 2), rep(0:1, each = angles))
   if (all(is.na(coarse$length))) return(data.frame())
-  rated <- rater(rate, search$longest * min(coarse$length, na.rm = TRUE), digits)
+  # A function that gives measured cuts, as a list, their criterion, and the rounded criterion and
+  # length they are compared by
+  limit <- search$longest * min(coarse$length, na.rm = TRUE)
+  rated <- function(found) {
+    allowed <- which(found$length <= limit)
+    criterion <- rep(NA_real_, length(found$length))
+    criterion[allowed] <- rate(frame_of(lapply(unclass(found), `[`, allowed)))
+    level <- signif(criterion, digits)
+    level[is.na(level)] <- -Inf
+    c(unclass(found)[c("angle", "side", "length")],
+      list(criterion = criterion, level = level, extent = signif(found$length, digits)))
+  }
   coarse <- rated(coarse)
   on_side <- split(seq_len(2 * angles), coarse$side)
   peaks <- unlist(lapply(on_side, function(side) {
@@ -244,21 +255,6 @@ cut_optima <- function(measure, rate, search, weight = function(angle) 1, digits
                      abs(all$angle[best]))]
   best <- best[!duplicated(round(cbind(all$angle, all$side)[best, , drop = FALSE], 6))]
   frame_of(lapply(all[c("angle", "side", "criterion", "length")], `[`, best))
-}
-
-#' A function that gives measured cuts, as a list, their criterion, and the rounded criterion and
-#' length they are compared by
-#' @noRd
-rater <- function(rate, limit, digits) {
-  function(found) {
-    allowed <- which(found$length <= limit)
-    criterion <- rep(NA_real_, length(found$length))
-    criterion[allowed] <- rate(frame_of(lapply(unclass(found), `[`, allowed)))
-    level <- signif(criterion, digits)
-    level[is.na(level)] <- -Inf
-    c(unclass(found)[c("angle", "side", "length")],
-      list(criterion = criterion, level = level, extent = signif(found$length, digits)))
-  }
 }
 
 #' Of some cuts the one with the greatest criterion, least length, smallest angle
@@ -328,7 +324,12 @@ warn_rival <- function(path, ends, id, rival = 0.05) {
   competing <- attr(path, "competing")
   if (!isTRUE(competing >= 1 - rival)) return(invisible())
   optima <- attr(path, "optima")
-  if (is.null(optima)) return(warn_rival_crest(competing, ends, id))
+  if (is.null(optima)) return(crestline_warn(
+    sprintf("another path from %s to %s costs nearly as little: %.3g of its cost.", ends[1],
+            ends[2], competing),
+    "Give a `via` on the right one, or rule the other out with keep_away() or keep_side().",
+    stage = "reference path", id = id, class = "crestline_rival_path"
+  ))
   share <- shares_of_first(optima, attr(path, "type"))
   two <- optima[c(1, setdiff(which(share == competing), 1)[1]), ]
   degrees <- two$angle * 180 / pi
@@ -336,17 +337,6 @@ warn_rival <- function(path, ends, id, rival = 0.05) {
     sprintf("two cuts from %s to %s are nearly as good: at %.0f and %.0f degrees (%.3g and %.3g).",
             ends[1], ends[2], degrees[1], degrees[2], two$criterion[1], two$criterion[2]),
     "Look at both with plane_path(); keep_away() or keep_side() rules one out.",
-    stage = "reference path", id = id, class = "crestline_rival_path"
-  )
-}
-
-#' The same for paths of least cost
-#' @noRd
-warn_rival_crest <- function(competing, ends, id) {
-  crestline_warn(
-    sprintf("another path from %s to %s costs nearly as little: %.3g of its cost.", ends[1],
-            ends[2], competing),
-    "Give a `via` on the right one, or rule the other out with keep_away() or keep_side().",
     stage = "reference path", id = id, class = "crestline_rival_path"
   )
 }

@@ -10,8 +10,20 @@ walked_line <- function(scan, coordinates, path, s, alpha) {
   at <- columns_of(path)
   ends <- path_ends(scan, at[c(1, nrow(at)), ], c(end_name(at[1, ]), end_name(at[nrow(at), ])))
   if (failed(ends)) return(ends)
-  level <- level_at_vertices(scan, coordinates, s, alpha, ends)
-  towards <- first_direction(scan, path, (alpha[2] - alpha[1]) / (s[2] - s[1]))
+  # d - alpha(s) at the vertices of the window, shifted to vanish at both ends
+  offset <- stats::splinefun(s, alpha, method = "natural")
+  own <- coordinates$d - offset(coordinates$s)
+  at_end <- function(end) sum(end[2:4] * own[match(scan$it[, end[1]], coordinates$vertex)])
+  share <- pmin(pmax(coordinates$s / max(s), 0), 1)
+  share[coordinates$vertex %in% scan$it[, ends$from[1]]] <- 0
+  share[coordinates$vertex %in% scan$it[, ends$to[1]]] <- 1
+  level <- own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
+  # Direction in which the curve leaves the first point: along the path and, by the slope, across
+  # it
+  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")]) - unlist(path[1, c("x", "y", "z")])
+  tangent <- tangent / sqrt(sum(tangent^2))
+  across <- cross_product(path_normals(scan, path[1, ])[, 1], tangent)
+  towards <- tangent + ((alpha[2] - alpha[1]) / (s[2] - s[1])) * across / sqrt(sum(across^2))
   walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1],
                            coordinates$vertex, level, towards)
   if (walked$end != "arrived") return(not_walked(walked$end, scan))
@@ -22,27 +34,6 @@ not_walked <- function(end, scan) {
   no_result(sprintf("the line cannot be walked over the mesh (it ends: %s).", end),
             "Give a smaller `width`, or use the plane cut.", "lift", scan$id,
             "crestline_path_error")
-}
-
-#' Direction in which the curve leaves the first point: along the path and, by the slope, across it
-#' @noRd
-first_direction <- function(mesh, path, slope) {
-  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")]) - unlist(path[1, c("x", "y", "z")])
-  tangent <- tangent / sqrt(sum(tangent^2))
-  across <- cross_product(path_normals(mesh, path[1, ])[, 1], tangent)
-  tangent + slope * across / sqrt(sum(across^2))
-}
-
-#' d - alpha(s) at the vertices of the window, shifted to vanish at both ends
-#' @noRd
-level_at_vertices <- function(surface, coordinates, s, alpha, ends) {
-  offset <- stats::splinefun(s, alpha, method = "natural")
-  own <- coordinates$d - offset(coordinates$s)
-  at_end <- function(end) sum(end[2:4] * own[match(surface$it[, end[1]], coordinates$vertex)])
-  share <- pmin(pmax(coordinates$s / max(s), 0), 1)
-  share[coordinates$vertex %in% surface$it[, ends$from[1]]] <- 0
-  share[coordinates$vertex %in% surface$it[, ends$to[1]]] <- 1
-  own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
 }
 
 #' A line about a closed path walked once round, or a failure
@@ -57,7 +48,11 @@ walked_loop <- function(scan, coordinates, s, alpha, tries = c(0, 0.31, 0.62, 0.
   level <- along <- rep(NaN, ncol(scan$vb))
   level[coordinates$vertex] <- coordinates$d - offset(coordinates$s)
   along[coordinates$vertex] <- coordinates$s
-  crossed <- crossed_faces(scan, level)
+  # Faces in which a level at the vertices changes its sign
+  known <- matrix(!is.nan(level)[scan$it], 3)
+  faces <- which(known[1, ] & known[2, ] & known[3, ])
+  positive <- colSums(matrix(level[scan$it[, faces]] >= 0, 3))
+  crossed <- faces[positive %in% 1:2]
   if (!length(crossed)) return(not_walked("nowhere near the path", scan))
   corners <- scan$it[, crossed, drop = FALSE]
   off <- matrix(abs(level[corners]), 3)
@@ -75,13 +70,4 @@ walked_loop <- function(scan, coordinates, s, alpha, tries = c(0, 0.31, 0.62, 0.
     if (attr(path, "length") > least * length) return(path)
   }
   not_walked(walked$end, scan)
-}
-
-#' Faces in which a level at the vertices changes its sign
-#' @noRd
-crossed_faces <- function(scan, level) {
-  known <- matrix(!is.nan(level)[scan$it], 3)
-  faces <- which(known[1, ] & known[2, ] & known[3, ])
-  positive <- colSums(matrix(level[scan$it[, faces]] >= 0, 3))
-  faces[positive %in% 1:2]
 }

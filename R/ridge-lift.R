@@ -52,44 +52,33 @@ lift <- function(specimen, coordinates, path, s, alpha) {
 
 #' A lifted line without checks, or a failure
 #'
+#' Where the line cannot be walked, a path through the places of the curve, joined by shortest plane
+#' cuts. The place of each (s, alpha) is in a triangle that holds it in (s, d); of several, the one
+#' nearest to the reference path. Those of a closed curve are put on the part of the mesh that is
+#' joined to the reference path.
 #' @param scan As of [walkable()].
 #' @noRd
 lifted_line <- function(scan, coordinates, path, s, alpha) {
   walked <- walked_line(scan, coordinates, path, s, alpha)
   # Ends that no path can join are no matter of the walk.
   if (!failed(walked) || walked$stage != "lift") return(walked)
-  if (is_closed(path)) return(loop_together(scan, path, s, alpha, attr(coordinates, "width")))
-  piece_together(scan, coordinates, path, s, alpha)
-}
-
-#' A path through the places of the curve, joined by shortest plane cuts
-#'
-#' The place of each (s, alpha) is in a triangle that holds it in (s, d); of several, the one
-#' nearest to the reference path.
-#' @noRd
-piece_together <- function(scan, coordinates, path, s, alpha) {
-  places <- places_in_plane(scan, coordinates, path, s, alpha)
-  if (is.null(places)) {
-    return(no_result("no triangle near the reference path holds the ridge line.",
+  if (!is_closed(path)) {
+    places <- places_in_plane(scan, coordinates, path, s, alpha)
+    if (is.null(places)) {
+      return(no_result("no triangle near the reference path holds the ridge line.",
                        "Give a smaller `width`, or use the plane cut.", "lift", scan$id,
                        "crestline_path_error"))
+    }
+    at <- columns_of(path)
+    return(cuts_between(scan, rbind(at[1, ], columns_of(places), at[nrow(at), ])))
   }
-  at <- columns_of(path)
-  cuts_between(scan, rbind(at[1, ], columns_of(places), at[nrow(at), ]))
-}
-
-#' A closed path through the places of the curve, joined by shortest plane cuts
-#'
-#' The places are put on the part of the mesh that is joined to the reference path.
-#' @noRd
-loop_together <- function(scan, path, s, alpha, width) {
   n <- length(s) - 1
   at <- place_along(scan, path, s[-1])
   xyz <- columns_of(at, c("x", "y", "z"))
   tangent <- xyz[c(2:n, 1), ] - xyz[c(n, seq_len(n - 1)), ]
   across <- cross_rows(t(path_normals(scan, at)), tangent)
   xyz <- xyz + alpha[-1] * across / row_lengths(across)
-  placed <- placed_beside(scan, xyz, loop_places(path), width)
+  placed <- placed_beside(scan, xyz, loop_places(path), attr(coordinates, "width"))
   joined <- cuts_between(scan, rbind(placed, placed[1, ]))
   if (!failed(joined)) attr(joined, "closed") <- TRUE
   joined

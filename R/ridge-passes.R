@@ -25,11 +25,14 @@ fit_passes <- function(scan, path, job) {
   job$mix <- min(1, job$kernel / (settings$mix * job$radius))
   if (job$mix > 0) window <- ridge_window(scan, path, job, job$mix)
   fit <- one_pass(scan, window, job, edge)
+  next_pass <- function(fit) {
+    one_pass(scan, ridge_window(scan, path_of_pass(fit), job, job$mix), job, fit$line$at_bound)
+  }
   if (!is.null(job$passes)) {
-    for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- next_pass(scan, fit, job)
+    for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- next_pass(fit)
     return(fit)
   }
-  second <- if (isTRUE(fit$found) && settings$second > 0) next_pass(scan, fit, job)
+  second <- if (isTRUE(fit$found) && settings$second > 0) next_pass(fit)
   if (!isTRUE(second$found)) return(fit)
   strength <- path_strength(job$source, job$type, job$regions, scan)
   second$share <- second_share(scan, fit, second, strength, job$kernel / job$radius, settings)
@@ -52,11 +55,9 @@ one_pass <- function(scan, window, job, edge) {
   with_curve(scan, window)
 }
 
-#' The pass about the curve of the one before
-#'
-#' @param job With `kernel` and `mix`, the share of the principal curvature in the strength.
+#' The curve of a pass as the path of the next one
 #' @noRd
-next_pass <- function(scan, fit, job) {
+path_of_pass <- function(fit) {
   path <- fit$path
   before <- fit$reference
   trusted <- attr(before, "trusted")
@@ -66,7 +67,7 @@ next_pass <- function(scan, fit, job) {
   for (name in c("type", "criterion", "optima", "competing")) {
     attr(path, name) <- attr(before, name)
   }
-  one_pass(scan, ridge_window(scan, path, job, job$mix), job, fit$line$at_bound)
+  path
 }
 
 #' A window with its line lifted onto the mesh

@@ -34,7 +34,11 @@ unlike_curves <- function(pairs, curves) {
     mirror[[column]] <- swap(curves[[column]], "landmarks")
   }
   mirror$via <- vapply(seq_len(nrow(curves)), function(i) {
-    mirrored_via(curves$via[i], pairs, mirrored_backwards(curves, pairs)[i])
+    # A cell of `via` with partners in place, in the order of the partner's curve
+    cell <- curves$via[i]
+    if (is.na(cell)) return(NA_character_)
+    stops <- partner_of(via_names(cell), pairs, "landmarks")
+    paste(if (mirrored_backwards(curves, pairs)[i]) rev(stops) else stops, collapse = " ")
   }, "")
   mirror$side_of <- swap(curves$side_of, "curves")
   mirror$side <- unname(c(left = "right", right = "left")[curves$side])
@@ -75,7 +79,8 @@ unlike_patches <- function(pairs, patches, curves) {
   own <- partner_of(patches$patch, pairs, "surface") == patches$patch
   alike <- Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]])))
   alone <- patches$patch[own & !alike]
-  turned <- bounded_by(patches, turned_loops(curves, pairs))
+  turned <- bounded_by(patches, curves$curve[closed_curves(curves) & mirrored_backwards(curves,
+                                                                                        pairs)])
   block <- ifelse(is.na(patches$block), "", paste0("|", patches$block))
   rbind(unlike_pairs(pairs, "surface", paste0(patches$patch, block), patches, mirror, columns),
         problem(rep(NA, length(alone)), "left",

@@ -89,7 +89,26 @@ scheme_points <- function(landmarks, curves, patches) {
   on_curve <- data.frame(
     part = rep(curves$curve, curves$n), point = unlist(lapply(curves$n, seq_len))
   )
-  surface <- lapply(seq_len(nrow(patches)), function(i) block_surface(patches[i, ], curves))
+  surface <- lapply(seq_len(nrow(patches)), function(i) {
+    block <- patches[i, ]
+    points <- block_points(block)
+    place <- paste("surface", points$part, points$point, sep = "|")
+    on_a <- ifelse(points$row == 1,
+                   side_places(points$column, block$curve_a, block$resample_a, curves), NA)
+    place <- first_not_na(on_a, place)
+    if (!is.na(block$curve_b)) {
+      on_b <- ifelse(points$row == block$rows,
+                     side_places(points$column, block$curve_b, block$resample_b, curves), NA)
+      place <- first_not_na(on_b, place)
+    }
+    if (!is.na(block$first_column)) {
+      resample <- if (nrow(side_points(block$first_column)) != block$rows) block$rows else NA
+      inside <- points$column == 1 & !points$row %in% c(1, block$rows)
+      place[inside] <- first_not_na(side_places(points$row, block$first_column, resample, curves),
+                                    place)[inside]
+    }
+    data.frame(level = "surface", part = points$part, point = points$point, place = place)
+  })
   rbind(
     data.frame(level = rep("landmarks", nrow(landmarks)), part = landmarks$landmark,
                point = rep("1", nrow(landmarks)),
@@ -99,26 +118,6 @@ scheme_points <- function(landmarks, curves, patches) {
                place = curve_places(on_curve$part, on_curve$point, curves)),
     do.call(rbind, surface)
   )
-}
-
-block_surface <- function(block, curves) {
-  points <- block_points(block)
-  place <- paste("surface", points$part, points$point, sep = "|")
-  on_a <- ifelse(points$row == 1,
-                 side_places(points$column, block$curve_a, block$resample_a, curves), NA)
-  place <- first_not_na(on_a, place)
-  if (!is.na(block$curve_b)) {
-    on_b <- ifelse(points$row == block$rows,
-                   side_places(points$column, block$curve_b, block$resample_b, curves), NA)
-    place <- first_not_na(on_b, place)
-  }
-  if (!is.na(block$first_column)) {
-    resample <- if (nrow(side_points(block$first_column)) != block$rows) block$rows else NA
-    inside <- points$column == 1 & !points$row %in% c(1, block$rows)
-    place[inside] <- first_not_na(side_places(points$row, block$first_column, resample, curves),
-                                  place)[inside]
-  }
-  data.frame(level = "surface", part = points$part, point = points$point, place = place)
 }
 
 first_not_na <- function(x, otherwise) ifelse(is.na(x), otherwise, x)

@@ -4,21 +4,6 @@
 #' @noRd
 via_names <- function(cell) if (is.null(cell) || is.na(cell)) character() else mirror_names(cell)
 
-#' Routes where a table leaves them empty: plane cuts, along the crest where there is a `via`
-#' @noRd
-with_routes <- function(curves) {
-  empty <- is.na(curves$path)
-  curves$path[empty] <- ifelse(is.na(curves$via[empty]), "plane", "crest")
-  curves
-}
-
-#' A scheme of a former version, whose curves all go by plane cuts
-#' @noRd
-routed_row <- function(row) {
-  if (is.null(row$path)) row[c("path", "via")] <- list("plane", NA_character_)
-  row
-}
-
 #' Problems of the columns `path` and `via`, and of closed curves
 #' @noRd
 check_routes <- function(curves, known) {
@@ -77,22 +62,6 @@ mirrored_backwards <- function(curves, pairs) {
 #' @noRd
 mirrored_points <- function(n, backwards, closed) {
   if (!backwards) seq_len(n) else if (closed) c(1, rev(seq_len(n)[-1])) else rev(seq_len(n))
-}
-
-#' A cell of `via` with partners in place, in the order of the partner's curve
-#'
-#' @param backwards Whether the partner runs the other way.
-#' @noRd
-mirrored_via <- function(cell, pairs, backwards) {
-  if (is.na(cell)) return(NA_character_)
-  stops <- partner_of(via_names(cell), pairs, "landmarks")
-  paste(if (backwards) rev(stops) else stops, collapse = " ")
-}
-
-#' Closed curves whose mirror images run backwards
-#' @noRd
-turned_loops <- function(curves, pairs) {
-  curves$curve[closed_curves(curves) & mirrored_backwards(curves, pairs)]
 }
 
 #' Patches with one of some curves among their bounding curves

@@ -12,7 +12,9 @@ scheme_triangles <- function(patches, strips, points) {
   each <- lapply(scheme_grids(patches, strips, points), function(one) {
     quad_triangles(one$grid, one$outward, one$part, one$group)
   })
-  do.call(rbind, c(list(no_triangles()), each))
+  do.call(rbind, c(list(data.frame(part = character(), group = character(), v1 = integer(),
+                                   v2 = integer(),
+                                   v3 = integer())), each))
 }
 
 #' The quads that [scheme_triangles()] cuts in two
@@ -49,11 +51,6 @@ scheme_grids <- function(patches, strips, points) {
          group = paste("strip", strip$strip[1]))
   })
   c(blocks, unname(ladders))
-}
-
-no_triangles <- function() {
-  data.frame(part = character(), group = character(), v1 = integer(), v2 = integer(),
-             v3 = integer())
 }
 
 #' Two triangles a quad of a grid, split from (c, r) to (c + 1, r + 1); those with a repeated corner

@@ -140,7 +140,12 @@ assembled_scheme <- function(tables, name, labels) {
                          scheme_columns[[table]])
     rows <- scheme_rows(table, typed$table)
     refuse_table(typed$problems, labels[[table]], rows)
-    refuse_table(scheme_problems(table, typed$table, scheme), labels[[table]], rows)
+    check <- switch(table, landmarks = check_scheme_landmarks, curves = check_scheme_curves,
+                    patches = check_scheme_patches, pairs = check_scheme_pairs,
+                    strips = check_scheme_strips,
+                    definitions = check_scheme_definitions, tracks = check_scheme_tracks)
+    scheme_problems <- check(typed$table, scheme)
+    refuse_table(scheme_problems, labels[[table]], rows)
     scheme[[table]] <- typed$table
   }
   scheme$curves <- with_defaults(scheme$curves)
@@ -200,14 +205,6 @@ validate_curve_scheme <- function(x) {
 #' @exportS3Method
 validate.curve_scheme <- function(x) validate_curve_scheme(x)
 
-scheme_problems <- function(which, table, scheme) {
-  check <- switch(which, landmarks = check_scheme_landmarks, curves = check_scheme_curves,
-                  patches = check_scheme_patches, pairs = check_scheme_pairs,
-                  strips = check_scheme_strips,
-                  definitions = check_scheme_definitions, tracks = check_scheme_tracks)
-  check(table, scheme)
-}
-
 #' What the rows of a table are called
 #' @noRd
 scheme_rows <- function(which, table) {
@@ -246,7 +243,10 @@ with_defaults <- function(curves) {
   curves$keep_away_extension <- fill(curves$keep_away_extension, region$extension, away)
   curves$trust_from <- fill(curves$trust_from, 0)
   curves$trust_to <- fill(curves$trust_to, 1)
-  with_routes(curves)
+  # Routes where a table leaves them empty: plane cuts, along the crest where there is a `via`
+  empty <- is.na(curves$path)
+  curves$path[empty] <- ifelse(is.na(curves$via[empty]), "plane", "crest")
+  curves
 }
 
 #' @rdname curve_scheme
@@ -285,7 +285,14 @@ print.curve_scheme <- function(x, ...) {
     if (crests) {
       line("routes: ", crests, " along a crest, of them ", sum(closed_curves(curves)), " closed")
     }
-    line("surface: ", surface_line(x))
+    place <- x$points$place[x$points$level == "surface"]
+    model <- x$triangles$part == "model"
+    surface_line <- paste0(amount(length(unique(x$patches$patch)), "patch", "patches"), " in ",
+                           amount(nrow(x$patches), "block"), ", ",
+                           amount(length(place), "point"), " at ", amount(length(unique(place)),
+                                                                          "place"), ", ",
+                           amount(sum(model), "triangle"), " and ", sum(!model), " on request")
+    line("surface: ", surface_line)
     if (nrow(x$definitions)) {
       line("landmarks with a definition: ", shorten(x$definitions$landmark, 30))
     }
@@ -296,15 +303,6 @@ print.curve_scheme <- function(x, ...) {
          paste(paired, c("of landmarks", "of curves", "of patches"), collapse = ", "))
     invisible(x)
   })
-}
-
-surface_line <- function(x) {
-  place <- x$points$place[x$points$level == "surface"]
-  model <- x$triangles$part == "model"
-  paste0(amount(length(unique(x$patches$patch)), "patch", "patches"), " in ",
-         amount(nrow(x$patches), "block"), ", ",
-         amount(length(place), "point"), " at ", amount(length(unique(place)), "place"), ", ",
-         amount(sum(model), "triangle"), " and ", sum(!model), " on request")
 }
 
 #' @rdname curve_scheme
@@ -378,13 +376,11 @@ scheme_hash <- function(scheme) {
   if (all(scheme$curves$path %in% "plane")) scheme$curves[c("path", "via")] <- NULL
   rlang::hash(lapply(unclass(scheme)[counted], function(table) {
     table <- as.list(table)
-    lapply(table[order(names(table), method = "radix")], plain_values)
+    lapply(table[order(names(table), method = "radix")], function(x) {
+      if (is.factor(x)) x <- as.character(x)
+      as.vector(if (is.character(x)) enc2utf8(x) else if (is.integer(x)) as.double(x) else x)
+    })
   }))
-}
-
-plain_values <- function(x) {
-  if (is.factor(x)) x <- as.character(x)
-  as.vector(if (is.character(x)) enc2utf8(x) else if (is.integer(x)) as.double(x) else x)
 }
 
 scheme_provenance <- function(scheme) list(name = scheme$name, hash = scheme_hash(scheme))

@@ -41,6 +41,13 @@ changed_settings <- function(settings, change, former = character(), noun = "set
   }
   unknown <- setdiff(names(change), names(settings))
   if (length(unknown) || (length(change) && is.null(names(change)))) {
+    # What to do about names that are columns of a scheme's curves, in words
+    own <- intersect(unknown, c("radius", "width", "n", "kind"))
+    scheme_column_words <- if (!length(own)) "" else {
+      sprintf(paste("`%s` belongs to the curves of a scheme: scheme <- face_scheme();",
+                    "scheme$curves$%s[scheme$curves$curve == \"...\"] <- ..., or is an argument of",
+                    "ridge_curve(). "), own[1], own[1])
+    }
     crestline_abort(
       sprintf("there is no %s %s.", noun,
               if (any(nzchar(unknown))) {
@@ -48,7 +55,7 @@ changed_settings <- function(settings, change, former = character(), noun = "set
               } else {
                 "without a name"
               }),
-      paste0(scheme_column_words(unknown),
+      paste0(scheme_column_words,
              sprintf("%ss are: %s.", tools::toTitleCase(noun),
                      paste(names(settings), collapse = ", "))),
       stage = "arguments", call = call
@@ -56,16 +63,6 @@ changed_settings <- function(settings, change, former = character(), noun = "set
   }
   settings[names(change)] <- change
   settings
-}
-
-#' What to do about names that are columns of a scheme's curves, in words
-#' @noRd
-scheme_column_words <- function(names) {
-  own <- intersect(names, c("radius", "width", "n", "kind"))
-  if (!length(own)) return("")
-  sprintf(paste("`%s` belongs to the curves of a scheme: scheme <- face_scheme();",
-                "scheme$curves$%s[scheme$curves$curve == \"...\"] <- ..., or is an argument of",
-                "ridge_curve(). "), own[1], own[1])
 }
 
 #' Settings with fields that a call gives as arguments of their own, as was usual formerly

@@ -23,7 +23,8 @@ shape_checks <- function(shape, scan, fits, faults, ends = 0.05, crumpled = 30, 
   places <- part_places(shape, fits, ncol(mesh$it), ends)
   bend <- cpp_face_bend(mesh$vb, mesh$normals, mesh$it)
   spiky <- list(vb = mesh$vb, it = mesh$it[, bend > crumpled, drop = FALSE])
-  damage <- list(border = border_places(scan), spike = face_centres(spiky))
+  damage <- list(border = t(scan$vb[1:3, border_vertices(scan$it, scan$twin), drop = FALSE]),
+                 spike = face_centres(spiky))
   checks <- data.frame(part = status$part, level = status$level, missing = missing_share(shape),
                        determined = NA,
                        cut = NA_real_, guessed = NA, bridged = NA_real_, faults = NA_integer_,
@@ -34,7 +35,12 @@ shape_checks <- function(shape, scan, fits, faults, ends = 0.05, crumpled = 30, 
   )
   checks$cut[curves] <- fit_values(fits, "cut")
   checks$guessed[curves] <- fit_values(fits, "guessed") > 0
-  checks$bridged[curves] <- vapply(fits, function(fit) bridged_share(fit$path, ncol(mesh$it)), 0)
+  checks$bridged[curves] <- vapply(fits, function(fit) {
+    # Share of a path's length over bridges; NA without a path
+    path <- fit$path
+    if (is.null(path)) return(NA_real_)
+    sum(diff(path$s)[path$face[-1] > ncol(mesh$it)]) / attr(path, "length")
+  }, 0)
   checks$track <- NA_real_
   checks$track[curves] <- track_departures(shape$scheme, lapply(fits, `[[`, "path"), scan$landmarks)
   patches <- status$level == "surface"
@@ -59,13 +65,6 @@ missing_share <- function(shape) {
   row <- part_rows(shape)
   n <- nrow(shape$status)
   tabulate(row[is.na(shape$points$x)], n) / tabulate(row, n)
-}
-
-#' Share of a path's length over bridges; NA without a path
-#' @noRd
-bridged_share <- function(path, faces) {
-  if (is.null(path)) return(NA_real_)
-  sum(diff(path$s)[path$face[-1] > faces]) / attr(path, "length")
 }
 
 #' Where the mesh is looked at for every part: along the whole path of a curve, at the points of a
@@ -124,12 +123,6 @@ local_mesh <- function(places, mesh, bend) {
     }, 0)
   }
   data.frame(roughness = mean_of(bend[face]), edge = mean_of(edge))
-}
-
-#' The vertices of the mesh's borders, and of edges that act as such: n x 3
-#' @noRd
-border_places <- function(surface) {
-  t(surface$vb[1:3, border_vertices(surface$it, surface$twin), drop = FALSE])
 }
 
 #' Distance of every part to the `count`-th nearest of some places of damage; Inf where there are
@@ -223,21 +216,9 @@ faults_among <- function(triangles, at, mesh) {
 #' @noRd
 crossing_pairs <- function(xyz, it) {
   corner <- lapply(1:3, function(i) xyz[it[i, ], , drop = FALSE])
-  pairs <- overlapping_boxes(do.call(pmin, corner), do.call(pmax, corner))
-  shared <- Reduce(`+`, lapply(1:3, function(i) is_corner(it, it[i, pairs[, 1]], pairs[, 2])))
-  pairs <- pairs[shared < 2, , drop = FALSE]
-  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]), , drop = FALSE]
-  pairs <- pairs[straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
-  pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), ,
-        drop = FALSE]
-}
-
-#' Pairs of boxes that overlap, found along the first axis
-#'
-#' @param low,high n x 3.
-#' @return Matrix of two columns, the smaller index first.
-#' @noRd
-overlapping_boxes <- function(low, high) {
+  # Pairs of boxes that overlap, found along the first axis
+  low <- do.call(pmin, corner)
+  high <- do.call(pmax, corner)
   along <- order(low[, 1])
   reached <- findInterval(high[along, 1], low[along, 1])
   count <- reached - seq_along(along)
@@ -250,7 +231,13 @@ overlapping_boxes <- function(low, high) {
     ]
     pairs <- pairs[!apart, , drop = FALSE]
   }
-  cbind(pmin(pairs[, 1], pairs[, 2]), pmax(pairs[, 1], pairs[, 2]))
+  pairs <- cbind(pmin(pairs[, 1], pairs[, 2]), pmax(pairs[, 1], pairs[, 2]))
+  shared <- Reduce(`+`, lapply(1:3, function(i) is_corner(it, it[i, pairs[, 1]], pairs[, 2])))
+  pairs <- pairs[shared < 2, , drop = FALSE]
+  pairs <- pairs[straddles(xyz, it, pairs[, 1], pairs[, 2]), , drop = FALSE]
+  pairs <- pairs[straddles(xyz, it, pairs[, 2], pairs[, 1]), , drop = FALSE]
+  pairs[pierces(xyz, it, pairs[, 1], pairs[, 2]) | pierces(xyz, it, pairs[, 2], pairs[, 1]), ,
+        drop = FALSE]
 }
 
 is_corner <- function(it, vertex, triangle) {

@@ -11,7 +11,20 @@
 fit_whole_curves <- function(fits, open, scan, tick) {
   for (i in scheme_plan(scan$scheme)$order) {
     if (!open[i]) next
-    fits[[i]] <- fit_scheme_curve(as.list(scan$scheme$curves[i, ]), scan, fits)
+    row <- as.list(scan$scheme$curves[i, ])
+    found <- curve_record(row_job(row, row$from, scan, fits))
+    # A curve that is to be cut off, and whose ends no cut joins: as much of it as the mesh has.
+    near <- if (is.null(found$path) && !is.na(row$cut_share)) scan_place(scan, row$to)
+    target <- if (!is.null(near) && !failed(near)) far_target(row$from, scan)
+    far_end <- if (!is.null(target)) way_out(scan, near, target$at)
+    if (!is.null(far_end)) {
+      followed <- sprintf("%s: followed towards %s as far as the mesh goes", found$reason,
+                          target$name)
+      found <- curve_record(row_job(row, far_end, scan, fits))
+      found$followed <- followed
+      found <- add_note(found, followed)
+    }
+    fits[[i]] <- found
     tick()
   }
   fits
@@ -24,23 +37,13 @@ fit_whole_curves <- function(fits, open, scan, tick) {
 #' @noRd
 finished_curves <- function(whole, open, scan, cut_scale) {
   whole[open] <- cut_curves(scan, scan$scheme$curves[open, ], whole[open], cut_scale)
-  lapply(whole, without_bridges, scan$faces)
-}
-
-#' A curve; where no cut joins its ends and it is to be cut off, as much of it as the mesh has
-#'
-#' @param row Row of the curves table, a list.
-#' @param fits Records of the curves before.
-#' @noRd
-fit_scheme_curve <- function(row, scan, fits) {
-  fit <- function(from) curve_record(row_job(row, from, scan, fits))
-  found <- fit(row$from)
-  far <- if (is.null(found$path) && !is.na(row$cut_share)) far_end(row, scan)
-  if (is.null(far)) return(found)
-  followed <- sprintf("%s: followed towards %s as far as the mesh goes", found$reason, far$name)
-  found <- fit(far$end)
-  found$followed <- followed
-  add_note(found, followed)
+  lapply(whole, function(fit) {
+    lost <- which(fit$points$face > scan$faces)
+    if (!length(lost)) return(fit)
+    fit$points[lost, setdiff(names(fit$points), "s")] <- NA
+    add_note(fit, sprintf("%d of %d points missing: they lie in a hole of the mesh", length(lost),
+                          nrow(fit$points)))
+  })
 }
 
 #' A curve as a record; in place of a ridge or valley that could not be estimated the shortest cut,
@@ -77,7 +80,8 @@ curve_record <- function(job) {
 #' @param from Its first end: a landmark, or a place on the mesh.
 #' @noRd
 row_job <- function(row, from, scan, fits) {
-  row <- routed_row(row)
+  # A scheme of a former version, whose curves all go by plane cuts
+  if (is.null(row$path)) row[c("path", "via")] <- list("plane", NA_character_)
   via <- lapply(via_names(row$via), function(name) scan_place(scan, name))
   places <- c(list(if (is.character(from)) scan_place(scan, from) else from,
                    scan_place(scan, row$to)), via)
@@ -92,14 +96,7 @@ row_job <- function(row, from, scan, fits) {
   if (row$kind == "plane") return(job)
   job$source <- scan$sources[[as.character(row$radius)]]
   if (!is.na(row$side_of)) job$source <- on_side(job$source, row, scan, fits[[row$side_of]])
-  job$regions <- row_regions(row, scan)
-  if (is.character(from)) job$track <- expected_track(scan$scheme, row, scan$landmarks)
-  job
-}
-
-#' The regions of a row, NULL where it has none
-#' @noRd
-row_regions <- function(row, scan) {
+  # The regions of a row, NULL where it has none
   region <- function(class, fields) {
     if (is.na(row[[paste0(class, "_from")]])) return(NULL)
     structure(stats::setNames(row[paste0(class, "_", fields)], fields), class = class)
@@ -111,7 +108,9 @@ row_regions <- function(row, scan) {
     if (failed(at)) at else at[c("x", "y", "z")]
   }
   regions <- Filter(Negate(is.null), regions)
-  if (length(regions)) located_regions(regions, locate, scan$id)
+  job$regions <- if (length(regions)) located_regions(regions, locate, scan$id)
+  if (is.character(from)) job$track <- expected_track(scan$scheme, row, scan$landmarks)
+  job
 }
 
 #' Curvature with none on the wrong side of another curve
@@ -138,18 +137,6 @@ without_curvature <- function(source, vertex) {
     curved$k2[none] <- 0
     curved
   }
-}
-
-#' A curve without its points on bridges over holes
-#'
-#' @param faces Number of faces that are not bridges.
-#' @noRd
-without_bridges <- function(fit, faces) {
-  lost <- which(fit$points$face > faces)
-  if (!length(lost)) return(fit)
-  fit$points[lost, setdiff(names(fit$points), "s")] <- NA
-  add_note(fit, sprintf("%d of %d points missing: they lie in a hole of the mesh", length(lost),
-                        nrow(fit$points)))
 }
 
 # The curves of a scheme while landmarks move: fitted anew are those that a move touches.

@@ -161,19 +161,6 @@ mirror_plane <- function(specimen, pairs, flat = 0.5) {
   list(normal = normal, offset = mean(middle %*% normal))
 }
 
-#' What stands in for a far end that is not on the mesh or cannot be reached
-#'
-#' @param row Row of the curves table, a list.
-#' @return List: `end`, the place where the way towards the landmark leaves the mesh;
-#'   `name`, what it leads to. `NULL` where nothing is known of it.
-#' @noRd
-far_end <- function(row, scan) {
-  near <- scan_place(scan, row$to)
-  target <- if (!failed(near)) far_target(row$from, scan)
-  end <- if (!is.null(target)) way_out(scan, near, target$at)
-  if (!is.null(end)) list(end = end, name = target$name)
-}
-
 #' Where a landmark is in space: its own co-ordinates, or the mirror image of its pair
 #' @noRd
 far_target <- function(name, scan) {

@@ -24,7 +24,14 @@ divide_quads <- function(x, specimen, quads, factor, column) {
   row <- sort(unique(as.vector(corners)))
   at <- as.matrix(x$points[x$points$level == "surface", mesh_columns][row, ])
   corners[] <- match(corners, row)
-  sides <- quad_sides(corners)
+  # The sides of quads, each once
+  from <- corners[, c("a", "d", "a", "b"), drop = FALSE]
+  to <- corners[, c("b", "c", "d", "c"), drop = FALSE]
+  ends <- cbind(pmin(as.vector(from), as.vector(to)), pmax(as.vector(from), as.vector(to)))
+  key <- ifelse(ends[, 1] == ends[, 2], NA, paste(ends[, 1], ends[, 2]))
+  first <- !duplicated(key) & !is.na(key)
+  sides <- list(ends = ends[first, , drop = FALSE], side = matrix(match(key, key[first]), ncol = 4),
+                forward = from < to)
   lattice <- quad_lattice(corners, sides, factor, length(row))
   triangles <- lattice_triangles(lattice, quads$outward == "columns", factor)
   cutter <- list(scan = c(walkable(specimen), list(column = column)), factor = factor)
@@ -34,47 +41,22 @@ divide_quads <- function(x, specimen, quads, factor, column) {
   along <- divide_sides(x$paths, at, sides$ends, cutter)
   points[length(row) + seq_len(nrow(along$points)), ] <- along$points
   points <- fill_quads(points, lattice, cutter)
-  points <- straighten_folds(points, lattice, triangles, sides, along, cutter)
+  # Cuts in place of curves about quads in which a triangle is turned over. So it is where a curve
+  # swings aside between two points of the model, or where two curves all but meet.
+  normals <- t(path_normals(cutter$scan, as.data.frame(points)))
+  folded <- unique(triangles$quad[flipped_triangles(points[, 1:3], triangles$it, normals)])
+  straight <- intersect(sides$side[folded, ], which(along$curved))
+  points <- if (!length(straight)) points else {
+    inner <- cutter$factor - 1
+    rows <- as.vector(outer(seq_len(inner), (straight - 1) * inner, "+"))
+    points[max(sides$ends) + rows, ] <- along$cuts[rows, ]
+    beside <- rowSums(matrix(sides$side %in% straight, ncol = 4)) > 0
+    fill_quads(points, lattice[beside, , , drop = FALSE], cutter)
+  }
   new <- nrow(points) - length(row)
   list(points = data.frame(points, row = c(row, rep(NA_integer_, new)), row.names = NULL),
        it = triangles$it,
        quad = triangles$quad)
-}
-
-#' Cuts in place of curves about quads in which a triangle is turned over
-#'
-#' So it is where a curve swings aside between two points of the model, or where two curves all but
-#' meet.
-#'
-#' @param along Of [divide_sides()].
-#' @return `points`, those of such sides and of the quads beside them changed.
-#' @noRd
-straighten_folds <- function(points, lattice, triangles, sides, along, cutter) {
-  normals <- t(path_normals(cutter$scan, as.data.frame(points)))
-  folded <- unique(triangles$quad[flipped_triangles(points[, 1:3], triangles$it, normals)])
-  straight <- intersect(sides$side[folded, ], which(along$curved))
-  if (!length(straight)) return(points)
-  inner <- cutter$factor - 1
-  rows <- as.vector(outer(seq_len(inner), (straight - 1) * inner, "+"))
-  points[max(sides$ends) + rows, ] <- along$cuts[rows, ]
-  beside <- rowSums(matrix(sides$side %in% straight, ncol = 4)) > 0
-  fill_quads(points, lattice[beside, , , drop = FALSE], cutter)
-}
-
-#' The sides of quads, each once
-#'
-#' @return List: `ends` (e x 2, the smaller first), `side` and `forward` (m x 4, for the sides from
-#'   a to b, d to c, a to d and b to c: which one it is, NA where its ends are one point, and
-#'   whether it runs that way).
-#' @noRd
-quad_sides <- function(corners) {
-  from <- corners[, c("a", "d", "a", "b"), drop = FALSE]
-  to <- corners[, c("b", "c", "d", "c"), drop = FALSE]
-  ends <- cbind(pmin(as.vector(from), as.vector(to)), pmax(as.vector(from), as.vector(to)))
-  key <- ifelse(ends[, 1] == ends[, 2], NA, paste(ends[, 1], ends[, 2]))
-  first <- !duplicated(key) & !is.na(key)
-  list(ends = ends[first, , drop = FALSE], side = matrix(match(key, key[first]), ncol = 4),
-       forward = from < to)
 }
 
 #' Numbers of the points of divided quads: corners, then points of sides, then those inside
@@ -117,7 +99,23 @@ quad_lattice <- function(corners, sides, factor, count) {
 divide_sides <- function(paths, at, ends, cutter, tolerance = 1e-6) {
   scan <- cutter$scan
   tolerance <- tolerance * scan$diagonal
-  curves <- edges_on_curves(paths, at, ends, tolerance)
+  # Which edges are part of a curve: their ends follow each other on its path among all points
+  found <- data.frame(curve = rep(NA_character_, nrow(ends)), from = NA_real_, to = NA_real_)
+  key <- paste(ends[, 1], ends[, 2])
+  for (name in names(Filter(Negate(is.null), paths))) {
+    s <- arc_lengths_on(paths[[name]], at[, c("x", "y", "z")], tolerance)
+    along <- order(s, na.last = NA)
+    if (length(along) < 2) next
+    before <- along[-length(along)]
+    after <- along[-1]
+    edge <- match(paste(pmin(before, after), pmax(before, after)), key)
+    new <- which(!is.na(edge) & is.na(found$curve[edge]))
+    edge <- edge[new]
+    found$curve[edge] <- name
+    found$from[edge] <- s[ends[edge, 1]]
+    found$to[edge] <- s[ends[edge, 2]]
+  }
+  curves <- found
   cuts <- cut_points(at, ends, cutter)
   points <- cuts
   inner <- seq_len(cutter$factor - 1)
@@ -154,33 +152,6 @@ cut_points <- function(points, ends, cutter) {
   found
 }
 
-#' Which edges are part of a curve: their ends follow each other on its path among all points
-#'
-#' @param paths List of `mesh_path`s.
-#' @param at Points, a matrix with columns x, y, z.
-#' @param ends e x 2 rows of `at`.
-#' @param tolerance A point is on a path that is no farther away (in the unit of the mesh).
-#' @return Data frame by edge: `curve` (NA where none), `from`, `to` (arc lengths at the ends).
-#' @noRd
-edges_on_curves <- function(paths, at, ends, tolerance) {
-  found <- data.frame(curve = rep(NA_character_, nrow(ends)), from = NA_real_, to = NA_real_)
-  key <- paste(ends[, 1], ends[, 2])
-  for (name in names(Filter(Negate(is.null), paths))) {
-    s <- arc_lengths_on(paths[[name]], at[, c("x", "y", "z")], tolerance)
-    along <- order(s, na.last = NA)
-    if (length(along) < 2) next
-    before <- along[-length(along)]
-    after <- along[-1]
-    edge <- match(paste(pmin(before, after), pmax(before, after)), key)
-    new <- which(!is.na(edge) & is.na(found$curve[edge]))
-    edge <- edge[new]
-    found$curve[edge] <- name
-    found$from[edge] <- s[ends[edge, 1]]
-    found$to[edge] <- s[ends[edge, 2]]
-  }
-  found
-}
-
 #' The points inside quads, on cuts between those opposite sides that are bowed more
 #' @return `points`, filled.
 #' @noRd
@@ -200,7 +171,13 @@ fill_quads <- function(points, lattice, cutter) {
 inner_lines <- function(lattice, points, factor) {
   steps <- seq_len(factor + 1)
   side <- function(i, j) matrix(lattice[, i, j], nrow(lattice))
-  normal <- quad_normals(lattice, points, factor)
+  xyz <- points[, c("x", "y", "z")]
+  last <- factor + 1
+  normal <- cross_rows(xyz[lattice[, last, last], , drop = FALSE] -
+                       xyz[lattice[, 1, 1], , drop = FALSE],
+                       xyz[lattice[, 1, last], , drop = FALSE] -
+                       xyz[lattice[, last, 1], , drop = FALSE])
+  normal <- normal / pmax(row_lengths(normal), .Machine$double.xmin)
   bow <- function(i, j) side_bow(side(i, j), points, normal)
   bowed <- pmax(bow(steps, 1),
                 bow(steps, factor + 1)) >= pmax(bow(1, steps), bow(factor + 1, steps))
@@ -208,16 +185,6 @@ inner_lines <- function(lattice, points, factor) {
   down <- lapply(inner, function(k) side(k, steps)[bowed, , drop = FALSE])
   across <- lapply(inner, function(k) side(steps, k)[!bowed, , drop = FALSE])
   do.call(rbind, c(down, across))
-}
-
-quad_normals <- function(lattice, points, factor) {
-  xyz <- points[, c("x", "y", "z")]
-  last <- factor + 1
-  normal <- cross_rows(xyz[lattice[, last, last], , drop = FALSE] -
-                       xyz[lattice[, 1, 1], , drop = FALSE],
-                       xyz[lattice[, 1, last], , drop = FALSE] -
-                       xyz[lattice[, last, 1], , drop = FALSE])
-  normal / pmax(row_lengths(normal), .Machine$double.xmin)
 }
 
 #' Greatest distance of a side's points from the straight line, as seen along the normal of the

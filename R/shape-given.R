@@ -93,22 +93,19 @@ given_loop <- function(row, xyz, scan, tolerance) {
   attr(path, "closed") <- TRUE
   loop <- directed_loop(row, path, scan)
   if (failed(loop)) return(new_record(reason = sub("\\.$", "", loop$problem)))
-  placed <- if (n == row$n) own_places(loop, knots) else spaced_points(scan, loop, row$n)
+  placed <- if (n == row$n) {
+    # Points of a loop in its order, from the one nearest to its start on
+    length <- attr(loop, "length")
+    s <- vapply(seq_len(nrow(knots)), function(i) nearest_along(loop, knots[i, 1:3]), 0)
+    # A point at the start may come out at the end.
+    s[s > length - min(diff(sort(s))) / 2] <- 0
+    order <- order(s)
+    frame_of(c(list(s = s[order]), lapply(stats::setNames(nm = mesh_columns),
+                                          function(name) knots[order, name])))
+  } else spaced_points(scan, loop, row$n)
   new_record(points = cbind(placed[c(mesh_columns, "s")], se = NA_real_), path = loop,
              length = attr(loop, "length"),
              reason = sprintf("as given: points up to %.2g from the mesh", max(off)))
-}
-
-#' Points of a loop in its order, from the one nearest to its start on
-#' @noRd
-own_places <- function(loop, knots) {
-  length <- attr(loop, "length")
-  s <- vapply(seq_len(nrow(knots)), function(i) nearest_along(loop, knots[i, 1:3]), 0)
-  # A point at the start may come out at the end.
-  s[s > length - min(diff(sort(s))) / 2] <- 0
-  order <- order(s)
-  frame_of(c(list(s = s[order]), lapply(stats::setNames(nm = mesh_columns),
-                                        function(name) knots[order, name])))
 }
 
 #' A closed path that begins where it is nearest to the landmark of a scheme's curve, and runs as

@@ -155,7 +155,10 @@ arc_lengths_on <- function(path, xyz, tolerance) {
   b <- track[-1, , drop = FALSE]
   for (i in near) {
     p <- matrix(xyz[i, ], nrow(a), 3, byrow = TRUE)
-    share <- closest_on_segments(p, a, b)
+    # Row by row: the share of the way along a segment at which it is closest to a point
+    along <- row_products(p - a, b - a) / row_products(b - a, b - a)
+    along[!is.finite(along)] <- 0
+    share <- pmin(pmax(along, 0), 1)
     away <- row_lengths(p - a - share * (b - a))
     best <- which.min(away)
     if (away[best] <= tolerance) {
@@ -163,12 +166,4 @@ arc_lengths_on <- function(path, xyz, tolerance) {
     }
   }
   s
-}
-
-#' Row by row: the share of the way along a segment at which it is closest to a point
-#' @noRd
-closest_on_segments <- function(p, a, b) {
-  along <- row_products(p - a, b - a) / row_products(b - a, b - a)
-  along[!is.finite(along)] <- 0
-  pmin(pmax(along, 0), 1)
 }

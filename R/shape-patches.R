@@ -85,7 +85,11 @@ side_points_on <- function(side, n, ground) {
   scan <- ground$scan
   points <- ground$store[side$place, mesh_columns, drop = FALSE]
   lost <- is.na(points[, "x"])
-  problem <- if (any(lost)) lost_points(side, lost, ground$fits)
+  problem <- if (any(lost)) vapply(unique(side$curve[lost]), function(curve) {
+    gone <- lost[side$curve == curve]
+    if (is.null(ground$fits[[curve]]$points)) paste(curve, "is missing") else
+      sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
+  }, "", USE.NAMES = FALSE)
   if (n == length(side$place)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, n, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (any(lost)) return(list(points = spaced, problem = problem))
@@ -103,16 +107,6 @@ side_points_on <- function(side, n, ground) {
   spaced[] <- columns_of(placed)
   spaced[c(1, n), ] <- points[c(1, nrow(points)), ]
   list(points = spaced, problem = NULL)
-}
-
-#' What is missing of the curves of a side, in words
-#' @noRd
-lost_points <- function(side, lost, fits) {
-  vapply(unique(side$curve[lost]), function(curve) {
-    gone <- lost[side$curve == curve]
-    if (is.null(fits[[curve]]$points)) paste(curve, "is missing") else
-      sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
-  }, "", USE.NAMES = FALSE)
 }
 
 #' The path along a bounding curve: parts of the curves, joined by cuts where they do not meet

@@ -11,25 +11,18 @@ shapes_provenance <- function(shapes) {
   if (!length(each)) return(made_with())
   if (length(each) == 1 && length(each[[1]])) return(each[[1]])
   fields <- stats::setNames(nm = c("scheme", "template"))
-  common <- lapply(fields, function(field) common_value(each, field))
-  common$settings <- common_settings(each)
-  c(made_with(), Filter(Negate(is.null), common), list(specimens = specimens_provenance(shapes)))
-}
-
-#' Settings by stage; of a stage in which they differ, that they do
-#' @noRd
-common_settings <- function(each) {
+  common <- lapply(fields, function(field) {
+    values <- unique(lapply(each, `[[`, field))
+    if (length(values) == 1) values[[1]]
+  })
+  # Settings by stage; of a stage in which they differ, that they do
   settings <- lapply(each, `[[`, "settings")
   stages <- unique(unlist(lapply(settings, names)))
-  lapply(stats::setNames(nm = stages), function(stage) {
+  common$settings <- lapply(stats::setNames(nm = stages), function(stage) {
     values <- unique(lapply(settings, `[[`, stage))
     if (length(values) == 1) values[[1]] else list(differs = "between specimens")
   })
-}
-
-common_value <- function(each, field) {
-  values <- unique(lapply(each, `[[`, field))
-  if (length(values) == 1) values[[1]]
+  c(made_with(), Filter(Negate(is.null), common), list(specimens = specimens_provenance(shapes)))
 }
 
 #' A row a specimen: `id`, `file`, `key`, `landmarks` (in words)

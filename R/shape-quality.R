@@ -125,10 +125,15 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
                  part, scores[name, ], limits, measured[[name]]$scheme
                ),
                parts, names(parts))
-  noted <- lapply(names(measured), function(name) noted_specimen(name, measured[[name]]$warnings))
+  noted <- lapply(names(measured), function(name) if (NROW(warnings)) {
+    specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
+  })
   failed <- attr(x, "failed")
   lost <- lapply(setdiff(names(shapes), names(measured)), function(name) {
-    lost_specimen(name, failed[[name]]$message, failed[[name]]$remedy)
+    # A specimen that could not be measured
+    reason <- failed[[name]]$message
+    why <- if (!is.null(reason)) sub("[.]$", "", paste0(": ", reason, " ", failed[[name]]$remedy))
+    specimen_row(name, "red", paste0("it was not measured", why))
   })
   table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
@@ -231,22 +236,6 @@ sample_scores <- function(shapes, others, limits) {
   scores <- length_scores(lengths, limits$others, limits$spread)
   dimnames(scores) <- list(c(names(shapes), rep("", length(others))), curves)
   scores[seq_along(shapes), , drop = FALSE]
-}
-
-#' A specimen that could not be measured
-#' @param reason,remedy What a batch says of its failure; NULL where nothing is known.
-#' @noRd
-lost_specimen <- function(name, reason, remedy) {
-  why <- if (!is.null(reason)) sub("[.]$", "", paste0(": ", reason, " ", remedy))
-  specimen_row(name, "red", paste0("it was not measured", why))
-}
-
-#' What a specimen was warned of while it was measured; NULL where it was not
-#' @noRd
-noted_specimen <- function(name, warnings) {
-  if (NROW(warnings)) {
-    specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
-  }
 }
 
 specimen_row <- function(name, grade, why) {

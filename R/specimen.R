@@ -83,7 +83,12 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   landmarks <- as_landmarks(landmarks, id) * rescale
   door <- check_mesh(rescaled_mesh(mesh, rescale), id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
-  report <- rbind(door$report, placed$report, rescaled_row(door$mesh, rescale))
+  # What the report says of a specimen in another unit than it was given
+  rescaled_row <- if (rescale == 1) NULL else {
+    data.frame(check = "rescaled vertices", count = ncol(door$mesh$vb),
+               action = sprintf("multiplied by %.6g, landmarks too", rescale))
+  }
+  report <- rbind(door$report, placed$report, rescaled_row)
   made <- new_specimen(
     id, door$mesh, placed$landmarks, report = report,
     origin = new_origin(placed$landmarks, "given"),
@@ -103,14 +108,6 @@ rescaled_mesh <- function(mesh, factor) {
   at <- seq_len(min(3, nrow(mesh$vb)))
   mesh$vb[at, ] <- mesh$vb[at, ] * factor
   mesh
-}
-
-#' What the report says of a specimen in another unit than it was given
-#' @noRd
-rescaled_row <- function(mesh, factor) {
-  if (factor == 1) return(NULL)
-  data.frame(check = "rescaled vertices", count = ncol(mesh$vb),
-             action = sprintf("multiplied by %.6g, landmarks too", factor))
 }
 
 #' A specimen from its parts: all its fields are declared here, NULL or NA until they are filled

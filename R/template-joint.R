@@ -5,10 +5,15 @@
 #' @noRd
 slides_free <- function(settings) settings$curves == "free"
 
-#' The energy of all places of a template, landmarks placed by hand; 0 in rows that it lacks
+#' The energy of the places that a specimen has, its landmarks as sure as they came
+#'
+#' @param places Their names.
+#' @param nugget Of its landmarks, by name.
+#' @return Matrix with a row a place.
 #' @noRd
-joint_matrix <- function(plan) {
-  kept(plan, "joint", function() {
+joint_energy <- function(places, nugget, plan) {
+  all <- rownames(plan$xyz)[!is.na(plan$xyz[, 1])]
+  whole <- kept(plan, "joint", function() {
     settings <- plan$settings
     nugget <- ifelse(rownames(plan$xyz) %in% landmark_keys(plan$scheme), settings$placed_nugget,
                      settings$joint_nugget)
@@ -20,18 +25,7 @@ joint_matrix <- function(plan) {
     b <- energy_matrix(plan$xyz, nugget, settings$rank, kernel)
     attr(b, "affine") <- NULL
     b
-  })
-}
-
-#' The energy of the places that a specimen has, its landmarks as sure as they came
-#'
-#' @param places Their names.
-#' @param nugget Of its landmarks, by name.
-#' @return Matrix with a row a place.
-#' @noRd
-joint_energy <- function(places, nugget, plan) {
-  all <- rownames(plan$xyz)[!is.na(plan$xyz[, 1])]
-  whole <- joint_matrix(plan)[match(all, rownames(plan$xyz)), match(all, rownames(plan$xyz))]
+  })[match(all, rownames(plan$xyz)), match(all, rownames(plan$xyz))]
   b <- energy_without(whole, match(places, all))
   more <- nugget[intersect(places, names(nugget))] - plan$settings$placed_nugget
   energy_loosened(b, match(names(more), places)[more != 0], more[more != 0])

@@ -13,16 +13,8 @@ slide_plan <- function(template, settings) {
   core <- xyz[points$level[!duplicated(points$place)] != "surface" & !is.na(xyz[, 1]), ,
               drop = FALSE]
   radius <- sqrt(mean(rowSums(sweep(core, 2, colMeans(core))^2)))
-  list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
-       template = template_provenance(template$id, xyz),
-       nugget = nugget_shares(template, settings), scale = template$energy_scale,
-       kept = new.env(parent = emptyenv()))
-}
-
-#' Nuggets of all places as multiples of the settings': 0 of landmarks, and 1, or as the template's
-#' standard errors squared
-#' @noRd
-nugget_shares <- function(template, settings) {
+  # Nuggets of all places as multiples of the settings': 0 of landmarks, and 1, or as the
+  # template's standard errors squared
   points <- template$scheme$points
   first <- !duplicated(points$place)
   share <- stats::setNames(rep(1, sum(first)), points$place[first])
@@ -31,7 +23,11 @@ nugget_shares <- function(template, settings) {
     share <- ifelse(is.na(variance), share, variance / stats::median(variance, na.rm = TRUE))
     names(share) <- points$place[first]
   }
-  replace(share, landmark_keys(template$scheme), 0)
+  nugget_shares <- replace(share, landmark_keys(template$scheme), 0)
+  list(settings = settings, scheme = template$scheme, xyz = xyz, radius = radius,
+       template = template_provenance(template$id, xyz),
+       nugget = nugget_shares, scale = template$energy_scale,
+       kept = new.env(parent = emptyenv()))
 }
 
 #' Positions of a shape's places

@@ -120,39 +120,35 @@ transects <- function(set, store, cutting, settings) {
   each <- lapply(plan$blocks, function(block) {
     grid <- data.frame(column = block$column, row = block$row, place = plan$places[block$place])
     grid <- grid[grid$place %in% set$free, ]
-    if (nrow(grid)) block_transects(block, grid, set, store, cutting, settings)
+    if (nrow(grid)) {
+      # The cuts of one block with free points
+      ground <- list(scan = cutting$scan, fits = cutting$fits, store = store)
+      side <- function(side) side_points_on(side, side$n, ground)$points
+      a <- side(block$a)
+      b <- side(block$b)
+      lapply(split(grid, grid$column), function(rows) {
+        column <- rows$column[1]
+        outside <- as.matrix(column_outside(a, b, column, block$outward))
+        made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside,
+                            block$rows,
+                            cutting$scan)
+        track <- made$cuts[[1]]
+        length <- track[nrow(track), 1]
+        s <- rep(NA_real_, block$rows)
+        s[c(1, rows$row, block$rows)] <- c(
+          0, track_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length
+        )
+        sliders <- slider_rows(
+          s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length, settings
+        )
+        sliders[, "point"] <- match(rows$place, set$places)
+        on_mesh <- track[, 5] <= cutting$scan$faces
+        list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)),
+             rows = sliders)
+      })
+    }
   })
   unlist(each, recursive = FALSE)
-}
-
-#' The cuts of one block with free points
-#'
-#' @param grid Its free points: `column`, `row`, `place`.
-#' @noRd
-block_transects <- function(block, grid, set, store, cutting, settings) {
-  ground <- list(scan = cutting$scan, fits = cutting$fits, store = store)
-  side <- function(side) side_points_on(side, side$n, ground)$points
-  a <- side(block$a)
-  b <- side(block$b)
-  lapply(split(grid, grid$column), function(rows) {
-    column <- rows$column[1]
-    outside <- as.matrix(column_outside(a, b, column, block$outward))
-    made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside, block$rows,
-                        cutting$scan)
-    track <- made$cuts[[1]]
-    length <- track[nrow(track), 1]
-    s <- rep(NA_real_, block$rows)
-    s[c(1, rows$row, block$rows)] <- c(
-      0, track_places(track, store[rows$place, c("x", "y", "z"), drop = FALSE]), length
-    )
-    sliders <- slider_rows(
-      s, seq_len(block$rows) %in% rows$row, length / (block$rows - 1), length, settings
-    )
-    sliders[, "point"] <- match(rows$place, set$places)
-    on_mesh <- track[, 5] <= cutting$scan$faces
-    list(place = rows$place, track = cbind(track[, 1:4], ifelse(on_mesh, track[, 5], 0)),
-         rows = sliders)
-  })
 }
 
 #' Arc lengths of the places of a polyline that are nearest to points

@@ -46,7 +46,28 @@ symmetrise <- function(shape, off_middle = 0.1) {
   off_middle <- check_number(off_middle, "off_middle", lower = 0)
   xyz <- places_of(shape)
   mean <- symmetric_mean(xyz, mirror_places(shape$scheme), shape$id)
-  warn_unpaired(shape, xyz, mean, off_middle)
+  # Landmarks without a partner that the symmetric mean moves far: they lie on a side, and are
+  # missing in the pairs
+  landmark <- shape$scheme$landmarks$landmark
+  alone <- landmark[partner_of(landmark, shape$scheme$pairs, "landmarks") == landmark]
+  points <- shape$points[shape$points$level == "landmarks", ]
+  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(
+    alone, points$part
+  )]
+  off <- row_lengths(xyz[place, , drop = FALSE] - mean[place, , drop = FALSE])
+  known <- xyz[!is.na(xyz[, 1]), , drop = FALSE]
+  radius <- sqrt(mean(rowSums(sweep(known, 2, colMeans(known))^2)))
+  far <- which(off > off_middle * radius)
+  if (length(far)) {
+    said <- paste0(alone[far], " (", signif(off[far], 2), ")")
+    crestline_warn(sprintf(paste("%s in no pair, but off the mid-plane: %s; the symmetric mean",
+                                 "puts %s on it."),
+                           if (length(far) == 1) "a landmark is" else "landmarks are",
+                           shorten(said, 6), if (length(far) == 1) "it" else "them"),
+                   paste("Add it with its partner to the scheme's `pairs`, or raise `off_middle`",
+                         "where the object is that crooked."),
+                   stage = "symmetry", id = shape$id, class = "crestline_unpaired")
+  }
   template_shape(shape, mean, paste(shape$id, "symmetrised"))
 }
 
@@ -82,34 +103,6 @@ asymmetry <- function(shape, by = c("part", "point"), off_middle = 0.1) {
   found <- rbind(row("overall", "all", rep(TRUE, length(place))), do.call(rbind, unname(each)))
   rownames(found) <- NULL
   found
-}
-
-#' Landmarks without a partner that the symmetric mean moves far: they lie on a side, and are
-#' missing in the pairs
-#'
-#' @param xyz,mean Places of the shape and of its symmetric mean, which has what is its own partner
-#'   on the mid-plane.
-#' @noRd
-warn_unpaired <- function(shape, xyz, mean, off_middle) {
-  landmark <- shape$scheme$landmarks$landmark
-  alone <- landmark[partner_of(landmark, shape$scheme$pairs, "landmarks") == landmark]
-  points <- shape$points[shape$points$level == "landmarks", ]
-  place <- shape$scheme$points$place[shape$scheme$points$level == "landmarks"][match(
-    alone, points$part
-  )]
-  off <- row_lengths(xyz[place, , drop = FALSE] - mean[place, , drop = FALSE])
-  known <- xyz[!is.na(xyz[, 1]), , drop = FALSE]
-  radius <- sqrt(mean(rowSums(sweep(known, 2, colMeans(known))^2)))
-  far <- which(off > off_middle * radius)
-  if (!length(far)) return(invisible())
-  said <- paste0(alone[far], " (", signif(off[far], 2), ")")
-  crestline_warn(sprintf(paste("%s in no pair, but off the mid-plane: %s; the symmetric mean",
-                               "puts %s on it."),
-                         if (length(far) == 1) "a landmark is" else "landmarks are",
-                         shorten(said, 6), if (length(far) == 1) "it" else "them"),
-                 paste("Add it with its partner to the scheme's `pairs`, or raise `off_middle`",
-                       "where the object is that crooked."),
-                 stage = "symmetry", id = shape$id, class = "crestline_unpaired")
 }
 
 #' Mean of a configuration and its reflection, partners exchanged; NA where a point and its partner
@@ -176,8 +169,30 @@ mirror_places <- function(scheme) {
 mirror_rows <- function(scheme) {
   points <- scheme$points
   own <- partner_of(points$part[points$level == "landmarks"], scheme$pairs, "landmarks")
+  # Names of the points that surface points are mirrored to. The partner's block has the same rows;
+  # its columns run the other way where its bounding curve does.
+  patches <- scheme$patches
+  partner <- partner_of(patches$patch, scheme$pairs, "surface")
+  key <- function(patch) paste(patch, patches$block, sep = "|")
+  mirror_surface_rows <- unlist(lapply(seq_len(nrow(patches)), function(i) {
+    other <- patches[match(key(partner)[i], key(patches$patch)), ]
+    from <- block_points(patches[i, ])
+    to <- block_points(other)
+    # Names "curve|point" of the points that a bounding curve's points are mirrored to
+    points <- scheme$points[scheme$points$level == "curves", ]
+    own <- side_points(patches$curve_a[i])
+    mirrored <- mirror_curve_rows(scheme)[match(
+      paste(own$curve, own$point), paste(points$part, points$point)
+    )]
+    mirrored <- sub("^curves[|]", "", mirrored)
+    own <- do.call(paste, c(side_points(other$curve_a), sep = "|"))
+    last <- if (is.na(other$resample_a)) length(own) else other$resample_a
+    column <- if (identical(mirrored, own)) from$column else last + 1 - from$column
+    paste("surface", other$patch,
+          to$point[match(paste(column, from$row), paste(to$column, to$row))], sep = "|")
+  }))
   mirrored <- c(paste("landmarks", own, "1", sep = "|"), mirror_curve_rows(scheme),
-                mirror_surface_rows(scheme))
+                mirror_surface_rows)
   match(mirrored, paste(points$level, points$part, points$point, sep = "|"))
 }
 
@@ -193,37 +208,4 @@ mirror_curve_rows <- function(scheme) {
     point <- mirrored_points(curves$n[i], backwards[i], closed[i])
     paste("curves", partner[i], point, sep = "|")
   }))
-}
-
-#' Names of the points that surface points are mirrored to
-#'
-#' The partner's block has the same rows; its columns run the other way where its bounding curve
-#' does.
-#' @noRd
-mirror_surface_rows <- function(scheme) {
-  patches <- scheme$patches
-  partner <- partner_of(patches$patch, scheme$pairs, "surface")
-  key <- function(patch) paste(patch, patches$block, sep = "|")
-  unlist(lapply(seq_len(nrow(patches)), function(i) {
-    other <- patches[match(key(partner)[i], key(patches$patch)), ]
-    from <- block_points(patches[i, ])
-    to <- block_points(other)
-    mirrored <- mirror_side(patches$curve_a[i], scheme)
-    own <- do.call(paste, c(side_points(other$curve_a), sep = "|"))
-    last <- if (is.na(other$resample_a)) length(own) else other$resample_a
-    column <- if (identical(mirrored, own)) from$column else last + 1 - from$column
-    paste("surface", other$patch,
-          to$point[match(paste(column, from$row), paste(to$column, to$row))], sep = "|")
-  }))
-}
-
-#' Names "curve|point" of the points that a bounding curve's points are mirrored to
-#' @noRd
-mirror_side <- function(text, scheme) {
-  points <- scheme$points[scheme$points$level == "curves", ]
-  own <- side_points(text)
-  mirrored <- mirror_curve_rows(scheme)[match(
-    paste(own$curve, own$point), paste(points$part, points$point)
-  )]
-  sub("^curves[|]", "", mirrored)
 }
