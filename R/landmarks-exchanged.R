@@ -2,19 +2,19 @@
 
 #' What looks exchanged among some landmarks
 #'
-#' With a `reference` (typical positions of the landmarks, from the scheme) the names are held
-#' against it. Without one, left and right of every pair are told by the way up and the way to the
-#' front, or else by the other pairs; the mid-line must not run to and fro; and a landmark must lie
-#' near the mirror image of its partner.
+#' With a `reference` (typical positions of the landmarks, from the scheme) the names are compared
+#' with it. Without one, the upward and the frontal direction give left and right of every pair; if
+#' these are unknown, the other pairs do. The mid-line must not turn back. A landmark must lie near
+#' the mirror image of its partner.
 #'
 #' @param at k x 3, row names, NA where missing.
 #' @param front Unit vector to the front (mean of the surface's normals), or NULL.
 #' @param pairs Data frame `left`, `right`: names.
 #' @param midline Names along the mid-line from top to bottom, perhaps none.
 #' @param reference k x 3 matrix with row names, NA where it is not known; NULL: none.
-#' @param least Cosine of the angle between a direction and the expected one from which on it
-#'   counts as told. On 45 faces the cosine between two landmarks and the same two of
-#'   [face_scheme()] is never below 0.6, exchanged it is the same below 0.
+#' @param least Least cosine of the angle between a direction and the expected one at which the
+#'   direction decides. On 45 faces the cosine between two landmarks and the same two of
+#'   [face_scheme()] is never below 0.6; exchanged it is the same below 0.
 #' @return List: `mirrored` (whether left and right of all pairs are exchanged), `groups` (list of
 #'   the names that are exchanged among themselves), `either` (list of two such groups of which one
 #'   is exchanged: symmetry cannot tell which).
@@ -229,13 +229,15 @@ exchange_words <- function(found) {
 
 #' @noRd
 warn_exchanged <- function(found, id) {
-  if (found$mirrored) crestline_warn(
-    paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
-          "should be on the viewer's right (the subject's own left)."),
-    paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
-          "change the sign of x of mesh and landmarks."),
-    stage = "landmarks", id = id, class = "crestline_mirrored"
-  )
+  if (found$mirrored) {
+    crestline_warn(
+      paste("left and right look mirrored: seen from the front, head up, the landmarks ending in L",
+            "should be on the viewer's right (the subject's own left)."),
+      paste("Swap the endings L and R of the names, or, if the scan itself is mirrored,",
+            "change the sign of x of mesh and landmarks."),
+      stage = "landmarks", id = id, class = "crestline_mirrored"
+    )
+  }
   groups <- exchange_words(found)
   if (!length(groups)) return(invisible())
   crestline_warn(

@@ -223,7 +223,7 @@ drop_unreferenced <- function(mesh, id) {
   mended(keep_vertices(mesh, used), "unreferenced vertices", sum(!used), "left out")
 }
 
-# What stays as it is and is only told.
+# Rows of the report for faults that are kept.
 describe_topology <- function(mesh, topology, area) {
   # Border loops beyond the one outer loop of each piece that has a border.
   side <- border_sides(topology)

@@ -1,5 +1,5 @@
-# What should hang together and does not: corners and edges that differ by rounding are joined,
-# wider seams and second skins are told of.
+# Parts of a mesh that should be connected. Corners and edges that differ by rounding are joined;
+# wider seams and second skins get a warning.
 
 # Comparisons a vertex or edge after which a search gives up: a mesh of which so many lie together
 # has another fault.

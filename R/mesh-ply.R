@@ -99,8 +99,8 @@ ply_header <- function(raw, file, id) {
        elements = stats::setNames(elements, names(properties)))
 }
 
-# Bytes up to the end of the line end_header, NA where there is none. Where lines end in CR alone,
-# as the first tells, a byte LF behind it is data. `usual`: most headers end within so many bytes.
+# Bytes up to the end of the line end_header, NA where there is none. If the first line ends in CR
+# alone, so do all, and a byte LF behind the last is data. `usual`: most headers are shorter.
 ply_header_end <- function(raw, usual = 2^16) {
   if (!identical(raw[1:3], charToRaw("ply"))) return(NA)
   first <- grepRaw("^ply[ \t]*\r[^\n]", raw[seq_len(min(usual, length(raw)))])

@@ -1,5 +1,5 @@
-# How large the object on a mesh is: what tolerances and sizes of holes are shares of, and what
-# units are told by.
+# Size of the object on a mesh. Tolerances and sizes of holes are shares of it; units are recognised
+# by it.
 
 #' Size of a mesh that neither a stand nor a stray vertex changes
 #'

@@ -108,8 +108,9 @@ path_ends <- function(scan, exact, names, via = NULL, inside = 1e-6) {
     no_result(sprintf(said, names[1], names[2]), remedy, "path", scan$id, "crestline_path_error")
   }
   if (all(exact[1, 1:3] == exact[2, 1:3])) {
-    if (!is.null(via)) return(list(scan = scan, exact = exact, names = names, via = via,
-                                   closed = TRUE))
+    if (!is.null(via)) {
+      return(list(scan = scan, exact = exact, names = names, via = via, closed = TRUE))
+    }
     return(refuse("%s and %s are the same point.",
                   paste("Choose two different landmarks, or correct the one that was misplaced.",
                         "A closed ridge or valley has a `via`.")))

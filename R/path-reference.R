@@ -324,12 +324,14 @@ warn_rival <- function(path, ends, id, rival = 0.05) {
   competing <- attr(path, "competing")
   if (!isTRUE(competing >= 1 - rival)) return(invisible())
   optima <- attr(path, "optima")
-  if (is.null(optima)) return(crestline_warn(
-    sprintf("another path from %s to %s costs nearly as little: %.3g of its cost.", ends[1],
-            ends[2], competing),
-    "Give a `via` on the right one, or rule the other out with keep_away() or keep_side().",
-    stage = "reference path", id = id, class = "crestline_rival_path"
-  ))
+  if (is.null(optima)) {
+    return(crestline_warn(
+      sprintf("another path from %s to %s costs nearly as little: %.3g of its cost.", ends[1],
+              ends[2], competing),
+      "Give a `via` on the right one, or rule the other out with keep_away() or keep_side().",
+      stage = "reference path", id = id, class = "crestline_rival_path"
+    ))
+  }
   share <- shares_of_first(optima, attr(path, "type"))
   two <- optima[c(1, setdiff(which(share == competing), 1)[1]), ]
   degrees <- two$angle * 180 / pi

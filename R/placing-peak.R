@@ -35,23 +35,35 @@ strongest_peak <- function(field, start, reach, apart, width, least) {
 
 #' The place where the local fits about it have their peak
 #'
-#' Steps that turn back are halved: the peak is then where the fits' slope changes its sign.
+#' @return As [strongest_peak()]; NULL where the fits lead nowhere.
+#' @noRd
+settled_peak <- function(field, at, width) {
+  settled_place(field, at, width, function(fit, at, longest) {
+    # Newton's step to the peak, or a step uphill where the fit has none
+    if (fit$peaked) -solve(fit$hessian, fit$gradient) else
+      fit$gradient / max(sqrt(sum(fit$gradient^2)), .Machine$double.xmin) * longest
+  })
+}
+
+#' The place at which steps by local fits end
 #'
+#' Steps that turn back are halved: the place is then where the fits' slope changes its sign.
+#'
+#' @param step Function of a fit, a place and the longest step: the step in the fit's frame, or NULL
+#'   where there is none.
 #' @param longest Longest step, as a share of `width`.
 #' @param tolerance Step at which to stop, as a share of `width`.
 #' @param steps Most steps.
-#' @return As [strongest_peak()]; NULL where the fits lead nowhere.
+#' @return List `at`, `value`; NULL where the steps lead nowhere or do not settle.
 #' @noRd
-settled_peak <- function(field, at, width, longest = 0.3, tolerance = 1e-6, steps = 200) {
+settled_place <- function(field, at, width, step, longest = 0.3, tolerance = 1e-6, steps = 200) {
   width <- fit_width(field, at, width)
   longest <- longest * width
   before <- numeric(3)
-  for (step in seq_len(steps)) {
+  for (i in seq_len(steps)) {
     fit <- local_fit(field, at, width)
-    if (is.null(fit)) return(NULL)
-    # Newton's step to the peak, or a step uphill where the fit has none; at most `longest`
-    uphill <- fit$gradient / max(sqrt(sum(fit$gradient^2)), .Machine$double.xmin) * longest
-    move <- if (fit$peaked) -solve(fit$hessian, fit$gradient) else uphill
+    move <- if (!is.null(fit)) step(fit, at, longest)
+    if (is.null(move)) return(NULL)
     length <- sqrt(sum(move^2))
     move <- if (length > longest) move * longest / length else move
     ahead <- drop(fit$frame %*% c(move, fit$offset(move)))

@@ -194,34 +194,20 @@ crest_vertices <- function(field, tried, across, within, cone = 0.7) {
 #' The place on a crest that is nearest to a point: the fits' maximum across it, and along it the
 #' foot of the point
 #'
-#' @param longest Longest step, as a share of `width`.
-#' @param tolerance,steps As in [settled_peak()].
+#' @param longest,tolerance,steps As in [settled_place()].
 #' @return List `at`, `value`; NULL where the fits have no crest, or the steps do not settle.
 #' @noRd
 nearest_on_crest <- function(field, at, point, width, longest = 0.5, tolerance = 1e-4,
                              steps = 60) {
-  width <- fit_width(field, at, width)
-  longest <- longest * width
-  before <- numeric(3)
-  for (step in seq_len(steps)) {
-    fit <- local_fit(field, at, width)
-    if (is.null(fit)) return(NULL)
+  settled_place(field, at, width, function(fit, at, longest) {
     bend <- eigen(fit$hessian, symmetric = TRUE)
     if (bend$values[2] >= 0) return(NULL)
     # Across: Newton's step to the maximum. Along: towards the point.
     across <- bend$vectors[, 2]
     along <- bend$vectors[, 1]
     towards <- drop(crossprod(fit$frame[, 1:2], point - at))
-    move <- -across * sum(fit$gradient * across) / bend$values[2] + along * sum(towards * along)
-    length <- sqrt(sum(move^2))
-    if (length < tolerance * width) return(list(at = at, value = fit$value))
-    if (length > longest) move <- move * longest / length
-    ahead <- drop(fit$frame %*% c(move, fit$offset(move)))
-    if (sum(ahead * before) < 0) longest <- longest / 2
-    at <- at + ahead
-    before <- ahead
-  }
-  NULL
+    -across * sum(fit$gradient * across) / bend$values[2] + along * sum(towards * along)
+  }, longest, tolerance, steps)
 }
 
 #' The closest place of a part of a mesh, with its face in the mesh

@@ -9,8 +9,9 @@
 #' name. Of an assessment ([assess()]) or of two visits ([compare_visits()]) it is a page without
 #' scripts, which prints on A4, also in black and white; see the sections below.
 #'
-#' @param x A [specimen()], or an `assessment` of [assess()] or a `visit_comparison` of
-#'   [compare_visits()]; for these only `file` and `title` may be given.
+#' @param x A [specimen()]. Or a shape of [fit_shape()], which then is `curves` too. Or an
+#'   `assessment` of [assess()] or a `visit_comparison` of [compare_visits()]; for these only `file`
+#'   and `title` may be given.
 #' @template page-file
 #' @param curves One curve of [ridge_curve()], or a list of curves, whose names are in the table. Or
 #'   a `shape`, as [fit_shape()] returns it.
@@ -58,17 +59,15 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
     given <- setdiff(names(match.call())[-1], c("", "x", "file", "title"))
     return(other_page(x, turned$file, if (!missing(title)) title, given))
   }
+  if (inherits(x, "shape")) x <- specimen_of_page(curves <- x)
   check_class(x, "specimen", "x", "specimen() or read_specimen()")
   title <- check_text(title, "title")
   caption <- check_text(caption, "caption", null = TRUE)
   surface <- check_choice(surface, surface_choices, "surface")
   check_flags(selfcontained)
   size <- check_size(size)
-  curves <- if (inherits(curves, "shape")) {
-    check_class(curves, "shape", "curves", "fit_shape()")
-  } else {
-    check_curves(curves)
-  }
+  if (inherits(curves, "shape")) check_class(curves, "shape", "curves", "fit_shape()") else
+    curves <- check_curves(curves)
   table <- check_table(table, "table", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
   file <- check_page_file(turned$file)
@@ -88,6 +87,15 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   )
   save_page(page, file, selfcontained)
   invisible(file)
+}
+
+#' The specimen that a shape keeps, or an error with the call that gives it
+#' @noRd
+specimen_of_page <- function(shape) {
+  if (!is.null(shape$specimen)) return(shape$specimen)
+  crestline_abort("`x` is a shape without its specimen.",
+                  "Give the specimen first: write_page(specimen, file, curves = shape).",
+                  stage = "arguments", id = shape$id, call = rlang::caller_env())
 }
 
 #' The page of an object that is no specimen

@@ -60,7 +60,7 @@ lift <- function(specimen, coordinates, path, s, alpha) {
 #' @noRd
 lifted_line <- function(scan, coordinates, path, s, alpha) {
   walked <- walked_line(scan, coordinates, path, s, alpha)
-  # Ends that no path can join are no matter of the walk.
+  # Other failures are of the ends, which no path can join.
   if (!failed(walked) || walked$stage != "lift") return(walked)
   if (!is_closed(path)) {
     places <- places_in_plane(scan, coordinates, path, s, alpha)

@@ -79,8 +79,17 @@ unlike_patches <- function(pairs, patches, curves) {
   own <- partner_of(patches$patch, pairs, "surface") == patches$patch
   alike <- Reduce(`&`, lapply(sides, function(side) same(patches[[side]], mirror[[side]])))
   alone <- patches$patch[own & !alike]
-  turned <- bounded_by(patches, curves$curve[closed_curves(curves) & mirrored_backwards(curves,
-                                                                                        pairs)])
+  turned_loops <- curves$curve[closed_curves(curves) & mirrored_backwards(curves, pairs)]
+  # Patches with one of some curves among their bounding curves
+  turned <- if (!length(turned_loops)) character() else {
+    sides <- c("curve_a", "curve_b", "first_column")
+    bounded <- vapply(seq_len(nrow(patches)), function(i) {
+      texts <- unlist(patches[i, sides])
+      named <- lapply(texts[!is.na(texts)], function(text) curve_parts(text)$curve)
+      any(unlist(named) %in% turned_loops)
+    }, NA)
+    unique(patches$patch[bounded])
+  }
   block <- ifelse(is.na(patches$block), "", paste0("|", patches$block))
   rbind(unlike_pairs(pairs, "surface", paste0(patches$patch, block), patches, mirror, columns),
         problem(rep(NA, length(alone)), "left",

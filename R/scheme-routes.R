@@ -63,16 +63,3 @@ mirrored_backwards <- function(curves, pairs) {
 mirrored_points <- function(n, backwards, closed) {
   if (!backwards) seq_len(n) else if (closed) c(1, rev(seq_len(n)[-1])) else rev(seq_len(n))
 }
-
-#' Patches with one of some curves among their bounding curves
-#' @noRd
-bounded_by <- function(patches, curves) {
-  if (!length(curves)) return(character())
-  sides <- c("curve_a", "curve_b", "first_column")
-  bounded <- vapply(seq_len(nrow(patches)), function(i) {
-    texts <- unlist(patches[i, sides])
-    named <- lapply(texts[!is.na(texts)], function(text) curve_parts(text)$curve)
-    any(unlist(named) %in% curves)
-  }, NA)
-  unique(patches$patch[bounded])
-}

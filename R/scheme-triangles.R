@@ -12,9 +12,9 @@ scheme_triangles <- function(patches, strips, points) {
   each <- lapply(scheme_grids(patches, strips, points), function(one) {
     quad_triangles(one$grid, one$outward, one$part, one$group)
   })
-  do.call(rbind, c(list(data.frame(part = character(), group = character(), v1 = integer(),
-                                   v2 = integer(),
-                                   v3 = integer())), each))
+  none <- data.frame(part = character(), group = character(), v1 = integer(), v2 = integer(),
+                     v3 = integer())
+  do.call(rbind, c(list(none), each))
 }
 
 #' The quads that [scheme_triangles()] cuts in two

@@ -212,9 +212,9 @@ with_landmarks_of <- function(bridged, specimen) {
 
 #' Which curves depend on landmarks that have moved
 #'
-#' By their ends, their regions and sides, and by the curve whose side they keep to. An expected
-#' track is laid on all landmarks. One that is followed towards a landmark that is not on the mesh
-#' depends on all of them: the mirror plane says where that is.
+#' A curve depends on the landmarks of its ends, regions and sides, and of the curve whose side it
+#' keeps to. An expected track depends on all landmarks. So does a curve that is followed towards a
+#' landmark that is not on the mesh: the mirror plane gives the direction.
 #' @param whole Fits as they are, before they are cut off.
 #' @param tracked Names of the curves with an expected track.
 #' @return Logical, by row of `curves`.

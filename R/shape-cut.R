@@ -26,9 +26,9 @@ new_record <- function(points = NULL, path = NULL, length = NA_real_, strength =
 
 #' Cut off the curves that a scheme cuts, all of one specimen by one factor
 #'
-#' Where a curve between two landmarks is shorter than its share the factor is lowered until all are
-#' long enough, so that no two curves from one landmark keep it both. A curve that the mesh's edge
-#' ends before its far landmark costs only its own points.
+#' If a curve between two landmarks is shorter than its share, the factor is lowered until all are
+#' long enough, so that no two curves from one landmark both keep it. If the border of the mesh ends
+#' a curve before its far landmark, the factor stays, and that curve lacks points.
 #' @noRd
 cut_curves <- function(scan, curves, fits, cut_scale) {
   cut <- which(!is.na(curves$cut_share))
@@ -70,8 +70,8 @@ asked_cut_scale <- function(shape) {
   if (all(is.na(each))) NA_real_ else stats::median(each, na.rm = TRUE)
 }
 
-#' Tell of shapes that were measured with different `cut_scale`s
-#' @param apart Least relative difference that is told.
+#' Warn of shapes that were measured with different `cut_scale`s
+#' @param apart Least relative difference that gives a warning.
 #' @noRd
 warn_cut_scales <- function(shapes, stage, apart = 0.02) {
   scale <- vapply(unname(shapes), asked_cut_scale, 0)

@@ -33,7 +33,7 @@ grade_parts <- function(parts, scores, limits, scheme) {
 #' Every check of the parts of one specimen
 #'
 #' @return List of checks, each a list of `level` (0 green, 1 amber, 2 red) and `text`, both by
-#'   part; the text is NA where the part's own reason says it.
+#'   part; the text is NA if the part's own reason has it.
 #' @noRd
 judge_parts <- function(parts, limits, scheme) {
   value <- parts
@@ -58,7 +58,7 @@ judge_parts <- function(parts, limits, scheme) {
     stats::setNames(lapply(measures, judge), ifelse(measures == "se_max", measures, "")))
 }
 
-#' What is said of parts whose measure is beyond its limit, by measure
+#' Reasons of parts whose measure is beyond its limit, by measure
 #'
 #' @param value Measures as they are judged; `z` with its sign.
 #' @noRd

@@ -82,7 +82,7 @@ landmark_scale <- function(at, reference, fewest = 4) {
   stats::median(apart[is.finite(apart)])
 }
 
-#' What looks exchanged among the landmarks of a specimen, told unless the door has told it
+#' What looks exchanged among the landmarks of a specimen; a warning unless specimen() gave it
 #' @return As [exchanged_landmarks()].
 #' @noRd
 scheme_slips <- function(specimen, scheme) {
@@ -96,7 +96,7 @@ scheme_slips <- function(specimen, scheme) {
     typical_landmarks(scheme)
   )
   if (!is_told(slips, specimen$geometry$slips)) warn_exchanged(slips, specimen$id)
-  # What is said of exchanged landmarks, by landmark; NA where there is nothing to say
+  # Reasons of landmarks that look exchanged; NA of the others
   said <- stats::setNames(rep(NA_character_, length(own)), own)
   if (slips$mirrored) said[own %in% unlist(pairs)] <- "left and right look mirrored"
   for (group in slips$groups) said[group] <- paste(word_list(group), "look exchanged")
@@ -109,8 +109,8 @@ scheme_slips <- function(specimen, scheme) {
   slips
 }
 
-#' Whether the door has told of all that looks exchanged
-#' @param before What it found, NULL where that is not known.
+#' Whether specimen() has warned of everything that looks exchanged
+#' @param before Its findings, NULL if they are not known.
 #' @noRd
 is_told <- function(slips, before) {
   named <- function(found) unlist(found[c("groups", "either")])

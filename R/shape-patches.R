@@ -85,11 +85,13 @@ side_points_on <- function(side, n, ground) {
   scan <- ground$scan
   points <- ground$store[side$place, mesh_columns, drop = FALSE]
   lost <- is.na(points[, "x"])
-  problem <- if (any(lost)) vapply(unique(side$curve[lost]), function(curve) {
-    gone <- lost[side$curve == curve]
-    if (is.null(ground$fits[[curve]]$points)) paste(curve, "is missing") else
-      sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
-  }, "", USE.NAMES = FALSE)
+  problem <- if (any(lost)) {
+    vapply(unique(side$curve[lost]), function(curve) {
+      gone <- lost[side$curve == curve]
+      if (is.null(ground$fits[[curve]]$points)) paste(curve, "is missing") else
+        sprintf("%d of %d points of %s are missing", sum(gone), length(gone), curve)
+    }, "", USE.NAMES = FALSE)
+  }
   if (n == length(side$place)) return(list(points = points, problem = problem))
   spaced <- matrix(NA_real_, n, length(mesh_columns), dimnames = list(NULL, mesh_columns))
   if (any(lost)) return(list(points = spaced, problem = problem))
@@ -150,7 +152,7 @@ run_lengths <- function(fit, point) {
 #'
 #' @param a,b Points of both sides.
 #' @param at The column.
-#' @return Vector of 3; NA where the scheme does not say, or no neighbour tells the direction along
+#' @return Vector of 3; NA if the scheme has no `outward`, or no neighbour gives the direction along
 #'   the sides.
 #' @noRd
 column_outside <- function(a, b, at, outward) {

@@ -125,8 +125,9 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
                  part, scores[name, ], limits, measured[[name]]$scheme
                ),
                parts, names(parts))
-  noted <- lapply(names(measured), function(name) if (NROW(warnings)) {
-    specimen_row(name, "amber", paste(sub("[.]$", "", unique(warnings$problem)), collapse = "; "))
+  noted <- lapply(names(measured), function(name) {
+    said <- unique(measured[[name]]$warnings$problem)
+    if (length(said)) specimen_row(name, "amber", paste(sub("[.]$", "", said), collapse = "; "))
   })
   failed <- attr(x, "failed")
   lost <- lapply(setdiff(names(shapes), names(measured)), function(name) {
@@ -153,7 +154,7 @@ worst_lines <- function(x, several) {
   worst <- worst[!is.na(worst$grade), ]
   of <- paste0(" of ", worst$specimen)
   if (!several) {
-    # Parts that one thing is said of share a line
+    # Parts with one reason share a line
     said <- paste(worst$grade, worst$why)
     parts <- tapply(worst$part, factor(said, unique(said)), shorten, 6)
     once <- worst[!duplicated(said), ]
@@ -213,7 +214,7 @@ part_measures <- function(shape, name) {
   )
 }
 
-#' A column of a table, or what stands for it in shapes of former versions
+#' A column of a table, or its replacement in shapes of former versions
 #' @noRd
 recorded <- function(table, name, none) if (is.null(table[[name]])) rep(none, nrow(table)) else
   table[[name]]

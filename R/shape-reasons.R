@@ -2,7 +2,7 @@
 
 #' Kinds of reasons, the first that fits counts
 #'
-#' @return Named character: what is said of a kind, by a pattern of its sentences.
+#' @return Named character: words for a kind, by a pattern of its sentences.
 #' @noRd
 reason_kinds <- c(
   "^it was not measured" = "not measured",

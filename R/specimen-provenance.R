@@ -21,11 +21,11 @@ mesh_provenance <- function(specimen) {
 
 #' Provenance in lines of text
 #'
-#' @param x A provenance: list of `package`, `r`, and what there is of `scheme` (`name`, `hash`,
+#' @param x A provenance: list of `package`, `r`, and those known of `scheme` (`name`, `hash`,
 #'   `unit`), `mesh` (`id`, `key`, `file`), `landmarks` (as of [new_origin()]), `specimens` (data
 #'   frame `id`, `file`, `key`, `landmarks`), `template` (`id`, `hash`), `settings` (list of lists
 #'   of arguments).
-#' @return Text without line breaks, a line a matter, begun by what it is about.
+#' @return Text without line breaks, a line for each part, with its name first.
 #' @noRd
 provenance_lines <- function(x) {
   if (!length(x)) return("not recorded: made by an older version")

@@ -183,8 +183,8 @@ print.study_settings <- function(x, ...) {
   print_settings(x, "<study_settings> of ridge_study()")
 }
 
-#' Blocks of surfaces, each of one cell: its seeds, the file it is kept in and the key that tells
-#' whether it is kept already
+#' Blocks of surfaces, each of one cell: its seeds, its file, and the key by which a block that was
+#' kept is recognised
 #' @noRd
 study_tasks <- function(cells, n, block, methods, constant, dir) {
   seeds <- split(seq_len(n), ceiling(seq_len(n) / block))

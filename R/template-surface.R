@@ -130,8 +130,7 @@ transects <- function(set, store, cutting, settings) {
         column <- rows$column[1]
         outside <- as.matrix(column_outside(a, b, column, block$outward))
         made <- fit_columns(a[column, , drop = FALSE], b[column, , drop = FALSE], outside,
-                            block$rows,
-                            cutting$scan)
+                            block$rows, cutting$scan)
         track <- made$cuts[[1]]
         length <- track[nrow(track), 1]
         s <- rep(NA_real_, block$rows)

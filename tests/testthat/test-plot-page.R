@@ -98,3 +98,17 @@ test_that("the scripts of a page are closed", {
   expect_equal(count("</script>"), count("<script"))
   unlink(c(file, sub(".html", "_files", file, fixed = TRUE)), recursive = TRUE)
 })
+
+test_that("the page of a shape needs no specimen beside it, unless the shape keeps none", {
+  testthat::skip_if_not_installed("htmltools")
+  old <- options(rgl.useNULL = TRUE)
+  on.exit(options(old))
+  shape <- two_patch_shape()
+  file <- tempfile(fileext = ".html")
+  write_page(shape, file, surface = "plain", selfcontained = FALSE)
+  expect_match(paste(readLines(file, warn = FALSE), collapse = "\n"),
+               paste("Specimen", shape$id), fixed = TRUE)
+  unlink(c(file, sub("[.]html$", "_files", file)), recursive = TRUE)
+  shape$specimen <- NULL
+  expect_crestline_error(write_page(shape, file), "write_page(specimen, file, curves = shape)")
+})
