@@ -85,9 +85,10 @@ scheme_form <- function(form, button, defaults) {
 
 #' The functions of [scene_server()] for this page
 #' @noRd
-build_answers <- function() {
+build_answers <- function(shown, view) {
   list(items = build_items, show = show_build, answer = answer_build, result = build_result,
-       sent = build_sent)
+       sent = build_sent, balls = build_balls,
+       surface = function(state) list(key = "", shown = shown, view = view))
 }
 
 #' What the call on R's side gets: the specimen and the scheme as they are
@@ -102,7 +103,7 @@ build_result <- function(state) {
 #' @noRd
 build_items <- function(state, faint = "#8A8F96", width = 1.5) {
   names <- build_names(state)
-  shown <- list(specimen = state$specimen, fitting = state$fitting,
+  shown <- list(specimen = state$specimen, fitting = state$fitting, pen = character(),
                 about = data.frame(landmark = names), least = 0, selected = state$selected,
                 state = stats::setNames(ifelse(names %in% state$chain, "found", "given"), names))
   suggested <- lapply(seq_len(NROW(state$suggested)), function(i) {
@@ -125,24 +126,26 @@ build_items <- function(state, faint = "#8A8F96", width = 1.5) {
   c(review_items(shown), suggested, patches)
 }
 
-#' What the page's script is told: balls to drag, with the surface's direction there; what the forms
-#' offer
+#' The balls that can be dragged, of which a click chooses
 #' @noRd
-build_sent <- function(state, frame) {
-  names <- build_names(state)
-  balls <- lapply(names, function(name) {
+build_balls <- function(state, frame) {
+  lapply(build_names(state), function(name) {
     place <- found_landmark(state$specimen, name)
-    corner <- t(state$specimen$mesh$vb[1:3, state$specimen$mesh$it[, place$face]])
-    out <- unit_vector(cross_product(corner[2, ] - corner[1, ], corner[3, ] - corner[1, ]))
-    at <- into_scene(matrix(unlist(place[c("x", "y", "z")]), 1), frame)
-    list(name = name, at = as.vector(at), out = out)
+    c(ball_at(name, unlist(place[c("x", "y", "z")]), place$face, state$specimen$mesh, frame),
+      chooses = TRUE)
   })
+}
+
+#' What the page's script is told: what the forms offer
+#' @noRd
+build_sent <- function(state) {
+  names <- build_names(state)
   row <- state$curves[match(c(state$curve, "")[1], state$curves$curve), ]
   shown <- if (NROW(row) && !is.na(row$curve)) {
     list(curve_name = row$curve, kind = row$kind, path = c(row$path, "plane")[1],
          radius = row$radius, width = row$width, points = row$n)
   }
-  list(balls = balls, mark = free_name(names, "L"), curves = as.list(state$curves$curve),
+  list(count = length(names), mark = free_name(names, "L"), curves = as.list(state$curves$curve),
        curve = shown)
 }
 
@@ -155,9 +158,9 @@ answer_build <- function(input, step, frame, progress) {
   on <- function(id, change) shiny::observeEvent(input[[id]], try(change))
   shiny::observeEvent(input$ready, step(identity))
   on("select", function(state) pick_mark(state, input$select))
-  on("ray", function(state) click_build(state, scene_ray(input$ray, frame), input$mark, input$snap))
+  on("ray", function(state) click_build(state, scene_ray(input$ray, frame()), input$mark, input$snap))
   on("drop", function(state) {
-    ray <- scene_ray(input$drop$ray, frame)
+    ray <- scene_ray(input$drop$ray, frame())
     point <- mesh_on_ray(state$specimen$mesh, ray[1, ], ray[2, ])
     if (is.null(point)) with_said(state, "There is no surface: it stays where it was.") else
       place_mark(state, input$drop$name, point, input$snap)
@@ -189,12 +192,6 @@ form_row <- function(input) {
   list(curve = c(input$curve_name, "")[1], kind = input$kind, path = input$path,
        closed = isTRUE(input$closed), radius = form_number(input$radius),
        width = form_number(input$width), n = form_number(input$points))
-}
-
-#' Both ends of a ray that the page sent, in the unit of the mesh
-#' @noRd
-scene_ray <- function(ray, frame) {
-  from_scene(rbind(as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards))), frame)
 }
 
 #' What a click does: it chooses the landmark whose ball it meets, takes the suggestion that it

@@ -43,11 +43,6 @@ undo_build <- function(state) {
   with_said(state, "Undone.")
 }
 
-with_said <- function(state, said) {
-  state$said <- said
-  state
-}
-
 #' The state after a change; after one that fails the same state, which says why
 #' @noRd
 try_build <- function(state, change) {

@@ -71,5 +71,5 @@ build_scheme <- function(mesh, scheme = NULL, dir = NULL,
   shown <- shown_surface(mesh, "natural", radius, faces)
   defaults <- list(radius = radius, points = points, dir = c(dir, "")[1])
   run_review(build_page(paste("Scheme of", mesh$id), defaults),
-             scene_server(begin, shown, view, build_answers(), shiny::stopApp), ...)
+             scene_server(begin, build_answers(shown, view), shiny::stopApp), ...)
 }

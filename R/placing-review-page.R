@@ -1,33 +1,49 @@
 # The page of a review: the face that turns, the list of landmarks, the buttons; and what answers
 # them.
 
-review_page <- function(title) {
+#' @param several Whether there is a next specimen.
+#' @param cancel Whether the page can end without any change.
+#' @noRd
+review_page <- function(title, several = FALSE, cancel = TRUE) {
+  tags <- shiny::tags
   button <- function(id, label, title) shiny::actionButton(id, label, title = title)
   shiny::fillPage(
-    title = title, shiny::tags$head(shiny::includeCSS(review_file("review.css"))),
+    title = title,
+    tags$head(shiny::includeCSS(review_file("review.css")),
+              tags$meta(name = "viewport", content = "width=device-width, initial-scale=1")),
     rgl::registerSceneChange(),
-    shiny::tags$div(
-      id = "review", shiny::tags$div(id = "view",
-                                     rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
-      shiny::tags$div(
-        id = "side", shiny::tags$h2(title), shiny::uiOutput("chosen"),
-        shiny::tags$div(
-          id = "buttons",
-          button("keep", "It is right",
-                 "The chosen landmark stays where it is and counts as placed"),
-          button("absent", "Not on this scan", "The chosen landmark is missing on this scan"),
-          button("undo", "Undo", "Take the last step back"),
-          button("cancel", "Cancel", "End without any change"),
-          button("done", "Done", "End with the landmarks as they are")
-        ),
-        shiny::uiOutput("list"),
-        shiny::tags$p(class = "help",
-                      "Click on the surface: the chosen landmark goes there.",
-                      "Click on another's ball: that one is chosen.",
-                      "Drag: turn. Wheel: nearer or farther. Right button and drag: shift.")
+    tags$div(
+      id = "review",
+      tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
+      tags$div(
+        id = "side", tags$h2(title), shiny::uiOutput("desk"),
+        if (several) tags$div(id = "turn",
+                              button("previous", "Previous", "The specimen before (P)"),
+                              button("following", "Next", "The next specimen (N)")),
+        shiny::uiOutput("chosen"), review_buttons(button, cancel), shiny::uiOutput("list"),
+        tags$p(class = "help", "Click on the surface: the chosen landmark goes there, or the",
+               "chosen curve gets a point. Click on a ball: that one is chosen.",
+               "Drag a ball: it moves. Drag beside: turn. Wheel: nearer or farther.",
+               "Right button and drag: shift."),
+        tags$p(class = "help", "Keys: up, down: the list. Enter: right. Delete: not there, or",
+               "erase. S: snap. U, R: undo, redo.", if (several) "P, N: previous, next specimen.")
       )
     ),
     shiny::includeScript(review_file("review.js"))
+  )
+}
+
+review_buttons <- function(button, cancel) {
+  shiny::tags$div(
+    id = "buttons",
+    button("keep", "It is right", "The chosen landmark stays where it is and counts as placed"),
+    button("absent", "Not on this scan", "The chosen landmark is missing on this scan"),
+    button("snap", "Snap", "Lay the chosen curve onto the ridge or valley beside it"),
+    button("erase", "Erase", "What was drawn of the chosen curve goes away"),
+    button("undo", "Undo", "Take the last step back"),
+    button("redo", "Redo", "Make the step again that was taken back"),
+    if (cancel) button("cancel", "Cancel", "End without any change"),
+    button("done", "Done", "End with the landmarks and curves as they are")
   )
 }
 
@@ -35,87 +51,168 @@ review_file <- function(name) system.file("review", name, package = "crestline",
 
 #' What answers the page
 #'
-#' @param begin As of [begin_review()].
-#' @param shown As of [shown_surface()].
-#' @param view As in [draw_surface()].
-#' @param finish Function of the specimen, called once, at the end.
+#' @param desk As of [begin_desk()].
+#' @param surface As of [desk_surfaces()].
+#' @param finish Function of the result, called once, at the end.
+#' @param result Function of the last desk.
 #' @return Server function for shiny.
 #' @noRd
-review_server <- function(begin, shown, view, finish = shiny::stopApp) {
+desk_server <- function(desk, surface, finish = shiny::stopApp,
+                        result = function(desk) reviewed_specimen(current_review(desk))) {
   page <- list(
-    items = review_items,
-    show = function(output, review) {
-      output$chosen <- shiny::renderUI(chosen_html(review()))
-      output$list <- shiny::renderUI(list_html(review()))
+    items = function(desk) c(review_items(current_review(desk)), knot_items(current_review(desk))),
+    show = function(output, desk) {
+      output$desk <- shiny::renderUI(shiny::tags$p(id = "where", desk_words(desk())))
+      output$chosen <- shiny::renderUI(chosen_html(current_review(desk())))
+      output$list <- shiny::renderUI(list_html(current_review(desk())))
     },
-    answer = answer_steps, result = function(review) review$specimen
+    answer = answer_steps, result = result, surface = surface,
+    balls = function(desk, frame) review_balls(current_review(desk), frame)
   )
-  scene_server(begin, shown, view, page, finish)
+  scene_server(desk, page, finish)
+}
+
+#' The surface of the specimen that a desk shows
+#'
+#' @param surface,view As in [review_landmarks()].
+#' @param page [review_settings()].
+#' @return Function of a desk: list of `key`, `shown` (as of [shown_surface()]), `view`.
+#' @noRd
+desk_surfaces <- function(surface, page, view = NULL) {
+  known <- list()
+  function(desk) {
+    specimen <- current_review(desk)$specimen
+    if (is.null(known[[desk$at]])) {
+      radius <- if (is.null(page$radius)) mesh_diagonal(specimen$mesh) / 25 else page$radius
+      own <- if (!is.null(view)) view else
+        if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
+      known[[desk$at]] <<- list(key = desk$at, view = own,
+                                shown = shown_surface(specimen, surface, radius, page$faces))
+    }
+    known[[desk$at]]
+  }
 }
 
 #' A server with one loop: every input makes the next state of what is edited, and what is drawn of
 #' it changes
 #'
 #' @param begin The first state.
-#' @param page List of functions: `items` of a state (as [review_items()]); `show` of the outputs
-#'   and the reactive state; `answer` as [answer_steps()]; `result` of the last state; `sent` of a
-#'   state (what the page's script is told after a step, a list; NULL: nothing).
-#' @param shown,view,finish As in [review_server()].
+#' @param page List of functions: `surface` of a state (as of [desk_surfaces()]); `items` of a state
+#'   (as [review_items()]); `show` of the outputs and the reactive state; `answer` as
+#'   [answer_steps()]; `result` of the last state; `balls` of a state and a frame (as
+#'   [review_balls()]); `sent` of a state (what the page's script is told after a step, a list;
+#'   NULL: nothing).
+#' @param finish As in [desk_server()].
 #' @noRd
-scene_server <- function(begin, shown, view, page, finish) {
+scene_server <- function(begin, page, finish) {
   function(input, output, session) {
     review <- shiny::reactiveVal(begin)
-    scene <- open_scene(shown, view)
+    seen <- page$surface(begin)
+    scene <- open_scene(seen$shown, seen$view)
+    opened <- shiny::reactiveVal(1)
     drawn <- list()
+    send <- function() {
+      changed <- redraw(scene, drawn, page$items(review()))
+      drawn <<- changed$drawn
+      session$sendCustomMessage("sceneChange", rgl::sceneChange(
+        "face", delete = changed$delete, add = changed$add
+      ))
+      session$sendCustomMessage("balls", page$balls(review(), scene$frame))
+      if (!is.null(page$sent)) session$sendCustomMessage("state", page$sent(review()))
+    }
     step <- function(change) {
       review(change(review()))
-      change <- redraw(scene, drawn, page$items(review()))
-      drawn <<- change$drawn
-      session$sendCustomMessage("sceneChange", rgl::sceneChange(
-        "face", delete = change$delete, add = change$add
-      ))
-      if (!is.null(page$sent)) session$sendCustomMessage("state", page$sent(review(), shown$frame))
+      now <- page$surface(review())
+      if (identical(now$key, seen$key)) return(send())
+      # Another surface: what is drawn on it follows when the browser has it
+      rgl::close3d(scene$device)
+      seen <<- now
+      scene <<- open_scene(now$shown, now$view)
+      drawn <<- list()
+      opened(opened() + 1)
     }
     output$face <- rgl::renderRglwidget({
+      opened()
       rgl::set3d(scene$device)
       rgl::rglwidget()
     })
     page$show(output, review)
-    page$answer(input, step, shown$frame, fitting_progress(session))
+    page$answer(input, step, function() scene$frame, fitting_progress(session))
     answer_end(input, session, function() page$result(shiny::isolate(review())),
                page$result(begin), finish)
     session$onSessionEnded(function() rgl::close3d(scene$device))
   }
 }
 
-#' What each input does to the review
+#' What each input does to the desk
 #'
-#' @param step Function of a function of the review that gives the next one.
-#' @param frame As of [scene_frame()].
+#' @param step Function of a function of the desk that gives the next one.
+#' @param frame Function that gives the [scene_frame()] of what is shown.
 #' @noRd
 answer_steps <- function(input, step, frame, progress) {
+  on <- function(id, change, of = on_current) {
+    shiny::observeEvent(input[[id]], step(function(desk) of(desk, change)))
+  }
   # The scene is in the browser: now landmarks and curves can be sent to it.
-  shiny::observeEvent(input$ready, step(function(now) {
-    if (!is.null(now$fitting)) {
+  on("ready", function(now) {
+    if (!is.null(now$fitting) && is.null(now$fitting$refitted)) {
       now$fitting <- refit_curves(now$fitting, now$specimen, progress = progress)
     }
     now
-  }))
-  shiny::observeEvent(input$select, step(function(now) select_landmark(now, input$select)))
-  shiny::observeEvent(input$ray, step(function(now) {
-    # What a click does: it chooses the landmark whose ball it meets, else places the chosen one
-    ends <- from_scene(
-      rbind(as.numeric(unlist(input$ray$from)), as.numeric(unlist(input$ray$towards))), frame
-    )
-    # Radius of the ball of a landmark, in the unit of the mesh
-    aim <- aimed_at(now, ends[1, ], ends[2, ], formals(landmark_items)$size *
-                    mesh_diagonal(now$specimen$mesh) / 400)
-    if (!is.null(aim$landmark)) return(select_landmark(now, aim$landmark))
-    if (is.null(aim$point)) now else place_selected(now, aim$point, progress)
-  }))
-  shiny::observeEvent(input$keep, step(function(now) keep_selected(now, progress)))
-  shiny::observeEvent(input$absent, step(function(now) place_selected(now, NULL, progress)))
-  shiny::observeEvent(input$undo, step(undo_review))
+  })
+  on("select", function(now) select_landmark(now, input$select))
+  on("curve", function(now) choose_curve(now, input$curve))
+  on("ray", function(now) click_review(now, scene_ray(input$ray, frame()), progress))
+  on("drop", function(now) {
+    drop_ball(now, input$drop$name, scene_ray(input$drop$ray, frame()), progress)
+  })
+  on("keep", function(now) keep_selected(now, progress))
+  on("absent", function(now) place_selected(now, NULL, progress))
+  on("snap", snap_line)
+  on("erase", erase_curve)
+  on("undo", undo_review)
+  on("redo", redo_review)
+  on("choose", function(now) choose_next(now, input$choose))
+  shiny::observeEvent(input$following, step(function(desk) turn_to(desk, 1)))
+  shiny::observeEvent(input$previous, step(function(desk) turn_to(desk, -1)))
+}
+
+#' What a click does: on a knot of the chosen curve it takes it away, on another landmark's ball it
+#' chooses it, on the surface it places what is chosen
+#'
+#' @param ray Its ends, 2 x 3, in the unit of the mesh.
+#' @noRd
+click_review <- function(review, ray, progress) {
+  # Radius of the ball of a landmark, in the unit of the mesh
+  reach <- formals(landmark_items)$size * mesh_diagonal(review$specimen$mesh) / 400
+  if (length(review$pen)) {
+    knots <- review$drawn[[review$pen]]$knots
+    scene <- list(specimen = list(mesh = review$specimen$mesh, landmarks = named_knots(knots)),
+                  selected = character())
+    aim <- aimed_at(scene, ray[1, ], ray[2, ], reach)
+    if (!is.null(aim$landmark)) return(move_knot(review, as.integer(aim$landmark), NULL))
+    return(if (is.null(aim$point)) review else add_knot(review, aim$point))
+  }
+  aim <- aimed_at(review, ray[1, ], ray[2, ], reach)
+  if (!is.null(aim$landmark)) return(select_landmark(review, aim$landmark))
+  if (is.null(aim$point)) review else place_selected(review, aim$point, progress)
+}
+
+#' Knots as landmarks that are named by their numbers
+#' @noRd
+named_knots <- function(knots) {
+  at <- if (is.null(knots)) matrix(0, 0, 3) else knots[, 1:3, drop = FALSE]
+  dimnames(at) <- list(as.character(seq_len(nrow(at))), c("x", "y", "z"))
+  at
+}
+
+#' A ball that was dragged: it goes where it was let go
+#' @noRd
+drop_ball <- function(review, name, ray, progress) {
+  point <- mesh_on_ray(review$specimen$mesh, ray[1, ], ray[2, ])
+  if (is.null(point)) return(with_said(review, "There is no surface: it stays where it was."))
+  if (length(review$pen)) return(move_knot(review, match(name, seq_len(1e4)), point))
+  place_selected(select_landmark(review, name), point, progress)
 }
 
 #' The ways a review ends; only the first counts
@@ -147,11 +244,10 @@ fitting_progress <- function(session) {
   }
 }
 
-#' The chosen landmark: its name, where it belongs, its curves
+#' The chosen landmark or curve: its name, where it belongs, what there is to say of it
 #' @noRd
 chosen_html <- function(review) {
   tags <- shiny::tags
-  name <- review$selected
   waiting <- sum(is_open(review))
   left <- if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else
     "No landmark is missing or doubtful"
@@ -159,30 +255,57 @@ chosen_html <- function(review) {
     tags$p(class = "warning",
            "Left and right look mirrored: names that end in L belong to the subject's own left.")
   }
+  said <- tags$p(id = "told", review$said)
+  if (length(review$pen)) return(tags$div(chosen_curve(review), said))
+  name <- review$selected
   if (!length(name)) {
-    return(tags$div(tags$p(class = "where", "Choose a landmark: in the list, or its ball."),
-                    tags$p(left), mirrored))
+    return(tags$div(tags$p(class = "where", "Choose a landmark or a curve in the list."),
+                    tags$p(left), said, mirrored))
   }
   row <- match(name, review$about$landmark)
-  # The curves that a landmark is an end of: kind, length, what there is to say
+  tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]),
+           tags$p(class = "where", review$about$where[row]),
+           side_line(review, name, "landmarks"), tags$p(left), said, mirrored,
+           curves_at(review, name))
+}
+
+side_line <- function(review, name, level) {
+  words <- side_words(review, name, level)
+  if (length(words)) shiny::tags$p(class = "side", words)
+}
+
+#' The curve that is drawn now
+#' @noRd
+chosen_curve <- function(review) {
+  tags <- shiny::tags
+  row <- curve_row(review, review$pen)
+  line <- review$drawn[[review$pen]]
+  tags$div(
+    tags$p(class = "name", tags$b(review$pen), row$kind),
+    tags$p(class = "where", sprintf("from %s to %s", row$from, row$to)),
+    side_line(review, review$pen, "curves"),
+    tags$p(if (is.null(line)) "Click along it: the line follows the surface." else
+      line_words(review$pen, line))
+  )
+}
+
+#' The curves that a landmark is an end of: kind, length, what there is to say
+#' @noRd
+curves_at <- function(review, name) {
+  tags <- shiny::tags
   curves <- review$fitting$scheme$curves
   own <- which(curves$from == name | curves$to == name)
+  if (!length(own)) return(NULL)
   fits <- review$fitting$fits[own]
   value <- function(field, none) {
     vapply(fits, function(fit) if (is.null(fit[[field]])) none else fit[[field]], none)
   }
-  curves <- data.frame(curve = curves$curve[own], kind = curves$kind[own],
-                       length = value("length", NA_real_), reason = value("reason", NA_character_),
-                       row.names = NULL)
-  said <- paste0(curves$curve, ": ", curves$kind,
-                 ifelse(is.na(curves$length), "", sprintf(", %.4g long", curves$length)),
-                 ifelse(is.na(curves$reason), "", paste0("; ", curves$reason)))
-  tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]),
-           tags$p(class = "where", review$about$where[row]), tags$p(left), mirrored,
-           if (nrow(curves)) {
-             tags$details(tags$summary(amount(nrow(curves), "curve")),
-                          tags$ul(lapply(said, tags$li)))
-           })
+  length <- value("length", NA_real_)
+  reason <- value("reason", NA_character_)
+  said <- paste0(curves$curve[own], ": ", curves$kind[own],
+                 ifelse(is.na(length), "", sprintf(", %.4g long", length)),
+                 ifelse(is.na(reason), "", paste0("; ", reason)))
+  tags$details(tags$summary(amount(length(own), "curve")), tags$ul(lapply(said, tags$li)))
 }
 
 #' What looks exchanged among the landmarks of a specimen as they are now
@@ -193,7 +316,7 @@ specimen_slips <- function(specimen) {
                 eval(formals(crestline::specimen)$midline))
 }
 
-#' The list of landmarks: a row a landmark, with its state
+#' The list: a row a landmark, with its state, and a row a curve
 #' @noRd
 list_html <- function(review) {
   tags <- shiny::tags
@@ -207,11 +330,34 @@ list_html <- function(review) {
   rows <- lapply(seq_along(state), function(i) {
     name <- review$about$landmark[i]
     colour <- if (state[i] %in% names(colours)) colours[[state[i]]] else "transparent"
-    chosen <- if (identical(name, review$selected)) "chosen"
-    tags$button(type = "button", class = paste("row", state[i], chosen), `data-landmark` = name,
-                tags$span(class = "dot", style = paste0("background:", colour)), tags$b(name),
-                tags$span(class = "long", review$about$name[i]),
-                tags$span(class = "state", told[i]))
+    list_row("landmark", name, review$about$name[i], told[i], colour, state[i],
+             identical(name, review$selected), record_words(review, name, "landmarks"))
   })
-  tags$div(id = "landmarks", rows)
+  curves <- review$fitting$scheme$curves
+  lines <- lapply(seq_len(NROW(curves)), function(i) {
+    name <- curves$curve[i]
+    line <- review$drawn[[name]]
+    state <- if (is.null(line)) "" else if (line$snapped) "snapped" else "drawn"
+    list_row("curve", name, curves$kind[i], state, kind_colours[[curves$kind[i]]], state,
+             identical(name, review$pen), record_words(review, name, "curves"))
+  })
+  tags$div(id = "landmarks", rows, lines)
+}
+
+list_row <- function(kind, name, words, told, colour, state, chosen, record) {
+  tags <- shiny::tags
+  given <- stats::setNames(list(name), paste0("data-", kind))
+  do.call(tags$button, c(given, list(
+    type = "button", class = paste("row", kind, state, if (chosen) "chosen"), title = record,
+    tags$span(class = "dot", style = paste0("background:", colour)), tags$b(name),
+    tags$span(class = "long", words), tags$span(class = "state", told)
+  )))
+}
+
+#' Who did what to a landmark or curve last, and when
+#' @noRd
+record_words <- function(review, name, level) {
+  own <- utils::tail(review$log[review$log$part == name & review$log$level == level, ], 1)
+  if (!nrow(own)) return(NULL)
+  paste0(own$action, if (nzchar(own$by)) paste(" by", own$by), ", ", own$time)
 }

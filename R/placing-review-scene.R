@@ -41,20 +41,64 @@ open_scene <- function(shown, view) {
   list(device = rgl::cur3d(), scene = scene, frame = shown$frame)
 }
 
-#' Everything that is drawn on the surface, by name
+#' Everything that is drawn on the surface, by name; a line that was drawn by hand stands for the
+#' curve that was found
 #' @noRd
-review_items <- function(review, width = 3) {
-  fits <- Filter(function(fit) !is.null(fit$path), review$fitting$fits)
-  curves <- if (!length(fits)) list() else {
-    curves <- review$fitting$scheme$curves
-    colour <- review_colours()$curve[curves$kind[match(names(fits), curves$curve)]]
-    items <- Map(function(fit, colour) {
-      list(path = as.matrix(unbridged_path(fit$path, review$specimen)[c("x", "y", "z")]),
-           colour = colour, width = width)
-    }, fits, unname(colour))
-    stats::setNames(items, paste("curve", names(fits)))
+review_items <- function(review, width = 3, wider = 5) {
+  paths <- lapply(review$fitting$fits, `[[`, "path")
+  drawn <- Filter(Negate(is.null), lapply(review$drawn, `[[`, "path"))
+  paths[names(drawn)] <- drawn
+  paths <- Filter(Negate(is.null), paths)
+  curves <- review$fitting$scheme$curves
+  items <- lapply(names(paths), function(name) {
+    path <- unbridged_path(paths[[name]], review$specimen)
+    list(path = as.matrix(path[c("x", "y", "z")]),
+         colour = if (identical(name, review$pen)) review_colours()$selected else
+           review_colours()$curve[[curves$kind[match(name, curves$curve)]]],
+         width = if (name %in% names(drawn)) wider else width)
+  })
+  c(stats::setNames(items, paste("curve", names(paths), recycle0 = TRUE)), landmark_items(review))
+}
+
+#' The knots of the curve that is drawn now
+#' @noRd
+knot_items <- function(review, size = 1.2) {
+  if (!length(review$pen)) return(list())
+  knots <- review$drawn[[review$pen]]$knots
+  stats::setNames(lapply(seq_len(NROW(knots)), function(i) {
+    list(landmark = "", at = knots[i, 1:3], colour = review_colours()$selected, size = size)
+  }), paste("knot", seq_len(NROW(knots)), recycle0 = TRUE))
+}
+
+#' The balls that can be dragged: knots of the curve that is drawn now, else the chosen landmark
+#'
+#' @return List of lists: `name`, `at` (in the scene), `out` (direction of the surface there).
+#' @noRd
+review_balls <- function(review, frame) {
+  mesh <- review$specimen$mesh
+  if (length(review$pen)) {
+    knots <- review$drawn[[review$pen]]$knots
+    return(lapply(seq_len(NROW(knots)), function(i) {
+      ball_at(as.character(i), knots[i, 1:3], knots[i, "face"], mesh, frame)
+    }))
   }
-  c(curves, landmark_items(review))
+  found <- if (length(review$selected)) {
+    as_value(found_landmark(review$specimen, review$selected))
+  }
+  if (is.null(found) || failed(found)) return(list())
+  list(ball_at(review$selected, unlist(found[c("x", "y", "z")]), found$face, mesh, frame))
+}
+
+ball_at <- function(name, at, face, mesh, frame) {
+  corner <- t(mesh$vb[1:3, mesh$it[, face]])
+  out <- unit_vector(cross_product(corner[2, ] - corner[1, ], corner[3, ] - corner[1, ]))
+  list(name = name, at = as.vector(into_scene(matrix(at, 1), frame)), out = as.vector(out))
+}
+
+#' Both ends of a ray that the page sent, in the unit of the mesh
+#' @noRd
+scene_ray <- function(ray, frame) {
+  from_scene(rbind(as.numeric(unlist(ray$from)), as.numeric(unlist(ray$towards))), frame)
 }
 
 landmark_items <- function(review, size = 1.6, larger = 1.25) {

@@ -7,9 +7,11 @@
 #' @return List: `specimen`; `fitting` as of [begin_fitting()], NULL without a scheme; `about` (data
 #'   frame: `landmark`, `name`, `where`); `state` by landmark ("found", "predicted", "given",
 #'   "placed", "absent", or "missing": neither placed nor said to be absent); `selected` (name, or
-#'   none: `character()`); `history` (list of earlier reviews).
+#'   none: `character()`); `drawn` (list by curve of [joined_line()]s); `pen` (name of the curve that
+#'   is drawn now, or none); `observer`; `log` as of [no_steps()]; `history` and `future` (lists of
+#'   earlier and undone reviews); `said` (text).
 #' @noRd
-begin_review <- function(specimen, scheme, least, settings, bridge, threads) {
+begin_review <- function(specimen, scheme, least, settings, bridge, threads, observer = "") {
   specimen <- with_located(specimen)
   # The landmarks of a scheme, in its order, and those that only the specimen has, with words for
   # the reader Where a table says "as enL" the words are those of enL.
@@ -31,8 +33,9 @@ begin_review <- function(specimen, scheme, least, settings, bridge, threads) {
   state <- if (is.null(said)) rep(NA_character_, length(about$landmark)) else said
   state[is.na(state)] <- ifelse(there, "given", "missing")[is.na(state)]
   list(specimen = specimen, fitting = fitting, about = about,
-       state = stats::setNames(state, about$landmark),
-       least = least, selected = character(), history = list())
+       state = stats::setNames(state, about$landmark), least = least, selected = character(),
+       drawn = list(), pen = character(), observer = observer, log = no_steps(), history = list(),
+       future = list(), said = "")
 }
 
 #' Which landmarks were found with too little confidence
@@ -45,8 +48,10 @@ is_doubtful <- function(review) {
 }
 
 select_landmark <- function(review, name) {
-  if (name %in% review$about$landmark) review$selected <- name
-  review
+  if (!name %in% review$about$landmark) return(review)
+  review$selected <- name
+  review$pen <- character()
+  with_said(review, "")
 }
 
 #' Which landmarks wait for the person: missing or doubtful
@@ -62,18 +67,28 @@ is_open <- function(review) stats::setNames(
 #' @noRd
 place_selected <- function(review, point, progress = function(n) function() NULL) {
   name <- review$selected
-  if (!length(name)) return(review)
-  # A review with one landmark settled, from which the way back leads to what it was; one that
-  # waited is followed by the next
-  after <- review
+  if (!length(name)) return(with_said(review, "Choose a landmark or a curve first."))
+  # A landmark that waited is followed by the next that waits
+  before <- review$state[[name]]
+  action <- if (is.null(point)) "absent" else if (same_place(review, name, point)) "confirmed" else
+    if (before %in% c("missing", "absent")) "placed" else "moved"
+  after <- review_step(review, name, "landmarks", action)
   after$specimen <- move_landmark(review$specimen, name, point)
   after$state[[name]] <- if (is.null(point)) "absent" else "placed"
   if (is_open(review)[[name]]) after$selected <- next_open(after)
-  after$history <- c(review$history, list(review[c("specimen", "fitting", "state", "selected")]))
   if (!is.null(after$fitting)) {
     after$fitting <- refit_curves(after$fitting, after$specimen, name, progress)
+    after <- follow_lines(after, name)
   }
   after
+}
+
+#' Whether a landmark is at a place already
+#' @noRd
+same_place <- function(review, name, point) {
+  at <- review$specimen$landmarks
+  row <- match(name, rownames(at))
+  isTRUE(all(at[row, ] == unlist(point[c("x", "y", "z")])))
 }
 
 #' Say that the selected landmark is right where it is; one that is not on the mesh (predicted)
@@ -84,12 +99,6 @@ keep_selected <- function(review, progress = function(n) function() NULL) {
     as_value(landmark_point(review$specimen, review$selected)[mesh_columns])
   }
   if (is.null(point) || failed(point)) review else place_selected(review, point, progress)
-}
-
-undo_review <- function(review) {
-  last <- length(review$history)
-  if (last == 0) return(review)
-  c(review$history[[last]], review[c("about", "least")], list(history = review$history[-last]))
 }
 
 #' The next landmark after the selected one, round the list, that waits; the selected one where none
@@ -122,4 +131,30 @@ aimed_at <- function(review, from, towards, reach) {
   met <- which(beside <= reach & depth <= end + reach)
   if (length(met)) return(list(landmark = rownames(at)[met[which.min(beside[met])]]))
   if (is.null(point)) list() else list(point = point)
+}
+
+#' The next or previous landmark or curve of the list
+#'
+#' @param by 1 or -1.
+#' @noRd
+choose_next <- function(review, by) {
+  curves <- review$fitting$scheme$curves$curve
+  rows <- c(paste("landmark", review$about$landmark), paste("curve", curves, recycle0 = TRUE))
+  now <- c(paste("landmark", review$selected, recycle0 = TRUE),
+           paste("curve", review$pen, recycle0 = TRUE), NA)[1]
+  at <- match(now, rows, if (by > 0) 0 else length(rows) + 1) + by
+  at <- (at - 1) %% length(rows) + 1
+  name <- sub("^[a-z]+ ", "", rows[at])
+  if (at <= nrow(review$about)) select_landmark(review, name) else choose_curve(review, name)
+}
+
+#' The side that a landmark or curve belongs to, in words: the subject's own
+#' @noRd
+side_words <- function(review, name, level) {
+  pairs <- review$fitting$scheme$pairs
+  pairs <- pairs[pairs$level %in% level, ]
+  side <- if (name %in% pairs$left) "left" else if (name %in% pairs$right) "right"
+  if (!length(side)) return(NULL)
+  sprintf("the subject's own %s: from the front, on the %s of the picture", side,
+          if (side == "left") "right" else "left")
 }

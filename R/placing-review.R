@@ -5,7 +5,8 @@
 #' Opens a page in the browser (package shiny). It shows the turning specimen, its landmarks, and
 #' the curves of the scheme between them. Choose a landmark in the list or by a click on its ball. A
 #' click on the surface puts it there, exactly on the mesh. The curves that end on it are fitted
-#' again at once. Drag to turn, use the wheel to zoom, and the right button to shift.
+#' again at once. Drag to turn, use the wheel to zoom, and the right button to shift. Drag the chosen
+#' ball to move it. Curves can be drawn by hand, and keys press the buttons, see [digitise()].
 #'
 #' `review_landmarks()` begins with the landmarks of the specimen. Landmarks in which
 #' [find_landmarks()] has little confidence are red. They are selected one after the other: move
@@ -34,7 +35,8 @@
 #' @return `review_landmarks()`: the [specimen()] with the edited landmarks ("Done", or the page was
 #'   closed) or with the original ones ("Cancel"). If it has `placing`, moved and confirmed
 #'   landmarks get the state "placed" there. Landmarks that were marked as not on the scan get the
-#'   state "absent". Both have no confidence, and [check_placing()] accepts them.
+#'   state "absent". Both have no confidence, and [check_placing()] accepts them. Curves that were
+#'   drawn are its field `drawn`, which [fit_shape()] takes.
 #'   `place_landmarks()`: a specimen with a row for each landmark of the scheme; NA if it was not
 #'   placed.
 #' @section Errors: of class `crestline_error`: `specimen`, `mesh` or `scheme` has the wrong class,
@@ -44,7 +46,16 @@
 #' @template glossary
 #' @templateVar where sections 1 and 7 (which take landmarks as given)
 #' @template paper
-#' @seealso [find_landmarks()], [calibrate_template()]
+#' @section In place of geomorph's digit.fixed(): geomorph gave up digitising in three dimensions
+#'   (4.1.1). `place_landmarks()` needs a browser only. [digitise()] goes through several specimens:
+#'
+#'   ```
+#'   desk <- digitise(list.files("scans", "[.]ply$", full.names = TRUE), dir = "desk", observer = "AB")
+#'   A <- as.array(desk, "landmarks")   # p x 3 x n
+#'   geomorph::gpagen(A)
+#'   ```
+#' @seealso [digitise()] for several specimens and curves; [find_landmarks()],
+#'   [calibrate_template()]
 #' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)
 #' data(humface, package = "Rvcg")
 #' face <- find_landmarks(humface, id = "humface")
@@ -73,13 +84,12 @@ review_landmarks <- function(specimen, scheme = face_scheme(),
   check_dots(..., known = c(names(formals(shiny::runApp))[-1], names(page)))
   given <- list(...)
   page <- with_former(list(page = page), list(page = names(page)), given)$page
-  radius <- if (is.null(page$radius)) mesh_diagonal(specimen$mesh) / 25 else page$radius
   review <- begin_review(specimen, scheme, least, settings, page$bridge, threads)
+  if (!is.null(scheme)) review <- with_drawn(review)
   review$selected <- next_open(review)
-  if (is.null(view)) view <- if (is.null(specimen$match)) "front" else t(specimen$match$rotation)
-  shown <- shown_surface(specimen, surface, radius, page$faces)
   reviewed <- do.call(run_review, c(
-    list(review_page(paste("Landmarks of", specimen$id)), review_server(review, shown, view)),
+    list(review_page(paste("Landmarks of", specimen$id)),
+         desk_server(desk_of(review), desk_surfaces(surface, page, view))),
     given[!names(given) %in% names(page)]
   ))
   warn_exchanged(specimen_slips(reviewed), reviewed$id)

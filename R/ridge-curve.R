@@ -185,9 +185,11 @@ trace_curve <- function(job) {
   assembled_curve(fit$path, fit$reference, job, fit)
 }
 
-#' The reference path of a curve, among all cuts or those at small angles to the surface's normal
+#' The reference path of a curve, among all cuts or those at small angles to the surface's normal;
+#' where a person drew it, the drawn line
 #' @noRd
 curve_reference <- function(job) {
+  if (!is.null(job$drawn)) return(job$drawn)
   ends <- job$ends
   search <- job$search
   strength <- if (job$type != "plane") {

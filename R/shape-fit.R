@@ -31,7 +31,9 @@
 #'   curves may run in either direction. They are moved onto the mesh: closest points, joined by
 #'   cuts. Their ends are moved to their landmarks. They are not trimmed. A curve with the number of
 #'   points of the scheme keeps its points; any other curve gets points at equal chords. Curves that
-#'   are not in the list are found by curvature or cuts as usual.
+#'   are not in the list are found by curvature or cuts as usual. NULL: the curves that were drawn
+#'   on the page of [digitise()], if the specimen has any; `list()` ignores them. Their `reason` is
+#'   "drawn by hand", with observer and time.
 #' @param measuring How curves are cut off, holes bridged and columns cut: as of
 #'   [shape_settings()].
 #' @param unit Factor from the mesh's unit to the unit of the scheme's lengths: 1000 for a scan in
@@ -159,6 +161,7 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   specimen <- with_located(specimen)
   if (!is.null(specimen$placing)) specimen$placing <- current_placing(specimen)
   column <- column_settings(asked$measuring)
+  if (is.null(curves)) curves <- specimen$drawn
   scan <- prepare_scan(specimen, scheme, asked$settings, column, threads)
   tick <- progress_ticks(
     progress, nrow(scheme$curves) - length(curves) + nrow(scheme$patches), specimen$id

@@ -17,6 +17,8 @@ given_fits <- function(scan, curves) {
       check_curve_on(curves[[name]], specimen, sprintf("`curves`: %s", name))
     }
   }
+  hand <- vapply(curves, function(one) !is.null(attr(one, "drawn")), NA)
+  said <- vapply(curves[hand], attr, "", "drawn")
   curves <- as_curves(curves)
   unknown <- unknown_names(names(curves), scheme$curves$curve, "curve", "curve")
   if (nrow(unknown)) {
@@ -31,6 +33,9 @@ given_fits <- function(scan, curves) {
     if (closed_curves(row)) return(given_loop(row, xyz, scan, tolerance))
     given_fit(scheme$curves[scheme$curves$curve == name, ], xyz, scan, tolerance)
   }, curves, names(curves))
+  for (name in names(said)) {
+    fits[[name]]$reason <- sub("^as given", said[[name]], fits[[name]]$reason)
+  }
   fits
 }
 

@@ -210,7 +210,7 @@ comment_lines.specimen <- function(x) provenance_comments(provenance_of(x))
 written_landmarks.specimen <- function(x) {
   x <- check_class(x, "specimen", "x", "specimen() or read_specimen()")
   inform_predicted(x)
-  list(landmarks = x$landmarks, curves = attr(x, "curves"))
+  list(landmarks = x$landmarks, curves = if (is.null(x$drawn)) attr(x, "curves") else x$drawn)
 }
 
 # How each landmark of a specimen came to its place, and its mesh from which file.

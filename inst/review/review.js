@@ -2,7 +2,9 @@
 (function () {
   "use strict";
 
-  var still = 4;  // pixels that the pointer may move between press and release for a click
+  var still = 4,  // pixels that the pointer may move between press and release for a click
+      near = 12,  // pixels from a ball's middle within which it is taken
+      balls = [], dragged = null;
 
   function scene() {
     var view = document.getElementById("face");
@@ -56,22 +58,113 @@
     view.addEventListener("contextmenu", function (event) { event.preventDefault(); });
   }
 
-  // What the script of another page needs of this one.
-  window.crestlinePage = { scene: scene, rayAt: rayAt, still: still };
+  // Where a place of the scene is on the page, and how deep.
+  function pixel(rgl, at) {
+    var box = rgl.canvas.getBoundingClientRect(), w = rgl.user2window(at.concat(1), rgl.scene.rootSubscene);
+    return { x: box.left + w[0] * box.width, y: box.top + (1 - w[1]) * box.height, depth: w[2] };
+  }
+
+  // The ball under the pointer whose surface faces the viewer.
+  function ballAt(rgl, event) {
+    var best = null, least = near;
+    balls.forEach(function (ball) {
+      var p = pixel(rgl, ball.at), away = Math.hypot(p.x - event.clientX, p.y - event.clientY),
+          out = pixel(rgl, [0, 1, 2].map(function (i) { return ball.at[i] + ball.out[i]; }));
+      if (away < least && out.depth <= p.depth) { best = ball; least = away; }
+    });
+    return best;
+  }
+
+  document.addEventListener("pointerdown", function (event) {
+    var rgl = scene();
+    if (event.button !== 0 || !rgl || event.target !== rgl.canvas) return;
+    var ball = ballAt(rgl, event);
+    if (!ball) return;
+    dragged = { ball: ball, x: event.clientX, y: event.clientY, mark: null };
+    event.stopImmediatePropagation();
+    event.preventDefault();
+  }, true);
+
+  document.addEventListener("mousedown", function (event) {
+    if (dragged) event.stopImmediatePropagation();
+  }, true);
+
+  document.addEventListener("pointermove", function (event) {
+    if (!dragged) return;
+    event.stopImmediatePropagation();
+    if (!dragged.mark && Math.hypot(event.clientX - dragged.x, event.clientY - dragged.y) > still) {
+      dragged.mark = document.createElement("div");
+      dragged.mark.id = "dragged";
+      document.body.appendChild(dragged.mark);
+    }
+    if (!dragged.mark) return;
+    dragged.mark.style.left = event.clientX + "px";
+    dragged.mark.style.top = event.clientY + "px";
+  }, true);
+
+  document.addEventListener("pointerup", function (event) {
+    var was = dragged;
+    if (!was) return;
+    dragged = null;
+    event.stopImmediatePropagation();
+    if (was.mark) {
+      was.mark.remove();
+      send("drop", { name: was.ball.name, ray: rayAt(scene(), event) });
+    } else if (was.ball.chooses) send("select", was.ball.name);
+    else send("ray", rayAt(scene(), event));
+  }, true);
+
+  function send(name, value) { Shiny.setInputValue(name, value, { priority: "event" }); }
 
   document.addEventListener("click", function (event) {
-    var row = event.target.closest("[data-landmark]");
-    if (row) Shiny.setInputValue("select", row.getAttribute("data-landmark"), { priority: "event" });
+    var row = event.target.closest("[data-landmark], [data-curve]");
+    if (!row) return;
+    if (row.hasAttribute("data-landmark")) send("select", row.getAttribute("data-landmark"));
+    else send("curve", row.getAttribute("data-curve"));
+  });
+
+  // Keys press the buttons of the page, or go along the list.
+  var keys = { Enter: "keep", Delete: "absent", Backspace: "absent", s: "snap", u: "undo", r: "redo", n: "following", p: "previous" };
+  document.addEventListener("keydown", function (event) {
+    var field = event.target.closest("input, select, textarea"), id = keys[event.key.length > 1 ? event.key : event.key.toLowerCase()];
+    if (field || event.altKey) return;
+    if (event.ctrlKey || event.metaKey) id = { z: "undo", y: "redo" }[event.key.toLowerCase()];
+    else if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      if (!document.getElementById("redo")) return;
+      event.preventDefault();
+      send("choose", event.key === "ArrowDown" ? 1 : -1);
+      return;
+    }
+    if (id === "absent" && document.querySelector(".row.curve.chosen")) id = "erase";
+    var button = id && document.getElementById(id);
+    if (!button) return;
+    event.preventDefault();
+    button.click();
+  });
+
+  // What is chosen can be seen in the list.
+  $(document).on("shiny:value", function (event) {
+    if (event.name === "list") setTimeout(function () {
+      var list = document.getElementById("list"), row = list && list.querySelector(".row.chosen");
+      if (row) list.scrollTop = row.offsetTop - list.offsetTop - list.clientHeight / 2;
+    }, 50);
+    if (event.name === "face") shown();
   });
 
   // The surface is there once rgl has a canvas: then the server may send landmarks and curves.
-  $(document).on("shiny:connected", function () {
+  function shown() {
+    var before = scene() && scene().scene;
+    balls = [];
     var waiting = setInterval(function () {
-      if (!scene() || !scene().canvas || !scene().scene) return;
+      if (!scene() || !scene().canvas || !scene().scene || scene().scene === before) return;
       clearInterval(waiting);
-      watch(document.getElementById("view"));
-      Shiny.setInputValue("ready", true);
+      send("ready", Date.now());
     }, 50);
+  }
+
+  $(document).on("shiny:connected", function () {
+    Shiny.addCustomMessageHandler("balls", function (sent) { balls = sent; });
+    watch(document.getElementById("view"));
   });
 
   $(document).on("shiny:disconnected", function () {

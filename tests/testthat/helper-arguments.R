@@ -34,6 +34,15 @@ lawful_values <- function() {
   )
 }
 
+# The folder of a desk with one record.
+made_desk <- function(one, dir) {
+  scheme <- curve_scheme(data.frame(landmark = rownames(one$landmarks)),
+                         data.frame(curve = "c", from = "aL", to = "aR", kind = "plane", n = 5))
+  review <- begin_review(one, scheme, 0.5, ridge_settings(), 0.2, 1, "AB")
+  keep_review(review, dir)
+  dir
+}
+
 # A small ball with landmarks, and what is measured on it: cheap, so that thousands of calls are.
 argument_objects <- function() {
   ball <- Rvcg::vcgSphere(3)
@@ -209,6 +218,12 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                             colour = "black", opacity = 0.4),
                       scene = "object", left = "object", right = "object", colour = "colour",
                       opacity = "number"),
+    # No page is opened: the argument that is checked last is wrong already.
+    digitise = entry(given(specimens = list(one), scheme = made$scheme, dir = NULL,
+                           observer = "AB", blank = TRUE, settings = ridge_settings(),
+                           view = NULL, page = review_settings(), no_such_argument = 1),
+                     specimens = "object", scheme = "object", dir = "text?", observer = "text",
+                     blank = "flag", settings = "object", view = "numbers?", page = "object"),
     draw_lines = entry(given(scene = scene, x = line, colour = "black", width = 2, halo = NA,
                              name = NULL),
                        scene = "object", x = "object", colour = "colour", width = "number",
@@ -290,6 +305,8 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                          sample = "object", dir = "text", block = "count", triangles = "object?"),
     write_norms = entry(given(norms = norms, dir = path("norms"), share = FALSE),
                         norms = "object", dir = "text", share = "flag"),
+    read_digitised = entry(given(dir = made_desk(one, path("desk")), observer = NULL),
+                           dir = "text", observer = "names?"),
     read_norms = entry(given(dir = path("norms_read")), dir = "object"),
     visit_settings = fields(visit_settings, rounds = "count", draws = "count", seed = "number"),
     compare_visits = entry(given(before = cohort$sample[[1]], after = cohort$sample[[2]],

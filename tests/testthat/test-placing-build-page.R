@@ -5,7 +5,7 @@ test_that("clicks and forms build a scheme; it comes back with its specimen", {
                                         threads = 1L, radius = 20, name = "quad"))
   returned <- new.env()
   shown <- shown_surface(bare, "plain", 10, 60000)
-  server <- scene_server(begin, shown, "front", build_answers(),
+  server <- scene_server(begin, build_answers(shown, "front"),
                          function(value) returned$value <- value)
   ray <- function(name) {
     at <- quad_corners()[name, ]
@@ -42,8 +42,8 @@ test_that("clicks and forms build a scheme; it comes back with its specimen", {
     session$setInputs(curve = "top")
     expect_match(output$list$html, "data-curve=\"top\"")
     expect_match(output$list$html, "patch of 28 points")
-    expect_equal(build_sent(review(), shown$frame)$curve$points, 7)
-    expect_length(build_sent(review(), shown$frame)$balls, 4)
+    expect_equal(build_sent(review())$curve$points, 7)
+    expect_length(build_balls(review(), shown$frame), 4)
     session$setInputs(save = 1)
     session$setInputs(done = 1)
     session$setInputs(cancel = 1)

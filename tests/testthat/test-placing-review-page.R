@@ -7,9 +7,10 @@ ray_to <- function(mesh, at, eye) {
 # The server of a page, and what it returns at its end.
 serve_review <- function(review) {
   returned <- new.env()
-  shown <- shown_surface(review$specimen, "plain", 10, 60000)
-  list(server = review_server(review, shown, "front", function(specimen)
-    returned$specimen <- specimen), returned = returned)
+  surfaces <- desk_surfaces("plain", review_settings(radius = 10), "front")
+  list(server = desk_server(desk_of(review), surfaces,
+                            function(specimen) returned$specimen <- specimen),
+       returned = returned)
 }
 
 test_that("clicks choose and move a landmark, its curves follow, and the specimen comes back", {
@@ -23,20 +24,20 @@ test_that("clicks choose and move a landmark, its curves follow, and the specime
   ray <- function(at) ray_to(face$mesh, at, at + c(10, 10, 300))
   shiny::testServer(served$server, {
     session$setInputs(ready = TRUE)
-    paths <- lapply(review()$fitting$fits, `[[`, "path")
+    paths <- lapply(current_review(review())$fitting$fits, `[[`, "path")
     session$setInputs(ray = ray(target))
-    expect_identical(review()$specimen, begun$specimen)  # nothing is chosen
+    expect_identical(current_review(review())$specimen, begun$specimen)  # nothing is chosen
     session$setInputs(ray = ray(at))
-    expect_equal(review()$selected, "chL")
+    expect_equal(current_review(review())$selected, "chL")
     session$setInputs(ray = ray(target))
-    expect_equal(review()$specimen$landmarks["chL", ], target, tolerance = 1e-8)
-    changed <- !mapply(identical, lapply(review()$fitting$fits, `[[`, "path"), paths)
+    expect_equal(current_review(review())$specimen$landmarks["chL", ], target, tolerance = 1e-8)
+    changed <- !mapply(identical, lapply(current_review(review())$fitting$fits, `[[`, "path"), paths)
     expect_setequal(names(which(changed)),
                     scheme$curves$curve[scheme$curves$from == "chL" | scheme$curves$to == "chL"])
     expect_match(as.character(output$chosen$html), "corner of the mouth")
     expect_match(as.character(output$list$html), "placed")
     session$setInputs(undo = 1)
-    expect_identical(review()$specimen, begun$specimen)
+    expect_identical(current_review(review())$specimen, begun$specimen)
     session$setInputs(ray = ray(target), done = 1)
     session$setInputs(cancel = 1)
   })
@@ -59,10 +60,10 @@ test_that("placing names the next; cancel gives back what there was, closing wha
   shiny::testServer(served$server, {
     session$setInputs(ready = TRUE)
     for (name in c("a", "b", "c")) {
-      expect_equal(review()$selected, name)
+      expect_equal(current_review(review())$selected, name)
       place(session, name)
     }
-    expect_setequal(names(Filter(function(fit) !is.null(fit$path), review()$fitting$fits)),
+    expect_setequal(names(Filter(function(fit) !is.null(fit$path), current_review(review())$fitting$fits)),
                     c("bottom", "right"))
   })
   expect_lt(max(abs(served$returned$specimen$landmarks[1:3, ] - quad_corners()[1:3, ])), 0.1)

@@ -1,0 +1,168 @@
+# The files of a desk: for each observer and specimen the landmarks and curves, and how they came to
+# their places.
+
+#' Paths of a specimen's files in the folder of a desk
+#'
+#' @return List: `record` (the whole, to go on with), `table` (landmarks and curves, as
+#'   [write_landmarks()] writes them).
+#' @noRd
+desk_paths <- function(dir, observer, id) {
+  own <- file.path(dir, file_word(observer))
+  list(record = file.path(own, "records", paste0(file_word(id), ".json")),
+       table = file.path(own, paste0(file_word(id), ".csv")))
+}
+
+#' A name as a file's name
+#' @noRd
+file_word <- function(name) utils::URLencode(enc2utf8(name), reserved = TRUE)
+
+#' Numbers as text that reads back to the same
+#' @noRd
+exact_text <- function(x) ifelse(is.na(x), NA_character_, sprintf("%.17g", x))
+
+#' Write the files of a review; each is whole or as it was
+#' @noRd
+keep_review <- function(review, dir) {
+  specimen <- review$specimen
+  paths <- desk_paths(dir, review$observer, specimen$id)
+  dir.create(dirname(paths$record), showWarnings = FALSE, recursive = TRUE)
+  at <- specimen$landmarks
+  marks <- data.frame(landmark = names(review$state), state = unname(review$state))
+  row <- match(marks$landmark, rownames(at))
+  marks[c("x", "y", "z")] <- lapply(1:3, function(i) exact_text(at[row, i]))
+  curves <- lapply(names(review$drawn), function(name) {
+    line <- review$drawn[[name]]
+    knots <- matrix(exact_text(line$knots), ncol = ncol(line$knots))
+    list(curve = name, snapped = line$snapped, knots = knots)
+  })
+  record <- list(crestline = "desk 1", specimen = specimen$id, observer = review$observer,
+                 mesh = specimen_key(specimen), scheme = c(review$fitting$scheme$name, "")[1],
+                 landmarks = marks, curves = curves, steps = review$log)
+  put_file(jsonlite::toJSON(record, auto_unbox = TRUE, dataframe = "rows", na = "null",
+                            pretty = TRUE), paths$record)
+  there <- specimen$landmarks[!is.na(specimen$landmarks[, 1]), , drop = FALSE]
+  part <- paste0(paths$table, ".part.csv")
+  write_landmarks(there, part, curves = drawn_points(review))
+  file.rename(part, paths$table)
+  invisible(paths$record)
+}
+
+put_file <- function(text, path) {
+  part <- paste0(path, ".part")
+  writeLines(enc2utf8(text), part, useBytes = TRUE)
+  file.rename(part, path)
+}
+
+#' Read a record
+#' @return List: `specimen`, `observer`, `mesh`, `scheme`, `landmarks` (data frame), `curves` (list),
+#'   `steps` (data frame as of [no_steps()]).
+#' @noRd
+read_record <- function(path) {
+  record <- tryCatch(
+    jsonlite::fromJSON(path, simplifyVector = TRUE, simplifyDataFrame = FALSE,
+                       simplifyMatrix = FALSE),
+    error = function(e) NULL
+  )
+  fields <- c("specimen", "observer", "mesh", "landmarks", "curves", "steps")
+  if (!is.list(record) || !identical(record$crestline, "desk 1") ||
+      !all(fields %in% names(record))) {
+    crestline_abort(sprintf("%s is no record of a desk.", path),
+                    "Take it away to begin that specimen anew.", stage = "desk",
+                    class = "crestline_desk_error", call = NULL)
+  }
+  text <- function(rows, name) {
+    vapply(rows, function(row) c(row[[name]], NA_character_)[1], "", USE.NAMES = FALSE)
+  }
+  marks <- data.frame(landmark = text(record$landmarks, "landmark"),
+                      state = text(record$landmarks, "state"))
+  for (name in c("x", "y", "z")) marks[[name]] <- as.numeric(text(record$landmarks, name))
+  record$landmarks <- marks
+  record$curves <- lapply(record$curves, function(line) {
+    knots <- do.call(rbind, lapply(line$knots, function(row) as.numeric(unlist(row))))
+    colnames(knots) <- mesh_columns
+    list(curve = line$curve, snapped = isTRUE(line$snapped), knots = knots)
+  })
+  record$steps <- as.data.frame(lapply(stats::setNames(nm = names(no_steps())), function(name) {
+    text(record$steps, name)
+  }))
+  record
+}
+
+#' A review that goes on where its record ended
+#' @noRd
+resumed_review <- function(review, path) {
+  if (!file.exists(path)) return(review)
+  record <- read_record(path)
+  if (!identical(record$mesh, specimen_key(review$specimen))) {
+    crestline_abort("its record in the desk's folder is of another mesh.",
+                    sprintf("Give the mesh as it was, or take %s away.", path),
+                    stage = "desk", id = review$specimen$id, class = "crestline_desk_error",
+                    call = NULL)
+  }
+  marks <- record$landmarks
+  for (i in which(!is.na(marks$x))) {
+    point <- surface_points(review$specimen$mesh, as.matrix(marks[i, c("x", "y", "z")]))
+    at <- unlist(marks[i, c("x", "y", "z")])
+    point[c("x", "y", "z")] <- as.list(at)
+    if (!same_place(review, marks$landmark[i], point)) {
+      review$specimen <- move_landmark(review$specimen, marks$landmark[i], point)
+    }
+  }
+  gone <- marks$landmark[is.na(marks$x) & marks$state == "absent"]
+  for (name in gone) review$specimen <- move_landmark(review$specimen, name, NULL)
+  review$state[marks$landmark] <- marks$state
+  review$about <- with_new_marks(review$about, marks$landmark)
+  if (!is.null(review$fitting)) review$fitting <- at_landmarks(review$fitting, review$specimen)
+  review$log <- record$steps
+  review$specimen <- with_recorded(review$specimen, record$steps)
+  for (line in record$curves) {
+    own <- joined_line(review, line$curve, line$knots)
+    again <- if (line$snapped && !is.null(own$path)) snapped_line(review, line$curve, own)
+    review$drawn[[line$curve]] <- if (is.null(again) || failed(again)) own else again
+  }
+  review$selected <- next_open(review)
+  with_said(review, if (nrow(record$steps)) sprintf("Resumed after %s, the last at %s.",
+                                                    amount(nrow(record$steps), "step"),
+                                                    utils::tail(record$steps$time, 1)) else "")
+}
+
+#' A specimen whose landmarks were placed when the record says
+#' @noRd
+with_recorded <- function(specimen, steps) {
+  steps <- steps[steps$action %in% c("placed", "moved"), ]
+  steps <- steps[!duplicated(steps$part, fromLast = TRUE) &
+                   steps$part %in% rownames(specimen$landmarks), ]
+  for (i in seq_len(nrow(steps))) {
+    specimen <- with_origin(specimen, steps$part[i], steps$action[i], time = steps$time[i])
+  }
+  specimen
+}
+
+#' Words for landmarks that only the record knows
+#' @noRd
+with_new_marks <- function(about, names) {
+  new <- setdiff(names, about$landmark)
+  rbind(about, data.frame(landmark = new, name = rep("", length(new)),
+                          where = rep("", length(new))))
+}
+
+#' A fitting that knows where the landmarks are now, without any curve fitted
+#' @noRd
+at_landmarks <- function(fitting, specimen) {
+  fitting$scan$specimen <- specimen
+  fitting$scan$bridged <- with_landmarks_of(fitting$scan$bridged, specimen)
+  placed <- scan_landmarks(fitting$scan)
+  fitting$scan[names(placed)] <- placed
+  fitting
+}
+
+#' Every record in the folder of a desk
+#'
+#' @param observer Names of observers; NULL: all.
+#' @noRd
+desk_records <- function(dir, observer = NULL) {
+  files <- Sys.glob(file.path(dir, "*", "records", "*.json"))
+  records <- lapply(files, read_record)
+  if (is.null(observer)) return(records)
+  Filter(function(record) record$observer %in% observer, records)
+}

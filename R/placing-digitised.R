@@ -1,0 +1,162 @@
+# What comes of a desk: marks, steps and specimens, and the array that other programs take.
+
+#' Where the specimens of a desk come from: by id a path, a specimen or a mesh
+#' @noRd
+desk_sources <- function(specimens, call = rlang::caller_env()) {
+  if (inherits(specimens, c("specimen", "mesh3d"))) specimens <- list(specimens)
+  if (is.character(specimens) && length(specimens) && all(vapply(specimens, is_path, NA))) {
+    ids <- sub("(.)[.][^.]*$", "\\1", basename(specimens))
+    sources <- as.list(unname(specimens))
+  } else if (is.list(specimens) && length(specimens)) {
+    for (one in specimens) check_surface(one, "specimens", call)
+    given <- names(specimens)
+    ids <- vapply(seq_along(specimens), function(i) {
+      own <- if (inherits(specimens[[i]], "specimen")) specimens[[i]]$id
+      c(given[i][nzchar(c(given[i], "")[1])], own, paste("specimen", i))[1]
+    }, "")
+    sources <- unname(specimens)
+  } else {
+    refuse_argument("specimens", specimens, "Give paths of meshes, or a list of specimens.", call)
+  }
+  twice <- unique(ids[duplicated(ids)])
+  if (length(twice)) {
+    crestline_abort(sprintf("`specimens` has two named %s.", shorten(twice)),
+                    "Give a list with a name of its own for each.", stage = "arguments",
+                    call = call)
+  }
+  stats::setNames(sources, ids)
+}
+
+#' The desk of some sources: each is opened, and resumed from its record, when its turn comes
+#' @noRd
+desk_from <- function(sources, scheme, dir, observer, blank, settings, page) {
+  open <- function(id) {
+    source <- sources[[id]]
+    one <- if (is.character(source)) {
+      read_specimen(source, if (!blank) landmarks_beside(source), id)
+    } else if (inherits(source, "specimen")) {
+      with_fields(source, id = id)
+    } else specimen(source, id = id)
+    if (blank) one <- without_landmarks(one, scheme)
+    own <- scheme_in_unit(scheme, NULL, one)
+    review <- begin_review(one, own, find_settings()$low, settings, page$bridge,
+                           getOption("crestline.threads", 1L), observer)
+    review <- with_drawn(review)
+    review$selected <- next_open(review)
+    if (is.null(dir)) review else
+      resumed_review(review, desk_paths(dir, observer, id)$record)
+  }
+  keep <- if (is.null(dir)) function(review) NULL else function(review) keep_review(review, dir)
+  begin_desk(names(sources), open, keep, observer)
+}
+
+new_digitised <- function(marks, steps, specimens) {
+  rownames(marks) <- rownames(steps) <- NULL
+  structure(list(marks = marks, steps = steps, specimens = specimens), class = "digitised")
+}
+
+#' @noRd
+digitised_from <- function(desk) {
+  reviews <- Filter(Negate(is.null), desk$reviews[desk$ids])
+  specimens <- lapply(reviews, reviewed_specimen)
+  marks <- do.call(rbind, lapply(reviews, function(review) {
+    at <- review$specimen$landmarks
+    row <- match(names(review$state), rownames(at))
+    digitised_marks(review$specimen$id, review$observer, names(review$state),
+                    unname(review$state), at[row, , drop = FALSE], drawn_points(review),
+                    vapply(review$drawn, `[[`, NA, "snapped"))
+  }))
+  steps <- do.call(rbind, lapply(reviews, function(review) {
+    steps_of(review$specimen$id, review$observer, review$log)
+  }))
+  new_digitised(marks, steps, specimens)
+}
+
+#' The rows of one specimen by one observer
+#'
+#' @param at k x 3, of the landmarks.
+#' @param curves As of [drawn_points()].
+#' @param snapped Logical by curve.
+#' @noRd
+digitised_marks <- function(specimen, observer, landmarks, state, at, curves, snapped) {
+  rows <- function(level, part, point, xyz, state) {
+    data.frame(specimen = rep(specimen, length(part)), observer = rep(observer, length(part)),
+               level = rep(level, length(part)), part = part, point = point,
+               x = unname(xyz[, 1]), y = unname(xyz[, 2]), z = unname(xyz[, 3]),
+               state = rep_len(state, length(part)))
+  }
+  lines <- lapply(names(curves), function(name) {
+    n <- nrow(curves[[name]])
+    rows("curves", rep(name, n), seq_len(n), curves[[name]],
+         if (isTRUE(snapped[[name]])) "snapped" else "drawn")
+  })
+  do.call(rbind, c(list(rows("landmarks", landmarks, rep(1L, length(landmarks)), at, state)),
+                   lines))
+}
+
+steps_of <- function(specimen, observer, steps) {
+  data.frame(specimen = rep(specimen, nrow(steps)), observer = rep(observer, nrow(steps)),
+             steps[c("part", "level", "action", "time")])
+}
+
+record_marks <- function(record, dir) {
+  marks <- record$landmarks
+  table <- desk_paths(dir, record$observer, record$specimen)$table
+  curves <- if (length(record$curves) && file.exists(table)) {
+    attr(read_landmarks(table), "curves")
+  }
+  snapped <- stats::setNames(vapply(record$curves, `[[`, NA, "snapped"),
+                             vapply(record$curves, `[[`, "", "curve"))
+  digitised_marks(record$specimen, record$observer, marks$landmark, marks$state,
+                  as.matrix(marks[c("x", "y", "z")]), curves, snapped)
+}
+
+record_steps <- function(record) steps_of(record$specimen, record$observer, record$steps)
+
+#' @rdname digitise
+#' @export
+as.data.frame.digitised <- function(x, row.names = NULL, optional = FALSE, ...) {
+  check_method_dots(...)
+  x$marks
+}
+
+#' @rdname digitise
+#' @export
+as.array.digitised <- function(x, level = c("landmarks", "curves"), ...) {
+  check_method_dots(...)
+  level <- check_names(level, "level")
+  if (!all(level %in% c("landmarks", "curves"))) {
+    refuse_argument("level", level, "Give \"landmarks\", \"curves\", or both.",
+                    rlang::current_env())
+  }
+  marks <- x$marks[x$marks$level %in% level, ]
+  several <- length(unique(marks$observer)) > 1
+  who <- if (several) paste(marks$specimen, marks$observer) else marks$specimen
+  name <- ifelse(marks$level == "landmarks", marks$part, paste(marks$part, marks$point))
+  names <- unique(name)
+  sets <- unique(who)
+  array <- array(NA_real_, c(length(names), 3, length(sets)),
+                 list(names, c("x", "y", "z"), sets))
+  for (i in 1:3) array[cbind(match(name, names), i, match(who, sets))] <- marks[[c("x", "y", "z")[i]]]
+  array
+}
+
+#' @export
+print.digitised <- function(x, ...) {
+  check_method_dots(...)
+  printed(x, {
+    each <- unique(x$marks[c("specimen", "observer")])
+    cat(sprintf("<digitised> %s, %s\n", amount(length(unique(each$specimen)), "specimen"),
+                amount(length(unique(each$observer)), "observer")))
+    for (i in seq_len(nrow(each))) {
+      own <- x$marks[x$marks$specimen == each$specimen[i] & x$marks$observer == each$observer[i], ]
+      marks <- own[own$level == "landmarks", ]
+      lines <- unique(own[own$level == "curves", c("part", "state")])
+      cat(sprintf("  %s%s: %d of %s, %s drawn (%d snapped)\n", each$specimen[i],
+                  if (nzchar(each$observer[i])) paste(" by", each$observer[i]) else "",
+                  sum(!is.na(marks$x)), amount(nrow(marks), "landmark"),
+                  amount(nrow(lines), "curve"), sum(lines$state == "snapped")))
+    }
+    invisible(x)
+  })
+}

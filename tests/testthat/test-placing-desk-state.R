@@ -1,0 +1,166 @@
+# A desk of two balls with the landmarks a, b, c, d.
+two_balls <- function(dir = NULL, observer = "AB", blank = TRUE) {
+  balls <- list(one = quad_specimen(), two = quad_specimen(function(mesh) {
+    mesh$vb[1:3, ] <- 1.1 * mesh$vb[1:3, ]
+    mesh
+  }, 1.1 * quad_corners()))
+  desk_from(desk_sources(balls), quad_scheme(), dir, observer, blank,
+            ridge_settings(error = FALSE), review_settings())
+}
+place_at <- function(desk, name) {
+  on_current(desk, function(review) {
+    at <- quad_corners()[name, ] * mesh_diagonal(review$specimen$mesh) / 50
+    ray <- mesh_on_ray(review$specimen$mesh, at, at / 1e3)
+    place_selected(select_landmark(review, name), ray)
+  })
+}
+draw_at <- function(desk, curve, at) {
+  on_current(desk, function(review) {
+    add_knot(choose_curve(review, curve), mesh_on_ray(review$specimen$mesh, 9 * at, at / 1e3))
+  })
+}
+
+test_that("next and previous keep what was done, and its way back", {
+  desk <- place_at(two_balls(), "a")
+  second <- turn_to(desk, 1)
+  expect_equal(second$at, "two")
+  expect_true(all(current_review(second)$state == "missing"))
+  second <- place_at(second, "b")
+  back <- turn_to(second, -1)
+  expect_identical(current_review(back), current_review(desk))
+  undone <- on_current(back, undo_review)
+  expect_true(all(current_review(undone)$state == "missing"))
+  expect_equal(current_review(on_current(undone, redo_review))$state,
+               current_review(desk)$state)
+  expect_match(current_review(turn_to(back, -1))$said, "no other specimen")
+  expect_match(desk_words(second), "2 of 2: two (observer AB)", fixed = TRUE)
+})
+
+test_that("a desk goes on from its folder, and a second observer sees nothing of the first", {
+  dir <- tempfile("desk")
+  desk <- draw_at(place_at(place_at(two_balls(dir), "a"), "b"), "bottom", c(0, -0.35, 1))
+  desk <- on_current(desk, function(review) place_selected(select_landmark(review, "d"), NULL))
+  again <- two_balls(dir)
+  before <- current_review(desk)
+  after <- current_review(again)
+  expect_identical(after$specimen$landmarks, before$specimen$landmarks)
+  expect_identical(after$state, before$state)
+  expect_identical(after$drawn$bottom$knots, before$drawn$bottom$knots)
+  expect_equal(drawn_points(after), drawn_points(before), tolerance = 1e-12)
+  expect_identical(after$log, before$log)
+  expect_match(after$said, "Resumed after 4 steps")
+  expect_equal(after$selected, "c")
+  origin <- after$specimen$origin
+  expect_equal(origin$time[origin$landmark == "a"], before$log$time[1])
+  other <- current_review(two_balls(dir, "CD"))
+  expect_true(all(other$state == "missing"))
+  expect_length(other$drawn, 0)
+  wrong <- list.files(file.path(dir, "AB", "records"), full.names = TRUE)
+  writeLines("{}", wrong)
+  expect_crestline_error(two_balls(dir), "no record of a desk")
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("a record of another mesh is refused", {
+  dir <- tempfile("desk")
+  place_at(two_balls(dir), "a")
+  record <- file.path(dir, "AB", "records", "one.json")
+  writeLines(sub("\"mesh\": \"[^\"]*\"", "\"mesh\": \"other\"", readLines(record)), record)
+  expect_crestline_error(two_balls(dir), "another mesh")
+  expect_error(two_balls(dir), class = "crestline_desk_error")
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("two observers make a table, an array for geomorph and repeatability()", {
+  dir <- tempfile("desk")
+  for (who in c("AB", "C/D")) {
+    desk <- two_balls(dir, who)
+    for (i in 1:2) {
+      for (name in c("a", "b", "c", "d")) desk <- place_at(desk, name)
+      desk <- draw_at(desk, "bottom", c(0, -0.35, 1))
+      if (i == 1) desk <- turn_to(desk, 1)
+    }
+  }
+  both <- read_digitised(dir)
+  expect_s3_class(both, "digitised")
+  expect_output(print(both), "2 specimens, 2 observers")
+  expect_output(print(both), "one by AB: 4 of 4 landmarks, 1 curve drawn (0 snapped)", fixed = TRUE)
+  array <- as.array(both)
+  expect_equal(dim(array), c(11, 3, 4))
+  expect_equal(dimnames(array)[[3]], c("one AB", "two AB", "one C/D", "two C/D"))
+  own <- digitised_from(desk)
+  expect_equal(array[, , c("one C/D", "two C/D")], as.array(own), tolerance = 1e-12,
+               ignore_attr = TRUE)
+  expect_equal(unname(array[c("a", "b", "c", "d"), , "one AB"]), unname(quad_corners()),
+               tolerance = 1e-3)
+  expect_equal(nrow(as.data.frame(both)), 44)
+  expect_equal(table(both$steps$action)[["placed"]], 16)
+  who <- unique(both$marks[c("specimen", "observer")])
+  of <- function(column) stats::setNames(who[[column]], paste(who$specimen, who$observer))
+  agreed <- repeatability(as.array(both, "landmarks"), of("specimen"), of("observer"),
+                          "landmarks")
+  expect_lt(max(agreed$parts$error), 1e-6)
+  expect_equal(names(own$specimens), c("one", "two"))
+  shape <- fit_shape(own$specimens$two, quad_scheme(), progress = FALSE)
+  expect_match(status_of(shape, "bottom")$reason, "drawn by hand (C/D", fixed = TRUE)
+  expect_identical(read_digitised(dir, "AB")$marks$observer, rep("AB", 22))
+  expect_crestline_error(as.array(both, "surface"), "level")
+  expect_crestline_error(read_digitised(tempdir(check = TRUE), "nobody"), "no records")
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("specimens of a desk have names of their own", {
+  expect_named(desk_sources(c("x/face.ply", "b.obj")), c("face", "b"))
+  expect_named(desk_sources(list(quad_specimen(), other = ball_mesh(), ball_mesh())),
+               c("quad", "other", "specimen 3"))
+  expect_crestline_error(desk_sources(c("x/a.ply", "y/a.ply")), "two named a")
+  expect_crestline_error(desk_sources(list()), "specimens")
+  skip_if_not_installed("shiny")
+  expect_crestline_error(digitise(list(ball_mesh()), dir = tempdir()), "observer")
+})
+
+test_that("on the page clicks draw a line, keys choose, and the next specimen is shown", {
+  skip_if_not_installed("shiny")
+  desk <- two_balls(blank = FALSE)
+  server <- desk_server(desk, desk_surfaces("plain", review_settings(radius = 20)), identity)
+  shiny::testServer(server, {
+    now <- function() current_review(review())
+    ray <- function(at) {
+      frame <- scene_frame(now()$specimen$mesh)
+      ends <- into_scene(rbind(9 * at, at / 1e3), frame)
+      list(from = as.list(ends[1, ]), towards = as.list(ends[2, ]))
+    }
+    session$setInputs(ready = 1)
+    session$setInputs(curve = "bottom")
+    session$setInputs(ray = ray(c(0, -25, 50)))
+    expect_equal(nrow(now()$drawn$bottom$knots), 1)
+    expect_match(output$chosen$html, "1 point, ")
+    expect_match(output$list$html, "point set by AB")
+    session$setInputs(drop = list(name = "1", ray = ray(c(0, -35, 50))))
+    expect_equal(nrow(now()$drawn$bottom$knots), 1)
+    expect_length(review_balls(now(), scene_frame(now()$specimen$mesh)), 1)
+    session$setInputs(snap = 1)
+    expect_match(now()$said, "plane cut")
+    session$setInputs(ray = ray(now()$drawn$bottom$knots[1, 1:3]))
+    expect_length(now()$drawn, 0)
+    session$setInputs(undo = 1)
+    session$setInputs(following = 1)
+    expect_equal(review()$at, "two")
+    session$setInputs(ready = 2, choose = 1)
+    expect_equal(now()$selected, "a")
+    expect_match(output$desk$html, "2 of 2: two")
+    session$setInputs(previous = 1)
+    expect_length(now()$drawn, 1)
+  })
+})
+
+test_that("sides are the subject's own", {
+  review <- begin_review(specimen(humface_scan(), humface_landmarks()), face_scheme(), 0.5,
+                         ridge_settings(error = FALSE), 0.2, 1)
+  expect_match(side_words(review, "chL", "landmarks"), "own left: .* right of the picture")
+  expect_match(side_words(review, "enR", "landmarks"), "own right: .* left of the picture")
+  expect_null(side_words(review, "pn", "landmarks"))
+  expect_match(side_words(review, "nasal root left", "curves"), "own left")
+  skip_if_not_installed("shiny")
+  expect_match(as.character(chosen_html(select_landmark(review, "chL"))), "subject's own left")
+})
