@@ -28,7 +28,7 @@ on_current <- function(desk, change) {
   before <- current_review(desk)
   after <- as_value(change(before))
   if (failed(after)) after <- with_said(before, paste(after$problem, after$remedy))
-  if (!identical(after[step_parts], before[step_parts])) desk$keep(after)
+  if (!identical(after[kept_parts], before[kept_parts])) desk$keep(after)
   desk$reviews[[desk$at]] <- after
   desk
 }

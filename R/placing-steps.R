@@ -4,6 +4,9 @@
 # What a step may change, and the way back restores.
 step_parts <- c("specimen", "fitting", "state", "selected", "drawn", "pen", "log")
 
+# What is written to the files of a desk.
+kept_parts <- c("specimen", "state", "drawn", "log")
+
 #' The next review, from which the way back leads to this one
 #'
 #' @param part,level,action What is done to which landmark or curve.

@@ -146,7 +146,8 @@
   $(document).on("shiny:value", function (event) {
     if (event.name === "list") setTimeout(function () {
       var list = document.getElementById("list"), row = list && list.querySelector(".row.chosen");
-      if (row) list.scrollTop = row.offsetTop - list.offsetTop - list.clientHeight / 2;
+      var at = row ? row.offsetTop - list.offsetTop : 0, seen = list ? at - list.scrollTop : 0;
+      if (row && (seen < 0 || seen > list.clientHeight - row.clientHeight)) list.scrollTop = at - list.clientHeight / 2;
     }, 50);
     if (event.name === "face") shown();
   });
