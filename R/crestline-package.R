@@ -25,7 +25,8 @@
 #'   [write_landmarks()], [read_curves()]; the source of each: `summary()`, see [provenance].
 #' * *Get landmarks without hands*: [find_landmarks()], [check_placing()], [second_opinion()],
 #'   [refine_landmarks()]; by hand, on a page: [place_landmarks()], [review_landmarks()]
-#'   with [review_settings()]; several specimens, curves too: [digitise()], [read_digitised()]; a template of your own: [landmark_template()], [face_template()],
+#'   with [review_settings()]; several specimens, curves too: [digitise()], [read_digitised()]; a
+#'   template of your own: [landmark_template()], [face_template()],
 #'   [calibrate_template()], with [find_settings()] and [refine_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].
 #' * *One curve*: [ridge_curve()] with [ridge_settings()], [curve_route()], [keep_away()],

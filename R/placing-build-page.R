@@ -131,7 +131,7 @@ build_items <- function(state, faint = "#8A8F96", width = 1.5) {
 build_balls <- function(state, frame) {
   lapply(build_names(state), function(name) {
     place <- found_landmark(state$specimen, name)
-    c(ball_at(name, unlist(place[c("x", "y", "z")]), place$face, state$specimen$mesh, frame),
+    c(drag_ball(name, unlist(place[c("x", "y", "z")]), place$face, state$specimen$mesh, frame),
       chooses = TRUE)
   })
 }

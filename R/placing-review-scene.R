@@ -79,17 +79,17 @@ review_balls <- function(review, frame) {
   if (length(review$pen)) {
     knots <- review$drawn[[review$pen]]$knots
     return(lapply(seq_len(NROW(knots)), function(i) {
-      ball_at(as.character(i), knots[i, 1:3], knots[i, "face"], mesh, frame)
+      drag_ball(as.character(i), knots[i, 1:3], knots[i, "face"], mesh, frame)
     }))
   }
   found <- if (length(review$selected)) {
     as_value(found_landmark(review$specimen, review$selected))
   }
   if (is.null(found) || failed(found)) return(list())
-  list(ball_at(review$selected, unlist(found[c("x", "y", "z")]), found$face, mesh, frame))
+  list(drag_ball(review$selected, unlist(found[c("x", "y", "z")]), found$face, mesh, frame))
 }
 
-ball_at <- function(name, at, face, mesh, frame) {
+drag_ball <- function(name, at, face, mesh, frame) {
   corner <- t(mesh$vb[1:3, mesh$it[, face]])
   out <- unit_vector(cross_product(corner[2, ] - corner[1, ], corner[3, ] - corner[1, ]))
   list(name = name, at = as.vector(into_scene(matrix(at, 1), frame)), out = as.vector(out))
