@@ -158,7 +158,9 @@ answer_build <- function(input, step, frame, progress) {
   on <- function(id, change) shiny::observeEvent(input[[id]], try(change))
   shiny::observeEvent(input$ready, step(identity))
   on("select", function(state) pick_mark(state, input$select))
-  on("ray", function(state) click_build(state, scene_ray(input$ray, frame()), input$mark, input$snap))
+  on("ray", function(state) {
+    click_build(state, scene_ray(input$ray, frame()), input$mark, input$snap)
+  })
   on("drop", function(state) {
     ray <- scene_ray(input$drop$ray, frame())
     point <- mesh_on_ray(state$specimen$mesh, ray[1, ], ray[2, ])

@@ -54,8 +54,8 @@ put_file <- function(text, path) {
 }
 
 #' Read a record
-#' @return List: `specimen`, `observer`, `mesh`, `scheme`, `landmarks` (data frame), `curves` (list),
-#'   `steps` (data frame as of [no_steps()]).
+#' @return List: `specimen`, `observer`, `mesh`, `scheme`, `landmarks` (data frame), `curves`
+#'   (list), `steps` (data frame as of [no_steps()]).
 #' @noRd
 read_record <- function(path) {
   record <- tryCatch(

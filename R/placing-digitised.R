@@ -137,7 +137,9 @@ as.array.digitised <- function(x, level = c("landmarks", "curves"), ...) {
   sets <- unique(who)
   array <- array(NA_real_, c(length(names), 3, length(sets)),
                  list(names, c("x", "y", "z"), sets))
-  for (i in 1:3) array[cbind(match(name, names), i, match(who, sets))] <- marks[[c("x", "y", "z")[i]]]
+  row <- match(name, names)
+  set <- match(who, sets)
+  for (i in 1:3) array[cbind(row, i, set)] <- marks[[c("x", "y", "z")[i]]]
   array
 }
 

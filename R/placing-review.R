@@ -5,8 +5,8 @@
 #' Opens a page in the browser (package shiny). It shows the turning specimen, its landmarks, and
 #' the curves of the scheme between them. Choose a landmark in the list or by a click on its ball. A
 #' click on the surface puts it there, exactly on the mesh. The curves that end on it are fitted
-#' again at once. Drag to turn, use the wheel to zoom, and the right button to shift. Drag the chosen
-#' ball to move it. Curves can be drawn by hand, and keys press the buttons, see [digitise()].
+#' again at once. Drag to turn, use the wheel to zoom, and the right button to shift. Drag the
+#' chosen ball to move it. Curves can be drawn by hand, and keys press the buttons, see [digitise()].
 #'
 #' `review_landmarks()` begins with the landmarks of the specimen. Landmarks in which
 #' [find_landmarks()] has little confidence are red. They are selected one after the other: move
@@ -50,7 +50,8 @@
 #'   (4.1.1). `place_landmarks()` needs a browser only. [digitise()] goes through several specimens:
 #'
 #'   ```
-#'   desk <- digitise(list.files("scans", "[.]ply$", full.names = TRUE), dir = "desk", observer = "AB")
+#'   files <- list.files("scans", "[.]ply$", full.names = TRUE)
+#'   desk <- digitise(files, dir = "desk", observer = "AB")
 #'   A <- as.array(desk, "landmarks")   # p x 3 x n
 #'   geomorph::gpagen(A)
 #'   ```
