@@ -39,6 +39,7 @@ setup:  ## installs what is missing: R, packages, pandoc
 install: setup  ## builds and installs crestline
 	@tools/install.sh
 
+demo: export CRESTLINE_NEEDS := demo
 demo: install  ## the main job: the curves of Rvcg's face, into demo-output/
 	@echo "==> the curves of a face, into demo-output/"
 	@Rscript tools/demo.R

@@ -48,7 +48,9 @@
 #'   principal components [shape_pca()], [shape_at()]; groups [compare_groups()], [shape_lda()];
 #'   covariates and allometry [shape_lm()]; asymmetry [symmetry_parts()]; settings
 #'   [align_settings()], [comparison_settings()], [model_settings()].
-#' * *Other packages*: [as_geomorph()], [as_rrpp()], [as_morpho()], and back [as_aligned()].
+#' * *Other packages*: [as_geomorph()], [as_rrpp()], [as_morpho()], and back [as_aligned()]; files
+#'   for MorphoJ and Morphologika [write_morphoj()], [write_morphologika()]; for 3D Slicer
+#'   [write_slicer()]; meshes of MeshMonk [read_registered()], [carry_points()].
 #' * *Agreement of two measurements*: [curve_distance()], [repeatability()].
 #' * *Measurements*: [measurements()] of distances, angles, lengths, areas and volumes by a table
 #'   such as [face_measurements()].
@@ -59,6 +61,7 @@
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
 #'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].
+#' * *Pictures for print*: [write_picture()].
 #' * *Pages for the browser*: [write_page()], [write_pca_page()], [quality_report()].
 #' * *From a shell, Python or Slicer*: [run_command()].
 #' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],

@@ -111,10 +111,16 @@ write_landmarks_mrkjson <- function(sets, file, options) {
       mrkjson_list(curve, type, name, sprintf("%s-%d", name, seq_len(nrow(curve))), options)
     }, curves, type, names(curves)))
   )
+  write_mrkjson(list, attr(x, "comments"), file)
+}
+
+#' The file of some lists
+#' @param list As of [mrkjson_list()], one string each.
+#' @noRd
+write_mrkjson <- function(list, comments, file) {
   schema <- paste0("https://raw.githubusercontent.com/slicer/slicer/master/",
                    "Modules/Loadable/Markups/",
                    "Resources/Schema/markups-schema-v1.0.3.json#")
-  comments <- attr(x, "comments")
   said <- if (length(comments)) {
     sprintf('"provenance": [%s],\n', paste(json_text(comments), collapse = ", "))
   }
@@ -122,7 +128,9 @@ write_landmarks_mrkjson <- function(sets, file, options) {
   write_file_lines(paste0(head, '"markups": [\n', paste(list, collapse = ",\n"), "\n]}"), file)
 }
 
-mrkjson_list <- function(x, type, name, label, options) {
+#' A list of points; `colour` is what Slicer shows it in
+#' @noRd
+mrkjson_list <- function(x, type, name, label, options, colour = NULL) {
   sign <- if (options$frame == "LPS") -1 else 1
   orientation <- sprintf("[%d, 0, 0, 0, %d, 0, 0, 0, 1]", sign, sign)
   absent <- is.na(x[, 1])
@@ -133,8 +141,14 @@ mrkjson_list <- function(x, type, name, label, options) {
     seq_along(label), json_text(label), position, orientation,
     ifelse(absent, "undefined", "defined")
   )
-  sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", "controlPoints": [\n%s\n]}', type,
-          json_text(name), options$frame, paste(if (nrow(x)) point, collapse = ",\n"))
+  display <- if (is.null(colour)) "" else {
+    rgb <- paste(format(round(grDevices::col2rgb(colour) / 255, 4)), collapse = ", ")
+    sprintf(paste0('"display": {"visibility": true, "color": [%s], "selectedColor": [%s], ',
+                   '"pointLabelsVisibility": %s}, '), rgb, rgb,
+            if (type == "Fiducial") "true" else "false")
+  }
+  sprintf('{"type": "%s", "name": %s, "coordinateSystem": "%s", %s"controlPoints": [\n%s\n]}', type,
+          json_text(name), options$frame, display, paste(if (nrow(x)) point, collapse = ",\n"))
 }
 
 json_text <- function(string) {

@@ -6,10 +6,12 @@ cd "$(dirname "$0")/.."
 . tools/steps.sh
 
 source_key() {
-  { Rscript -e 'cat(R.version.string)'
-    find $(ls -d DESCRIPTION NAMESPACE R src man inst data 2>/dev/null) -type f ! -name '*.o' ! -name '*.so' |
-      LC_ALL=C sort | xargs -d '\n' sha256sum
-  } | sha256sum | cut -d ' ' -f 1
+  Rscript -e 'there <- Filter(file.exists, c("DESCRIPTION", "NAMESPACE", "R", "src", "man", "inst", "exec", "data"))
+              files <- c(there[!dir.exists(there)], list.files(there[dir.exists(there)], recursive = TRUE, full.names = TRUE))
+              files <- sort(files[!grepl("[.](o|so|dll)$", files)], method = "radix")
+              key <- tempfile()
+              writeLines(c(R.version.string, files, tools::md5sum(files)), key)
+              cat(tools::md5sum(key))'
 }
 
 target_library() {

@@ -3,11 +3,14 @@
 #   Rscript tools/packages.R closure   those, and what they need in turn (asks CRAN)
 #   Rscript tools/packages.R install installs them from CRAN into the first library that can be
 #   written
+# With CRESTLINE_NEEDS=demo only those that crestline does not work without.
 
 # Suggested packages whose current versions ask for a newer R than crestline does.
 needs_r <- c(geomorph = "4.4.0", RRPP = "4.4.0")
 
-read_requirements <- function(kinds = c("Imports", "LinkingTo", "Suggests")) {
+demo_only <- identical(Sys.getenv("CRESTLINE_NEEDS"), "demo")
+
+read_requirements <- function(kinds = c("Imports", "LinkingTo", if (!demo_only) "Suggests")) {
   fields <- read.dcf("DESCRIPTION", kinds)
   entry <- trimws(unlist(strsplit(fields[!is.na(fields)], ",")))
   entry <- unique(entry[nzchar(entry)])

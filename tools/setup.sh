@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Installs what crestline needs to be built, run and tested, R included. Looks first: when nothing is
 # missing it ends in about a second.
+# With CRESTLINE_NEEDS=demo only what `make demo` needs.
 #   Debian or Ubuntu, as root or with sudo: built packages by apt, the rest from CRAN
 #   elsewhere: R and a compiler must be there; packages come from CRAN into a library that can be written
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/steps.sh
 
-DEBIAN_PACKAGES="r-base-core r-base-dev pandoc qpdf ca-certificates"
+DEBIAN_PACKAGES="r-base-core r-base-dev ca-certificates"
+[ "${CRESTLINE_NEEDS:-all}" = demo ] || DEBIAN_PACKAGES="$DEBIAN_PACKAGES pandoc qpdf"
 APT_OPTIONS="-y --no-install-recommends -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3"
 
 as_root=no
@@ -53,8 +55,9 @@ debian_builds() {
 
 install_from_debian() {
   apt_update
-  local built
-  mapfile -t built < <(debian_builds)
+  local built package
+  built=()
+  while read -r package; do built+=("$package"); done < <(debian_builds)
   [ ${#built[@]} -eq 0 ] || apt_install "${built[@]}"
 }
 

@@ -8,13 +8,23 @@ die() { printf 'crestline: %s\n' "$*" >&2; exit 1; }
 
 cores() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1; }
 
+# "12 of 37 files": how far the package is that was begun last in a log; R unpacks it into a folder for temporary files.
+files_of() {
+  local package compiled total
+  package=$(sed -nE 's/^\* installing \*source\* package [^A-Za-z]*([A-Za-z0-9.]+).*/\1/p' "$1" | tail -n 1)
+  compiled=$(awk '/installing \*source\* package/ { n = 0 } / -c / { n++ } END { print n + 0 }' "$1")
+  total=0
+  [ -z "$package" ] || total=$(find "${TMPDIR:-/tmp}"/R.INSTALL*/"$package"/src \( -name '*.c' -o -name '*.cc' -o -name '*.cpp' -o -name '*.f' -o -name '*.f90' \) 2>/dev/null | wc -l)
+  if [ "$total" -ge "$compiled" ]; then echo "$compiled of $((total)) files"; else echo "$compiled files so far"; fi
+}
+
 # Where a command has got to, from its log: the file it compiles, or the last line that is not a compiler's remark.
 sign_of_life() {
   local line
   line=$(tr '\r' '\n' < "$1" | grep -E '^(g\+\+|gcc|\*|[A-Z]| {2,4}[^ ])' |
     grep -vE '^ *[0-9]* *\||^In |:[0-9]+:|^ .*(warning|note|required)' | tail -n 1)
   case $line in
-    *" -c "*) echo "compiling $(sed -E 's/.* -c ([^ ]+).*/\1/' <<<"$line"), $(grep -c -- ' -c ' "$1") files so far" ;;
+    *" -c "*) echo "compiling $(sed -E 's/.* -c ([^ ]+).*/\1/' <<<"$line"), $(files_of "$1")" ;;
     *) cut -c 1-90 <<<"$line" ;;
   esac
 }
