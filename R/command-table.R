@@ -74,7 +74,8 @@ command_option <- function(name, value, says, default = NULL, number = FALSE) {
 }
 
 out_option <- function(what) {
-  command_option("out", "FILE", paste(what, "as a table, .csv or .json; else to the output"))
+  command_option("out", "FILE",
+                 paste(what, "as a table, .csv, .json or .parquet; else to the output"))
 }
 
 #' Write a table, by the ending of its file; to the output where there is none
@@ -84,13 +85,23 @@ write_command_table <- function(table, file) {
     utils::write.csv(table, row.names = FALSE, na = "")
     return(invisible())
   }
-  file <- check_path_to_write(file, "--out", c("csv", "json"))
-  if (file_extension(file) == "csv") {
-    utils::write.csv(table, file, row.names = FALSE, na = "", fileEncoding = "UTF-8")
-  } else {
-    jsonlite::write_json(table, file, digits = NA, na = "null", null = "null",
-                         auto_unbox = TRUE)
+  switch(file_extension(check_table_file(file)),
+         csv = utils::write.csv(table, file, row.names = FALSE, na = "", fileEncoding = "UTF-8"),
+         json = jsonlite::write_json(table, file, digits = NA, na = "null", null = "null",
+                                     auto_unbox = TRUE),
+         parquet = nanoparquet::write_parquet(table, file))
+  invisible()
+}
+
+#' The path of a table that can be written
+#' @noRd
+check_table_file <- function(file) {
+  file <- check_path_to_write(file, "--out", c("csv", "json", "parquet"))
+  if (file_extension(file) == "parquet" && !requireNamespace("nanoparquet", quietly = TRUE)) {
+    crestline_abort("--out is a Parquet file, and the package nanoparquet is not installed.",
+                    "Install it, or give a .csv file.", stage = "arguments")
   }
+  file
 }
 
 #' One file, or an error
@@ -114,7 +125,7 @@ command_scheme <- function(given) {
 }
 
 command_find <- function(given) {
-  if (!is.null(given$out)) check_path_to_write(given$out, "--out", c("csv", "json"))
+  if (!is.null(given$out)) check_table_file(given$out)
   failed <- 0L
   tables <- Map(function(file, id) {
     table <- tryCatch({

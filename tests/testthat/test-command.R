@@ -73,6 +73,11 @@ test_that("a wrong line gives 2 and one line that names what is wrong", {
   refused(c("fit", "x.ply", "--out", "y", "--workers", "two"), "--workers is \"two\"")
   refused(c("quality", file.path(tempdir(), "nowhere")), "no folder or file")
   refused(c("homologise", tempdir(), "--sample", "x.csv"), "ends in .rds")
+  refused(c("page", "none.ply", "--out", "page.txt"), "page.txt|none.ply")
+  refused(c("page", "none.ply", "--out", file.path(tempdir(), "p.html")), "none.ply")
+  refused(c("page", "a.ply", "b.ply", "--out", "p.html"), "2 files are given, and one is taken")
+  refused("page", "needs SCAN")
+  refused(c("find", "none.ply", "--out", "x.txt"), "ends in .csv, .json, .parquet")
   refused(c("compare", "none.rds", "--groups", "none.csv"), "none.rds is not there")
   expect_error(run_command(1), class = "crestline_error")
 })
@@ -97,6 +102,43 @@ test_that("two scans of one file name in two folders keep two ids", {
   expect_equal(unique(read.csv(text = found$out)$specimen), c("visit 1/anna", "visit 2/anna"))
 })
 
+test_that("find says which scan failed, and its table has the numbers of find_landmarks()", {
+  dir <- withr_tempdir(environment())
+  file.copy(mesh_path_of_humface(), scan <- file.path(dir, "anna.ply"))
+  writeLines("no mesh", bad <- file.path(dir, "bad.ply"))
+  found <- run("find", scan, bad, "--out", out <- file.path(dir, "found.json"))
+  expect_equal(found$status, 1L)
+  expect_match(found$said, "bad.ply: ", all = FALSE)
+  table <- jsonlite::fromJSON(out)
+  own <- find_landmarks(read_specimen(scan))$placing
+  expect_equal(table$landmark, own$landmark)
+  expect_equal(table$x, own$x, tolerance = 1e-9)
+  expect_equal(run("find", bad)$status, 2L)
+})
+
+test_that("page writes the page of a result, and a table may be a Parquet file", {
+  skip_if_not_installed("htmltools")
+  skip_if_not_installed("future")
+  skip_if_not_installed("progressr")
+  at <- ball_files(2)
+  file <- function(...) file.path(at$dir, ...)
+  expect_equal(run("fit", at$scans, "--scheme", at$scheme, "--out", file("results"))$status, 0L)
+  kept <- list.files(file("results"), "[.]shape$", recursive = TRUE, full.names = TRUE)
+  paged <- run("page", kept[1], "--out", file("page.html"))
+  expect_equal(paged$status, 0L)
+  html <- paste(readLines(file("page.html"), warn = FALSE), collapse = "")
+  for (curve in c("ab", "bc")) expect_true(grepl(paste0(">", curve, "</td>"), html, fixed = TRUE))
+  graded <- run("quality", file("results"), "--out", file("grades.parquet"))
+  if (requireNamespace("nanoparquet", quietly = TRUE)) {
+    expect_equal(graded$status, 0L)
+    expect_equal(as.character(nanoparquet::read_parquet(file("grades.parquet"))$grade),
+                 as.character(quality(read_batch(file("results")))$grade))
+  } else {
+    expect_equal(graded$status, 2L)
+    expect_match(graded$said, "nanoparquet")
+  }
+})
+
 test_that("scans go through fit, quality, homologise and compare", {
   skip_if_not_installed("future")
   skip_if_not_installed("progressr")
@@ -114,13 +156,14 @@ test_that("scans go through fit, quality, homologise and compare", {
   expect_equal(points$x[points$id == "s2"], kept[["s2"]]$points$x)
 
   graded <- run("quality", file("results"), "--out", file("grades.json"))
-  expect_equal(graded$status, 0L)
+  # The scan that failed is known to the folder, and tells here too.
+  expect_equal(graded$status, 1L)
   expect_equal(jsonlite::fromJSON(file("grades.json"))$grade,
                as.character(quality(kept)$grade))
 
   slid <- run("homologise", file("results"), "--red=keep", "--out", file("points.csv"),
               "--sample", file("sample.rds"))
-  expect_equal(slid$status, 0L)
+  expect_equal(slid$status, 1L)
   sample <- readRDS(file("sample.rds"))
   expect_equal(read.csv(file("points.csv"))$z, as.data.frame(sample)$z)
 

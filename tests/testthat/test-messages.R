@@ -69,7 +69,7 @@ provoked_calls <- function() {
       compare_groups(sample, 1:3),
       compare_groups(sample, c(1, 1, 1, 1)), repeatability(list(shape), "a"),
       curve_distance(shape, one),
-      write_pca_page(pca, "page.html"), as_morpho(1)
+      as_morpho(1)
     ),
     "simulation" = alist(
       simulate_ridge(1, 1, noise = -1), simulate_faces(0), ridge_study(n = 0),
