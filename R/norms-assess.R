@@ -88,10 +88,7 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
   alpha <- check_number(alpha, "alpha", 0, 1, open = TRUE)
   error <- if (!is.null(error)) check_landmark_error(error, shape$scheme)
   sex <- check_norm_sex(sex, norms)
-  if (!identical(scheme_hash(shape$scheme), norms$scheme$hash)) {
-    crestline_abort(sprintf("the shape has another scheme than the norm (%s).", norms$scheme$name),
-                    "Measure it by the scheme of the norm.", stage = "norms", id = shape$id)
-  }
+  check_norm_scheme(shape, norms)
   effective <- check_norm_age(age, sex, norms, shape$id)
   warn_unready(shape, "norms")
   patient <- patient_surface(shape, norms, age, sex)
@@ -124,6 +121,13 @@ map_limits <- function(norms) {
   scan <- function(name) norms[[name]]$scan$quantiles[at]
   c(map = norms$limits$map[at], scan = scan("surface"),
     if (!is.null(norms$asymmetry)) c(asymmetry = scan("asymmetry")))
+}
+
+check_norm_scheme <- function(shape, norms, call = rlang::caller_env()) {
+  if (identical(scheme_hash(shape$scheme), norms$scheme$hash)) return(invisible())
+  crestline_abort(sprintf("the shape has another scheme than the norm (%s).", norms$scheme$name),
+                  "Measure it by the scheme of the norm.", stage = "norms", id = shape$id,
+                  call = call)
 }
 
 check_norm_sex <- function(sex, norms, call = rlang::caller_env()) {

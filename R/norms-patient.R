@@ -99,7 +99,8 @@ excess_variance <- function(field, found, se, se_norm) {
 
 #' The scan of one face: every centre and radius
 #'
-#' @return List: `z` (k x radii), `largest`, `p`, `at` (row), `radius`.
+#' @return List: `z` (k x radii), `largest`, `p`, `at` (row), `radius`, `spread` (of its statistic
+#'   among held-out faces, over what the field makes expected).
 #' @noRd
 scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$points))) {
   t <- lapply(field$weights, function(w) crossprod(found$u, w))
@@ -110,11 +111,14 @@ scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$poi
   free <- z
   free[but, ] <- 0
   best <- arrayInd(which.max(abs(free)), dim(z))
+  spread <- t[[best[2]]][best[1]] / z[best]
   list(z = z, largest = abs(free[best]), at = best[1], radius = field$scan$radii[best[2]],
-       p = tail_p(abs(free[best]), field$scan$quantiles))
+       spread = spread, p = tail_p(abs(free[best]), field$scan$quantiles))
 }
 
 #' The face healed: discs where the scan finds something are made up from the rest
+#'
+#' What the rest leaves open is widened where held-out faces vary more than the field says.
 #'
 #' @param alpha Level of the scan.
 #' @param reach Radius of the disc as a multiple of the scan's.
@@ -124,6 +128,7 @@ scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$poi
 #' @noRd
 heal_face <- function(field, found, age, sex, missing, alpha, reach = 1.2, most = 5) {
   out <- missing
+  spread <- rep(1, length(out))
   healed <- list(u = found$u, variance = 0 * found$u)
   first <- scan <- scanned_face(field, found, age, sex, out)
   hits <- data.frame(at = integer(), radius = numeric(), z = numeric())
@@ -133,10 +138,11 @@ heal_face <- function(field, found, age, sex, missing, alpha, reach = 1.2, most 
     # Less than half of the face says nothing about the rest.
     if (mean(out | disc) > 0.5) break
     out <- out | disc
+    spread[disc] <- pmax(spread[disc], scan$spread)
     hits <- rbind(hits, data.frame(at = scan$at, radius = scan$radius,
                                    z = scan$z[scan$at, match(scan$radius, field$scan$radii)]))
     made <- given_the_rest(field, found$u, rep(out, 3))
-    healed <- list(u = made$fit, variance = made$variance)
+    healed <- list(u = made$fit, variance = made$variance * rep(spread, 3)^2)
     scan <- scanned_face(field, utils::modifyList(found, list(u = made$fit)), age, sex, out)
   }
   c(list(found = hits, out = out & !missing, scan = first, finished = scan$p > alpha), healed)

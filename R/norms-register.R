@@ -1,4 +1,4 @@
-# Faces laid on the norm's reference alone, and what is taken from them.
+# Faces laid on the norm's reference alone, and what is taken from them; shapes laid on each other.
 
 #' A face laid on a reference by least squares, with scale
 #'
@@ -133,4 +133,24 @@ sample_errors <- function(sample, names, scale) {
     known <- known + !is.na(se)
   }
   rounded_to(ifelse(known > 0, sqrt(squares / pmax(known, 1)), NA_real_), 1e-4)
+}
+
+point_columns <- function(shape) as.matrix(shape$points[c("x", "y", "z")])
+
+#' The rigid motion that lays points on others by weighted least squares, a function
+#' @noRd
+weighted_move <- function(x, y, weight) {
+  weight <- weight / sum(weight)
+  from <- colSums(x * weight)
+  to <- colSums(y * weight)
+  turn <- nearest_rotation(sweep(x, 2, from) * weight, sweep(y, 2, to))$rotation
+  function(points) sweep(sweep(points, 2, from) %*% turn, 2, to, `+`)
+}
+
+#' Normals at all points of a shape
+#' @noRd
+row_normals <- function(shape) {
+  place <- shape$scheme$points$place
+  normal <- place_normals(places_of(shape), shape$scheme)
+  normal[match(place, unique(place)), , drop = FALSE]
 }

@@ -8,43 +8,58 @@
 #'
 #' The registration is robust by default (Tukey's weights): points that changed do not pull the
 #' rest. With `unchanged`, the points of these patches alone are used, by least squares. The change
-#' of a point is along its normal on the first visit. Growth between the visits is not subtracted.
+#' of a point is along its normal on the first visit.
+#'
+#' With `norms`, the growth that they expect between the two ages is subtracted: the first visit is
+#' moved to the second age as if size, measurements and every point kept their z, and the second
+#' visit is compared with that. The standard error of this growth by the norm is added. A person's
+#' own growth differs from that. A norm of people who were seen once cannot tell by how much, so
+#' that it is not in the errors. Points of curves that are not on the surface grow as the nearest
+#' surface point.
 #'
 #' The smallest detectable change is \eqn{1.96 \sqrt{se_1^2 + se_2^2}}. The family-wise limit over
 #' all surface points is the 95 % quantile of the largest standardised error. For independent errors
 #' it has a closed form; otherwise errors are drawn whose correlation at distance d is
-#' \eqn{\exp(-d^2 / (2 range^2))}.
+#' \eqn{share \exp(-d^2 / (2 range^2))}.
 #'
 #' @param before,after Shapes of one scheme, slid against one template ([slide()]).
-#' @param error Standard error of a co-ordinate of a point at one visit, in the unit of the mesh. It
-#'   is used for points without `se`. `NULL`: these are not assessed. [repeatability()] and
-#'   [scan_noise()] measure it.
+#' @param error A number: standard error of a co-ordinate of a point at one visit, in the unit of
+#'   the mesh. It is used for points without `se`; [repeatability()] and [scan_noise()] measure it.
+#'   Or errors from repeated scans, see [visit_errors()]: they replace `se` of all points, and
+#'   `range` and `share` of the settings. `NULL`: points without `se` are not assessed.
 #' @param unchanged Names of patches that did not change. `NULL`: not known.
 #' @param table Measurements, as in [measurements()]. `NULL`: those of the face for its scheme.
+#' @param norms A `shape_norms` whose expected growth is subtracted, as of [fit_norms()]. `NULL`:
+#'   growth is not subtracted.
+#' @param ages Two numbers: the ages at both visits, in the unit of the norm's ages.
+#' @param sex As in [assess()].
 #' @param settings [visit_settings()].
 #' @return Object of class `visit_comparison`, a list:
 #'   * `points`: data frame with a row for each curve and surface point: `level`, `part`, `point`,
-#'     `x`, `y`, `z` (first visit), `change` (along the normal, outward positive), `se`,
-#'     `detectable`, all in the unit of the mesh; `score` (change over se), `called` (surface
+#'     `x`, `y`, `z` (first visit), `growth` (expected, along the normal; 0 without `norms`),
+#'     `se_growth` (its standard error, part of `se`), `change` (along the normal, outward positive,
+#'     without growth), `se`, `detectable`, all in the unit of the mesh; `score` (change over se), `called` (surface
 #'     points: beyond the family-wise limit);
 #'   * `parts`: data frame with a row for each curve and patch: `level`, `part`, `change` (mean),
 #'     `se`, `detectable`, `p`, `p_holm`, `called`;
-#'   * `measurements`: data frame: `measurement`, `before`, `after`, `change`, `se`, `detectable`,
-#'     `p`, `p_holm`, `unit`;
+#'   * `measurements`: data frame: `measurement`, `before`, `after`, `growth`, `change` (without
+#'     growth; NA if the norm has not this measurement), `se`, `detectable`, `p`, `p_holm`, `unit`;
 #'   * `limit` (of the scores), `weights` (of the registration, by surface point), `converged`,
 #'     `robust` (whether the registration was), `ids`, `alpha` (1 - `level` of the settings), `unit`
 #'     (of lengths: "mm" for [face_scheme()], otherwise "unit"), `triangles` (3 x m, rows of the
-#'     surface points), `front` (3 x 3 rotation to the front of the first visit), `provenance`.
+#'     surface points), `growth` (in words; `NULL` if none is subtracted), `front` (3 x 3
+#'     rotation to the front of the first visit), `provenance`.
 #'
 #'   `as.data.frame()` gives `points`.
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or fewer than
-#'   three points in common; `unchanged` names no patch; the sizes differ as units do (5 times).
+#'   three points in common; `unchanged` names no patch; the sizes differ as units do (5 times); the
+#'   norm is of another scheme, or does not have these ages.
 #' @section Warnings: of class `crestline_not_converged`: the weights still change after the last
 #'   round. Of class `crestline_not_slid`: a measured shape was not slid. Of class
 #'   `crestline_red_parts`: parts of a shape are red.
 #' @template glossary
 #' @template experimental
-#' @seealso [assess()], [repeatability()]
+#' @seealso [assess()], [visit_errors()], [repeatability()]
 #' @examples
 #' \donttest{
 #' lesion <- data.frame(height = 3, radius = 15, visit = 2)
@@ -53,13 +68,14 @@
 #' }
 #' @export
 compare_visits <- function(before, after, error = NULL, unchanged = NULL, table = NULL,
-                           settings = visit_settings()) {
+                           norms = NULL, ages = NULL, sex = NULL, settings = visit_settings()) {
   check_given()
   check_class(before, "shape", "before", "slide()")
   check_class(after, "shape", "after", "slide()")
   check_class(settings, "visit_settings", "settings", "visit_settings()")
   check_same_scheme(after, before)
-  if (!is.null(error)) error <- check_number(error, "error", lower = 0, open = TRUE)
+  known <- visits_with_errors(before, after, error, settings)
+  growth <- checked_growth(before, norms, ages, sex)
   scheme <- before$scheme
   table <- norm_measurements(table, scheme)
   surface <- before$points$level == "surface"
@@ -68,14 +84,18 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
   }
   used <- surface & (is.null(unchanged) | before$points$part %in% unchanged)
   for (shape in list(before, after)) warn_unready(shape, "visits")
-  fit <- lay_visit(before, after, used, is.null(unchanged), error, settings)
-  points <- changed_points(before, after, fit$laid, error)
-  limit <- visit_limit(points[points$level == "surface", ], settings)
+  known$grown <- known$before
+  if (!is.null(growth)) {
+    known$grown$points[c("x", "y", "z")] <- point_columns(before) + growth$move
+  }
+  fit <- lay_visit(known$grown, known$after, used, is.null(unchanged), known$error, settings)
+  points <- changed_points(known, fit$laid, growth$se)
+  limit <- visit_limit(points[points$level == "surface", ], known$settings)
   points$called <- points$level == "surface" & !is.na(points$score) & abs(points$score) > limit
-  structure(list(points = points, parts = changed_parts(points, settings),
-                 measurements = changed_measurements(before, after, table, error), limit = limit,
+  structure(list(points = points, parts = changed_parts(points, known$settings),
+                 measurements = changed_measurements(known, table, growth), limit = limit,
                  weights = fit$weights, converged = fit$converged, ids = c(before$id, after$id),
-                 alpha = 1 - settings$level, robust = is.null(unchanged),
+                 alpha = 1 - settings$level, robust = is.null(unchanged), growth = growth$words,
                  unit = length_unit(scheme_hash(scheme)),
                  triangles = model_triangles(scheme, FALSE),
                  front = own_pose(coords(before, "landmarks"), scheme),
@@ -83,13 +103,32 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
             class = "visit_comparison")
 }
 
+#' Both visits with their errors: their own, or those of repeated scans
+#' @return List: `before`, `after`, `error` (for points without any, or NULL), `settings`.
+#' @noRd
+visits_with_errors <- function(before, after, error, settings, call = rlang::caller_env()) {
+  if (!inherits(error, "visit_errors")) {
+    if (!is.null(error)) {
+      error <- check_number(error, "error", lower = 0, open = TRUE, call = call)
+    }
+    return(list(before = before, after = after, error = error, settings = settings))
+  }
+  if (!identical(error$hash, scheme_hash(before$scheme))) {
+    crestline_abort("`error` is of another scheme.", "Give repeated scans of this scheme.",
+                    stage = "visits", call = call)
+  }
+  settings[c("range", "share")] <- error[c("range", "share")]
+  list(before = with_errors(before, error), after = with_errors(after, error), error = NULL,
+       settings = settings)
+}
+
 #' Settings of the comparison of two visits
 #'
 #' @param tukey Residual, in robust standard deviations, beyond which a point has no weight in the
 #'   registration.
 #' @param rounds,tolerance Most rounds of the registration; it ends when no weight changes by more.
-#' @param range Distance over which errors go together, in the unit of the mesh. 0: independent
-#'   points.
+#' @param range,share Distance over which errors go together, in the unit of the mesh (0: points are
+#'   independent), and the share of their variance that does. See [visit_errors()].
 #' @param draws Number of drawn errors for the family-wise limit.
 #' @param level Probability that no unchanged point is called.
 #' @param seed Seed of these draws; the random stream of the session is not changed.
@@ -103,7 +142,7 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
 #' visit_settings(range = 8)
 #' @export
 visit_settings <- function(tukey = 4.685, rounds = 100L, tolerance = 1e-4, range = 0,
-                           draws = 1000L, level = 0.95, seed = 1L, ...) {
+                           share = 1, draws = 1000L, level = 0.95, seed = 1L, ...) {
   new_settings("visit_settings", check_visit_settings, list(...))
 }
 
@@ -112,6 +151,7 @@ check_visit_settings <- function(settings) {
   settings$rounds <- check_count(settings$rounds, "rounds")
   settings$tolerance <- check_number(settings$tolerance, "tolerance", lower = 0)
   settings$range <- check_number(settings$range, "range", lower = 0)
+  settings$share <- check_number(settings$share, "share", 0, 1)
   settings$draws <- check_count(settings$draws, "draws", lower = 100)
   settings$level <- check_number(settings$level, "level", 0, 1, open = TRUE)
   settings$seed <- check_seed(settings$seed)
@@ -123,8 +163,6 @@ print.visit_settings <- function(x, ...) {
   check_method_dots(...)
   print_settings(x, "<visit_settings> of compare_visits()")
 }
-
-point_columns <- function(shape) as.matrix(shape$points[c("x", "y", "z")])
 
 #' The second visit laid on the first, rigidly
 #'
@@ -170,16 +208,6 @@ lay_visit <- function(before, after, used, robust, error, settings) {
   list(laid = move(b), weights = all[before$points$level == "surface"], converged = converged)
 }
 
-#' The rigid motion that lays points on others by weighted least squares, a function
-#' @noRd
-weighted_move <- function(x, y, weight) {
-  weight <- weight / sum(weight)
-  from <- colSums(x * weight)
-  to <- colSums(y * weight)
-  turn <- nearest_rotation(sweep(x, 2, from) * weight, sweep(y, 2, to))$rotation
-  function(points) sweep(sweep(points, 2, from) %*% turn, 2, to, `+`)
-}
-
 #' Standard errors of the change of points, NA where one of the visits has none
 #' @noRd
 visit_error <- function(before, after, error) {
@@ -191,15 +219,22 @@ visit_error <- function(before, after, error) {
   sqrt(own(before)^2 + own(after)^2)
 }
 
-changed_points <- function(before, after, laid, error) {
-  points <- before$points
-  scheme <- before$scheme
-  normal <- place_normals(places_of(before), scheme)
-  normal <- normal[match(scheme$points$place, unique(scheme$points$place)), , drop = FALSE]
-  change <- row_products(laid - point_columns(before), normal)
-  se <- visit_error(before, after, error)
-  found <- data.frame(points[c("level", "part", "point", "x", "y", "z")], change = change, se = se,
-                      detectable = 1.96 * se, score = change / se)
+#' Change of the points along the normals of the first visit
+#'
+#' @param known List: `before`, `after`, `grown` (the first visit at the second age), `error`.
+#' @param se_growth Standard error of the growth along the normals by row, or NULL.
+#' @noRd
+changed_points <- function(known, laid, se_growth = NULL) {
+  points <- known$before$points
+  normal <- row_normals(known$before)
+  at <- point_columns(known$grown)
+  change <- row_products(laid - at, normal)
+  if (is.null(se_growth)) se_growth <- numeric(nrow(points))
+  se <- sqrt(visit_error(known$before, known$after, known$error)^2 + se_growth^2)
+  found <- data.frame(points[c("level", "part", "point", "x", "y", "z")],
+                      growth = row_products(at - point_columns(known$before), normal),
+                      se_growth = se_growth, change = change, se = se, detectable = 1.96 * se,
+                      score = change / se)
   found <- found[found$level != "landmarks", ]
   rownames(found) <- NULL
   found
@@ -211,8 +246,10 @@ visit_limit <- function(points, settings) {
   known <- points[!is.na(points$score), c("x", "y", "z")]
   k <- nrow(known)
   if (!k) return(NA_real_)
-  if (settings$range == 0) return(stats::qnorm((1 + settings$level^(1 / k)) / 2))
-  root <- chol(together_at(known, settings$range) + diag(1e-6, k))
+  if (settings$range == 0 || settings$share == 0) {
+    return(stats::qnorm((1 + settings$level^(1 / k)) / 2))
+  }
+  root <- chol(together_at(known, settings) + diag(1e-6, k))
   largest <- with_seed(settings$seed, vapply(seq_len(settings$draws), function(i) {
     max(abs(crossprod(root, stats::rnorm(k))))
   }, 0))
@@ -220,10 +257,14 @@ visit_limit <- function(points, settings) {
 }
 
 #' Correlation of errors between points
+#' @param settings List: `range`, `share`.
 #' @noRd
-together_at <- function(xyz, range) {
-  if (range == 0) return(diag(nrow(xyz)))
-  exp(-as.matrix(stats::dist(xyz))^2 / (2 * range^2))
+together_at <- function(xyz, settings) {
+  n <- nrow(xyz)
+  if (settings$range == 0) return(diag(n))
+  together <- settings$share * exp(-as.matrix(stats::dist(xyz))^2 / (2 * settings$range^2))
+  diag(together) <- 1
+  together
 }
 
 #' Mean change of curves and patches, with correlated errors of its points
@@ -233,8 +274,10 @@ changed_parts <- function(points, settings) {
   each <- lapply(split(points, factor(key, unique(key))), function(own) {
     known <- own[!is.na(own$score), ]
     n <- nrow(known)
-    together <- together_at(known[c("x", "y", "z")], settings$range)
-    se <- if (n) sqrt(sum(outer(known$se, known$se) * together)) / n else NA_real_
+    together <- together_at(known[c("x", "y", "z")], settings)
+    scan <- sqrt(pmax(0, known$se^2 - known$se_growth^2))
+    # Growth is wrong alike at all points of a part.
+    se <- if (n) sqrt(sum(outer(scan, scan) * together) / n^2 + mean(known$se_growth)^2) else NA
     change <- if (n) mean(known$change) else NA_real_
     data.frame(level = own$level[1], part = own$part[1], change = change, se = se,
                detectable = 1.96 * se, p = 2 * stats::pnorm(-abs(change / se)))
@@ -245,16 +288,17 @@ changed_parts <- function(points, settings) {
   parts
 }
 
-changed_measurements <- function(before, after, table, error) {
+changed_measurements <- function(known, table, growth) {
   if (is.null(table)) return(NULL)
-  a <- measurements(before, table, error = error)
-  b <- measurements(after, table, error = error)
-  se <- sqrt(a$se^2 + b$se^2)
-  change <- b$value - a$value
+  a <- measurements(known$before, table, error = known$error)
+  b <- measurements(known$after, table, error = known$error)
+  grown <- if (is.null(growth)) list(growth = 0, se = 0) else measured_growth(a, growth)
+  se <- sqrt(a$se^2 + b$se^2 + grown$se^2)
+  change <- b$value - a$value - grown$growth
   p <- 2 * stats::pnorm(-abs(change / se))
-  data.frame(measurement = a$measurement, before = a$value, after = b$value, change = change,
-             se = se, detectable = 1.96 * se, p = p, p_holm = stats::p.adjust(p, "holm"),
-             unit = a$unit)
+  data.frame(measurement = a$measurement, before = a$value, after = b$value,
+             growth = grown$growth, change = change, se = se, detectable = 1.96 * se, p = p,
+             p_holm = stats::p.adjust(p, "holm"), unit = a$unit)
 }
 
 #' @export
@@ -272,6 +316,10 @@ print.visit_comparison <- function(x, most = 6, ...) {
     cat("<visit_comparison> ", x$ids[2], " against ", x$ids[1], "\n", sep = "")
     cat(sprintf("  %d of %d surface points changed (|score| above %.2f, family-wise)\n",
                 sum(surface$called), sum(!is.na(surface$score)), x$limit))
+    if (length(x$growth)) {
+      cat("  growth ", x$growth, "\n  one person's growth differs from that: not in the errors\n",
+          sep = "")
+    }
     lost <- sum(is.na(surface$score))
     if (lost) cat(sprintf("  not assessed, as missing or without `error`: %d\n", lost))
     best <- surface[which.max(abs(surface$change)), ]

@@ -45,7 +45,8 @@ plotted_instead <- c(
   study_settings = "Plot columns of the study, a data frame.",
   summary_shape_pca = "Plot the components: plot(pca).",
   widget_scene = "Print it; add to it by draw_lines() and draw_points().",
-  visit_comparison = "Plot the shapes of the two visits: plot(shape).",
+  visit_comparison = "Write its page: write_page(comparison, file).",
+  visit_errors = "Plot the shapes of the two visits: plot(shape).",
   visit_settings = "Plot the shapes of the two visits: plot(shape)."
 )
 
@@ -91,6 +92,7 @@ plotted_instead <- c(
 #' S3method(plot,study_settings,refuse_plot)
 #' S3method(plot,visit_comparison,refuse_plot)
 #' S3method(plot,widget_scene,refuse_plot)
+#' S3method(plot,visit_errors,refuse_plot)
 #' S3method(plot,visit_settings,refuse_plot)
 #' S3method(plot,summary_shape_pca,refuse_plot)
 #' @noRd

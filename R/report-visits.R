@@ -109,7 +109,9 @@ visit_limits <- function(x) {
     "Growth, weight, expression and posture change a face as a treatment does.",
     paste("The errors are those that were given. Errors that both scans share, such as one wrong",
           "landmark, are not in them."),
-    if (!length(x$growth)) "Growth between the visits was not subtracted."
+    if (length(x$growth)) {
+      "One person's growth differs from the norm's. By how much is not known, nor in the errors."
+    } else "Growth between the visits was not subtracted."
   )
   tags$section(tags$h2("Limits"), tags$ul(lapply(said, tags$li)))
 }

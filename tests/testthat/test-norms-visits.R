@@ -75,9 +75,15 @@ test_that("the limit is that of the largest of many errors", {
   expect_equal(one, 1.96, tolerance = 0.05)
   # A mean of errors that go together has their error.
   own <- data.frame(level = "surface", part = "a", point = 1:4, x = 1:4, y = 0, z = 0, change = 1,
-                    se = 0.5, score = 2)
+                    se_growth = 0, se = 0.5, score = 2)
   expect_equal(changed_parts(own, visit_settings())$se, 0.25)
   expect_equal(changed_parts(own, visit_settings(range = 1e6))$se, 0.5, tolerance = 1e-6)
+})
+
+test_that("an error of growth is that of all points of a part alike", {
+  own <- data.frame(level = "surface", part = "a", point = 1:4, x = 1:4, y = 0, z = 0, change = 1,
+                    se_growth = 0.3, se = sqrt(0.5^2 + 0.3^2), score = 2)
+  expect_equal(changed_parts(own, visit_settings())$se, sqrt(0.25^2 + 0.3^2))
 })
 
 test_that("points without an error are not assessed, and said", {

@@ -1,0 +1,47 @@
+# Errors from repeated scans.
+
+repeated <- function(n, ..., seed = 3) {
+  people <- data.frame(age = rep(20, n), sex = "female")
+  made <- simulate_cohort(n, data = people, template = small_template(), visits = 2, seed = seed,
+                          settings = cohort_settings(...))
+  visit_errors(c(as.list(made$sample), as.list(made$second)), rep(names(made$sample), 2))
+}
+
+test_that("the standard error of repeats is that of the simulated noise", {
+  free <- repeated(60, noise = 0.3)
+  surface <- free$points$se[free$points$level == "surface"]
+  # Laying on each other takes six of 3 x 35 parts.
+  expect_equal(sqrt(mean(surface^2)), 0.3 * sqrt(1 - 6 / 105), tolerance = 0.05)
+  expect_lt(free$share, 0.3)
+  marks <- free$points$se[free$points$level == "landmarks"]
+  expect_equal(sqrt(mean(marks^2)), 0.3, tolerance = 0.2)
+  expect_equal(free$counts, c(persons = 60, shapes = 120, df = 60))
+  few <- repeated(3, noise = 0.3)
+  own <- few$points[few$points$level == "surface", ]
+  expect_equal(length(unique(own$se)), length(unique(own$part)))
+})
+
+test_that("share and range of the correlation are found", {
+  xyz <- as.matrix(expand.grid(x = 1:12, y = 1:12, z = 0)) * 4
+  distance <- as.matrix(stats::dist(xyz))
+  root <- chol(0.6 * exp(-distance^2 / (2 * 8^2)) + diag(0.4, 144))
+  e <- with_seed(2, matrix(stats::rnorm(144 * 200), 200)) %*% root
+  found <- error_correlation(e, rep(1, 144), xyz, rep(200, 144))
+  expect_equal(found$share, 0.6, tolerance = 0.1)
+  expect_equal(found$range, 8, tolerance = 0.15)
+  none <- with_seed(4, matrix(stats::rnorm(144 * 200), 200))
+  expect_lt(error_correlation(none, rep(1, 144), xyz, rep(200, 144))$share, 0.05)
+})
+
+test_that("visits are compared with the errors of repeats, and wrong ones are refused", {
+  errors <- repeated(40, noise = 0.2)
+  shape <- small_patient()
+  found <- compare_visits(shape, small_patient(seed = 6), error = errors)
+  own <- errors$points[errors$points$level != "landmarks", ]
+  expect_equal(found$points$se, sqrt(2) * own$se)
+  strange <- errors
+  strange$hash <- "another"
+  expect_crestline_error(compare_visits(shape, shape, error = strange), "another scheme")
+  expect_crestline_error(visit_errors(list(shape)), "twice")
+  expect_crestline_error(visit_errors(list(shape, shape), c("a", "b")), "twice")
+})
