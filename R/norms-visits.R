@@ -38,8 +38,8 @@
 #'   * `points`: data frame with a row for each curve and surface point: `level`, `part`, `point`,
 #'     `x`, `y`, `z` (first visit), `growth` (expected, along the normal; 0 without `norms`),
 #'     `se_growth` (its standard error, part of `se`), `change` (along the normal, outward positive,
-#'     without growth), `se`, `detectable`, all in the unit of the mesh; `score` (change over se), `called` (surface
-#'     points: beyond the family-wise limit);
+#'     without growth), `se`, `detectable`, all in the unit of the mesh; `score` (change over se),
+#'     `called` (surface points: beyond the family-wise limit);
 #'   * `parts`: data frame with a row for each curve and patch: `level`, `part`, `change` (mean),
 #'     `se`, `detectable`, `p`, `p_holm`, `called`;
 #'   * `measurements`: data frame: `measurement`, `before`, `after`, `growth`, `change` (without
