@@ -101,10 +101,11 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   laid <- laid_template(prepared, template, scan, settings, threads, unit, kept)
   expressed <- expressed_pose(prepared, laid, prepared$settings)
   laid <- expressed$laid
+  if (laid$verdict %in% "perhaps" && laid$agree >= settings$agree[2]) laid$verdict <- "face"
   placed <- placed_landmarks(expressed$template, template, scan, laid, kept)
   if (laid$inverted) scan <- turned_inside_out(scan)
   doubt <- placing_doubt(placed, settings$low)
-  size <- if (laid$unit_known) laid$pose[13] else 1
+  size <- if (laid$unit_known) laid$pose[13] * laid$asked / laid$unit else 1
   match <- c(laid[c("score", "agree", "verdict")],
              list(unit = laid$unit * size / laid$pose[13], unit_known = laid$unit_known))
   found <- with_placing(scan, placed, c(match, list(
@@ -143,7 +144,8 @@ laid_template <- function(prepared, template, scan, settings, threads, unit = NU
   if (!given && laid$agree < settings$agree[2]) {
     laid <- swept_pose(prepared, scan, laid, prepared$settings, threads)
   }
-  if (!given && abs(log(laid$pose[13])) > log(settings$unit_apart)) laid$unit_known <- FALSE
+  laid$asked <- unit
+  if (!given) laid <- sized_pose(prepared, scan, laid, unit, prepared$settings, threads)
   laid$verdict <- if (template$judged) verdict_of(laid$agree, settings$agree) else NA_character_
   remedy <- sprintf(
     paste0("Is it the object, and whole enough? Its lengths were multiplied by ",

@@ -8,7 +8,8 @@
 #'
 #' Beyond the reasons of [quality()] it names two mistakes of a scheme:
 #' * a landmark stands beside the ridge or valley that ends on it, by more than `beside` radii: the
-#'   curve then has a hook at that end. It names the distance along the surface, as [snap()] has it;
+#'   curve then has a hook at that end. It names the distance along the surface, as [snap()] has it
+#'   (`remark` in `status` of [fit_shape()] has a straight one, which takes no time);
 #' * the `width` of a row is more than `settings$window` radii: only so much of it is used.
 #'
 #' @param scheme A [curve_scheme()].
@@ -39,8 +40,8 @@
 #' check_scheme(face_scheme(), face)
 #' }
 #' @export
-check_scheme <- function(scheme, specimen, settings = ridge_settings(), beside = 0.3, unit = NULL,
-                         threads = getOption("crestline.threads", 1L)) {
+check_scheme <- function(scheme, specimen, settings = ridge_settings(), beside = settings$beside,
+                         unit = NULL, threads = getOption("crestline.threads", 1L)) {
   check_given()
   beside <- check_number(beside, "beside", 0)
   shape <- fit_shape(specimen, scheme, settings, unit = unit, threads = threads, progress = FALSE)
@@ -74,10 +75,7 @@ row_mistakes <- function(shape, settings, beside, threads) {
   hook <- wide <- rep(NA_character_, nrow(curves))
   for (i in which(curves$kind != "plane")) {
     row <- curves[i, ]
-    most <- settings$window * row$radius
-    if (row$width > most * (1 + 1e-9)) {
-      wide[i] <- sprintf("only %.3g of its width is used, %.3g radii", most, settings$window)
-    }
+    wide[i] <- cut_width_words(row$kind, row$width, row$radius, settings$window)
     key <- as.character(row$radius)
     if (is.null(sources[[key]])) {
       sources[[key]] <- known_curvature(NULL, specimen, row$radius, threads, settings$order)

@@ -33,3 +33,25 @@ swept_pose <- function(template, scan, laid, settings, threads) {
   }
   laid
 }
+
+#' What is laid, again in the unit that makes the object as large as the template, where it is much
+#' larger or smaller and the agreement not sure
+#'
+#' Cells, balls and reaches are lengths of the template: a unit that is 1.4 times off makes them as
+#' wrong.
+#'
+#' @param laid As of [settled_pose()], with `unit_known`.
+#' @param asked The unit that was tried first.
+#' @return The same; `unit_known` is FALSE where the object is larger or smaller than the template by
+#'   more than the setting `unit_apart`.
+#' @noRd
+sized_pose <- function(template, scan, laid, asked, settings, threads) {
+  coarse <- !laid$unit_known || abs(log(laid$pose[13])) > log(settings$resized)
+  if (coarse && laid$agree >= settings$agree[1] && laid$agree < settings$sure) {
+    again <- settled_pose(template, scan, laid$unit / laid$pose[13], settings, threads)
+    if (again$agree > laid$agree) laid[names(again)] <- again
+  }
+  factor <- laid$unit / laid$pose[13] / asked
+  laid$unit_known <- laid$unit_known && abs(log(factor)) <= log(settings$unit_apart)
+  laid
+}

@@ -58,6 +58,10 @@
 #'     * of `path = "crest"`: the curve runs twice over. Of a closed curve: it closed in on itself,
 #'       or it is much longer than its stops are apart. The limits are those of [path_settings()];
 #'   * `closed`: whether the curve ends where it begins;
+#'   * `beside`: distances of the two landmarks from the nearest ridge or valley, across that, in the
+#'     unit of the mesh. Beyond `settings$beside` radii the curve has a hook at that end. NA if no
+#'     ridge is within the width there, if it is fainter than `settings$faint`, or if curvature is
+#'     not trusted there;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: key of the mesh. Functions that draw or use the curve refuse another mesh.
 #' @section Standard error: `se` is the standard deviation of the curve's position across itself,
@@ -265,7 +269,7 @@ along_reference <- function(placed, path, reference) {
 #' @param points,path,reference,coordinates,surface,line,strength,scale,converged As in the value of
 #'   [ridge_curve()].
 #' @param job As of [curve_job()].
-#' @param verdict List of `se`, `determined`, `reason`.
+#' @param verdict List of `se`, `determined`, `reason`, `beside`.
 #' @param even Whether its points stand at equal chords.
 #' @param errors List of `noise_factor`, `length_se` and `strength_se`, `NULL` where there is none.
 #' @noRd
@@ -284,7 +288,7 @@ new_curve <- function(points, path, reference, job, verdict, coordinates = NULL,
          width = job$width,
          key = job$ends$scan$key, converged = converged, even = even, share = share,
          noise_factor = error("noise_factor"), length_se = error("length_se"),
-         strength_se = error("strength_se"), closed = is_closed(path)),
+         strength_se = error("strength_se"), closed = is_closed(path), beside = verdict$beside),
     class = "curve"
   )
 }
@@ -323,7 +327,10 @@ check_curve_on <- function(curve, mesh, name) {
 #' Whether curvature determines the curve, with the reason where not
 #' @noRd
 judge_curve <- function(job, fit) {
-  if (job$type == "plane") return(list(se = NA_real_, determined = NA, reason = NA_character_))
+  if (job$type == "plane") {
+    return(list(se = NA_real_, determined = NA, reason = NA_character_,
+                beside = c(NA_real_, NA_real_)))
+  }
   se <- if (is.null(fit$line$se)) NA_real_ else
     stats::median(fit$line$se[-c(1, length(fit$line$se))])
   limit <- job$settings$undetermined * job$radius
@@ -349,7 +356,14 @@ judge_curve <- function(job, fit) {
     NA_character_
   }
   list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
-       reason = reason)
+       reason = reason, beside = trusted_ends(fit$beside, job))
+}
+
+#' Distances of the ends from their ridge, NA where curvature is not trusted
+#' @noRd
+trusted_ends <- function(beside, job) {
+  if (is.null(beside)) return(c(NA_real_, NA_real_))
+  ifelse(c(job$trust[1] > 0, job$trust[2] < 1), NA_real_, beside)
 }
 
 warn_undetermined <- function(curve) {
@@ -396,11 +410,8 @@ print.curve <- function(x, ...) {
     if (!is.na(x$strength)) {
       cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
     }
-    most <- x$settings$window * c(x$radius, NA)[1]
-    if (x$type != "plane" && isTRUE(x$width > most * (1 + 1e-9))) {
-      cat(sprintf("\n  of its width %.4g only %.4g is used: %g radii", x$width, most,
-                  x$settings$window))
-    }
+    remark <- if (x$type != "plane") curve_remark(x) else NA
+    if (!is.na(remark)) cat("\n ", remark)
     cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
                 if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
     invisible(x)

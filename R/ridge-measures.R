@@ -1,4 +1,5 @@
-# What is measured along a curve, its length and its strength, with standard errors.
+# What is measured along a curve, its length and its strength, with standard errors; and how far its
+# ends stand beside it.
 
 #' A fit with the strength along its line, and standard errors of that and of the curve's length
 #'
@@ -60,4 +61,88 @@ length_rate <- function(scan, path, share, closed = FALSE) {
   normal <- t(path_normals(scan, at))[inner + 1, , drop = FALSE]
   across <- cross_rows(normal, before + after)
   rowSums(across * (before - after)) / row_lengths(across)
+}
+
+#' How far the ends of a path lie beside the ridge that ends on them
+#'
+#' The curve is held at its landmarks: where its ridge runs beside one, it has a hook there. The
+#' ridge is looked for across itself, by the principal directions about the landmark, as the path
+#' may have the hook in it.
+#'
+#' @param window As of [ridge_window()].
+#' @param job As of [curve_job()].
+#' @return Two lengths, NA where no ridge is in the window at that end, or none that is not faint,
+#'   and of closed paths.
+#' @noRd
+end_offsets <- function(scan, window, job) {
+  path <- window$reference
+  if (is_closed(path)) return(c(NA_real_, NA_real_))
+  half <- min(job$width, job$settings$window * job$radius)
+  ends <- columns_of(path, c("x", "y", "z"))[c(1, nrow(path)), ]
+  vertex <- window$coordinates$vertex[window$strengths$rows]
+  at <- t(scan$vb[1:3, vertex, drop = FALSE])
+  vapply(1:2, function(i) {
+    step <- at - rep(ends[i, ], each = nrow(at))
+    near <- which(row_lengths(step) <= half + job$radius)
+    if (length(near) < 2) return(NA_real_)
+    nearest_crest(step[near, , drop = FALSE], job$source(vertex[near]), job, half)
+  }, 0)
+}
+
+#' Distance of a place from the nearest crest, across that
+#'
+#' @param step Vertices about the place, as seen from it (n x 3); `curved`: their curvature.
+#' @param reach Greatest distance that is looked at, in the unit of the mesh.
+#' @param along Half width of the strip of vertices that count, along the crest, in radii.
+#' @param width Half width of the local means across it, in radii.
+#' @param places Number of distances that are tried, to either side.
+#' @return NA where there is no crest within `reach` that is not faint.
+#' @noRd
+nearest_crest <- function(step, curved, job, reach, along = 1, width = 0.5, places = 50) {
+  radius <- job$radius
+  value <- strength_at(curved, job$type)
+  own <- which(value > 0)
+  if (length(own) < 2) return(NA_real_)
+  across <- if (job$type == "ridge") curved$direction2 else curved$direction1
+  weight <- value[own] * pmax(1 - (row_lengths(step)[own] / (along * radius))^2, 0)
+  axis <- eigen(crossprod(sqrt(weight) * across[own, , drop = FALSE]), symmetric = TRUE)$vectors[, 1]
+  t <- drop(step %*% axis)
+  normal <- colMeans(curved$normal[own, , drop = FALSE] * weight)
+  beside <- drop(step %*% unit_vector(cross_product(axis, normal)))
+  strip <- which(abs(beside) < along * radius & !is.na(value))
+  tried <- reach * seq(-places, places) / places
+  gap <- abs(outer(tried, t[strip], `-`)) / (width * radius)
+  kernel <- pmax(1 - gap^2, 0)^2 *
+    rep(1 - (beside[strip] / (along * radius))^2, each = length(tried))
+  mean <- drop(kernel %*% value[strip]) / rowSums(kernel)
+  inner <- seq(2, length(tried) - 1)
+  top <- inner[which(mean[inner] > mean[inner - 1] & mean[inner] >= mean[inner + 1] &
+                       mean[inner] * radius > job$settings$faint)]
+  if (length(top)) min(abs(tried[top])) else NA_real_
+}
+
+#' What is to be said of a row that gave a curve: its width is cut, its ends stand beside their
+#' ridge
+#'
+#' @param curve A `curve`.
+#' @param free Two logical values: ends that need not stand on a ridge.
+#' @return Text, NA where there is nothing.
+#' @noRd
+curve_remark <- function(curve, free = c(FALSE, FALSE)) {
+  hooked <- which(curve$beside > curve$settings$beside * curve$radius & !free)
+  said <- c(
+    cut_width_words(curve$type, curve$width, curve$radius, curve$settings$window),
+    sprintf("landmark %s stands %.2g beside the %s, which makes a hook",
+            c(curve$from, curve$to)[hooked], curve$beside[hooked], curve$type)
+  )
+  said <- said[!is.na(said)]
+  if (length(said)) paste(said, collapse = "; ") else NA_character_
+}
+
+#' That only so much of a width is used, NA where all of it is
+#' @param window Greatest half width, in radii.
+#' @noRd
+cut_width_words <- function(type, width, radius, window) {
+  if (type == "plane" || width <= window * radius * (1 + 1e-9)) return(NA_character_)
+  sprintf("only %.3g of its width is used, %.3g radii", window * radius, window)
 }

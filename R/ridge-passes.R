@@ -10,9 +10,9 @@
 #' @param path A `mesh_path`; its attribute `trusted`, where it has one, is the range of arc length
 #'   in which curvature counts.
 #' @return The last window as of [ridge_window()], with `line`, `path` (the curve), `reference` (the
-#'   path that the window is about), `share` (of the second pass that was taken) and `noise_factor`;
-#'   `found` is FALSE, with `reason`, where there is no curve. Or a failure. [finished_fit()] has
-#'   yet to be called.
+#'   path that the window is about), `share` (of the second pass that was taken), `beside` (as of
+#'   [end_offsets()]) and `noise_factor`; `found` is FALSE, with `reason`, where there is no curve.
+#'   Or a failure. [finished_fit()] has yet to be called.
 #' @noRd
 fit_passes <- function(scan, path, job) {
   settings <- job$settings
@@ -21,12 +21,18 @@ fit_passes <- function(scan, path, job) {
   window$line <- highest_line(window$surface, window$scale, job$radius, settings)
   if (failed(window$line)) return(window$line)
   edge <- window$line$at_bound
+  beside <- end_offsets(scan, window, job)
   job$kernel <- if (settings$kernel > 0) kernel_width(scan, window, job$radius, settings) else 0
   job$mix <- min(1, job$kernel / (settings$mix * job$radius))
   if (job$mix > 0) window <- ridge_window(scan, path, job, job$mix)
-  fit <- one_pass(scan, window, job, edge)
+  pass <- function(window, edge) {
+    made <- one_pass(scan, window, job, edge)
+    if (!failed(made)) made$beside <- beside
+    made
+  }
+  fit <- pass(window, edge)
   next_pass <- function(fit) {
-    one_pass(scan, ridge_window(scan, path_of_pass(fit), job, job$mix), job, fit$line$at_bound)
+    pass(ridge_window(scan, path_of_pass(fit), job, job$mix), fit$line$at_bound)
   }
   if (!is.null(job$passes)) {
     for (i in seq_len(job$passes)[-1]) if (isTRUE(fit$found)) fit <- next_pass(fit)

@@ -58,6 +58,8 @@
 #'   by curvature.
 #' @param faint Mean strength near the reference path, times the radius, below which a curve counts
 #'   as not determined by curvature.
+#' @param beside Greatest distance of a landmark from the ridge or valley that ends on it, in radii.
+#'   Beyond it the landmark counts as beside its crest, see `beside` of [ridge_curve()].
 #' @param error Whether to compute standard errors.
 #' @param passes Number of passes. Each pass takes the curve of the pass before as its reference
 #'   path. `NULL`: one pass and a share of a second one, by `second`.
@@ -80,8 +82,8 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
                            kernel = 12, kernel_most = 1.4, kernel_least = 0.15,
                            kernel_vertices = 400, second = 0.5, second_gain = 0.05,
                            second_whole = 0.6, mix = Inf, noise = NA, longest = 1.25,
-                           inflation = 1.5, undetermined = 0.2, faint = 0.15, error = TRUE,
-                           passes = NULL) {
+                           inflation = 1.5, undetermined = 0.2, faint = 0.15, beside = 0.3,
+                           error = TRUE, passes = NULL) {
   preset <- check_choice(preset, c("crestline", "one pass", "paper"), "preset")
   single <- list(kernel = 0, second = 0)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
@@ -95,7 +97,7 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
 check_settings <- function(settings) {
   positive <- c("cap", "window", "vertices", "anisotropy", "df", "lambda", "core",
                 "bound", "step",
-                "tolerance", "longest", "inflation", "undetermined", "faint", "kernel_most",
+                "tolerance", "longest", "inflation", "undetermined", "faint", "beside", "kernel_most",
                 "kernel_least", "kernel_vertices", "second_gain", "second_whole", "mix")
   for (name in positive) {
     if (!identical(settings[[name]], Inf)) {

@@ -93,6 +93,9 @@
 #'   the scan to these sizes (five lengths). A size within this factor of the first is left out.
 #' @param unit_apart If no unit is given and the object is larger or smaller than the template by
 #'   more than this factor, its unit is called a guess. Faces of adults differ by less than 1.2.
+#' @param resized If the object is larger or smaller than the template by more than this factor, or
+#'   its unit is a guess, and the agreement is below `sure`, it is fitted again in the unit that
+#'   makes it as large as the template.
 #' @param score_apart A second unit is fitted if its score is greater by at most this.
 #' @param ball_points Greatest mean number of vertices in a ball of radius `feature`. A mesh with
 #'   more is thinned out before its curvature is estimated.
@@ -136,7 +139,7 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
                           warp_reach = c(15, 6), warp_steps = 12, whole_steps = 3,
                           light_points = 900, error = 3, robust_scale = 1.5,
                           along = 0.1, points = 2500, thin = 200, moved = 2, off = 2.5,
-                          vague = 0.9, near = 8, about = 8, lost = 0.4, slip = 2, low = 0.5,
+                          vague = 1.5, near = 8, about = 8, lost = 0.4, slip = 2, low = 0.5,
                           wrong = 0.6, fewest = 30, step = 7, ball = 40, proud = 0.55,
                           look_up = c(4, 15), start_turns = 16, start_points = 100,
                           start_cosine = 0.3, start_each = 3, starts = 40,
@@ -145,7 +148,8 @@ find_settings <- function(..., cluster = 2.5, coarse = 5, bend = 12, feature = 8
                           agree = c(0.3, 0.45), sure = 0.6, unsure = 0.4, clip = 0.15,
                           rest = 0.02, rest_steps = c(24, 100),
                           diagonals = c(200, 290, 420, 600, 870), size_apart = 1.1,
-                          unit_apart = 1.3, score_apart = 0.03, ball_points = 300,
+                          unit_apart = 1.3, resized = 1.2, score_apart = 0.03,
+                          ball_points = 300,
                           expressive = 0.22, jaw = c(0.1, 0.2, 0.3, 0.4), jaw_gain = 0.03,
                           shared_doubt = 0.5, smile = c(0.2, 0.4), smile_gain = 0.04, placed = 10,
                           contrary = c(12, 80), ear = 0.55, ear_radius = 65,

@@ -12,7 +12,7 @@ fit_whole_curves <- function(fits, open, scan, tick) {
   for (i in scheme_plan(scan$scheme)$order) {
     if (!open[i]) next
     row <- as.list(scan$scheme$curves[i, ])
-    found <- curve_record(row_job(row, row$from, scan, fits))
+    found <- curve_record(row_job(row, row$from, scan, fits), !is.na(row$cut_share))
     # A curve that is to be cut off, and whose ends no cut joins: as much of it as the mesh has.
     near <- if (is.null(found$path) && !is.na(row$cut_share)) scan_place(scan, row$to)
     target <- if (!is.null(near) && !failed(near)) far_target(row$from, scan)
@@ -20,7 +20,7 @@ fit_whole_curves <- function(fits, open, scan, tick) {
     if (!is.null(far_end)) {
       followed <- sprintf("%s: followed towards %s as far as the mesh goes", found$reason,
                           target$name)
-      found <- curve_record(row_job(row, far_end, scan, fits))
+      found <- curve_record(row_job(row, far_end, scan, fits), TRUE)
       found$followed <- followed
       found <- add_note(found, followed)
     }
@@ -50,8 +50,9 @@ finished_curves <- function(whole, open, scan, cut_scale) {
 #' or the reason alone
 #'
 #' @param job As of [row_job()].
+#' @param cut Whether it is to be cut off, so that it need not begin on a ridge.
 #' @noRd
-curve_record <- function(job) {
+curve_record <- function(job, cut = FALSE) {
   # Curvature is estimated where the search asks for it: it alone can fail on the way.
   curve <- as_value(trace_curve(job))
   problem <- if (failed(curve)) sub("\\.$", "", curve$problem)
@@ -67,7 +68,8 @@ curve_record <- function(job) {
     strength = curve$strength, contrast = curve_contrast(curve), se = curve$se,
     se_max = largest(curve$points$se),
     competing = c(attr(curve$reference, "competing"), NA)[1], determined = curve$determined,
-    reason = curve$reason, noise_factor = curve$noise_factor
+    reason = curve$reason, noise_factor = curve$noise_factor,
+    remark = if (curve$type == "plane") NA_character_ else curve_remark(curve, c(cut, FALSE))
   )
   if (is.null(problem)) return(record)
   record$reason <- paste("the shortest cut instead:", problem)

@@ -7,6 +7,7 @@
 #'   before; NULL where the curve failed.
 #' @param path,length,strength,contrast,se,se_max,competing,determined,noise_factor Of the curve.
 #' @param reason What there is to say, NA where nothing.
+#' @param remark As of [curve_remark()].
 #' @param cut Of curves that are cut off: their share of the length asked for.
 #' @param guessed Of these: whether way or length did without a landmark on the mesh.
 #' @param track Of these: list of the whole `path`, `start` (arc length there of the first point),
@@ -17,11 +18,11 @@ new_record <- function(points = NULL, path = NULL, length = NA_real_, strength =
                        contrast = NA_real_, se = NA_real_, se_max = NA_real_,
                        competing = NA_real_, determined = NA, reason = NA_character_,
                        cut = NA_real_, guessed = NA, track = NULL, followed = NA_character_,
-                       noise_factor = NA_real_) {
+                       noise_factor = NA_real_, remark = NA_character_) {
   list(points = points, path = path, length = length, strength = strength, contrast = contrast,
        se = se, se_max = se_max, competing = competing, determined = determined, reason = reason,
        cut = cut, guessed = guessed, track = track, followed = followed,
-       noise_factor = noise_factor)
+       noise_factor = noise_factor, remark = remark)
 }
 
 #' Cut off the curves that a scheme cuts, all of one specimen by one factor

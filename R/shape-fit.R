@@ -63,6 +63,9 @@
 #'       Near 1: a rival. NA: no other path;
 #'     * `noise_factor`: of [ridge_curve()]. The median over the curves describes the scan:
 #'       `print()` and [quality()] give it;
+#'     * `remark`: what the scheme could say better. Only a part of the `width` is used
+#'       (`settings$window`), or a landmark stands beside the ridge or valley that ends on it, by
+#'       more than `settings$beside` radii. NA: nothing. No grade depends on it;
 #'   * `checks`: data frame with a row for each row of `status`; [quality()] grades by it. Lengths
 #'     are in the unit of the mesh. Columns for all parts are `part`, `level` and `missing` (share
 #'     of the points). Columns for curves only:
@@ -263,13 +266,15 @@ shape_status <- function(scan, fits, problems) {
                length = rep(NA_real_, length(part)), strength = rep(NA_real_, length(part)),
                contrast = rep(NA_real_, length(part)), se = rep(NA_real_, length(part)),
                competing = rep(NA_real_, length(part)),
-               se_max = rep(NA_real_, length(part)), noise_factor = rep(NA_real_, length(part)))
+               se_max = rep(NA_real_, length(part)), noise_factor = rep(NA_real_, length(part)),
+               remark = rep(NA_character_, length(part)))
   }
   whole <- vapply(fits, function(fit) !is.null(fit$points) && !anyNA(fit$points$x), NA)
   curves <- lines(scheme$curves$curve, "curves", scheme$curves$kind, whole,
                   vapply(fits, `[[`, "", "reason"))
   measures <- c("length", "strength", "contrast", "se", "competing", "se_max", "noise_factor")
   curves[measures] <- lapply(measures, of_curve)
+  curves$remark <- vapply(fits, `[[`, "", "remark", USE.NAMES = FALSE)
   status <- rbind(
     lines(scheme$landmarks$landmark, "landmarks", rep("landmark", nrow(scheme$landmarks)),
           is.na(scan$reason), scan$reason),

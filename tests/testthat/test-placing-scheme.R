@@ -20,7 +20,21 @@ test_that("a landmark beside its crest and a width that is cut are named, with a
   expect_match(checked$remedy[2], "snap()", fixed = TRUE)
   expect_true(checked$grade[2] >= "amber")
   expect_match(checked$reason[3], "only 4.5 of its width is used")
-  expect_equal(checked$length[1], fit_shape(object, scheme)$status$length[4])
+  status <- fit_shape(object, scheme)$status
+  expect_equal(checked$length[1], status$length[4])
+  remark <- stats::setNames(status$remark, status$part)
+  expect_identical(unname(remark[c("on it", "flat", "a")]), rep(NA_character_, 3))
+  expect_match(remark[["hooked"]], "^landmark beside stands [12][.0-9]* beside the ridge, which")
+  expect_identical(remark[["wide"]], "only 4.5 of its width is used, 1.5 radii")
+  curve <- ridge_curve(object, "a", "beside", "ridge", radius = 3, width = 4, n = 9)
+  expect_lt(max(abs(curve$beside - c(0, 2))), 0.4)
+  expect_output(print(curve), "landmark beside stands")
+  # An end where curvature is not trusted need not stand on a crest; nor one within the limit.
+  trusted <- ridge_curve(object, "a", "beside", "ridge", radius = 3, width = 4, n = 9,
+                         trust = c(0, 0.8))
+  expect_identical(trusted$beside[2], NA_real_)
+  lenient <- fit_shape(object, scheme, ridge_settings(beside = 1))$status
+  expect_identical(lenient$remark[lenient$part == "hooked"], NA_character_)
   said <- utils::capture.output(print(checked))
   expect_match(said[1], "<scheme_check> humps on ridge: ")
   expect_lte(max(nchar(said)), 80)

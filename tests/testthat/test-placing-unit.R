@@ -25,6 +25,22 @@ test_that("a size between two powers of ten is told as a guess too, unless the u
   expect_true(known$match$unit_known)
 })
 
+test_that("a face in a unit 1.4 times off is fitted again at the template's size", {
+  file <- shared_data("ict", "ict_05.ply")
+  table <- utils::read.csv(shared_data("ict", "landmarks.csv"))
+  table <- table[table$id == "ict_05" & !table$landmark %in% ear_names, ]
+  face <- read_specimen(file)$mesh
+  face$vb[1:3, ] <- 7 * face$vb[1:3, ]
+  found <- suppressWarnings(find_landmarks(face, id = "ict_05"), classes = "crestline_warning")
+  expect_false(found$match$unit_known)
+  off <- row_lengths(found$landmarks[table$landmark, ] / 7 - as.matrix(table[c("x", "y", "z")]))
+  # 3.03 in mm; 3.94 before it was fitted again.
+  expect_lt(mean(off), 3.3)
+  once <- suppressWarnings(find_landmarks(face, settings = find_settings(sure = 0.3)),
+                           classes = "crestline_warning")
+  expect_gt(found$match$agree, once$match$agree + 0.1)
+})
+
 test_that("a mesh with very many vertices in a ball is thinned before its curvature", {
   ball <- Rvcg::vcgSphere(5)
   ball$vb[1:3, ] <- 50 * ball$vb[1:3, ]
