@@ -25,7 +25,7 @@
 #'   their diagonals closest to each other. If the scan does not agree with the template in that
 #'   unit, other units are tried. `match$unit_known` is then FALSE, and also if the object is much
 #'   larger or smaller than the template (setting `unit_apart`). `match$unit` then makes the object
-#'   as large as the template, which is right to about 10 % for faces.
+#'   as large as the template, which is right to about 12 % for faces.
 #' @param threads Number of threads of [curvature()].
 #' @return The [specimen()] with `landmarks` (those that are absent NA) and
 #'   * `placing`: data frame with a row for each landmark; lengths in the unit of the mesh. Columns:
@@ -171,7 +171,7 @@ warn_doubtful <- function(found, doubt, settings) {
   if (isFALSE(match$unit_known)) {
     crestline_warn(
       sprintf("its unit is a guess: its lengths were multiplied by %.3g.", match$unit),
-      "The object is then as large as the template, faces to about 10 %. Better give `unit`.",
+      "The object is then as large as the template, faces to about 12 %. Better give `unit`.",
       stage = "landmarks", id = found$id, class = "crestline_guessed_unit"
     )
   }
