@@ -15,7 +15,7 @@ fit_alignment <- function(whole, weight, scaling, tolerance, rounds) {
 #' k weights of mean 1
 #' @noRd
 point_weights <- function(weights, whole, call = rlang::caller_env()) {
-  k <- dim(whole$coords)[1]
+  k <- length(whole$kept)
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call)
   if (is.null(weights)) return(rep(1, k))
   if (identical(weights, "places")) {
@@ -36,9 +36,10 @@ point_weights <- function(weights, whole, call = rlang::caller_env()) {
   weights * k / sum(weights)
 }
 
-as_whole <- function(aligned) {
+#' An alignment as what [align()] weighs; its co-ordinates, a copy, only where areas need them
+#' @noRd
+as_whole <- function(aligned, weights) {
   k <- nrow(aligned$mean)
-  list(coords = aligned$coords, reference = aligned$mean, triangles = aligned$triangles,
-       places = aligned$places, given = k,
-       kept = seq_len(k))
+  list(coords = if (identical(weights, "area")) aligned$coords, reference = aligned$mean,
+       triangles = aligned$triangles, places = aligned$places, given = k, kept = seq_len(k))
 }

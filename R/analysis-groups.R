@@ -266,24 +266,24 @@ compare_levels <- function(aligned, design, labels, components, tests, equal_spr
 compare_level <- function(aligned, labels, components, tests, spread, blocks, counts, tick,
                           wide = 3) {
   wants <- function(test) test %in% tests
-  pca <- most <- common <- NULL
+  pca <- found <- most <- common <- NULL
   if (wants("T2") || wants("components")) {
     if (spread$equal) wide <- 1
-    pca <- shape_pca(aligned, components = if (components >= 1) components * wide)
-    most <- component_count(components, pca)
-    count <- testable_components(pca, most, nrow(labels), max(labels), spread)
-    among <- seq_len(min(wide * most, ncol(pca$x)))
-    if (!spread$equal) common <- common_form(pca$x[, among, drop = FALSE], labels, count)
-    pca <- first_components(pca, if (components >= 1) most else length(pca$sdev))
+    found <- shape_pca(aligned, components = if (components >= 1) components * wide)
+    most <- component_count(components, found)
+    count <- testable_components(found, most, nrow(labels), max(labels), spread)
+    among <- seq_len(min(wide * most, ncol(found$x)))
+    if (!spread$equal) common <- common_form(found$x[, among, drop = FALSE], labels, count)
+    pca <- first_components(found, if (components >= 1) most else length(found$sdev))
   }
-  y <- if (wants("shape") || wants("dispersion")) shape_rows(aligned)
-  total <- if (wants("shape")) whole_shape(y, labels, spread)
+  total <- if (wants("shape")) {
+    whole_shape(aligned, labels, spread, leading_squares(aligned, found))
+  }
   rows <- list(if (wants("size")) size_test(aligned$size, labels, spread, counts),
                if (wants("shape")) mean_shape_test(total, labels, spread, counts),
                if (wants("T2")) t2_test(pca, most, labels, spread, common),
                if (wants("components")) component_tests(pca, most, labels, spread, common),
-               if (wants("dispersion")) dispersion_test(y, labels))
-  rm(y, total)
+               if (wants("dispersion")) dispersion_test(aligned, labels))
   points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick)
   list(tests = do.call(rbind, rows), points = points, pca = pca,
        components = if (is.null(pca)) NA else count)

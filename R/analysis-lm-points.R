@@ -14,24 +14,28 @@
 #' @noRd
 lm_points <- function(aligned, spans, orders, part = NULL, block = 250) {
   along <- !is.null(aligned$triangles)
-  y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
-  absent <- is.na(y[[1]][1, ])
-  found <- lapply(spans, function(span) list(as_great = 0))
-  for (columns in permutation_blocks(ncol(orders), block)) {
-    squares <- column_squares(y, spans, orders[, columns, drop = FALSE])
-    found <- Map(add_block, found, squares, spans, list(absent), list(part))
-  }
+  blocks <- permutation_blocks(ncol(orders), block)
+  each <- lapply(point_chunks(aligned), function(rows) {
+    y <- test_variables(aligned, rows, along)
+    absent <- is.na(y[[1]][1, ])
+    found <- lapply(spans, function(span) list(as_great = 0))
+    for (columns in blocks) {
+      squares <- column_squares(y, spans, orders[, columns, drop = FALSE])
+      found <- Map(add_block, found, squares, spans, list(absent), list(part[rows]))
+    }
+    found
+  })
   lapply(stats::setNames(nm = names(spans)), function(term) {
-    own <- found[[term]]
+    own <- joined_chunks(lapply(each, `[[`, term))
     list(points = lm_point_table(aligned, term, spans[[term]], own, along, ncol(orders)),
-         parts = if (!is.null(part)) tests_of_parts(term, spans[[term]], own$of_parts, part))
+         parts = if (!is.null(part)) tests_of_parts(term, spans[[term]], own, part))
   })
 }
 
 #' What is kept of the permutations so far, and of some more
 #'
 #' @param kept List: `observed` (F by point), `own` (squares), `as_great` (counts), `family`
-#'   (greatest F by permutation), `of_parts` (F by permutation and part).
+#'   (greatest F by permutation), `part_own`, `part_left` (squares by permutation and part).
 #' @param squares Of [column_squares()], for one term.
 #' @noRd
 add_block <- function(kept, squares, span, absent, part) {
@@ -46,10 +50,24 @@ add_block <- function(kept, squares, span, absent, part) {
   kept$family <- c(kept$family, do.call(pmax, c(as.data.frame(f), na.rm = TRUE)))
   if (!is.null(part)) {
     sums <- function(x) t(rowsum(t(x), part, na.rm = TRUE, reorder = FALSE))
-    kept$of_parts <- rbind(kept$of_parts, sums(squares$own) / span$df /
-                             (sums(squares$left) / span$left))
+    kept$part_own <- rbind(kept$part_own, sums(squares$own))
+    kept$part_left <- rbind(kept$part_left, sums(squares$left))
   }
   kept
+}
+
+#' What was kept of several chunks of points, as of all points
+#' @noRd
+joined_chunks <- function(each) {
+  if (length(each) == 1) return(each[[1]])
+  joined <- function(what) unlist(lapply(each, `[[`, what))
+  summed <- function(what) {
+    all <- do.call(cbind, lapply(each, `[[`, what))
+    if (!is.null(all)) t(rowsum(t(all), colnames(all), reorder = FALSE))
+  }
+  list(observed = joined("observed"), own = joined("own"), as_great = joined("as_great"),
+       family = do.call(pmax, c(lapply(each, `[[`, "family"), na.rm = TRUE)),
+       part_own = summed("part_own"), part_left = summed("part_left"))
 }
 
 #' @param found Of [add_block()].
@@ -93,9 +111,10 @@ parts_of_points <- function(sample, aligned, level) {
   points$part[points$level == level][at]
 }
 
-#' @param f B x parts.
+#' @param found As of [add_block()].
 #' @noRd
-tests_of_parts <- function(term, span, f, part) {
+tests_of_parts <- function(term, span, found, part) {
+  f <- found$part_own / span$df / (found$part_left / span$left)
   # The share of permutations with as great an F, of each permutation: the family's least is held.
   p <- apply(f, 2, function(x) rank(-x, ties.method = "max")) / nrow(f)
   least <- do.call(pmin, as.data.frame(p))

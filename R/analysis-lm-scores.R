@@ -3,19 +3,19 @@
 
 #' Whole shape: sums of squares over all co-ordinates, from the inner products of the specimens
 #'
-#' @param y n x q, centred.
+#' @param aligned An `aligned`.
 #' @param spans As of [term_spans()].
 #' @param orders n x B, the observed order first.
 #' @return List by term: `squares`, `f`, each of B.
 #' @noRd
-shape_scores <- function(y, spans, orders) {
+shape_scores <- function(aligned, spans, orders) {
   # What costs less for each permutation: n^2 inner products a term, or n x q x p projections.
-  if (nrow(y) * length(spans) > ncol(y) * ncol(spans[[1]]$basis)) {
+  if (length(aligned) * length(spans) > length(aligned$mean) * ncol(spans[[1]]$basis)) {
     return(Map(function(found, span) {
       as_scores(found$own, found$whole, found$total, span)
-    }, summed_squares(y, spans, orders), spans))
+    }, summed_squares(aligned, spans, orders), spans))
   }
-  gram <- tcrossprod(y)
+  gram <- over_points(aligned, tcrossprod)
   lapply(spans, function(span) {
     half <- gram - span$without %*% crossprod(span$without, gram)
     left <- half - tcrossprod(half %*% span$without, span$without)
@@ -51,13 +51,19 @@ permuted_squares <- function(y, spans, orders) {
 #' @param block Columns at a time: a block needs block x B numbers a term.
 #' @return List by term: `own`, `whole` (B), `total`.
 #' @noRd
-summed_squares <- function(y, spans, orders, block = 500) {
-  each <- lapply(permutation_blocks(ncol(y), block), function(columns) {
-    lapply(permuted_squares(y[, columns, drop = FALSE], spans, orders), function(found) {
-      list(own = rowSums(found$own), whole = rowSums(found$whole), total = sum(found$total))
+summed_squares <- function(aligned, spans, orders, block = 500) {
+  flat <- over_points(aligned, function(y) {
+    each <- lapply(permutation_blocks(ncol(y), block), function(columns) {
+      found <- permuted_squares(y[, columns, drop = FALSE], spans, orders)
+      unlist(lapply(unname(found), function(one) {
+        list(rowSums(one$own), rowSums(one$whole), sum(one$total))
+      }), recursive = FALSE)
     })
+    Reduce(function(a, b) Map(`+`, a, b), each)
   })
-  Reduce(function(a, b) Map(function(x, y) Map(`+`, x, y), a, b), each)
+  at <- 3 * seq_along(spans)
+  Map(function(own, whole, total) list(own = own, whole = whole, total = total),
+      stats::setNames(flat[at - 2], names(spans)), flat[at - 1], flat[at])
 }
 
 as_scores <- function(own, whole, total, span) {

@@ -24,10 +24,8 @@ lm_rows <- function(term, test, span, scores, total, parametric = NA_real_) {
 #' @noRd
 lm_level <- function(aligned, spans, orders, tests, components, part, tick) {
   wants <- function(test) test %in% tests
-  y <- shape_rows(aligned)
-  total <- sum(squares_by_row(y))
-  whole <- if (wants("shape")) shape_scores(y, spans, orders)
-  rm(y)
+  total <- sum(over_points(aligned, squares_by_row))
+  whole <- if (wants("shape")) shape_scores(aligned, spans, orders)
   pca <- if (wants("components") || wants("manova")) {
     shape_pca(aligned, components = if (components >= 1) components)
   }

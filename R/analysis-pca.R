@@ -54,28 +54,25 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   sized <- check_number(sized, "sized", 0, 1)
   check_class(aligned, "aligned", "aligned", "align()")
-  weights <- point_weights(weights, as_whole(aligned))
+  weights <- point_weights(weights, as_whole(aligned, weights))
   dims <- c(dim(aligned$mean), length(aligned))
   weight <- rep(weights, dims[2])
   center <- as.vector(weighted_shape(aligned, rep(1 / dims[3], dims[3])))
-  y <- shape_rows(aligned, sqrt(weights))
-  parts <- thin_svd(y, tolerance, components)
-  total <- sum(squares_by_row(y)) / (dims[3] - 1)
+  parts <- shape_svd(aligned, weights, tolerance, components)
+  total <- parts$total / (dims[3] - 1)
   if (!length(parts$d)) {
     crestline_abort("all shapes are the same.", "Check that the sample is what it should be.",
                     stage = "components")
   }
-  scores <- y %*% parts$v
-  rm(y)
-  signs <- component_signs(parts$v, scores, aligned$size, aligned$mean, sized)
+  signs <- component_signs(parts$v, parts$scores, aligned$size, aligned$mean, sized)
   axis <- parts$v * rep(signs, each = length(weight))
   names <- paste0("PC", seq_along(parts$d))
   rows <- as.vector(outer(rownames(aligned$mean), colnames(aligned$mean), paste))
   rotation <- `dimnames<-`(axis * sqrt(weight), list(rows, names))
   variance <- parts$d^2 / (dims[3] - 1)
-  scores <- `dimnames<-`(scores * rep(signs, each = dims[3]), list(names(aligned), names))
+  scores <- `dimnames<-`(parts$scores * rep(signs, each = dims[3]), list(names(aligned), names))
   direction <- if (all(weight == 1)) rotation else
-    followed(shape_rows(aligned, 1), scores, rotation)
+    followed(aligned, scores, rotation)
   structure(list(sdev = sqrt(variance), rotation = rotation, center = stats::setNames(center, rows),
                  scale = FALSE, x = scores, share = variance / total, direction = direction,
                  mean = matrix(center, dims[1], dims[2], dimnames = dimnames(aligned$mean)),
@@ -90,9 +87,13 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
 
 #' How all co-ordinates follow the scores, those of points of weight 0 too
 #' @noRd
-followed <- function(centred, scores, rotation) {
-  direction <- crossprod(centred, scores) / rep(colSums(scores^2), each = ncol(centred))
-  `dimnames<-`(direction, dimnames(rotation))
+followed <- function(aligned, scores, rotation) {
+  k <- nrow(aligned$mean)
+  for (rows in point_chunks(aligned)) {
+    each <- columns_of_points(aligned, rows)
+    for (d in seq_along(each)) rotation[(d - 1) * k + rows, ] <- crossprod(each[[d]], scores)
+  }
+  rotation / rep(colSums(scores^2), each = nrow(rotation))
 }
 
 #' @exportS3Method
@@ -173,15 +174,28 @@ first_components <- function(pca, count) {
   pca
 }
 
+#' Singular values, right vectors and scores of the centred co-ordinates, each point times the root
+#' of its weight
+#' @return List: `d`, `v` (d k x r), `scores` (n x r), `total` (sum of all squares).
+#' @noRd
+shape_svd <- function(aligned, weights, tolerance, most) UseMethod("shape_svd")
+
+shape_svd.aligned <- function(aligned, weights, tolerance, most) {
+  y <- shape_rows(aligned, sqrt(weights))
+  parts <- thin_svd(y, tolerance, most)
+  c(parts, list(scores = if (length(parts$d)) y %*% parts$v, total = sum(squares_by_row(y))))
+}
+
 #' Singular values and right vectors of a matrix by the smaller of its two cross-products, or the
 #' greatest ones by Lanczos' method
 #' @param most How many; `NULL`: all.
 #' @param share Share of the smaller side, up to which those asked for are found by Lanczos' method.
+#' @param basis Least number of Lanczos' vectors: with few of them it begins anew too often.
 #' @noRd
-thin_svd <- function(x, tolerance, most = NULL, share = 0.1) {
+thin_svd <- function(x, tolerance, most = NULL, share = 0.1, basis = 30) {
   side <- min(dim(x))
   if (!is.null(most) && most <= share * side) {
-    parts <- RSpectra::svds(x, most, nu = 0)
+    parts <- RSpectra::svds(x, most, nu = 0, opts = list(ncv = min(side, max(basis, 2 * most + 1))))
     parts <- list(values = parts$d^2, v = parts$v)
   } else {
     wide <- ncol(x) > nrow(x)

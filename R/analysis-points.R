@@ -3,7 +3,7 @@
 #' Tests at every point
 #'
 #' On a surface the displacement along the mean surface's normal, elsewhere all co-ordinates of the
-#' point together.
+#' point together. Some points are worked out at a time.
 #'
 #' @param aligned An `aligned`.
 #' @param labels n x B matrix of group numbers.
@@ -15,11 +15,32 @@
 #' @noRd
 point_tests <- function(aligned, labels, spread, blocks, tick) {
   along <- !is.null(aligned$triangles)
-  y <- if (along) normal_displacements(aligned) else coordinate_blocks(aligned)
-  groups <- max(labels)
+  chunks <- point_chunks(aligned)
+  each <- lapply(chunks, function(rows) {
+    chunk_of_tests(test_variables(aligned, rows, along), labels, spread, blocks,
+                   if (rows[1] == 1) tick else function() NULL)
+  })
+  joined <- function(what) unlist(lapply(each, `[[`, what))
+  family <- do.call(pmax, c(lapply(each, `[[`, "family"), na.rm = TRUE))
+  described <- point_table(aligned, labels[, 1], along)
+  f <- joined("f")
+  described$statistic <- if (along && max(labels) == 2) sqrt(f) * sign(described$distance) else f
+  described$p_value <- joined("as_great") / ncol(labels)
+  described$p_adjusted <- vapply(
+    joined("observed"), function(value) mean(family >= value * (1 - 1e-10)), 0
+  )
+  described
+}
+
+#' The tests of some points
+#'
+#' @param y List of n x k matrices, over which squares are summed.
+#' @return List: `observed` and `as_great` (k: scores, and counts of regroupings with as great
+#'   ones), `family` (B: greatest scores), `f` (k).
+#' @noRd
+chunk_of_tests <- function(y, labels, spread, blocks, tick) {
   squares <- 0
   for (part in y) squares <- squares + part^2
-  rm(part)
   dimensions <- effective_dimensions(y)
   scores <- function(columns) {
     spread_scores(squared_sums(y), squares, labels[, columns, drop = FALSE], spread$equal,
@@ -34,14 +55,8 @@ point_tests <- function(aligned, labels, spread, blocks, tick) {
     family <- c(family, do.call(pmax, c(as.data.frame(score), na.rm = TRUE)))
     tick()
   }
-  described <- point_table(aligned, labels[, 1], along)
-  f <- observed_f(squared_sums(y), squares, labels[, 1], spread)$f
-  described$statistic <- if (along && groups == 2) sqrt(f) * sign(described$distance) else f
-  described$p_value <- as_great / ncol(labels)
-  described$p_adjusted <- vapply(
-    observed[1, ], function(value) mean(family >= value * (1 - 1e-10)), 0
-  )
-  described
+  list(observed = observed[1, ], as_great = as_great, family = family,
+       f = observed_f(squared_sums(y), squares, labels[, 1], spread)$f)
 }
 
 #' Where the points are and how far apart the means, in the unit of the meshes
@@ -71,19 +86,17 @@ mean_shape_of <- function(aligned, chosen) {
   weighted_shape(aligned, chosen / sum(chosen))
 }
 
-#' List of one n x k matrix: displacements from the mean along its normals
+#' What some points are tested by: a list of one n x k matrix, displacements from the mean along its
+#' normals, or of a matrix a co-ordinate; centred
+#' @param rows As in [columns_of_points()].
 #' @noRd
-normal_displacements <- function(aligned) {
-  normal <- point_normals(aligned$mean, aligned$triangles)
-  along <- 0
-  for (d in 1:3) along <- along + shape_rows(aligned, normal[, d], d)
-  list(along)
-}
-
-#' List of n x k matrices, one a co-ordinate, centred
-#' @noRd
-coordinate_blocks <- function(aligned) {
-  lapply(seq_len(ncol(aligned$mean)), function(d) shape_rows(aligned, 1, d))
+test_variables <- function(aligned, rows, along) {
+  each <- columns_of_points(aligned, rows)
+  if (!along) return(each)
+  normal <- point_normals(aligned$mean, aligned$triangles)[rows, , drop = FALSE]
+  off <- 0
+  for (d in 1:3) off <- off + each[[d]] * rep(normal[, d], each = length(aligned))
+  list(off)
 }
 
 #' Unit normals of points, by the areas of their triangles, k x 3, NA where there are none

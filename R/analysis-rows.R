@@ -16,6 +16,48 @@ shape_rows <- function(aligned, factor = sqrt(aligned$weights),
                    rep(rep_len(as.double(factor), k), length(dimension)))
 }
 
+#' The co-ordinates of some points, one matrix a dimension, columns centred and multiplied
+#'
+#' @param rows Whole numbers in a row: which points.
+#' @param factor As in [shape_rows()], of these points.
+#' @return List of d matrices, n x the number of points.
+#' @noRd
+columns_of_points <- function(aligned, rows, factor = 1) UseMethod("columns_of_points")
+
+columns_of_points.aligned <- function(aligned, rows, factor = 1) {
+  k <- nrow(aligned$mean)
+  each <- numbers_by_specimen(aligned)
+  by <- rep_len(as.double(factor), length(rows))
+  lapply(seq_len(ncol(aligned$mean)), function(d) {
+    cpp_centred_rows(each, (d - 1L) * k + rows[1], by)
+  })
+}
+
+#' Points taken at a time, so that no more than some of the numbers are made anew
+#' @param most Greatest number of numbers (80 MB).
+#' @return List of rows of points.
+#' @noRd
+point_chunks <- function(aligned, most = 1e7) {
+  size <- max(1, floor(most / (length(aligned) * ncol(aligned$mean))))
+  permutation_blocks(nrow(aligned$mean), size)
+}
+
+#' Sum of a function of all co-ordinates, some points at a time
+#'
+#' @param f Function of an n x q matrix, columns centred and of the weights of the alignment.
+#' @return Sum of its values over the points; of lists, by member.
+#' @noRd
+over_points <- function(aligned, f) {
+  root <- sqrt(aligned$weights)
+  add <- function(a, b) if (is.list(a)) Map(`+`, a, b) else a + b
+  found <- NULL
+  for (rows in point_chunks(aligned)) {
+    own <- f(do.call(cbind, columns_of_points(aligned, rows, root[rows])))
+    found <- if (is.null(found)) own else add(found, own)
+  }
+  found
+}
+
 #' The specimens as matrices of doubles, without an array of all
 #' @noRd
 numbers_by_specimen <- function(aligned) {
@@ -28,7 +70,9 @@ numbers_by_specimen <- function(aligned) {
 #' Sum of the specimens, each times its weight
 #' @return k x d matrix.
 #' @noRd
-weighted_shape <- function(aligned, weight) {
+weighted_shape <- function(aligned, weight) UseMethod("weighted_shape")
+
+weighted_shape.aligned <- function(aligned, weight) {
   matrix(cpp_weighted_sum(numbers_by_specimen(aligned), as.double(weight)), nrow(aligned$mean),
          dimnames = dimnames(aligned$mean))
 }

@@ -3,34 +3,61 @@
 #' Sums of squares between and within groups, for many regroupings
 #'
 #' @param about Function of an n x B matrix of 0 and 1, one group's members by regrouping, that
-#'   gives the squared sums of these members: B x q. Of [squared_sums()] or [squared_total()].
+#'   gives the squared sums of these members: B x q. Of [squared_sums()], say.
 #'   Variables are centred, so that the sums of a group are minus those of the others.
 #' @param squares n x q, squared entries by specimen.
 #' @param labels n x B matrix of group numbers, every column with groups of the same sizes.
 #' @param apart Whether the squares within groups are wanted.
-#' @param rounding Share of all squares, up to which those between are 0: exact duplicates then tie.
 #' @return List: `between` (B x q), `within` (list of B x q, by group).
 #' @noRd
-group_squares <- function(about, squares, labels, apart, rounding = 1e-12) {
+group_squares <- function(about, squares, labels, apart) {
+  own <- if (apart) group_sums(labels, function(member) crossprod(member, squares), FALSE)
+  split_squares(group_sums(labels, about), own, colSums(squares), tabulate(labels[, 1]))
+}
+
+#' What a function gives of the members of each group
+#'
+#' @param of Function of an n x B matrix of 0 and 1.
+#' @param last Whether the greatest group is wanted too. Of two groups it is taken to be as the
+#'   other, as squared sums of centred variables are.
+#' @return List by group of B x q.
+#' @noRd
+group_sums <- function(labels, of, last = TRUE) {
   sizes <- tabulate(labels[, 1])
-  last <- which.max(sizes)
-  left <- all <- rep(colSums(squares), each = ncol(labels))
-  within <- list()
-  between <- rest <- 0
-  for (g in seq_along(sizes)[-last]) {
+  greatest <- which.max(sizes)
+  found <- vector("list", length(sizes))
+  rest <- 0
+  for (g in seq_along(sizes)[-greatest]) {
     member <- labels == g
     storage.mode(member) <- "double"
-    rest <- rest + member
-    sums <- about(member)
-    between <- between + sums / sizes[g]
-    if (!apart) next
-    own <- crossprod(member, squares)
-    left <- left - own
-    within[[g]] <- pmax(own - sums / sizes[g], 0)
+    if (length(sizes) > 2 && last) rest <- rest + member
+    found[[g]] <- of(member)
   }
-  if (length(sizes) > 2) sums <- about(rest)
-  if (apart) within[[last]] <- pmax(left - sums / sizes[last], 0)
-  between <- between + sums / sizes[last]
+  if (last) found[[greatest]] <- if (length(sizes) > 2) of(rest) else found[[3 - greatest]]
+  found
+}
+
+#' Squares between and within groups from their sums
+#'
+#' @param sums,own Lists by group of B x q: squared sums, and sums of squares (of all but the
+#'   greatest group; NULL where squares within groups are not wanted).
+#' @param all q sums of squares in all.
+#' @param sizes Of the groups.
+#' @param rounding Share of all squares, up to which those between are 0: exact duplicates then tie.
+#' @return As [group_squares()].
+#' @noRd
+split_squares <- function(sums, own, all, sizes, rounding = 1e-12) {
+  left <- all <- rep(all, each = nrow(sums[[1]]))
+  last <- which.max(sizes)
+  within <- list()
+  between <- 0
+  for (g in c(seq_along(sizes)[-last], last)) {
+    between <- between + sums[[g]] / sizes[g]
+    if (is.null(own)) next
+    squares <- if (g == last) left else own[[g]]
+    left <- left - squares
+    within[[g]] <- pmax(squares - sums[[g]] / sizes[g], 0)
+  }
   between[between <= rounding * all] <- 0
   list(between = between, within = within)
 }
@@ -40,13 +67,6 @@ group_squares <- function(about, squares, labels, apart, rounding = 1e-12) {
 #' @noRd
 squared_sums <- function(y) {
   function(member) Reduce(`+`, lapply(y, function(part) crossprod(member, part)^2))
-}
-
-#' The same summed over all variables, by the smaller of the two products of a matrix
-#' @noRd
-squared_total <- function(y, gram = if (nrow(y) <= ncol(y)) tcrossprod(y)) {
-  if (is.null(gram)) return(function(member) cbind(colSums(crossprod(y, member)^2)))
-  function(member) cbind(colSums(member * (gram %*% member)))
 }
 
 #' F of Brown and Forsythe (1974), with two groups the square of Welch's t: squares between over the
@@ -124,11 +144,19 @@ effective_dimensions <- function(y) {
 #' @noRd
 spread_scores <- function(about, squares, labels, equal_spread, dimensions = 1) {
   found <- group_squares(about, squares, labels, !equal_spread)
-  total <- rep(colSums(squares), each = ncol(labels))
+  scores_of_squares(found, colSums(squares), tabulate(labels[, 1]), equal_spread, dimensions)
+}
+
+#' @rdname spread_scores
+#' @param found As of [group_squares()].
+#' @param all q sums of squares in all.
+#' @noRd
+scores_of_squares <- function(found, all, sizes, equal_spread, dimensions = 1) {
+  total <- rep(all, each = nrow(found$between))
   if (equal_spread) score <- found$between / total else {
-    own <- separate_f(found, tabulate(labels[, 1]))
+    own <- separate_f(found, sizes)
     by <- rep(dimensions, each = nrow(own$f), length.out = length(own$f))
-    score <- chi_squared_scale(own, max(labels), by)
+    score <- chi_squared_scale(own, length(sizes), by)
   }
   score[total <= 0] <- 0
   list(between = found$between, score = score)
@@ -303,24 +331,65 @@ mean_shape_test <- function(total, labels, spread, counts) {
 }
 
 #' All variables of a level together, as the groups are dealt
-#' @param y n x q, columns centred.
+#'
+#' From the inner products of the specimens where these are fewer than the variables; else from the
+#' sums of the groups, some points at a time.
+#'
+#' @param leading Of [leading_squares()]; worked out only with more specimens than variables.
 #' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1).
 #' @noRd
-whole_shape <- function(y, labels, spread) {
-  gram <- if (nrow(y) <= ncol(y)) tcrossprod(y)
-  total <- list(about = squared_total(y, gram), squares = cbind(squares_by_row(y)))
-  square <- if (spread$equal) NA else if (is.null(gram)) leading_squares(y) else sum(gram^2)
-  dimensions <- if (spread$equal) 1 else max(1, sum(total$squares)^2 / square, na.rm = TRUE)
-  each <- by_block(labels, function(part) {
-    own <- spread_scores(total$about, total$squares, part, spread$equal, dimensions)
-    cbind(own$between, own$score)
+whole_shape <- function(aligned, labels, spread, leading) {
+  gram <- if (length(aligned) <= length(aligned$mean)) over_points(aligned, tcrossprod)
+  squares <- cbind(if (is.null(gram)) over_points(aligned, squares_by_row) else diag(gram))
+  square <- if (spread$equal) NA else if (is.null(gram)) leading else sum(gram^2)
+  dimensions <- if (spread$equal) 1 else max(1, sum(squares)^2 / square, na.rm = TRUE)
+  about <- function(member) total_of_sums(aligned, gram, member)
+  sums <- if (is.null(gram)) whole_sums(aligned, labels) else by_columns(labels, group_sums, about)
+  own <- if (!spread$equal) {
+    by_columns(labels, group_sums, function(member) crossprod(member, squares), FALSE)
+  }
+  sizes <- tabulate(labels[, 1])
+  found <- split_squares(sums, own, sum(squares), sizes)
+  score <- scores_of_squares(found, sum(squares), sizes, spread$equal, dimensions)$score
+  list(about = about, squares = squares, between = found$between, score = score)
+}
+
+#' Squared sums over all variables of weighted specimens
+#' @param member n x B weights.
+#' @return B x 1.
+#' @noRd
+total_of_sums <- function(aligned, gram, member) {
+  if (!is.null(gram)) return(cbind(colSums(member * (gram %*% member))))
+  cbind(over_points(aligned, function(y) colSums(crossprod(y, member)^2)))
+}
+
+#' The same of every group, all regroupings for some points before the next points are read
+#' @noRd
+whole_sums <- function(aligned, labels) {
+  over_points(aligned, function(y) {
+    by_columns(labels, group_sums, function(member) cbind(colSums(crossprod(y, member)^2)))
   })
-  c(total, list(between = each[, 1, drop = FALSE], score = each[, 2, drop = FALSE]))
+}
+
+#' Lists by group of some columns of regroupings at a time, bound together
+#' @param of Function of n x b labels and `...`.
+#' @noRd
+by_columns <- function(labels, of, ..., block = 250) {
+  each <- lapply(permutation_blocks(ncol(labels), block), function(columns) {
+    of(labels[, columns, drop = FALSE], ...)
+  })
+  do.call(Map, c(list(rbind), each))
 }
 
 #' Sum of the squared variances by component, by the leading ones
+#' @param pca Components of the same co-ordinates, NULL where there are none.
 #' @noRd
-leading_squares <- function(y, leading = 20) sum(thin_svd(y, 0, leading)$d^4)
+leading_squares <- function(aligned, pca, leading = 20) {
+  if (length(pca$sdev) < leading) {
+    return(sum(shape_svd(aligned, aligned$weights, 0, leading)$d^4))
+  }
+  sum((pca$sdev[seq_len(leading)]^2 * (length(aligned) - 1))^2)
+}
 
 #' T2 of the first components; unless spreads are equal, with covariances of one form
 #' @param common Of [common_form()].
@@ -451,10 +520,11 @@ raised_scores <- function(y, labels, equal_spread, most = 1.5, counted = 1) {
 #' The statistic is the largest group's root mean square distance over the smallest's. A distance is
 #' divided by the root of 1 - 1 / n_g, since the mean follows its own members.
 #' @noRd
-dispersion_test <- function(y, labels) {
+dispersion_test <- function(aligned, labels) {
   code <- labels[, 1]
   sizes <- tabulate(code)
-  distance <- sqrt(squares_by_row(y, code) / (1 - 1 / sizes[code]))
+  distance <- sqrt(over_points(aligned, function(y) squares_by_row(y, code)) /
+                     (1 - 1 / sizes[code]))
   spread <- sqrt(rowsum(distance^2, code) / sizes)
   z <- list(cbind(distance - mean(distance)))
   scores <- by_block(labels, function(part) group_scores(z, part, FALSE))

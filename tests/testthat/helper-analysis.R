@@ -31,3 +31,18 @@ apart <- function(a, b) max(abs(laid_onto(unname(a), unname(b), FALSE) - unname(
 
 # A tetrahedral mesh's triangles of the first four points.
 four_triangles <- function() cbind(c(1, 2, 3), c(1, 4, 2), c(2, 4, 3), c(1, 3, 4))
+
+# `code` with no more numbers in a chunk of points than `most`.
+with_chunks <- function(most, code) {
+  space <- asNamespace("crestline")
+  own <- small <- get("point_chunks", space)
+  formals(small)$most <- most
+  put <- function(value) {
+    unlockBinding("point_chunks", space)
+    assign("point_chunks", value, space)
+    lockBinding("point_chunks", space)
+  }
+  on.exit(put(own))
+  put(small)
+  force(code)
+}

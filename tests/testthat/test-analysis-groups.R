@@ -106,16 +106,37 @@ test_that("statistics of many regroupings are the same block by block", {
   each <- squared_sums(list(y))
   whole <- between(each)(labels)
   expect_equal(by_block(labels, between(each), 7), whole)
-  expect_equal(by_block(labels, between(squared_total(y)), 7), cbind(rowSums(whole)))
-  # More specimens than variables: by the other product.
+  # All variables together: from inner products, and from the sums of the groups.
+  spread <- list(equal = TRUE, lost = 0)
+  aligned <- align(data$x)
+  expect_equal(whole_shape(aligned, labels, spread)$between, cbind(rowSums(whole)))
+  few <- as_aligned(aligned$coords[1:3, , ], aligned$size)
+  expect_equal(whole_shape(few, labels, spread)$between,
+               cbind(rowSums(whole[, c(1:3, 13:15, 25:27)])))
   few <- y[, 1:4]
-  expect_equal(between(squared_total(few))(labels), cbind(rowSums(whole[, 1:4])))
   apart <- group_squares(squared_sums(list(few)), few^2, labels[, 1, drop = FALSE], TRUE)
   within <- lapply(split(as.data.frame(few), data$group), function(own) {
     rbind(diag(var(own)) * (nrow(own) - 1))
   })
   expect_equal(apart$within, unname(within), ignore_attr = TRUE)
   expect_equal(all_regroupings(c(2L, 1L, 2L))[, 1], c(2, 1, 2))
+})
+
+test_that("tests of some points at a time are those of all", {
+  data <- grouped_sample(c(12, 9), 0.05)
+  own <- list(surface = align(data$x, triangles = four_triangles()), curves = align(data$x))
+  people <- data.frame(id = names(own$curves), age = seq_len(21))
+  compare <- function() {
+    list(compare_groups(own, data$group, n_perm = 30, seed = 1,
+                        settings = comparison_settings(components = 2))[c("tests", "points")],
+         shape_lm(own, ~ age, people, n_perm = 30, seed = 1)[c("tests", "points")])
+  }
+  whole <- compare()
+  expect_length(point_chunks(own$curves), 1)
+  with_chunks(200, {
+    expect_length(asNamespace("crestline")$point_chunks(own$curves), 4)
+    expect_equal(compare(), whole, tolerance = 1e-10)
+  })
 })
 
 test_that("p-values on given permutations are those of the definition, and RRPP's", {

@@ -92,13 +92,14 @@ test_that("types II and III are those of nested and of one-term-less models", {
 test_that("many specimens of few points come to the same values by the other algebra", {
   data <- people(40)
   aligned <- modelled_sample(data, k = 4)
-  y <- scale(flat_rows(aligned), scale = FALSE)
+  wide <- array(0, c(74, 3, 40), list(NULL, NULL, names(aligned)))
+  wide[1:4, , ] <- aligned$coords
   model <- level_model(model_terms(~ age + sex), as.list(data), aligned)
   spans <- term_spans(model, "I")
   orders <- cbind(1:40, with_seed(1, replicate(5, sample.int(40))))
   storage.mode(orders) <- "integer"
-  few <- shape_scores(y, spans, orders)
-  many <- shape_scores(cbind(y, matrix(0, 40, 200)), spans, orders)
+  few <- shape_scores(aligned, spans, orders)
+  many <- shape_scores(as_aligned(wide, aligned$size), spans, orders)
   expect_equal(few, many, tolerance = 1e-10)
 })
 
