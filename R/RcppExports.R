@@ -161,6 +161,10 @@ cpp_align <- function(x, size, weight, reference, scaling, tolerance, rounds) {
     .Call(`_crestline_cpp_align`, x, size, weight, reference, scaling, tolerance, rounds)
 }
 
+cpp_lay_onto <- function(x, size, weight, mean, scaling) {
+    .Call(`_crestline_cpp_lay_onto`, x, size, weight, mean, scaling)
+}
+
 cpp_match_clouds <- function(xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine) {
     .Call(`_crestline_cpp_match_clouds`, xyz, normal, feature, to_xyz, to_normal, to_feature, reach, cosine)
 }

@@ -13,8 +13,9 @@
 #' `"drop"` leaves these points out of all specimens. Points that every specimen lacks, such as
 #' those at the ears, are always left out, with a message.
 #'
-#' @param sample A `shape_sample`, as [homologise()] returns it, or a k x 3 x n array of homologous
-#'   points (k x 2 x n for flat configurations). Missing points are NA.
+#' @param sample A `shape_sample`, as [homologise()] returns it; a k x 3 x n array of homologous
+#'   points (k x 2 x n for flat configurations), missing points NA; or a sample in files, as of
+#'   [open_sample()].
 #' @param level Kind of points: "landmarks" (the default), "curves", "surface", or "model" (all
 #'   three, each place once). For an array it is only a name. The default of [coords()] is "curves".
 #' @param scale `TRUE`: every configuration gets unit centroid size (partial Procrustes). `"full"`:
@@ -49,12 +50,19 @@
 #'   * `settings`, `reference`, `provenance`: the arguments, the configuration that gives the pose
 #'     of `mean`, and the origin of the data, see [summary.aligned()].
 #'
+#'   A sample in files gives an `aligned` whose co-ordinates are in files too. It has all fields but
+#'   `coords`, and is not subset. [shape_pca()], [compare_groups()] and [shape_lm()] take it.
+#'
 #'   `aligned[ids]` aligns these specimens again, see [aligned]. `as.data.frame()` gives a data
 #'   frame with a row for each specimen: `id`, `size`, `distance` (Procrustes distance from the
 #'   mean, in the unit of `coords`), `missing` (number of missing points).
 #' @section Errors: of class `crestline_error`: `sample` is not such an array, has fewer than two
 #'   specimens, or has a name twice; a specimen has too few points; points are missing with
 #'   `missing = "stop"`.
+#' @section Samples in files: [align()] reads the files once a round, and writes the aligned points
+#'   to the folder `dir` of [align_settings()]. Points are not estimated there: with missing points
+#'   give `missing = "drop"`. Doubts are told of sizes, twins and specimens far from the mean, not
+#'   of single points.
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
 #'   Of class `crestline_sample_doubt`: a specimen or point exceeds one of the [sample_limits()].
 #'   Its classes are
@@ -89,9 +97,21 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   check_scaling(scale)
   check_class(settings, "align_settings", "settings", "align_settings()")
   settings <- settings_with_former(settings, "align_settings", ...)
+  folder <- settings$dir
   settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
                    tolerance = settings$tolerance, rounds = settings$rounds)
-  aligned <- align_configurations(configurations(sample, level, triangles), settings)
+  check_class(limits, "sample_limits", "limits", "sample_limits()")
+  aligned_of(sample, level, triangles, settings, limits, folder, rlang::current_env())
+}
+
+#' The alignment of a sample in memory, or in files
+#' @noRd
+aligned_of <- function(sample, level, triangles, settings, limits, folder, call) {
+  UseMethod("aligned_of")
+}
+
+aligned_of.default <- function(sample, level, triangles, settings, limits, folder, call) {
+  aligned <- align_configurations(configurations(sample, level, triangles, call), settings, call)
   attr(aligned, "provenance") <- aligned_provenance(sample, settings)
   warn_of_doubts(aligned, limits)
 }
@@ -217,9 +237,9 @@ as.data.frame.aligned <- function(x, row.names = NULL, optional = FALSE, ...) {
 print.aligned <- function(x, ...) {
   check_method_dots(...)
   printed(x, {
-    n <- dim(x$coords)[3]
+    n <- length(x)
     scaled <- if (isTRUE(x$scale)) "unit centroid size" else "full Procrustes scaling"
-    cat("<aligned> ", amount(n, "specimen"), ", ", dim(x$coords)[1], " points (", x$level, "), ",
+    cat("<aligned> ", amount(n, "specimen"), ", ", nrow(x$mean), " points (", x$level, "), ",
         if (isFALSE(x$scale)) "sizes kept" else scaled,
         if (x$tangent) ", in tangent space", "\n", sep = "")
     table <- as.data.frame(x)

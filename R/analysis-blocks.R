@@ -67,6 +67,9 @@ check_units <- function(group, call) {
 #' @noRd
 in_design <- function(aligned, design) {
   if (design$kind == "free") return(aligned)
+  if (inherits(aligned, "aligned_files")) {
+    refuse_in_files("means of blocks are not taken there", "Leave out `block`.")
+  }
   code <- as.integer(design$block)
   count <- tabulate(code)
   flat <- t(matrix(aligned$coords, length(aligned$mean)))

@@ -52,9 +52,12 @@ print.sample_limits <- function(x, ...) {
 #' @param aligned An `aligned`.
 #' @noRd
 warn_of_doubts <- function(aligned, limits) {
-  check_class(limits, "sample_limits", "limits", "sample_limits()")
   said <- c(said_of_twins(aligned), said_of_sizes(aligned, limits),
             said_of_distances(aligned, limits), said_of_gaps(aligned, limits))
+  warn_of_said(said, aligned)
+}
+
+warn_of_said <- function(said, aligned) {
   for (kind in names(said)) {
     crestline_warn(sprintf("%s: %s", aligned$level, said[[kind]]), sample_remedies[[kind]],
                    stage = "align", class = c(paste0("crestline_", kind), "crestline_sample_doubt"))

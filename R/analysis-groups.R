@@ -88,8 +88,8 @@
 #' For covariates and interactions see [shape_lm()].
 #' [crestline-package] has a glossary.
 #'
-#' @param sample A `shape_sample`; a k x 3 x n array; an `aligned`; or a list of arrays or
-#'   `aligned`s of the same specimens, named by level.
+#' @param sample A `shape_sample`; a sample in files, as of [open_sample()]; a k x 3 x n array; an
+#'   `aligned`; or a list of arrays or `aligned`s of the same specimens, named by level.
 #' @param group Group of each specimen: a factor of length n, or a vector that can become one.
 #'   Values with names are matched to the specimens by name. A data frame with one column of groups
 #'   and one of specimens (`id`, `specimen`, `file` and the like, or row names) is matched too.
@@ -330,15 +330,15 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     return(stats::setNames(list(sample), sample$level))
   }
   as_aligned <- function(one, level) {
-    areas <- identical(weights, "area") && inherits(one, "shape_sample") &&
-      !level %in% c("surface", "model")
+    areas <- identical(weights, "area") && has_scheme(one) && !level %in% c("surface", "model")
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
-  if (inherits(sample, "shape_sample")) {
+  if (has_scheme(sample)) {
     level <- check_choices(level, sample_levels, "level", call)
     return(lapply(stats::setNames(nm = level), function(one) as_aligned(sample, one)))
   }
-  if (is.list(sample) && length(sample) && !is.null(names(sample))) {
+  stored <- inherits(sample, "sample_files")
+  if (is.list(sample) && !stored && length(sample) && !is.null(names(sample))) {
     aligned <- Map(as_aligned, sample, names(sample))
     ids <- lapply(aligned, names)
     if (!all(vapply(ids, identical, NA, ids[[1]]))) {
@@ -349,6 +349,12 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     return(aligned)
   }
   list(points = as_aligned(sample, "points"))
+}
+
+#' Whether a sample was measured by a scheme, in memory or in files
+#' @noRd
+has_scheme <- function(x) {
+  inherits(x, "shape_sample") || inherits(x, "sample_files") && !is.null(x$template)
 }
 
 #' A factor with the levels that occur, in the order of the specimens

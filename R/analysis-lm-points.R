@@ -105,7 +105,7 @@ term_effect <- function(aligned, span) {
 #' sample says it
 #' @noRd
 parts_of_points <- function(sample, aligned, level) {
-  if (!inherits(sample, "shape_sample") || !level %in% c("curves", "surface")) return(NULL)
+  if (!has_scheme(sample) || !level %in% c("curves", "surface")) return(NULL)
   points <- sample$template$scheme$points
   at <- match(rownames(aligned$mean), rownames(coords(sample$template, level)))
   points$part[points$level == level][at]

@@ -77,8 +77,26 @@ level_model <- function(terms, columns, aligned, contrasts = NULL, call = rlang:
   rownames(x) <- ids
   list(terms = terms, frame = frame, xlev = stats::.getXlevels(terms, frame),
        contrasts = attr(x, "contrasts"), matrix = x, assign = attr(x, "assign"),
-       coefficients = qr.coef(qr(x, tol = 1e-7), t(matrix(aligned$coords, length(aligned$mean)))),
+       coefficients = shape_coefficients(x, aligned),
        variables = names(used), ranges = lapply(Filter(is_plain_number, used), range))
+}
+
+#' Least squares of every co-ordinate, some points at a time: of the centred ones, and what is common
+#' to all is of the constant
+#' @param x n x p, its first column constant.
+#' @return p x dk.
+#' @noRd
+shape_coefficients <- function(x, aligned) {
+  parts <- qr(x, tol = 1e-7)
+  k <- nrow(aligned$mean)
+  beta <- matrix(0, ncol(x), length(aligned$mean), dimnames = list(colnames(x), NULL))
+  for (rows in point_chunks(aligned)) {
+    each <- columns_of_points(aligned, rows)
+    for (d in seq_along(each)) beta[, (d - 1) * k + rows] <- qr.coef(parts, each[[d]])
+  }
+  n <- length(aligned)
+  beta[1, ] <- beta[1, ] + as.vector(weighted_shape(aligned, rep(1 / n, n)))
+  beta
 }
 
 is_plain_number <- function(x) is.numeric(x) && length(dim(x)) < 2

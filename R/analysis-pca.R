@@ -190,23 +190,41 @@ shape_svd.aligned <- function(aligned, weights, tolerance, most) {
 #' greatest ones by Lanczos' method
 #' @param most How many; `NULL`: all.
 #' @param share Share of the smaller side, up to which those asked for are found by Lanczos' method.
-#' @param basis Least number of Lanczos' vectors: with few of them it begins anew too often.
 #' @noRd
-thin_svd <- function(x, tolerance, most = NULL, share = 0.1, basis = 30) {
+thin_svd <- function(x, tolerance, most = NULL, share = 0.1) {
   side <- min(dim(x))
-  if (!is.null(most) && most <= share * side) {
-    parts <- RSpectra::svds(x, most, nu = 0, opts = list(ncv = min(side, max(basis, 2 * most + 1))))
+  few <- !is.null(most) && most <= share * side
+  wide <- ncol(x) > nrow(x)
+  if (few) {
+    parts <- RSpectra::svds(x, most, nu = 0, opts = list(ncv = lanczos_vectors(most, side)))
     parts <- list(values = parts$d^2, v = parts$v)
   } else {
-    wide <- ncol(x) > nrow(x)
-    parts <- eigen(if (wide) tcrossprod(x) else crossprod(x), symmetric = TRUE)
+    parts <- symmetric_parts(if (wide) tcrossprod(x) else crossprod(x))
   }
-  keep <- which(parts$values > max(tolerance * parts$values[1], 0))
-  keep <- utils::head(keep, min(nrow(x) - 1, most))
+  keep <- kept_parts(parts$values, tolerance, nrow(x), most)
   d <- sqrt(parts$values[keep])
-  if (!is.null(parts[["v"]])) return(list(d = d, v = parts[["v"]][, keep, drop = FALSE]))
+  if (few) return(list(d = d, v = parts$v[, keep, drop = FALSE]))
   u <- parts$vectors[, keep, drop = FALSE]
   list(d = d, v = if (wide) crossprod(x, u) / rep(d, each = ncol(x)) else u)
+}
+
+#' Eigenvalues and eigenvectors of a matrix of inner products, the greatest alone where few are
+#' asked for
+#' @param tolerance Of Lanczos' method, as a share of an eigenvalue.
+#' @noRd
+symmetric_parts <- function(x, most = NULL, share = 0.1, tolerance = 1e-14) {
+  if (is.null(most) || most > share * nrow(x)) return(eigen(x, symmetric = TRUE))
+  RSpectra::eigs_sym(x, most, opts = list(ncv = lanczos_vectors(most, nrow(x)), tol = tolerance))
+}
+
+#' How many vectors Lanczos' method holds: with few of them it begins anew too often
+#' @noRd
+lanczos_vectors <- function(most, side, least = 30) min(side, max(least, 2 * most + 1))
+
+#' Which components are kept: no more than were asked for, and than there can be
+#' @noRd
+kept_parts <- function(values, tolerance, n, most) {
+  utils::head(which(values > max(tolerance * values[1], 0)), min(n - 1, most))
 }
 
 #' @rdname shape_pca

@@ -34,10 +34,10 @@ columns_of_points.aligned <- function(aligned, rows, factor = 1) {
 }
 
 #' Points taken at a time, so that no more than some of the numbers are made anew
-#' @param most Greatest number of numbers (80 MB).
+#' @param most Greatest number of numbers: 16 MB, and of files 160 MB, as each chunk opens all files.
 #' @return List of rows of points.
 #' @noRd
-point_chunks <- function(aligned, most = 1e7) {
+point_chunks <- function(aligned, most = if (inherits(aligned, "aligned_files")) 2e7 else 2e6) {
   size <- max(1, floor(most / (length(aligned) * ncol(aligned$mean))))
   permutation_blocks(nrow(aligned$mean), size)
 }
@@ -47,8 +47,8 @@ point_chunks <- function(aligned, most = 1e7) {
 #' @param f Function of an n x q matrix, columns centred and of the weights of the alignment.
 #' @return Sum of its values over the points; of lists, by member.
 #' @noRd
-over_points <- function(aligned, f) {
-  root <- sqrt(aligned$weights)
+over_points <- function(aligned, f, weights = aligned$weights) {
+  root <- sqrt(weights)
   add <- function(a, b) if (is.list(a)) Map(`+`, a, b) else a + b
   found <- NULL
   for (rows in point_chunks(aligned)) {

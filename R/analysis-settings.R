@@ -9,6 +9,8 @@
 #' @param tolerance The rounds end when no co-ordinate of the mean changes by more than this share
 #'   of its centroid size.
 #' @param rounds Greatest number of rounds.
+#' @param dir Of a sample in files ([open_sample()]): path of a new folder for the aligned points.
+#'   `NULL`: one among the session's temporary files, which needs as much room as the sample's.
 #' @param tests Tests to make. Comparisons: "size", "shape", "T2", "components", "points",
 #'   "dispersion" (not with exchange within blocks). Models: "shape", "size" (centroid size; not
 #'   with `size` in the formula), "manova" (Pillai's trace of the first components), "components"
@@ -38,13 +40,17 @@ NULL
 
 #' @rdname test_settings
 #' @export
-align_settings <- function(..., tolerance = 1e-12, rounds = 200) {
+align_settings <- function(..., tolerance = 1e-12, rounds = 200, dir = NULL) {
   new_settings("align_settings", check_align_settings, list(...))
 }
 
 check_align_settings <- function(settings) {
   check_number(settings$tolerance, "tolerance", lower = 0)
   settings$rounds <- check_count(settings$rounds, "rounds")
+  if (!is.null(settings$dir) && !is_path(settings$dir)) {
+    refuse_argument("dir", settings$dir, "Give the path of one folder, or NULL.",
+                    rlang::caller_env())
+  }
   settings
 }
 

@@ -599,6 +599,21 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_lay_onto
+List cpp_lay_onto(NumericVector x, IntegerVector size, NumericVector weight, NumericMatrix mean, int scaling);
+RcppExport SEXP _crestline_cpp_lay_onto(SEXP xSEXP, SEXP sizeSEXP, SEXP weightSEXP, SEXP meanSEXP, SEXP scalingSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericVector >::type x(xSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type size(sizeSEXP);
+    Rcpp::traits::input_parameter< NumericVector >::type weight(weightSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type mean(meanSEXP);
+    Rcpp::traits::input_parameter< int >::type scaling(scalingSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_lay_onto(x, size, weight, mean, scaling));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_match_clouds
 List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix feature, NumericMatrix to_xyz, NumericMatrix to_normal, NumericMatrix to_feature, double reach, double cosine);
 RcppExport SEXP _crestline_cpp_match_clouds(SEXP xyzSEXP, SEXP normalSEXP, SEXP featureSEXP, SEXP to_xyzSEXP, SEXP to_normalSEXP, SEXP to_featureSEXP, SEXP reachSEXP, SEXP cosineSEXP) {
@@ -829,6 +844,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_locate", (DL_FUNC) &_crestline_cpp_locate, 4},
     {"_crestline_cpp_geodesic_distances", (DL_FUNC) &_crestline_cpp_geodesic_distances, 3},
     {"_crestline_cpp_align", (DL_FUNC) &_crestline_cpp_align, 7},
+    {"_crestline_cpp_lay_onto", (DL_FUNC) &_crestline_cpp_lay_onto, 5},
     {"_crestline_cpp_match_clouds", (DL_FUNC) &_crestline_cpp_match_clouds, 8},
     {"_crestline_cpp_fit_poses", (DL_FUNC) &_crestline_cpp_fit_poses, 6},
     {"_crestline_cpp_mounds", (DL_FUNC) &_crestline_cpp_mounds, 4},

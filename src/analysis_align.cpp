@@ -159,4 +159,25 @@ Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, cons
   return out;
 }
 
+std::vector<double> lay_onto(std::vector<double>& x, int k, int dim, int n, const double* weight,
+                             const double* mean, Scaling scaling,
+                             const std::function<void()>& between) {
+  Patience patience(between);
+  const std::size_t block = static_cast<std::size_t>(k) * dim;
+  std::vector<double> size(n), room(block);
+  const std::vector<double> aim = weighted(std::vector<double>(mean, mean + block), weight, k);
+  double h[kMost * kMost], r[kMost * kMost];
+  for (int i = 0; i < n; ++i) {
+    if (patience.over()) patience.finish();
+    double* own = &x[i * block];
+    size[i] = centre(own, k, dim, weight);
+    if (scaling != Scaling::kNone) times(own, block, 1 / size[i]);
+    overlap(own, aim.data(), k, dim, h);
+    nearest_rotation(h, dim, r);
+    const double factor = scaling == Scaling::kFull ? trace_with(r, h, dim) : 1;
+    turn_in_place(own, r, factor, k, dim, room);
+  }
+  return size;
+}
+
 }  // namespace crestline

@@ -34,4 +34,10 @@ Aligned align_configurations(std::vector<double>& x, int k, int dim, int n, cons
                              const double* reference, const AlignSettings& settings,
                              const std::function<void()>& between);
 
+// x: k x dim x n, replaced by the configurations centred, scaled as above, and each turned onto
+// `mean` (k x dim, centred; of unit size if scaled). Returns their sizes before.
+std::vector<double> lay_onto(std::vector<double>& x, int k, int dim, int n, const double* weight,
+                             const double* mean, Scaling scaling,
+                             const std::function<void()>& between);
+
 }  // namespace crestline

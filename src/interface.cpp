@@ -670,6 +670,16 @@ List cpp_align(NumericVector x, IntegerVector size, NumericVector weight, Numeri
                       _["moved"] = aligned.moved, _["converged"] = aligned.converged);
 }
 
+// Each configuration laid onto a mean, which is centred and, where scaled, of unit size.
+// [[Rcpp::export]]
+List cpp_lay_onto(NumericVector x, IntegerVector size, NumericVector weight, NumericMatrix mean, int scaling) {
+  std::vector<double> coords(x.begin(), x.end());
+  std::vector<double> sizes =
+      crestline::lay_onto(coords, size[0], size[1], size[2], weight.begin(), mean.begin(),
+                          static_cast<crestline::Scaling>(scaling), [] { checkUserInterrupt(); });
+  return List::create(_["coords"] = coords, _["size"] = sizes);
+}
+
 // xyz, normal: 3 x n; feature: features x n. Indices from 1, NA where there is none; distances in xyz.
 // [[Rcpp::export]]
 List cpp_match_clouds(NumericMatrix xyz, NumericMatrix normal, NumericMatrix feature, NumericMatrix to_xyz,

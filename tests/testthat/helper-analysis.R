@@ -46,3 +46,11 @@ with_chunks <- function(most, code) {
   put(small)
   force(code)
 }
+
+# Some fields of two objects are the same numbers, to 1e-9 of the greatest of each.
+expect_alike <- function(object, expected, fields, tolerance = 1e-9) {
+  for (field in fields) {
+    testthat::expect_equal(object[[field]], expected[[field]], tolerance = tolerance,
+                           label = field)
+  }
+}

@@ -147,7 +147,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                   limits = "object", settings = "object", sample = "object", level = "choice",
                   scale = "flag", weights = "object?", missing = "choice", tangent = "flag",
                   triangles = "object?"),
-    align_settings = fields(align_settings, rounds = "count"),
+    align_settings = fields(align_settings, rounds = "count", dir = "text?"),
     as_aligned = entry(given(x = aligned$coords, size = NULL, level = "points", triangles = NULL),
                        x = "object", size = "numbers?", level = "text", triangles = "object?"),
     as_geomorph = entry(given(sample = sample, level = "curves", data = NULL), sample = "object",
