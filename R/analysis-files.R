@@ -294,7 +294,7 @@ shape_svd.aligned_files <- function(aligned, weights, tolerance, most) {
       products <- products + crossprod(centred_block(aligned, i, root))
     }
   parts <- symmetric_parts(products, most)
-  keep <- kept_parts(parts$values, tolerance, length(aligned), most)
+  keep <- kept_components(parts$values, tolerance, length(aligned), most)
   d <- sqrt(parts$values[keep])
   u <- parts$vectors[, keep, drop = FALSE]
   if (wide) {

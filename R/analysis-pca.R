@@ -201,7 +201,7 @@ thin_svd <- function(x, tolerance, most = NULL, share = 0.1) {
   } else {
     parts <- symmetric_parts(if (wide) tcrossprod(x) else crossprod(x))
   }
-  keep <- kept_parts(parts$values, tolerance, nrow(x), most)
+  keep <- kept_components(parts$values, tolerance, nrow(x), most)
   d <- sqrt(parts$values[keep])
   if (few) return(list(d = d, v = parts$v[, keep, drop = FALSE]))
   u <- parts$vectors[, keep, drop = FALSE]
@@ -223,7 +223,7 @@ lanczos_vectors <- function(most, side, least = 30) min(side, max(least, 2 * mos
 
 #' Which components are kept: no more than were asked for, and than there can be
 #' @noRd
-kept_parts <- function(values, tolerance, n, most) {
+kept_components <- function(values, tolerance, n, most) {
   utils::head(which(values > max(tolerance * values[1], 0)), min(n - 1, most))
 }
 
