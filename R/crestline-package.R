@@ -43,7 +43,7 @@
 #' * *Many specimens*: [fit_shapes()], [failures()], [warnings_of()], [read_batch()].
 #' * *Sliding semilandmarks*: [homologise()], [slide()], [slide_settings()], [bending_energy()],
 #'   [symmetrise()], [asymmetry()]; parts of a sample: [shape_sample]; a sample in files:
-#'   [write_blocks()], [open_sample()].
+#'   [write_blocks()], [open_sample()], [write_parquet()].
 #' * *Statistics*: generalised Procrustes analysis [align()], with warnings by [sample_limits()];
 #'   principal components [shape_pca()], [shape_at()]; groups [compare_groups()], [shape_lda()];
 #'   covariates and allometry [shape_lm()]; asymmetry [symmetry_parts()]; settings

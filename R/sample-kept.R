@@ -35,12 +35,18 @@ results_folder <- function(dir, call = rlang::caller_env()) {
 }
 
 #' Why nothing can be written into a folder, as a condition; NULL where it can
+#' @param room Bytes that a result needs.
 #' @noRd
-unwritable <- function(dir) {
+unwritable <- function(dir, room = 1e5) {
   probe <- tempfile(part_prefix(), dir, ".tmp")
   on.exit(unlink(probe))
-  if (suppressWarnings(file.create(probe))) return(NULL)
-  tryCatch(refuse_keeping(dir, "nothing may be written there"), crestline_keeping_error = identity)
+  reason <- if (!suppressWarnings(file.create(probe))) "nothing may be written there" else
+    tryCatch({
+      write_whole(raw(room), probe)
+      NULL
+    }, error = conditionMessage, warning = conditionMessage)
+  if (is.null(reason)) return(NULL)
+  tryCatch(refuse_keeping(dir, reason), crestline_keeping_error = identity)
 }
 
 #' What names of unfinished files begin with: the host and the process that write them

@@ -101,7 +101,7 @@ with_told_progress <- function(code, progress, read = 0, every = 60, what = "fit
 #' @noRd
 progress_lines <- function(read, what, since = Sys.time()) {
   list(update = function(config, state, progression, ...) {
-    minutes <- as.numeric(difftime(Sys.time(), since, units = "mins"))
+    minutes <- max(0, as.numeric(difftime(Sys.time(), since, units = "mins")))
     left <- minutes * (config$max_steps - state$step) / max(state$step, 1)
     message(sprintf("%s: %d of %d done%s, %.0f min, about %.0f min left", what, state$step,
                     config$max_steps, if (read) sprintf(" (%d read)", read) else "", minutes,

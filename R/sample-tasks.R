@@ -130,6 +130,9 @@ measure_task <- function(task, scheme, settings) {
   if (!is.null(task$file)) {
     kept <- kept_result(task)
     if (!is.null(kept)) return(kept)
+    # On a full disk nothing is measured in vain.
+    refusal <- unwritable(dirname(task$file))
+    if (!is.null(refusal)) return(failure_of(refusal, fault = TRUE))
   }
   ear <- new_ear()
   shape <- tryCatch(fit_job(task$job, scheme, settings, ear),

@@ -117,14 +117,12 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   if (inherits(x, "shape_sample")) validate(x)
-  shapes <- named_shapes(x)
+  shapes <- each_shape(x, to_grade)
   measured <- Filter(Negate(is.null), shapes)
-  parts <- Map(part_measures, measured, names(measured))
-  scores <- sample_scores(measured, if (!is.null(others)) named_shapes(others, "others"), limits)
-  parts <- Map(function(part, name) grade_parts(
-                 part, scores[name, ], limits, measured[[name]]$scheme
-               ),
-               parts, names(parts))
+  other <- if (!is.null(others)) Filter(Negate(is.null), each_shape(others, to_grade, "others"))
+  scores <- sample_scores(measured, other, limits)
+  parts <- Map(function(one, name) grade_parts(one$parts, scores[name, ], limits, one$scheme),
+               measured, names(measured))
   noted <- lapply(names(measured), function(name) {
     said <- unique(measured[[name]]$warnings$problem)
     if (length(said)) specimen_row(name, "amber", paste(sub("[.]$", "", said), collapse = "; "))
@@ -139,7 +137,7 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   table <- do.call(rbind, c(unname(parts), noted, lost))
   table <- table[order(match(table$specimen, names(shapes))), ]
   rownames(table) <- NULL
-  found <- vapply(measured, has_found, NA)
+  found <- vapply(measured, `[[`, NA, "found")
   structure(table, found = names(measured)[found], rows = nrow(table),
             class = c("shape_quality", "data.frame"))
 }
@@ -168,6 +166,30 @@ worst_lines <- function(x, several) {
 #' since
 #' @noRd
 has_found <- function(shape) any(shape$placing$state == "found")
+
+#' What a function gives of each shape, by name; NULL for those that failed. Of a batch one shape at
+#' a time is in memory
+#' @param x As of [named_shapes()].
+#' @param f Function of a shape and its name.
+#' @noRd
+each_shape <- function(x, f, name = "x", call = rlang::caller_env()) {
+  batch <- inherits(x, "shape_batch") && length(x)
+  if (!batch) x <- named_shapes(x, name, call)
+  lapply(stats::setNames(nm = names(x)), function(one) {
+    shape <- x[[one]]
+    if (!is.null(shape)) f(check_class(shape, "shape", name, "fit_shape()", call), one)
+  })
+}
+
+#' What grading takes of a shape
+#' @noRd
+to_grade <- function(shape, name) {
+  curves <- shape$status[shape$status$level == "curves", ]
+  free <- is.na(shape$scheme$curves$cut_share)
+  list(parts = part_measures(shape, name), scheme = shape$scheme, warnings = shape$warnings,
+       lengths = stats::setNames(ifelse(free, curves$length, NA), curves$part),
+       found = has_found(shape))
+}
 
 #' A list of shapes by name of specimen; every name once
 #' @noRd
@@ -225,12 +247,7 @@ recorded <- function(table, name, none) if (is.null(table[[name]])) rep(none, nr
 #' score.
 #' @noRd
 sample_scores <- function(shapes, others, limits) {
-  others <- Filter(Negate(is.null), others)
-  all <- c(shapes, others)
-  lengths <- lapply(all, function(shape) {
-    curves <- shape$status[shape$status$level == "curves", ]
-    stats::setNames(ifelse(is.na(shape$scheme$curves$cut_share), curves$length, NA), curves$part)
-  })
+  lengths <- lapply(c(shapes, others), `[[`, "lengths")
   curves <- unique(unlist(lapply(lengths, names)))
   lengths <- matrix(vapply(lengths, function(x) x[curves], numeric(length(curves))),
                     ncol = length(curves), byrow = TRUE)

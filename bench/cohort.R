@@ -1,7 +1,7 @@
 # A cohort through files: the store, array jobs on a Slurm of this machine, a pipeline of targets
 # and crew, homology by several workers, two processes in one folder. Run from the package's root.
 #
-#   Rscript bench/cohort.R scans DIR [n = 200]      simulated scans of some 5,000 vertices
+#   Rscript bench/cohort.R scans DIR [n = 48]       simulated scans of some 5,000 vertices
 #   Rscript bench/cohort.R serial DIR               all measured by one process
 #   Rscript bench/cohort.R slurm DIR [jobs = 8]     by array jobs: killed, node stopped, disk full
 #   Rscript bench/cohort.R targets DIR [local|slurm]   by targets and crew
@@ -59,12 +59,24 @@ write_scans <- function(dir, n) {
     write_mesh(made, file.path(folder, paste0(made$id, ".ply")))
     write_landmarks(made, file.path(folder, paste0(made$id, ".csv")))
   }
+  write_scheme(light_scheme(), file.path(dir, "scheme"))
   cat(n, "scans of", ncol(one$vb), "vertices\n")
 }
 
+# The curves of nose and mouth, as in vignette("many"): a scan takes a fifth of the time of
+# face_scheme().
+light_scheme <- function() {
+  whole <- face_scheme()
+  wanted <- "^nasal|^mid-line (nas|lip|phil|upper|lower|col)|^(upper|lower) lip|^philtrum ridge"
+  curves <- subset(whole$curves, grepl(wanted, curve))
+  pairs <- subset(whole$pairs, left %in% c(curves$curve, whole$landmarks$landmark))
+  pairs <- subset(pairs, level %in% c("landmarks", "curves"))
+  curve_scheme(whole$landmarks, curves, pairs = pairs, name = "nose and mouth")
+}
+
 measure_serial <- function(dir) {
-  took <- processor(shapes <- fit_shapes(scans_in(dir), dir = file.path(dir, "serial"),
-                                         progress = TRUE))
+  scheme <- read_scheme(file.path(dir, "scheme"))
+  took <- processor(shapes <- fit_shapes(scans_in(dir), scheme, file.path(dir, "serial")))
   print(shapes)
   cat(sprintf("serial: %d scans, %.1f s, %.2f s of processor a scan, peak %.0f MB\n",
               length(shapes), took[["elapsed"]], took[["user"]] / length(shapes), resident()))
@@ -131,6 +143,7 @@ by_slurm <- function(dir, jobs) {
   dir.create(results)
   system2("mount", c("-t", "tmpfs", "-o", "size=80m", "tmpfs", shQuote(results)))
   script <- system.file("cohort", "measure.sh", package = "crestline")
+  Sys.setenv(CRESTLINE_SCHEME = file.path(dir, "scheme"))
   submit <- function() shell("cd '%s' && sbatch --array=1-%s '%s' '%s' '%s'", dir, jobs, script,
                              scans_in(dir), results)
   n <- length(list.files(scans_in(dir), "[.]ply$"))
@@ -174,7 +187,6 @@ by_slurm <- function(dir, jobs) {
   print(final)
   say("%d results, written %d times; scans in flight when something was killed: %d",
       length(list.files(results, "[.]shape$")), length(seen), in_flight)
-  file.copy(results, file.path(dir, "slurm-kept"), recursive = TRUE)
   dir.create(file.path(dir, "kept"))
   file.copy(results, file.path(dir, "kept"), recursive = TRUE, copy.date = TRUE)
   system2("umount", shQuote(results))
@@ -192,7 +204,8 @@ by_targets <- function(dir, controller) {
   write.csv(data.frame(id = ids, group = rep_len(c("a", "b"), length(ids))),
             file.path(work, "groups.csv"), row.names = FALSE)
   Sys.setenv(CRESTLINE_SCANS = scans_in(dir), CRESTLINE_RESULTS = results, CRESTLINE_WORKERS = 2,
-             CRESTLINE_CONTROLLER = controller, CRESTLINE_AT_ONCE = 25)
+             CRESTLINE_CONTROLLER = controller, CRESTLINE_AT_ONCE = 12,
+             CRESTLINE_SCHEME = file.path(dir, "scheme"))
   setwd(work)
   took <- system.time(targets::tar_make())[["elapsed"]]
   cat(sprintf("targets, %s: %.0f s\n", controller, took))
@@ -354,7 +367,7 @@ show_parquet <- function(dir) {
   }
 }
 
-switch(part, scans = write_scans(dir, as.integer(argument(3, 200))), serial = measure_serial(dir),
+switch(part, scans = write_scans(dir, as.integer(argument(3, 48))), serial = measure_serial(dir),
        slurm = by_slurm(dir, as.integer(argument(3, 8))),
        targets = by_targets(dir, argument(3, "local")),
        same = for (folder in given[-(1:2)]) compare_results(file.path(dir, "serial"), folder),

@@ -5,11 +5,13 @@
 #   targets::tar_make()
 #
 # Set these in the environment, or change them here: the folder of scans, the folder of results, a
-# table of specimens (columns id, group), the number of workers, and "slurm" for a cluster.
+# table of specimens (columns id, group), a folder of write_scheme() (the whole face where there is
+# none), the number of workers, and "slurm" for a cluster.
 setting <- function(name, default) Sys.getenv(paste0("CRESTLINE_", name), default)
 scans <- setting("SCANS", "scans")
 results <- setting("RESULTS", "results")
 groups <- setting("GROUPS", "groups.csv")
+own_scheme <- setting("SCHEME", "")
 workers <- as.integer(setting("WORKERS", "2"))
 
 library(targets)
@@ -34,7 +36,7 @@ list(
   # A branch for each lot of scans. One that is in `results` already is read in no time, so that
   # nothing is measured twice if the pipeline is stopped.
   tar_target(files, list.files(scans, "[.]ply$", full.names = TRUE), cue = tar_cue("always")),
-  tar_target(scheme, face_scheme()),
+  tar_target(scheme, if (nzchar(own_scheme)) read_scheme(own_scheme) else face_scheme()),
   tar_target(lot, unname(lots_of(files)), iteration = "list"),
   tar_target(measured, names(fit_shapes(lot, scheme, dir = results, progress = FALSE)),
              pattern = map(lot)),

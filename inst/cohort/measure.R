@@ -10,8 +10,9 @@ library(crestline)
 given <- commandArgs(TRUE)
 stopifnot(length(given) == 4)
 
-# What to measure: change this to your own scheme.
-scheme <- face_scheme()
+# What to measure: a folder of write_scheme() in CRESTLINE_SCHEME, or the whole face.
+scheme <- Sys.getenv("CRESTLINE_SCHEME")
+scheme <- if (nzchar(scheme)) read_scheme(scheme) else face_scheme()
 
 shapes <- fit_shapes(given[1], scheme, dir = given[2], part = as.numeric(given[3:4]))
 print(shapes)
