@@ -163,9 +163,20 @@ write_block <- function(coords, points, dir, i) {
   refuse <- function(e) refuse_keeping(file, conditionMessage(e))
   tryCatch({
     nanoparquet::write_parquet(table, part, compression = "uncompressed", encoding = "PLAIN")
+    check_table_written(part, nrow(table))
     if (!file.rename(part, file)) stop("it cannot be given its name")
   }, error = refuse, warning = refuse)
   file
+}
+
+#' A table that was written is whole: nanoparquet says nothing of a full disk
+#' @noRd
+check_table_written <- function(file, rows) {
+  info <- tryCatch(suppressWarnings(nanoparquet::read_parquet_info(file)),
+                   error = function(e) NULL)
+  if (!identical(as.numeric(info$num_rows), as.numeric(rows))) {
+    stop("it cannot be written there, or the disk is full")
+  }
 }
 
 block_name <- function(i) sprintf("block-%04d.parquet", i)

@@ -126,7 +126,7 @@ write_table_parts <- function(rows, specimens, file) {
     if (inherits(e, "crestline_error")) rlang::cnd_signal(e)
     refuse_keeping(file, conditionMessage(e))
   }
-  written <- FALSE
+  written <- 0
   for (names in rows$parts) {
     table <- rows$rows(names)
     if (!NROW(table)) next
@@ -137,8 +137,11 @@ write_table_parts <- function(rows, specimens, file) {
     rownames(table) <- NULL
     tryCatch(if (written) nanoparquet::append_parquet(table, part) else
       nanoparquet::write_parquet(table, part), error = refuse)
-    written <- TRUE
+    written <- written + nrow(table)
   }
   if (!written) refuse_keeping(file, "there is no shape")
-  if (!file.rename(part, file)) refuse_keeping(file, "it cannot be given its name")
+  tryCatch({
+    check_table_written(part, written)
+    if (!file.rename(part, file)) stop("it cannot be given its name")
+  }, error = refuse, warning = refuse)
 }
