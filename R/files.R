@@ -127,3 +127,24 @@ comment_lines <- function(x) UseMethod("comment_lines")
 
 #' @exportS3Method
 comment_lines.default <- function(x) NULL
+
+#' Hash of a value's content
+#'
+#' Of its serialisation in version 2, which has no compact forms: `1:3` and `c(1L, 2L, 3L)` are the
+#' same. The first 14 bytes name the version of R.
+#' @noRd
+content_hash <- function(x) bytes_hash(serialize(x, NULL, version = 2)[-(1:14)])
+
+#' XXH128 of bytes, by way of a file: `rlang::hash()` of a value changes with rlang's version, so
+#' that nothing that is in a file may depend on it
+#' @noRd
+bytes_hash <- function(bytes) {
+  file <- tempfile("hash-")
+  on.exit(unlink(file))
+  writeBin(bytes, file)
+  if (!identical(as.numeric(file.size(file)), as.numeric(length(bytes)))) {
+    crestline_abort("the folder for temporary files is full.", "Make room, then run it again.",
+                    stage = "files", call = NULL)
+  }
+  rlang::hash_file(file)
+}

@@ -10,13 +10,6 @@ kept_layout <- "crestline-result 3"
 # Layouts that are read: in the second, a shape was stored as it is in memory.
 known_layouts <- c(kept_layout, "crestline-result 2")
 
-#' Hash of a value's content
-#'
-#' Of its serialisation in version 2, which has no compact forms: `1:3` and `c(1L, 2L, 3L)` are the
-#' same. The first 14 bytes name the version of R.
-#' @noRd
-content_hash <- function(x) rlang::hash(serialize(x, NULL, version = 2)[-(1:14)])
-
 #' The folder for results, made where it is not there
 #' @noRd
 results_folder <- function(dir, call = rlang::caller_env()) {
@@ -83,7 +76,7 @@ file_stem <- function(id, capitals, longest) {
   odd[1] <- odd[1] || device
   stem <- paste(ifelse(odd, sprintf("%%%02X", as.integer(bytes)), letters), collapse = "")
   if (nchar(stem) <= longest) return(stem)
-  hash <- rlang::hash(bytes)
+  hash <- bytes_hash(bytes)
   paste0(substr(stem, 1, longest - nchar(hash) - 1), "~", hash)
 }
 
@@ -145,7 +138,14 @@ kept_bytes <- function(value, about, compression) {
   c(first, line, charToRaw(checksum(first, about, packed)), line, about, line, packed)
 }
 
-checksum <- function(first, about, packed) rlang::hash(list(first, about, packed))
+checksum <- function(first, about, packed) {
+  line <- as.raw(10L)
+  bytes_hash(c(first, line, about, line, packed))
+}
+
+#' That of the second layout, which another version of rlang works out otherwise
+#' @noRd
+former_checksum <- function(first, about, packed) rlang::hash(list(first, about, packed))
 
 #' By way of a file, since R compresses at a chosen level only there; its last bytes are the length
 #' of what went in
@@ -216,8 +216,9 @@ open_kept <- function(file) {
     for (i in 1:3) end[i] <- grepRaw(as.raw(10L), bytes, c(0, end)[i] + 1, fixed = TRUE)
     line <- function(i) bytes[(c(0, end)[i] + 1):(end[i] - 1)]
     packed <- bytes[(end[3] + 1):length(bytes)]
-    sound <- identical(rawToChar(line(2)), checksum(line(1), line(3), packed))
     layout <- substr(rawToChar(line(1)), 1, nchar(kept_layout))
+    sum <- if (layout == kept_layout) checksum else former_checksum
+    sound <- identical(rawToChar(line(2)), sum(line(1), line(3), packed))
     if (!sound || !layout %in% known_layouts) return(damaged())
     about <- rawToChar(line(3))
     Encoding(about) <- "UTF-8"

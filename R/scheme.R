@@ -374,7 +374,7 @@ scheme_hash <- function(scheme) {
   counted <- setdiff(names(scheme_columns), if (!NROW(scheme$tracks)) "tracks")
   scheme <- unclass(scheme)
   if (all(scheme$curves$path %in% "plane")) scheme$curves[c("path", "via")] <- NULL
-  rlang::hash(lapply(unclass(scheme)[counted], function(table) {
+  content_hash(lapply(unclass(scheme)[counted], function(table) {
     table <- as.list(table)
     lapply(table[order(names(table), method = "radix")], function(x) {
       if (is.factor(x)) x <- as.character(x)

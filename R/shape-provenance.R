@@ -2,7 +2,7 @@
 
 #' Hash of a template's places
 #' @noRd
-template_provenance <- function(id, xyz) list(id = id, hash = rlang::hash(unname(xyz)))
+template_provenance <- function(id, xyz) list(id = id, hash = content_hash(unname(xyz)))
 
 #' What several shapes have in common, and a row for each; of one its own
 #' @noRd

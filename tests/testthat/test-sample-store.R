@@ -51,8 +51,8 @@ test_that("a result of the former layout is read, and written anew, values equal
     about <- bytes[(end[2] + 1):(end[3] - 1)]
     packed <- bytes[(end[3] + 1):length(bytes)]
     line <- as.raw(10L)
-    writeBin(c(first, line, charToRaw(checksum(first, about, packed)), line, about, line, packed),
-             file)
+    sum <- charToRaw(former_checksum(first, about, packed))
+    writeBin(c(first, line, sum, line, about, line, packed), file)
   }, before, files, hash)
   unlink(meshes_in(dir)[2])
   size <- file.size(files)
