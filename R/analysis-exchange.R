@@ -80,14 +80,14 @@ exchanged <- function(x, level, group, call = rlang::caller_env()) {
     fail <- function(problem, remedy) {
       crestline_abort(problem, remedy, stage = "writing", call = call)
     }
-    group <- line_words(as.character(by_specimen(group, id, "group", fail)))
+    group <- without_breaks(as.character(by_specimen(group, id, "group", fail)))
   }
-  list(coords = coords, id = line_words(id), group = group)
+  list(coords = coords, id = without_breaks(id), group = group)
 }
 
 #' Words as they stand in one field of one line
 #' @noRd
-line_words <- function(x) gsub("[[:cntrl:]]+", " ", x)
+without_breaks <- function(x) gsub("[[:cntrl:]]+", " ", x)
 
 number_rows <- function(x, sep) {
   apply(matrix(x, nrow(x)), 1, function(row) {
