@@ -55,14 +55,36 @@ principal_pair <- function(x, k2, call = rlang::caller_env()) {
 }
 
 # Koenderink and van Doorn (1992), their figure of the scale: from cup to cap in steps of 1/4.
-shape_scale <- function() {
+shape_scale <- function(palette = "paper") {
   data.frame(
     category = c("spherical cup", "trough", "rut", "saddle rut", "saddle", "saddle ridge", "ridge",
                  "dome", "spherical cap"),
     index = seq(-1, 1, by = 0.25),
-    colour = c("#00C800", "#00E6E6", "#3C50FF", "#A9C4FF", "#FFFFFF", "#FFF7A8", "#FFE600",
-               "#FF9100", "#E60000")
+    colour = if (is.character(palette) && length(palette) == 1) shape_palettes[[palette]] else {
+      grDevices::colorRampPalette(palette)(9)
+    }
   )
+}
+
+# "safe": any two of the nine are at least 25 apart (CIE 1976) for eyes without red or green cones.
+shape_palettes <- list(
+  paper = c("#00C800", "#00E6E6", "#3C50FF", "#A9C4FF", "#FFFFFF", "#FFF7A8", "#FFE600", "#FF9100",
+            "#E60000"),
+  safe = c("#00153F", "#1B3FA0", "#3E7BFF", "#A3C2FF", "#FFFFFF", "#FFEE8C", "#E8B400", "#A36A00",
+           "#4A1F00")
+)
+
+#' A palette of the shape index: a name, or colours
+#' @noRd
+check_shape_palette <- function(palette, call = rlang::caller_env()) {
+  if (is.null(palette)) palette <- getOption("crestline.palette", "paper")
+  if (is.character(palette) && length(palette) == 1) {
+    return(check_choice(palette, names(shape_palettes), "palette", call))
+  }
+  if (length(palette) < 2) {
+    refuse_argument("palette", palette, "Give \"paper\", \"safe\", or two colours or more.", call)
+  }
+  check_colour(palette, "palette", call = call)
 }
 
 #' Names and colours of shapes
@@ -70,10 +92,14 @@ shape_scale <- function() {
 #' Koenderink and van Doorn divide the shape index into nine named categories, centred at -1, -0.75,
 #' ..., 1. Each is 1/4 wide; the two at the ends are half as wide. Their colours are: cup green,
 #' trough cyan, rut blue, saddle rut pale blue, saddle white, saddle ridge pale yellow, ridge
-#' yellow, dome orange, cap red.
+#' yellow, dome orange, cap red. They are those of the paper. The palette "safe" goes from dark blue
+#' over white to dark brown. Any two of its nine colours can be told apart by eyes without red or
+#' green cones.
 #'
 #' @param index Numeric vector of shape indices, in \[-1, 1\] or NA.
 #' @param missing Colour for an index that is NA.
+#' @param palette "paper", "safe", or two or more colours from cup to cap, evenly spaced. NULL: that of
+#'   `options(crestline.palette = )`, "paper" if it is not set.
 #' @return `shape_category()`: a factor with nine levels, from "spherical cup" to "spherical cap",
 #'   one value for each index. A value on a limit belongs to the category above it.
 #'   `shape_colours()`: colours `#RRGGBB`, one for each index. The centre of a category has its
@@ -94,11 +120,11 @@ shape_category <- function(index) {
 
 #' @rdname shape_category
 #' @export
-shape_colours <- function(index, missing = "#BEBEBE") {
+shape_colours <- function(index, missing = "#BEBEBE", palette = NULL) {
   check_given()
   missing <- check_colour(missing, "missing")
   check_index(index)
-  ramp_colours((index + 1) / 2, shape_scale()$colour, missing)
+  ramp_colours((index + 1) / 2, shape_scale(check_shape_palette(palette))$colour, missing)
 }
 
 check_index <- function(index, call = rlang::caller_env()) {

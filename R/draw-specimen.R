@@ -1,10 +1,10 @@
 # The colours of a specimen's surface and their legend.
 
-specimen_scale <- function(x, colour, curvature) {
+specimen_scale <- function(x, colour, curvature, palette = NULL) {
   natural <- x$mesh$material$color
   switch(colour, "shape index" = shape_legend(shape_index(curvature),
-                                               attr(curvature, "radius")),
-         "curvature" = curvature_legend(curvature),
+                                               attr(curvature, "radius"), palette),
+         "curvature" = curvature_legend(curvature, palette),
          list(colours = if (colour == "natural" && length(natural) == ncol(x$mesh$vb)) {
            natural
          } else {
@@ -12,16 +12,17 @@ specimen_scale <- function(x, colour, curvature) {
          }))
 }
 
-shape_legend <- function(index, radius) {
+shape_legend <- function(index, radius, palette = NULL) {
   scale <- shape_scale()
-  list(colours = shape_colours(index), ramp = shape_colours(seq(-1, 1, length.out = 200)),
+  list(colours = shape_colours(index, palette = palette),
+       ramp = shape_colours(seq(-1, 1, length.out = 200), palette = palette),
        at = (scale$index + 1) / 2, labels = scale$category,
        title = sprintf("shape index, radius %.3g (unit of the mesh)", radius))
 }
 
-curvature_legend <- function(curvature, quantile = 0.95,
-                             palette = grDevices::hcl.colors(11, "Blue-Red"),
-                             missing = "#BEBEBE") {
+curvature_legend <- function(curvature, palette = NULL, quantile = 0.95, missing = "#BEBEBE") {
+  if (is.null(palette)) palette <- grDevices::hcl.colors(11, "Blue-Red")
+  palette <- check_colour(palette, "palette")
   greater <- ifelse(abs(curvature$k1) > abs(curvature$k2), -curvature$k1, -curvature$k2)
   limit <- stats::quantile(abs(greater), quantile, na.rm = TRUE)
   share <- (pmin(pmax(greater / limit, -1), 1) + 1) / 2

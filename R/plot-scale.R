@@ -10,6 +10,7 @@
 #' @param spacing Distance between the surfaces' centres, in halves of their side.
 #' @param turn,tilt How far they are turned about their normal, and the normal tilted to the viewer,
 #'   in radians.
+#' @param palette As in [shape_colours()].
 #' @param ... Passed to [picture_settings()].
 #' @return The scale, invisibly: a data frame with nine rows and columns `category`, `index`,
 #'   `colour`.
@@ -20,12 +21,13 @@
 #' @examples
 #' plot_shape_scale()
 #' @export
-plot_shape_scale <- function(curvedness = 0.45, spacing = 3, turn = 0.35, tilt = 0.85, ...) {
+plot_shape_scale <- function(curvedness = 0.45, spacing = 3, turn = 0.35, tilt = 0.85,
+                             palette = NULL, ...) {
   curvedness <- check_number(curvedness, "curvedness", 0, open = TRUE)
   spacing <- check_number(spacing, "spacing", 0, open = TRUE)
   turn <- check_number(turn, "turn")
   tilt <- check_number(tilt, "tilt")
-  scale <- shape_scale()
+  scale <- shape_scale(check_shape_palette(palette))
   spin <- rbind(c(cos(turn), -sin(turn), 0), c(sin(turn), cos(turn), 0), c(0, 0, 1))
   rotation <- view_rotation(c(0, -tilt)) %*% spin
   centres <- spacing * (seq_len(nrow(scale)) - 1)
@@ -67,7 +69,7 @@ scale_bar <- function(scale, x, below = 1.3, height = 0.4) {
   low <- graphics::par("usr")[3] - below - height
   old <- graphics::par(xpd = NA)
   on.exit(graphics::par(old))
-  ramp <- shape_colours(seq(-1, 1, length.out = 400))
+  ramp <- shape_colours(seq(-1, 1, length.out = 400), palette = scale$colour)
   graphics::rasterImage(t(as.matrix(ramp)), min(x), low, max(x), low + height)
   graphics::rect(min(x), low, max(x), low + height, border = "grey40", lwd = 0.5)
   graphics::text(x, low + 1.6 * height, gsub(" ", "\n", scale$category), cex = 0.8, pos = 3,

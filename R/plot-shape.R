@@ -22,6 +22,8 @@
 #'   * `points`: whether to draw the points of the curves (TRUE);
 #'   * `patches`: whether to draw the points of the surface, small, on the specimen (as `points`);
 #'   * `width`: line width of curves (2);
+#'   * `palette`: colours of numbers, from the least to the greatest, and `unit`, what they are, for
+#'     the legend; with a specimen the `palette` of [plot.specimen()];
 #'   * `edges`: colour of the edges of the shape's own surface, NA for none;
 #'   * those of [plot.specimen()] and [draw_surface()].
 #' @return The scene of [draw_surface()], invisibly.
@@ -109,17 +111,21 @@ draw_shape_curves <- function(scene, x, specimen, colour, width, points) {
 
 #' The surface of a shape, with the scale of its colours where these stand for numbers
 #' @noRd
-draw_values <- function(model, surface, edges, engine, view, legend, ...) {
+draw_values <- function(model, surface, edges, engine, view, legend, ..., palette = NULL,
+                        unit = "as given") {
+  if (is.null(palette)) palette <- grDevices::hcl.colors(11, "Viridis")
+  palette <- check_colour(palette, "palette")
   scaled <- legend && is.numeric(surface) && any(is.finite(surface))
-  if (!scaled) return(draw_model(model, surface, edges, engine, view, ...))
+  colour <- surface_colours(model, surface, palette)
+  if (!scaled) return(draw_model(model, colour, edges, engine, view, ...))
   if (engine == "picture") {
     old <- graphics::par(mar = c(0.5, 0.5, 0.5, 6))
     on.exit(graphics::par(old))
   }
-  scene <- draw_model(model, surface, edges, engine, view, ...)
+  scene <- draw_model(model, colour, edges, engine, view, ...)
   limits <- range(surface[is.finite(surface)])
   if (limits[2] <= limits[1]) limits <- limits[1] + 0:1
-  map_legend(scene, grDevices::hcl.colors(11, "Viridis"), limits)
+  map_legend(scene, palette, limits, unit)
 }
 
 #' The surface of a shape with the edges of its triangles
@@ -127,7 +133,6 @@ draw_values <- function(model, surface, edges, engine, view, legend, ...) {
 #' @param inside Colour of its inside.
 #' @noRd
 draw_model <- function(mesh, colour, edges, engine, view, ..., inside = "#8C7F76") {
-  colour <- surface_colours(mesh, colour)
   # A model is open: what is seen of its inside is drawn, or one would look through it at the far
   # side's edges.
   scene <- if (engine == "picture") {

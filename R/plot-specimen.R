@@ -21,7 +21,8 @@
 #' @param legend Whether to draw the scale of colours (not by "rgl").
 #' @param main Title.
 #' @param ... `labels`: whether to write the names of the landmarks (TRUE by default for
-#'   "refinement" only). Arguments of [draw_surface()], and further arguments of "placing" and
+#'   "refinement" only). `palette`: for "shape index" as in [shape_colours()], for "curvature" colours
+#'   from valley to ridge. Arguments of [draw_surface()], and further arguments of "placing" and
 #'   "cuts", see below.
 #' @param what Kind of picture, see below.
 #' @section Pictures:
@@ -73,7 +74,7 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   given <- list(...)
   labels <- if (is.null(given[["labels"]])) what == "refinement" else given[["labels"]]
   curvature <- if (inherits(radius, "curvature")) radius else given[["curvature"]]
-  more <- given[!names(given) %in% c("labels", "curvature")]
+  more <- given[!names(given) %in% c("labels", "curvature", "palette")]
   with_more <- function(f, ...) do.call(f, c(list(...), more), quote = TRUE)
   if (what == "placing") return(with_more(draw_placing, x, engine = engine))
   if (what == "refinement") return(with_more(draw_refinement, x, view, labels, main, engine = engine))
@@ -86,7 +87,8 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   check_flags(landmarks, labels, legend)
   main <- check_text(main, "main", null = TRUE)
   engine <- check_engine(engine)
-  scale <- specimen_scale(x, colour, shown_curvature(x, colour, curvature, radius))
+  scale <- specimen_scale(x, colour, shown_curvature(x, colour, curvature, radius),
+                          given[["palette"]])
   legend <- legend && !is.null(scale$ramp)
   if (engine == "picture") {
     old <- graphics::par(mar = c(0.5, 0.5, if (is.null(main)) 0.5 else 2, if (legend) 7 else 0.5))

@@ -48,6 +48,17 @@ test_that("colours are the categories' own at their centres", {
   expect_equal(shape_colours(0.125), "#FFFBD3")
 })
 
+test_that("other palettes are a name, colours, or the option's", {
+  expect_equal(shape_colours(c(-1, 0, 1), palette = "safe"), c("#00153F", "#FFFFFF", "#4A1F00"))
+  expect_equal(shape_colours(c(-1, 0, 1), palette = c("black", "white")),
+               c("#000000", "#7F7F7F", "#FFFFFF"))
+  old <- options(crestline.palette = "safe")
+  on.exit(options(old))
+  expect_equal(shape_colours(-1), "#00153F")
+  expect_crestline_error(shape_colours(0, palette = "loud"), c("`palette`", "safe"))
+  expect_crestline_error(shape_colours(0, palette = 1), "`palette`")
+})
+
 test_that("what is no shape index is refused", {
   expect_error(shape_index(1:3), class = "crestline_error")
   expect_error(shape_index(1:3, 1:2), class = "crestline_error")

@@ -57,7 +57,8 @@ least_difference <- function(colours) {
 test_that("kinds, grades and states stay apart for eyes without red or green cones", {
   # Black and white are 100 apart in lightness.
   expect_equal(unname(least_difference(c("black", "white"))), rep(100, 3), tolerance = 1e-3)
-  for (colours in list(kind_colours, grade_colours, unlist(review_colours()$state))) {
+  for (colours in list(kind_colours, grade_colours, unlist(review_colours()$state),
+                       shape_scale("safe")$colour)) {
     expect_gt(min(least_difference(colours)), 25)
   }
 })

@@ -1,0 +1,100 @@
+# Pages and pictures in a browser: how long until the first picture, which examples draw without a
+# display, and how far colours are apart for three kinds of vision.
+#   Rscript bench/pages.R time FOLDER     a face's page in headless Chromium (needs chromote)
+#   Rscript bench/pages.R engines         every example of pictures, with "widget" and "picture"
+#   Rscript bench/pages.R colours         least CIE 1976 distance of any two colours
+suppressPackageStartupMessages(library(crestline))
+options(rgl.useNULL = TRUE)
+
+face_page <- function(file) {
+  data <- new.env()
+  utils::data("humface", package = "Rvcg", envir = data)
+  face <- find_landmarks(data$humface, id = "humface")
+  write_page(face, file, fit_shape(face, face_scheme()), radius = 7, length_unit = "mm")
+}
+
+# Seconds from navigation until the second frame after the canvas of the scene is there.
+first_picture <- function(file, size) {
+  page <- chromote::ChromoteSession$new(width = size[1], height = size[2])
+  page$default_timeout <- 120
+  page$Page$navigate(paste0("file://", normalizePath(file)))
+  code <- "new Promise(done => { const look = () => { const canvas = document.querySelector('canvas');
+    if (document.readyState === 'complete' && canvas && canvas.width > 0)
+      requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now())));
+    else setTimeout(look, 20); }; look(); })"
+  seconds <- page$Runtime$evaluate(code, awaitPromise = TRUE, returnByValue = TRUE)
+  shot <- page$Page$captureScreenshot(format = "png")$data
+  page$close()
+  list(seconds = seconds$result$value / 1000, shot = jsonlite::base64_dec(shot))
+}
+
+measure_time <- function(folder) {
+  options(chromote.headless = "new")
+  chromote::set_chrome_args(c("--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+                              "--enable-unsafe-swiftshader"))
+  dir.create(folder, FALSE, TRUE)
+  file <- file.path(folder, "face.html")
+  face_page(file)
+  for (size in list(c(1280, 1400), c(390, 844))) for (run in 1:3) {
+    seen <- first_picture(file, size)
+    cat(sprintf("%d x %d, run %d: %.2f s to the first picture, %.2f MB\n", size[1], size[2], run,
+                seen$seconds, file.size(file) / 1e6))
+    writeBin(seen$shot, file.path(folder, sprintf("face-%d.png", size[1])))
+  }
+}
+
+# The examples of all help pages that draw, in R processes without a display.
+run_examples <- function() {
+  stopifnot(!nzchar(Sys.getenv("DISPLAY")), !nzchar(Sys.which("Xvfb")))
+  pages <- tools::Rd_db("crestline")
+  draws <- c("draw_surface|plot[.]|write_page|write_pca_page|plot_curves|plot_shape_scale",
+             "write_picture|quality_report|write_glb|suggest_landmarks")
+  topics <- grep(paste(draws, collapse = "|"), names(pages), value = TRUE)
+  for (engine in c("widget", "picture")) for (topic in topics) {
+    code <- utils::capture.output(tools::Rd2ex(pages[[topic]], commentDontrun = TRUE))
+    code <- gsub("engine = \"picture\"", sprintf("engine = \"%s\"", engine), code, fixed = TRUE)
+    script <- tempfile(fileext = ".R")
+    writeLines(c("library(crestline)", "grDevices::pdf(NULL)",
+                 sprintf("options(crestline.engine = \"%s\", warn = 1)", engine), code), script)
+    said <- suppressWarnings(system2(file.path(R.home("bin"), "Rscript"), script, stdout = TRUE,
+                                     stderr = TRUE))
+    failed <- !is.null(attr(said, "status"))
+    x11 <- any(grepl("X11|unable to open", said))
+    cat(sprintf("%-8s %-32s %s%s\n", engine, topic, if (failed) "FAILED" else "ok",
+                if (x11) ", asks for X11" else ""))
+    if (failed) cat(utils::tail(said, 4), sep = "\n")
+  }
+}
+
+# As in tests/testthat/test-plot-grades.R.
+least_difference <- function(colours) {
+  vision <- list(
+    normal = diag(3),
+    protan = rbind(c(0.152286, 1.052583, -0.204868), c(0.114503, 0.786281, 0.099216),
+                   c(-0.003882, -0.048116, 1.051998)),
+    deutan = rbind(c(0.367322, 0.860646, -0.227968), c(0.280085, 0.672501, 0.047413),
+                   c(-0.011820, 0.042940, 0.968881))
+  )
+  share <- grDevices::col2rgb(colours) / 255
+  light <- t(ifelse(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055)^2.4))
+  vapply(vision, function(m) {
+    seen <- pmin(pmax(light %*% t(m), 0), 1)
+    shown <- ifelse(seen <= 0.0031308, 12.92 * seen, 1.055 * seen^(1 / 2.4) - 0.055)
+    min(stats::dist(grDevices::convertColor(shown, "sRGB", "Lab")))
+  }, 0)
+}
+
+print_colours <- function() {
+  ours <- asNamespace("crestline")
+  sets <- list("shape index, paper" = ours$shape_palettes$paper,
+               "shape index, safe" = ours$shape_palettes$safe, "kinds of curve" = ours$kind_colours,
+               grades = ours$grade_colours, "states of landmarks" = ours$review_colours()$state,
+               "two groups" = c("#2F7FD1", "#E0553F"))
+  print(round(t(vapply(sets, least_difference, numeric(3)))))
+}
+
+arguments <- commandArgs(trailingOnly = TRUE)
+switch(c(arguments, "")[1],
+       time = measure_time(c(arguments[-1], tempfile())[1]),
+       engines = run_examples(), colours = print_colours(),
+       stop("say time, engines or colours"))
