@@ -20,12 +20,12 @@ hear <- function(code, stage, ear) {
 
 batch_warnings <- function(x) {
   failed <- attr(x, "failed")
-  elements <- unclass(x)
-  bind_warnings(stats::setNames(lapply(names(x), function(name) {
-    one <- elements[[name]]
+  # By place, not by name: names are searched one after the other.
+  each <- Map(function(one, name) {
     if (is.null(one)) failed[[name]]$warnings else
       if (inherits(one, "kept_shape")) attr(one, "warnings") else one$warnings
-  }), names(x)))
+  }, unclass(x), names(x))
+  bind_warnings(stats::setNames(each, names(x)))
 }
 
 bind_warnings <- function(each) {

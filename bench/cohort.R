@@ -8,7 +8,7 @@
 #   Rscript bench/cohort.R same DIR FOLDER...       are the results of a folder those of "serial"
 #   Rscript bench/cohort.R store DIR                bytes of a specimen; print() of 2,000 and 50,000
 #   Rscript bench/cohort.R together [times = 50]    two processes at once in one folder
-#   Rscript bench/cohort.R homology DIR             slid by two workers against one; memory
+#   Rscript bench/cohort.R homology DIR [times = 1] slid by two workers against one; memory
 #   Rscript bench/cohort.R parquet DIR              tables written and read back
 #
 # "slurm" needs munged, slurmctld and slurmd (Debian: munge slurmctld slurmd), root, and one node
@@ -320,9 +320,23 @@ together <- function(times) {
 
 # Homology -------------------------------------------------------------------------------------
 
-show_homology <- function(dir) {
-  shapes <- suppressMessages(read_batch(file.path(dir, "serial")))
-  from <- min(100, length(shapes) %/% 4)
+# The shapes of a folder several times over, under other ids.
+repeated <- function(shapes, times) {
+  each <- lapply(seq_len(times), function(i) {
+    lapply(inner("plain_list")(shapes), function(one) {
+      attr(one, "id") <- paste(attr(one, "id"), i)
+      attr(one, "surface") <- paste(attr(one, "surface"), i)
+      one
+    })
+  })
+  each <- unlist(each, recursive = FALSE)
+  names(each) <- vapply(each, attr, "", "id")
+  inner("new_shape_batch")(each, scheme = attr(shapes, "scheme"))
+}
+
+show_homology <- function(dir, times) {
+  shapes <- repeated(suppressMessages(read_batch(file.path(dir, "serial"))), times)
+  from <- 12
   run <- function(workers, folder) {
     if (workers > 1) future::plan("multisession", workers = workers) else
       future::plan("sequential")
@@ -339,21 +353,21 @@ show_homology <- function(dir) {
     took <- system.time(sample <- homologise(shapes, template_from = from, seed = 1, red = "keep",
                                              dir = folder, progress = FALSE))[["elapsed"]]
     spent <- busy() - before
-    slowest <- if (workers == 1) 1 else 1 + which.max(spent[1, -1])
+    # Without other programs: the work of this process, then that of the slower worker.
+    alone <- spent[1, 1] + max(0, spent[1, -1])
     cat(sprintf("%d workers: %.1f s; processes ran %s s, waited for a core %s s\n", workers, took,
                 paste(sprintf("%.1f", spent[1, ]), collapse = " "),
                 paste(sprintf("%.1f", spent[2, ]), collapse = " ")))
-    cat(sprintf("without waiting for a core: %.1f s; peak memory %s MB\n",
-                took - spent[2, slowest],
+    cat(sprintf("own work and the slower worker's: %.1f s; peak memory %s MB\n", alone,
                 paste(sprintf("%.0f", vapply(pids, resident, 0)), collapse = " ")))
-    list(sample = sample, seconds = c(took, took - spent[2, slowest]))
+    list(sample = sample, seconds = c(took, alone))
   }
   one <- run(1, tempfile("one-"))
   two <- run(2, tempfile("two-"))
   all <- function(x) unlist(lapply(seq_len(inner("n_blocks")(x)), inner("read_block"), x = x))
   a <- all(one$sample)
   b <- all(two$sample)
-  cat(sprintf("%d specimens, template from %d: ratio %.2f, without waiting %.2f; largest %s %.1e\n",
+  cat(sprintf("%d specimens, template from %d: ratio %.2f, by own times %.2f; largest %s %.1e\n",
               length(one$sample), from, one$seconds[1] / two$seconds[1],
               one$seconds[2] / two$seconds[2], "difference", max(abs(a - b), na.rm = TRUE)))
 }
@@ -376,4 +390,4 @@ switch(part, scans = write_scans(dir, as.integer(argument(3, 48))), serial = mea
        targets = by_targets(dir, argument(3, "local")),
        same = for (folder in given[-(1:2)]) compare_results(file.path(dir, "serial"), folder),
        store = show_store(dir), together = together(as.integer(argument(2, 50))),
-       homology = show_homology(dir), parquet = show_parquet(dir))
+       homology = show_homology(dir, as.integer(argument(3, 1))), parquet = show_parquet(dir))
