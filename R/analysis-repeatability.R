@@ -86,7 +86,9 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
     coords, if (match == "each") factor(seq_len(n)) else specimen, match != "none"
   )
   components <- variance_components(t(matrix(framed, ncol = n)), specimen, observer)
-  each <- component_sums(components, nrow(coords))
+  # Variances of co-ordinates, summed by point: k x 4
+  sums <- apply(array(components, c(4, nrow(coords), 3)), c(2, 1), sum)
+  each <- structure(sums, dimnames = list(NULL, rownames(components)))
   part <- sub(" [^ ]*$", "", rownames(coords))
   part <- factor(part, unique(part))
   size <- as.vector(table(part))
@@ -282,13 +284,6 @@ sequential_spaces <- function(dummies) {
     before <<- cbind(before, own)
     own
   })
-}
-
-#' Variances of co-ordinates, summed by point: k x 4
-#' @noRd
-component_sums <- function(components, k) {
-  sums <- apply(array(components, c(4, k, 3)), c(2, 1), sum)
-  structure(sums, dimnames = list(NULL, rownames(components)))
 }
 
 #' Variances by term as standard deviations, with error and correlation

@@ -192,7 +192,19 @@ command_compare <- function(given) {
   groups <- check_needed(given$groups, "groups", "a table of groups, .csv")
   file <- one_file(given$files)
   sample <- if (dir.exists(file)) homologise(read_batch(file)) else read_sample(file)
-  group <- command_groups(groups, given$id, given$by)
+  # Groups by the specimens' ids, from a table
+  if (!file.exists(groups)) {
+    crestline_abort(sprintf("there is no file %s.", groups), "Check its path.", stage = "groups")
+  }
+  table <- utils::read.csv(groups, colClasses = "character", fileEncoding = "UTF-8-BOM",
+                           check.names = FALSE)
+  absent <- setdiff(c(given$id, given$by), names(table))
+  if (length(absent)) {
+    crestline_abort(sprintf("%s has no column %s; it has %s.", groups, shorten(absent),
+                            shorten(names(table))),
+                    "Name the columns by --id and --by.", stage = "groups")
+  }
+  group <- stats::setNames(table[[given$by]], table[[given$id]])
   compared <- compare_groups(sample, group, given$level, n_perm = given$permutations,
                              seed = given$seed)
   write(utils::capture.output(print(compared)), stderr())
@@ -211,23 +223,6 @@ read_sample <- function(file) {
   }
   validate(sample)
   sample
-}
-
-#' Groups by the specimens' ids, from a table
-#' @noRd
-command_groups <- function(file, id, by) {
-  if (!file.exists(file)) {
-    crestline_abort(sprintf("there is no file %s.", file), "Check its path.", stage = "groups")
-  }
-  table <- utils::read.csv(file, colClasses = "character", fileEncoding = "UTF-8-BOM",
-                           check.names = FALSE)
-  absent <- setdiff(c(id, by), names(table))
-  if (length(absent)) {
-    crestline_abort(sprintf("%s has no column %s; it has %s.", file, shorten(absent),
-                            shorten(names(table))),
-                    "Name the columns by --id and --by.", stage = "groups")
-  }
-  stats::setNames(table[[by]], table[[id]])
 }
 
 command_page <- function(given) {

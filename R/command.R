@@ -39,7 +39,12 @@ run_command <- function(arguments = commandArgs(trailingOnly = TRUE)) {
     return(0L)
   }
   tryCatch({
-    command <- find_command(name)
+    known <- commands()
+    command <- if (name %in% names(known)) known[[name]] else {
+      near <- names(known)[order(utils::adist(name, names(known), ignore.case = TRUE))][1]
+      crestline_abort(sprintf("there is no command of that name; %s is near.", near),
+                      "crestline --help lists the commands.", stage = "arguments")
+    }
     given <- arguments[-1]
     if (any(given %in% c("-h", "--help"))) {
       cat(command_help(name, command), sep = "\n")
@@ -61,14 +66,6 @@ tell_aside <- function(condition) {
   text <- gsub("[[:space:]]+", " ", conditionMessage(condition))
   write(trimws(text), stderr())
   rlang::cnd_muffle(condition)
-}
-
-find_command <- function(name) {
-  known <- commands()
-  if (name %in% names(known)) return(known[[name]])
-  near <- names(known)[order(utils::adist(name, names(known), ignore.case = TRUE))][1]
-  crestline_abort(sprintf("there is no command of that name; %s is near.", near),
-                  "crestline --help lists the commands.", stage = "arguments")
 }
 
 commands_help <- function() {
@@ -123,16 +120,14 @@ read_options <- function(words, command, name) {
     value <- if (grepl("=", word, fixed = TRUE)) sub("^[^=]*=", "", word) else words[1]
     if (!grepl("=", word, fixed = TRUE)) words <- words[-1]
     if (is.na(value) || !nzchar(value)) fail(sprintf("--%s needs a value: %s.", own, one$value))
-    read[[own]] <- if (one$number) option_number(value, own, fail) else value
+    read[[own]] <- if (one$number) {
+      number <- suppressWarnings(as.numeric(value))
+      if (is.na(number) || number < 0 || number != round(number)) {
+        fail(sprintf("--%s is \"%s\", not a whole number.", own, value))
+      }
+      number
+    } else value
   }
   if (!length(files)) fail(sprintf("it needs %s.", command$takes))
   c(list(files = files), read)
-}
-
-option_number <- function(value, name, fail) {
-  number <- suppressWarnings(as.numeric(value))
-  if (is.na(number) || number < 0 || number != round(number)) {
-    fail(sprintf("--%s is \"%s\", not a whole number.", name, value))
-  }
-  number
 }

@@ -147,7 +147,11 @@ simulate_cohort <- function(n, ages = c(3, 40), data = NULL, lesions = NULL, vis
   drawn$lesions$id <- drawn$data$id
   structure(list(sample = samples[[1]], second = if (visits == 2) samples[[2]], data = drawn$data,
                  lesions = drawn$lesions[c("id", "height", "radius", "point", "visit")],
-                 expected = function(age, sex) expected_face(model, age, sex),
+                 expected = function(age, sex) {
+                   age <- check_number(age, "age", lower = 0)
+                   male <- check_choice(sex, c("female", "male"), "sex") == "male"
+                   mean_size(age, male) * mean_face(model, age, male)
+                 },
                  settings = settings),
             class = "simulated_cohort")
 }

@@ -94,19 +94,14 @@ drawn_errors <- function(plan, xyz, spread, draws, seed) {
   needs <- lapply(plan, function(one) unique(c(unlist(one$lines), one$triangles, one$base, one$at)))
   for (i in seq_along(plan)) if (length(plan[[i]]$of)) needs[[i]] <- unlist(needs[plan[[i]]$of])
   # A measurement has an error if all landmarks do, and each curve on it has its own or its ends'.
-  unknown <- unknown_places(spread)
-  se[vapply(needs, function(rows) any(rows %in% unknown), NA)] <- NA
-  se
-}
-
-#' Places of curves of whose errors nothing is known
-#' @noRd
-unknown_places <- function(spread) {
+  # Places of curves of whose errors nothing is known
   known <- which(!is.na(spread$se))
   each <- lapply(spread$curves, function(curve) {
     c(curve$ends, if (!curve$known && !all(curve$ends %in% known)) curve$rows)
   })
-  setdiff(unlist(each), known)
+  unknown <- setdiff(unlist(each), known)
+  se[vapply(needs, function(rows) any(rows %in% unknown), NA)] <- NA
+  se
 }
 
 #' k x 3 x draws: places moved by errors of landmarks, and of curves across themselves

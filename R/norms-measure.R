@@ -96,7 +96,9 @@ measured_shape <- function(shape, plan, error, draws, range, seed) {
   value <- measure_places(plan, array(xyz, c(dim(xyz), 1)))[, 1]
   spread <- place_errors(shape, error, range)
   se <- delta_errors(plan, xyz, spread$se)
-  drawn <- plan_drawn(plan)
+  # Which measurements need draws: lengths, areas, volumes, and ratios of them
+  drawn <- plan_text(plan, "kind") %in% c("length", "area", "volume")
+  for (i in seq_along(plan)) if (plan[[i]]$kind == "ratio") drawn[i] <- any(drawn[plan[[i]]$of])
   if (any(drawn) && draws > 0) se[drawn] <- drawn_errors(plan, xyz, spread, draws, seed)[drawn]
   se[drawn & draws == 0] <- NA
   reason <- rep(NA_character_, length(plan))
@@ -109,11 +111,3 @@ measured_shape <- function(shape, plan, error, draws, range, seed) {
 }
 
 plan_text <- function(plan, name) vapply(plan, `[[`, "", name, USE.NAMES = FALSE)
-
-#' Which measurements need draws: lengths, areas, volumes, and ratios of them
-#' @noRd
-plan_drawn <- function(plan) {
-  drawn <- plan_text(plan, "kind") %in% c("length", "area", "volume")
-  for (i in seq_along(plan)) if (plan[[i]]$kind == "ratio") drawn[i] <- any(drawn[plan[[i]]$of])
-  drawn
-}

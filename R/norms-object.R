@@ -26,8 +26,11 @@ new_shape_norms <- function(made, parts, held, plan, settings) {
                    limit_quantiles(apply(abs(z[, measured, drop = FALSE]), 1, max))
                  })
   effective <- effective_faces(parts, people$age, people$group)
+  each <- lapply(split(people$age, people$group), range)
+  age_ranges <- data.frame(sex = names(each), from = ceiling(10 * vapply(each, `[`, 0, 1)) / 10,
+                           to = floor(10 * vapply(each, `[`, 0, 2)) / 10, row.names = NULL)
   structure(
-    list(points = made$points, triangles = made$triangles, n = n, ages = age_ranges(people),
+    list(points = made$points, triangles = made$triangles, n = n, ages = age_ranges,
          counts = year_counts(people), names = people$names, measurements = made$table,
          table = cbind(table, skew), values = parts$values, surface = parts$surface,
          asymmetry = parts$asymmetry, limits = limits,
@@ -36,12 +39,6 @@ new_shape_norms <- function(made, parts, held, plan, settings) {
          cache = new.env(parent = emptyenv())),
     class = "shape_norms"
   )
-}
-
-age_ranges <- function(people) {
-  each <- lapply(split(people$age, people$group), range)
-  data.frame(sex = names(each), from = ceiling(10 * vapply(each, `[`, 0, 1)) / 10,
-             to = floor(10 * vapply(each, `[`, 0, 2)) / 10, row.names = NULL)
 }
 
 year_counts <- function(people) {

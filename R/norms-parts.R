@@ -78,13 +78,3 @@ roughness <- function(inverse, u) {
 inverse_diagonal <- function(inverse) {
   inverse$kernel_diagonal - rowSums((inverse$solved %*% inverse$inner) * inverse$solved)
 }
-
-#' Which fold each face is held out in: alike in ages and sexes
-#' @return Integer, 1 to `folds`.
-#' @noRd
-stratified_folds <- function(people, folds) {
-  order <- order(people$group, people$age)
-  fold <- integer(length(order))
-  fold[order] <- rep_len(seq_len(folds), length(order))
-  fold
-}

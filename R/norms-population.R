@@ -15,7 +15,21 @@ cohort_model <- function(template, settings) {
 make_cohort_model <- function(template, settings) {
   scheme <- template$scheme
   partner <- mirror_places(scheme)
-  places <- in_mid_plane(places_of(template), partner)
+  # Places turned and moved so that x = 0 is the plane of symmetry
+  xyz <- places_of(template)
+  off <- xyz - xyz[partner, ]
+  known <- !is.na(off[, 1])
+  axis <- main_direction(off[known, ])
+  axis <- axis * sign(axis[which.max(abs(axis))])
+  turn <- qr.Q(qr(cbind(axis, diag(3)[, order(abs(axis))[1:2]])))
+  turn[, 1] <- axis
+  # The rotation with this first axis that turns least
+  parts <- svd(crossprod(turn[, 2:3], diag(3)[, 2:3]))
+  nearest_flat <- parts$u %*% t(parts$v)
+  rest <- turn[, 2:3] %*% nearest_flat
+  turned <- sweep(xyz, 2, colMeans(xyz[known, ])) %*% cbind(axis, rest)
+  colnames(turned) <- colnames(xyz)
+  places <- turned
   surface <- coords(template, "surface")
   if (!nrow(surface) || anyNA(places)) {
     crestline_abort("the template has no surface, or missing points.",
@@ -37,27 +51,6 @@ make_cohort_model <- function(template, settings) {
        directional = (fields[[3]] - mirrored(fields[[3]])) / 2,
        skew = normal * exp(-rowSums(sweep(places, 2, tip)^2) / (2 * 45^2)),
        centres = surface_rows[colSums(apart < 15) >= 20], surface_names = rownames(surface))
-}
-
-#' Places turned and moved so that x = 0 is the plane of symmetry
-#' @noRd
-in_mid_plane <- function(xyz, partner) {
-  off <- xyz - xyz[partner, ]
-  known <- !is.na(off[, 1])
-  axis <- main_direction(off[known, ])
-  axis <- axis * sign(axis[which.max(abs(axis))])
-  turn <- qr.Q(qr(cbind(axis, diag(3)[, order(abs(axis))[1:2]])))
-  turn[, 1] <- axis
-  # The rotation with this first axis that turns least
-  rest <- turn[, 2:3] %*% nearest_flat(crossprod(turn[, 2:3], diag(3)[, 2:3]))
-  turned <- sweep(xyz, 2, colMeans(xyz[known, ])) %*% cbind(axis, rest)
-  colnames(turned) <- colnames(xyz)
-  turned
-}
-
-nearest_flat <- function(overlap) {
-  parts <- svd(overlap)
-  parts$u %*% t(parts$v)
 }
 
 #' k x q root of the covariance of a sum of fields at places, but for a share of its variance
@@ -98,12 +91,6 @@ mean_face <- function(model, age, male) {
     (male - 0.5) * stats::plogis((age - 14) / 1.5) * model$sexes + model$directional
 }
 
-expected_face <- function(model, age, sex) {
-  age <- check_number(age, "age", lower = 0)
-  male <- check_choice(sex, c("female", "male"), "sex") == "male"
-  mean_size(age, male) * mean_face(model, age, male)
-}
-
 #' People and their visits
 #' @return List: `data`, `lesions` (with points), `visits` (list of k x 3 x n).
 #' @noRd
@@ -112,8 +99,16 @@ draw_people <- function(model, n, ages, data, lesions, settings, visits) {
     data <- data.frame(age = draw_ages(n, range(ages), settings$young),
                        sex = ifelse(stats::runif(n) < 0.5, "female", "male"))
   }
+  # Random shapes, (3 k) x n, symmetric and asymmetric parts in the share that is set
+  k <- nrow(model$places)
+  field <- matrix(model$root %*% matrix(stats::rnorm(ncol(model$root) * 3 * n), ncol(model$root)),
+                  3 * k)
+  partner <- c(model$partner, k + model$partner, 2 * k + model$partner)
+  mirrored <- field[partner, , drop = FALSE] * rep(c(-1, 1, 1), each = k)
+  drawn_fields <- sqrt(settings$symmetric / 2) * (field + mirrored) +
+    sqrt((1 - settings$symmetric) / 2) * (field - mirrored)
   own <- list(log_size = stats::rnorm(n), skew = (stats::rgamma(n, 3) - 3) / sqrt(3),
-              shape = drawn_fields(model, n, settings))
+              shape = drawn_fields)
   at <- ifelse(is.na(lesions$point), NA, model$surface[match(lesions$point, model$surface_names)])
   free <- which(is.na(at) & lesions$height != 0)
   if (length(free) && length(model$centres)) {
@@ -146,18 +141,6 @@ person_size <- function(data, own, settings) {
   exp(log(mean_size(data$age, male)) + own$log_size * size_spread(data$age, settings))
 }
 
-#' Random shapes, (3 k) x n, symmetric and asymmetric parts in the share that is set
-#' @noRd
-drawn_fields <- function(model, n, settings) {
-  k <- nrow(model$places)
-  field <- matrix(model$root %*% matrix(stats::rnorm(ncol(model$root) * 3 * n), ncol(model$root)),
-                  3 * k)
-  partner <- c(model$partner, k + model$partner, 2 * k + model$partner)
-  mirrored <- field[partner, , drop = FALSE] * rep(c(-1, 1, 1), each = k)
-  sqrt(settings$symmetric / 2) * (field + mirrored) +
-    sqrt((1 - settings$symmetric) / 2) * (field - mirrored)
-}
-
 #' The faces of one visit, with pose, errors and holes: k x 3 x n
 #' @noRd
 visit_faces <- function(model, data, own, lesion, settings) {
@@ -179,7 +162,12 @@ visit_faces <- function(model, data, own, lesion, settings) {
   }
   posed <- posed_faces(xyz, settings)
   noisy <- posed + measurement_noise(model, n, settings)
-  with_holes(noisy, model, settings)
+  xyz <- noisy
+  for (i in rep(seq_len(dim(xyz)[3]), each = settings$holes)) {
+    centre <- model$places[model$surface[sample.int(length(model$surface), 1)], ]
+    xyz[row_lengths(sweep(model$places, 2, centre)) < settings$hole_radius, , i] <- NA
+  }
+  xyz
 }
 
 posed_faces <- function(xyz, settings) {
@@ -202,12 +190,4 @@ measurement_noise <- function(model, n, settings) {
     random_field(settings$noise_range, settings$noise)(model$places)
   })
   array(unlist(each), c(k, 3, n))
-}
-
-with_holes <- function(xyz, model, settings) {
-  for (i in rep(seq_len(dim(xyz)[3]), each = settings$holes)) {
-    centre <- model$places[model$surface[sample.int(length(model$surface), 1)], ]
-    xyz[row_lengths(sweep(model$places, 2, centre)) < settings$hole_radius, , i] <- NA
-  }
-  xyz
 }

@@ -75,7 +75,22 @@ norms_from_tables <- function(header, tables) {
   settings <- header$settings
   field <- function(name) {
     if (is.null(header[[name]])) return(NULL)
-    field_from_tables(name, header, tables, points, sexes)
+    own <- header[[name]]
+    side <- if (name == "surface") rep(TRUE, nrow(points)) else points$side
+    unit <- header$units$points
+    xyz <- as.matrix(points[side, c("x", "y", "z")])
+    off <- if (name == "surface") round(as.vector(xyz) / unit) else 0
+    loadings <- as.matrix(tables[[paste0("components-", name)]])
+    size <- header$splines$points
+    by_age <- lapply(own$by_age, function(x) matrix(x, ncol = length(own$radii)))
+    list(points = xyz, normal = as.matrix(points[side, c("nx", "ny", "nz")]),
+         columns = splines_from_tables(name, size, unit, off, tables, sexes),
+         along = splines_from_tables(paste0(name, "-along"), size, unit, 0, tables, sexes),
+         sd = unname(loadings[, 1]) * 1e-4, vectors = unname(loadings[, -1, drop = FALSE]) * 1e-4,
+         values = own$values, kernel = own$kernel, ranges = own$ranges,
+         scan = list(radii = own$radii, s = unname(as.matrix(tables[[paste0("scan-", name)]])),
+                     by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
+         rough = own$rough)
   }
   measurements <- tables$measurements
   table <- tables$table
@@ -91,25 +106,6 @@ norms_from_tables <- function(header, tables) {
          about = header$about, cache = new.env(parent = emptyenv())),
     class = "shape_norms"
   )
-}
-
-field_from_tables <- function(name, header, tables, points, sexes) {
-  own <- header[[name]]
-  side <- if (name == "surface") rep(TRUE, nrow(points)) else points$side
-  unit <- header$units$points
-  xyz <- as.matrix(points[side, c("x", "y", "z")])
-  off <- if (name == "surface") round(as.vector(xyz) / unit) else 0
-  loadings <- as.matrix(tables[[paste0("components-", name)]])
-  size <- header$splines$points
-  by_age <- lapply(own$by_age, function(x) matrix(x, ncol = length(own$radii)))
-  list(points = xyz, normal = as.matrix(points[side, c("nx", "ny", "nz")]),
-       columns = splines_from_tables(name, size, unit, off, tables, sexes),
-       along = splines_from_tables(paste0(name, "-along"), size, unit, 0, tables, sexes),
-       sd = unname(loadings[, 1]) * 1e-4, vectors = unname(loadings[, -1, drop = FALSE]) * 1e-4,
-       values = own$values, kernel = own$kernel, ranges = own$ranges,
-       scan = list(radii = own$radii, s = unname(as.matrix(tables[[paste0("scan-", name)]])),
-                   by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
-       rough = own$rough)
 }
 
 splines_from_tables <- function(name, size, unit, off, tables, sexes) {

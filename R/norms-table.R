@@ -58,7 +58,19 @@ measurement_plan <- function(table, scheme, call = rlang::caller_env()) {
     crestline_abort(sprintf("`table`: measurement \"%s\": %s.", table$measurement[row], problem),
                     "See `?face_measurements`.", stage = "measurements", call = call)
   }
-  places <- measurable_places(scheme)
+  # Rows of places of landmarks, curves and groups of triangles, each a named list
+  points <- scheme$points
+  place <- match(points$place, unique(points$place))
+  at <- function(level) {
+    own <- which(points$level == level)
+    split(place[own], factor(points$part[own], unique(points$part[own])))
+  }
+  triangles <- scheme$triangles
+  surface <- place[points$level == "surface"]
+  corner <- rbind(surface[triangles$v1], surface[triangles$v2], surface[triangles$v3])
+  groups <- lapply(split(seq_len(nrow(triangles)), factor(triangles$group)),
+                   function(own) corner[, own, drop = FALSE])
+  places <- list(landmarks = at("landmarks"), curves = at("curves"), groups = groups)
   kinds <- measurement_kinds()
   each <- lapply(seq_len(nrow(table)), function(row) {
     kind <- kinds[match(table$kind[row], kinds$kind), ]
@@ -92,23 +104,6 @@ known_parts <- function(text, known, n, what, refuse) {
   many <- if (is.na(n)) "one name or more" else amount(n, "name")
   if (wrong) refuse(sprintf("it needs %s (%s)", many, what))
   parts
-}
-
-#' Rows of places of landmarks, curves and groups of triangles, each a named list
-#' @noRd
-measurable_places <- function(scheme) {
-  points <- scheme$points
-  place <- match(points$place, unique(points$place))
-  at <- function(level) {
-    own <- which(points$level == level)
-    split(place[own], factor(points$part[own], unique(points$part[own])))
-  }
-  triangles <- scheme$triangles
-  surface <- place[points$level == "surface"]
-  corner <- rbind(surface[triangles$v1], surface[triangles$v2], surface[triangles$v3])
-  groups <- lapply(split(seq_len(nrow(triangles)), factor(triangles$group)),
-                   function(own) corner[, own, drop = FALSE])
-  list(landmarks = at("landmarks"), curves = at("curves"), groups = groups)
 }
 
 check_measurement_table <- function(table, call = rlang::caller_env()) {

@@ -10,7 +10,7 @@ measure_places <- function(plan, xyz) {
   for (i in seq_along(plan)) {
     step <- plan[[i]]
     value[i, ] <- switch(
-      step$kind, distance = apart_at(xyz, step$at[1], step$at[2]),
+      step$kind, distance = row_lengths(place_at(xyz, step$at[1]) - place_at(xyz, step$at[2])),
       angle = angle_at(xyz, step$at), ratio = value[step$of[1], ] / value[step$of[2], ],
       depth = depth_at(xyz, step$at, step$base), length = length_along(xyz, step$lines),
       area = area_of(xyz, step$triangles), volume = volume_over(xyz, step$triangles, step$base)
@@ -22,8 +22,6 @@ measure_places <- function(plan, xyz) {
 #' n x 3: one place in all configurations
 #' @noRd
 place_at <- function(xyz, row) matrix(aperm(xyz[row, , , drop = FALSE], c(3, 2, 1)), dim(xyz)[3])
-
-apart_at <- function(xyz, a, b) row_lengths(place_at(xyz, a) - place_at(xyz, b))
 
 angle_at <- function(xyz, at) {
   a <- place_at(xyz, at[1]) - place_at(xyz, at[2])

@@ -115,8 +115,6 @@ norm_sets <- function(norms) {
   sets
 }
 
-norm_unit <- function(name, settings) if (name == "values") 1e-6 else settings$unit
-
 #' All tables of a norm, a list of data frames by name of the file
 #' @noRd
 norm_tables <- function(norms) {
@@ -128,7 +126,7 @@ norm_tables <- function(norms) {
   sets <- norm_sets(norms)
   centre <- as.vector(as.matrix(norms$points[c("x", "y", "z")]))
   for (name in names(sets)) {
-    unit <- norm_unit(name, norms$settings)
+    unit <- if (name == "values") 1e-6 else norms$settings$unit
     off <- if (name == "surface") round(centre / unit) else 0
     parts <- spline_tables(sets[[name]], unit, off)
     tables[paste0(c("mean-", "spread-", "basis-"), name)] <- parts

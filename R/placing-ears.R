@@ -32,7 +32,18 @@ place_by_ear <- function(ear, cloud, at, settings) {
   spacing <- cloud$spacing
   cloud <- at_points(cloud[c("xyz", "normal", "k1", "k2", "border")], near)
   cloud[c("coarse", "spacing")] <- list(seq_along(near), spacing)
-  first <- fit_poses(ear, cloud, ear_starts(ear, at, settings), settings$ear_reach, settings$loose,
+  # Starts: the patch's landmark at the predicted place and about it, up, forward and tilted
+  each <- expand.grid(up = c(-1, 0, 1) * settings$ear_shift[1],
+                      forward = c(-1, 0, 1) * settings$ear_shift[2],
+                      tilt = c(-1, 1) * settings$ear_tilt)
+  middle <- rowMeans(ear$xyz)
+  ear_starts <- apply(each, 1, function(one) {
+    a <- one[["tilt"]]
+    turn <- matrix(c(1, 0, 0, 0, cos(a), sin(a), 0, -sin(a), cos(a)), 3)
+    to <- middle + at - ear$landmark + c(0, one[["up"]], one[["forward"]])
+    c(turn, to - turn %*% middle, 1)
+  })
+  first <- fit_poses(ear, cloud, ear_starts, settings$ear_reach, settings$loose,
                      settings, thin = FALSE)
   best <- utils::head(order(first$score), settings$refined)
   last <- fit_poses(ear, cloud, first$poses[, best, drop = FALSE],
@@ -45,22 +56,6 @@ place_by_ear <- function(ear, cloud, at, settings) {
   if (min(unlike) <= settings$ear) {
     drop(pose[13] * matrix(pose[1:9], 3) %*% ear$landmark + pose[10:12])
   }
-}
-
-#' Starts: the patch's landmark at the predicted place and about it, up, forward and tilted
-#' @return 13 x s.
-#' @noRd
-ear_starts <- function(ear, at, settings) {
-  each <- expand.grid(up = c(-1, 0, 1) * settings$ear_shift[1],
-                      forward = c(-1, 0, 1) * settings$ear_shift[2],
-                      tilt = c(-1, 1) * settings$ear_tilt)
-  middle <- rowMeans(ear$xyz)
-  apply(each, 1, function(one) {
-    a <- one[["tilt"]]
-    turn <- matrix(c(1, 0, 0, 0, cos(a), sin(a), 0, -sin(a), cos(a)), 3)
-    to <- middle + at - ear$landmark + c(0, one[["up"]], one[["forward"]])
-    c(turn, to - turn %*% middle, 1)
-  })
 }
 
 #' The patch of the left ear that ships, and its mirror image

@@ -42,7 +42,17 @@ best_pose <- function(template, cloud, starts, reach, settings) {
   better <- utils::head(order(first$score), settings$followed)
   second <- fit_poses(template, cloud, first$poses[, better, drop = FALSE],
                       c(middle, settings$reach[2]), settings$tight, settings, thin = TRUE)
-  chosen <- distinct_poses(second, template, settings)
+  # Which of the fitted poses to go on with: the best that put the template's points elsewhere
+  left <- order(second$score)
+  probe <- template$xyz[, template$coarse, drop = FALSE]
+  placed <- function(pose) pose[13] * matrix(pose[1:9], 3) %*% probe + pose[10:12]
+  chosen <- integer()
+  while (length(left) && length(chosen) < settings$refined) {
+    chosen <- c(chosen, left[1])
+    mine <- placed(second$poses[, left[1]])
+    gap <- vapply(left, function(i) sqrt(mean(colSums((placed(second$poses[, i]) - mine)^2))), 0)
+    left <- left[gap > settings$saturation]
+  }
   last <- c(1, 0.5) * settings$reach[2]
   tried <- lapply(list(settings$tight, settings$loose), function(scale) {
     fitted_poses(template, cloud, second$poses[, chosen, drop = FALSE], last, scale, settings)
@@ -64,22 +74,6 @@ rested_pose <- function(template, cloud, best, settings) {
 
 no_pose <- function() {
   list(pose = c(diag(3), 0, 0, 0, 1), score = 1, misfit = Inf, rests = FALSE)
-}
-
-#' Which of the fitted poses to go on with: the best that put the template's points elsewhere
-#' @noRd
-distinct_poses <- function(fits, template, settings) {
-  left <- order(fits$score)
-  probe <- template$xyz[, template$coarse, drop = FALSE]
-  placed <- function(pose) pose[13] * matrix(pose[1:9], 3) %*% probe + pose[10:12]
-  chosen <- integer()
-  while (length(left) && length(chosen) < settings$refined) {
-    chosen <- c(chosen, left[1])
-    mine <- placed(fits$poses[, left[1]])
-    gap <- vapply(left, function(i) sqrt(mean(colSums((placed(fits$poses[, i]) - mine)^2))), 0)
-    left <- left[gap > settings$saturation]
-  }
-  chosen
 }
 
 #' Poses fitted to whole clouds, with score and misfit

@@ -60,7 +60,12 @@ second_opinion <- function(specimen, landmarks, agreed = 6, tolerance = 0.1) {
   apart[row] <- gaps_on_surface(specimen, as.matrix(placing[row, c("x", "y", "z")]),
                                 other[common, , drop = FALSE], tolerance)
   placing$apart <- apart
-  placing$confidence <- agreed_confidence(placing, agreed / specimen$match$unit)
+  # Confidences after a second opinion; without one they stay
+  before <- placing$confidence
+  compared <- !is.na(placing$apart) & placing$state %in% c("found", "placed")
+  former <- ifelse(placing$state == "placed" & is.na(before), 1, before)
+  now <- 1 / (1 / former + (placing$apart / (agreed / specimen$match$unit))^2)
+  placing$confidence <- ifelse(compared, now, before)
   match <- specimen$match
   match$doubtful <- match$doubtful || placing_doubt(placing)$share > find_settings()$wrong
   with_fields(specimen, placing = placing, match = match)
@@ -78,17 +83,10 @@ other_landmarks <- function(landmarks, id) {
   }
   landmarks <- as_landmarks(landmarks, id)
   if (!nrow(landmarks) || !all(grepl("^[0-9]+$", rownames(landmarks)))) return(landmarks)
-  from_mediapipe(landmarks)
-}
-
-#' Landmarks as means of MediaPipe's points
-#' @param points k x 3, row names: MediaPipe's numbers.
-#' @return Matrix, NA where a point is missing.
-#' @noRd
-from_mediapipe <- function(points) {
+  # Landmarks as means of MediaPipe's points
   file <- system.file("extdata", "mediapipe.csv", package = "crestline", mustWork = TRUE)
   table <- utils::read.csv(file)
-  at <- points[match(table$mediapipe, rownames(points)), , drop = FALSE] * table$weight
+  at <- landmarks[match(table$mediapipe, rownames(landmarks)), , drop = FALSE] * table$weight
   at <- rowsum(at, factor(table$landmark, unique(table$landmark)))
   at / drop(rowsum(table$weight, factor(table$landmark, unique(table$landmark))))
 }
@@ -111,15 +109,4 @@ gaps_on_surface <- function(specimen, at, other, tolerance) {
     )
   }
   ifelse(far, NA, row_lengths(on - own))
-}
-
-#' Confidences after a second opinion; without one they stay
-#' @param agreed In the unit of the mesh.
-#' @noRd
-agreed_confidence <- function(placing, agreed) {
-  before <- placing$confidence
-  compared <- !is.na(placing$apart) & placing$state %in% c("found", "placed")
-  former <- ifelse(placing$state == "placed" & is.na(before), 1, before)
-  now <- 1 / (1 / former + (placing$apart / agreed)^2)
-  ifelse(compared, now, before)
 }

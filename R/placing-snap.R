@@ -69,7 +69,12 @@ snap <- function(mesh, points = NULL, to = c("ridge", "valley", "cap", "cup", "s
   place[!none, ] <- do.call(rbind, lapply(found[!none], `[[`, "place"))
   value <- function(name) vapply(found, function(x) if (is.null(x)) NA_real_ else x[[name]], 0)
   table <- snapped_table(at, to, place, value("distance"), value("strength"), none)
-  warn_unsnapped(table, to, reach, scan$id)
+  none <- rownames(table)[!table$found & !is.na(table$x)]
+  if (length(none)) {
+    crestline_warn(sprintf("no %s within %.3g of %s.", to, reach, shorten(none)),
+                   "They are where they were. Look at them, or give a larger `reach`.",
+                   stage = "snap", id = scan$id, class = "crestline_unsnapped")
+  }
   table
 }
 
@@ -104,14 +109,6 @@ snapped_table <- function(at, to, place, distance, strength, none) {
   table
 }
 
-warn_unsnapped <- function(table, to, reach, id) {
-  none <- rownames(table)[!table$found & !is.na(table$x)]
-  if (!length(none)) return(invisible())
-  crestline_warn(sprintf("no %s within %.3g of %s.", to, reach, shorten(none)),
-                 "They are where they were. Look at them, or give a larger `reach`.",
-                 stage = "snap", id = id, class = "crestline_unsnapped")
-}
-
 #' The nearest place of the sought kind; NULL where there is none within reach
 #'
 #' @param place One row of [surface_points()].
@@ -141,7 +138,10 @@ snapped_place <- function(scan, place, to, radius, reach, faint, source,
     at <- if (is.null(across)) settled_peak(field, field$at[row, ], width[[to]] * radius) else
       nearest_on_crest(field, field$at[row, ], start, width[[to]] * radius)
     if (is.null(at) || at$value <= faint / radius) next
-    on <- put_on_part(scan, near, at$at)
+    # The closest place of a part of a mesh, with its face in the mesh
+    found <- surface_points(list(vb = rbind(t(near$at), 1), it = near$it), matrix(at$at, 1))
+    found$face <- near$face[found$face]
+    on <- found
     distance <- way_along(scan, place, on)
     if (distance <= reach && (is.null(best) || distance < best$distance)) {
       best <- list(place = on, distance = distance, strength = at$value)
@@ -208,14 +208,6 @@ nearest_on_crest <- function(field, at, point, width, longest = 0.5, tolerance =
     towards <- drop(crossprod(fit$frame[, 1:2], point - at))
     -across * sum(fit$gradient * across) / bend$values[2] + along * sum(towards * along)
   }, longest, tolerance, steps)
-}
-
-#' The closest place of a part of a mesh, with its face in the mesh
-#' @noRd
-put_on_part <- function(scan, part, at) {
-  found <- surface_points(list(vb = rbind(t(part$at), 1), it = part$it), matrix(at, 1))
-  found$face <- part$face[found$face]
-  found
 }
 
 #' Length of the straight cut from one place to another; of the straight line where there is none

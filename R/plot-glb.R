@@ -50,7 +50,17 @@ write_glb <- function(x, file, colour = NULL, plain = "#E3CDB8", tube = NULL, si
   if (is.null(painted$rgb)) painted$rgb <- t(grDevices::col2rgb(rep(plain, nrow(painted$xyz))))
   painted$normals <- t(with_normals(surface)$normals[1:3, , drop = FALSE])
   if (is.null(tube)) tube <- mesh_diagonal(surface) / 400
-  tubes <- if (!is.null(shape) && tube > 0) curve_tubes(shape, tube, sides)
+  tubes <- if (!is.null(shape) && tube > 0) {
+    # The curves of a shape as tubes: `xyz`, `it`, `normals`, `rgb` of each
+    paths <- Filter(function(path) NROW(path) > 1, shape$paths)
+    kind <- shape$scheme$curves$kind[match(names(paths), shape$scheme$curves$curve)]
+    Map(function(path, kind) {
+      xyz <- as.matrix(as.data.frame(path)[c("x", "y", "z")])
+      one <- tube_around(xyz[c(TRUE, rowSums(diff(xyz)^2) > 0), , drop = FALSE], tube, sides)
+      one$rgb <- t(grDevices::col2rgb(rep(kind_colours[[kind]], nrow(one$xyz))))
+      one
+    }, paths, kind)
+  }
   title <- if (is.null(shape)) "surface" else shape$id
   write_content(glb_bytes(title, painted, tubes, ends$morphs, unit), file)
   invisible(file)
@@ -68,19 +78,6 @@ component_ends <- function(x, component, sd) {
     list(xyz = t(end$vb[1:3, ] - mean$vb[1:3, ]), normals = t((end$normals - mean$normals)[1:3, ]))
   })
   list(mean = mean, morphs = morphs)
-}
-
-#' The curves of a shape as tubes: `xyz`, `it`, `normals`, `rgb` of each
-#' @noRd
-curve_tubes <- function(shape, radius, sides) {
-  paths <- Filter(function(path) NROW(path) > 1, shape$paths)
-  kind <- shape$scheme$curves$kind[match(names(paths), shape$scheme$curves$curve)]
-  Map(function(path, kind) {
-    xyz <- as.matrix(as.data.frame(path)[c("x", "y", "z")])
-    one <- tube_around(xyz[c(TRUE, rowSums(diff(xyz)^2) > 0), , drop = FALSE], radius, sides)
-    one$rgb <- t(grDevices::col2rgb(rep(kind_colours[[kind]], nrow(one$xyz))))
-    one
-  }, paths, kind)
 }
 
 #' A tube about a polyline: rings of corners, each turned as little as can be from the one before

@@ -52,7 +52,16 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
     rgb <- shade_vertices(rep(colour, ncol(xyz)), rotation %*% mesh$normals[1:3, ], settings)
     cpp_render_mesh(xyz, rgb, mesh$it, frame$width, frame$height, settings$samples)
   }, meshes, colour)
-  raster <- blend_by_depth(seen[[1]], seen[[2]], opacity)
+  a <- seen[[1]]
+  b <- seen[[2]]
+  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
+  of_a[a$rgba[, , 4] == 0] <- 0
+  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
+  out <- a$rgba
+  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, ,
+                                                         channel] + (1 - of_a) * b$rgba[, , channel]
+  out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
+  raster <- out
   graphics::rasterImage(raster, frame$usr[1], frame$usr[4] - frame$height * frame$pixel,
                         frame$usr[1] + frame$width * frame$pixel,
                         frame$usr[4])
@@ -61,17 +70,6 @@ picture_overlay <- function(meshes, colour, opacity, rotation, settings) {
                  plt = graphics::par("plt"),
                  tolerance = settings$tolerance * mesh_diagonal(meshes[[1]])),
             class = "picture_scene")
-}
-
-blend_by_depth <- function(a, b, opacity) {
-  of_a <- ifelse(a$depth >= b$depth, opacity, 1 - opacity)
-  of_a[a$rgba[, , 4] == 0] <- 0
-  of_a[b$rgba[, , 4] == 0 & a$rgba[, , 4] > 0] <- 1
-  out <- a$rgba
-  for (channel in 1:3) out[, , channel] <- of_a * a$rgba[, ,
-                                                         channel] + (1 - of_a) * b$rgba[, , channel]
-  out[, , 4] <- pmax(a$rgba[, , 4], b$rgba[, , 4])
-  out
 }
 
 #' Both surfaces as layers of one scene

@@ -37,7 +37,19 @@ plot.repeatability <- function(x, view = "front", most = 40,
   plot_part_errors(x, most, palette, ...)
   at <- as.matrix(x$points[c("x", "y", "z")])
   rownames(at) <- x$points$point
-  plot_point_errors(x, posed_view(view, at), palette, size)
+  # The mean points from one side, coloured by error
+  rotation <- posed_view(view, at)
+  graphics::par(mar = c(3.2, 0.5, 1.5, 4))
+  flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(rotation)
+  graphics::plot.new()
+  graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
+  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2,
+                                                           drop = FALSE], col = "grey70")
+  front <- order(x$points$error)
+  graphics::points(flat[front, 1:2], pch = 16, cex = size,
+                   col = error_colours(x$points$error, x, palette)[front])
+  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2),
+             title = "unit of the meshes")
   invisible(x)
 }
 
@@ -67,22 +79,6 @@ plot_part_errors <- function(x, most, palette, ...) {
                    inset = c(0, -0.05),
                    pch = c(21, 15), pt.bg = palette[length(palette) / 2],
                    col = c("grey20", "grey88"), pt.cex = c(1, 1.6), bty = "n", cex = 0.8)
-}
-
-#' The mean points from one side, coloured by error
-#' @noRd
-plot_point_errors <- function(x, rotation, palette, size) {
-  graphics::par(mar = c(3.2, 0.5, 1.5, 4))
-  flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(rotation)
-  graphics::plot.new()
-  graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
-  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2,
-                                                           drop = FALSE], col = "grey70")
-  front <- order(x$points$error)
-  graphics::points(flat[front, 1:2], pch = 16, cex = size,
-                   col = error_colours(x$points$error, x, palette)[front])
-  colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2),
-             title = "unit of the meshes")
 }
 
 error_colours <- function(error, x, palette) {

@@ -42,10 +42,25 @@ growth_drawing <- function(chart, age, one, size = c(360, 250), margin = c(44, 2
             y(one$lower), y(one$upper))
   }
   point <- sprintf("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\"/>", x(age), y(one$value))
+  inside <- function(at, range) at[at >= range[1] & at <= range[2]]
+  ages <- inside(pretty(x_range, 6), x_range)
+  values <- inside(pretty(y_range, 5), y_range)
+  bottom <- size[2] - margin[2]
+  chart_axes <- paste(c(
+    sprintf(paste0("<path d=\"M%g %gH%g\" stroke=\"#ddd\"/>",
+                   "<text x=\"%g\" y=\"%g\" text-anchor=\"end\">%s"), margin[1],
+            y(values), size[1] - margin[3], margin[1] - 5, y(values) + 4,
+            paste0(format(values, trim = TRUE, big.mark = ","), "</text>")),
+    sprintf(paste0("<path d=\"M%g %gv4\" stroke=\"#444\"/>",
+                   "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">%s"), x(ages),
+            bottom, x(ages), bottom + 17, paste0(ages, "</text>")),
+    sprintf("<path d=\"M%g %gV%gH%g\" fill=\"none\" stroke=\"#444\"/>", margin[1], margin[4],
+            bottom, size[1] - margin[3])
+  ), collapse = "")
   htmltools::HTML(paste0(
     sprintf("<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"growth chart\">", size[1],
             size[2]),
-    chart_axes(x_range, y_range, x, y, size, margin), paste(unlist(curves), collapse = ""), bar,
+    chart_axes, paste(unlist(curves), collapse = ""), bar,
     point, "</svg>"
   ))
 }
@@ -62,22 +77,4 @@ chart_curve <- function(own, x, y) {
                  "<text x=\"%.1f\" y=\"%.1f\">%g</text>"),
           paste(sprintf("%.1f %.1f", x(own$age), y(own$value)), collapse = "L"), style,
           x(own$age[last]) + 4, y(own$value[last]) + 4, own$centile[1])
-}
-
-chart_axes <- function(x_range, y_range, x, y, size, margin) {
-  inside <- function(at, range) at[at >= range[1] & at <= range[2]]
-  ages <- inside(pretty(x_range, 6), x_range)
-  values <- inside(pretty(y_range, 5), y_range)
-  bottom <- size[2] - margin[2]
-  paste(c(
-    sprintf(paste0("<path d=\"M%g %gH%g\" stroke=\"#ddd\"/>",
-                   "<text x=\"%g\" y=\"%g\" text-anchor=\"end\">%s"), margin[1],
-            y(values), size[1] - margin[3], margin[1] - 5, y(values) + 4,
-            paste0(format(values, trim = TRUE, big.mark = ","), "</text>")),
-    sprintf(paste0("<path d=\"M%g %gv4\" stroke=\"#444\"/>",
-                   "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">%s"), x(ages),
-            bottom, x(ages), bottom + 17, paste0(ages, "</text>")),
-    sprintf("<path d=\"M%g %gV%gH%g\" fill=\"none\" stroke=\"#444\"/>", margin[1], margin[4],
-            bottom, size[1] - margin[3])
-  ), collapse = "")
 }

@@ -14,7 +14,25 @@ fit_again <- function(batch, changed, landmarks, reading, chunk, progress,
   tell_not_again(batch, names(again))
   for (run in unique(lapply(again, `[[`, "run"))) {
     of <- vapply(again, function(one) identical(one$run, run), NA)
-    jobs <- jobs_again(lapply(again[of], `[[`, "job"), landmarks, reading, call)
+    # Jobs that failed, with landmarks and arguments of reading that are given anew
+    jobs <- lapply(again[of], `[[`, "job")
+    files <- Filter(function(job) !is.null(job$mesh), jobs)
+    if (length(files) < length(jobs)) refuse_for_specimens(landmarks, reading, call)
+    jobs <- if (!length(files)) jobs else {
+      meshes <- vapply(files, `[[`, "", "mesh")
+      read <- file_jobs(meshes, landmarks, reading, call, ids = names(files))
+      jobs[names(files)] <- Map(function(old, new) {
+        if (is.null(landmarks) && !old$beside) {
+          new["landmarks"] <- old["landmarks"]
+          new["wanting"] <- old["wanting"]
+          new["refusal"] <- list(NULL)
+        }
+        new$beside <- is.null(landmarks) && old$beside
+        new$reading <- Map(utils::modifyList, old$reading, new$reading)
+        new
+      }, files, read)
+      jobs
+    }
     told <- lapply(plain_list(batch)[setdiff(names(batch), names(again))], told_of)
     part <- fit_jobs(jobs, run_again(run, changed), chunk, progress,
                      placed = sum(!vapply(told, `[[`, NA, "found")), call = call)
@@ -51,25 +69,4 @@ tell_not_again <- function(batch, again) {
   } else if (!length(again)) {
     crestline_inform("No specimen of the batch has failed: nothing is measured.")
   }
-}
-
-#' Jobs that failed, with landmarks and arguments of reading that are given anew
-#' @noRd
-jobs_again <- function(jobs, landmarks, reading, call) {
-  files <- Filter(function(job) !is.null(job$mesh), jobs)
-  if (length(files) < length(jobs)) refuse_for_specimens(landmarks, reading, call)
-  if (!length(files)) return(jobs)
-  meshes <- vapply(files, `[[`, "", "mesh")
-  read <- file_jobs(meshes, landmarks, reading, call, ids = names(files))
-  jobs[names(files)] <- Map(function(old, new) {
-    if (is.null(landmarks) && !old$beside) {
-      new["landmarks"] <- old["landmarks"]
-      new["wanting"] <- old["wanting"]
-      new["refusal"] <- list(NULL)
-    }
-    new$beside <- is.null(landmarks) && old$beside
-    new$reading <- Map(utils::modifyList, old$reading, new$reading)
-    new
-  }, files, read)
-  jobs
 }

@@ -79,7 +79,12 @@ slide_tasks <- function(elements, template, given, dir) {
 #' @noRd
 slide_task <- function(task, plan, template, settings, red, limits, specimens) {
   none <- list(red = NULL, cut = NA_real_)
-  kept <- slid_result(task)
+  kept <- if (is.null(task$file)) NULL else {
+    opened <- open_kept(task$file)
+    if (opened$state == "whole" && identical(opened$about$key, task$key)) {
+      kept_shape(task, opened$about)
+    }
+  }
   if (!is.null(kept)) return(c(list(shape = kept), none))
   shape <- task$shape
   if (inherits(shape, "kept_shape")) shape <- read_shape(shape)
@@ -98,15 +103,6 @@ slide_task <- function(task, plan, template, settings, red, limits, specimens) {
     if (!is.null(task$file)) slid <- keep_slid(slid, task)
     list(shape = slid, red = parts[c("specimen", "part", "level")], cut = cut)
   }, crestline_error = function(e) c(list(shape = failure_of(e)), none))
-}
-
-#' @noRd
-slid_result <- function(task) {
-  if (is.null(task$file)) return(NULL)
-  opened <- open_kept(task$file)
-  if (opened$state == "whole" && identical(opened$about$key, task$key)) {
-    kept_shape(task, opened$about)
-  }
 }
 
 keep_slid <- function(shape, task) {

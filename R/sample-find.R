@@ -17,14 +17,24 @@ with_finder <- function(jobs, dir, template, doubtful, scheme, found, placed = 0
                     stage = "arguments",
                     call = call)
   }
-  bare <- vapply(jobs, is_bare, NA)
+  bare <- vapply(jobs, function(job) {
+    # Whether a job has no landmarks, and none that only could not be read
+    if (!is.null(job$specimen)) return(!nrow(job$specimen$landmarks))
+    if (!is.null(job$refusal)) return(FALSE)
+    if (is.character(job$landmarks)) !nzchar(job$landmarks) else !NROW(job$landmarks)
+  }, NA)
   if (!any(bare)) return(jobs)
   placed <- placed + sum(!bare)
   if (isFALSE(found) || is.null(found) && placed > 0) {
     jobs[bare] <- lapply(jobs[bare], refused_bare, placed, isFALSE(found))
     return(jobs)
   }
-  template <- batch_template(template, scheme)
+  template <- if (!is.null(template)) check_template(template) else {
+    face <- face_template()
+    if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) {
+      face
+    }
+  }
   if (is.null(template)) return(jobs)
   key <- content_hash(list(
     template$specimen$mesh[c("vb", "it")], template[c("landmarks", "predicted", "unit")], doubtful
@@ -36,14 +46,6 @@ with_finder <- function(jobs, dir, template, doubtful, scheme, found, placed = 0
     c(job, list(finder = list(shared = shared, doubtful = doubtful, picture = picture, key = key)))
   }, jobs[bare], pictures[bare])
   jobs
-}
-
-#' Whether a job has no landmarks, and none that only could not be read
-#' @noRd
-is_bare <- function(job) {
-  if (!is.null(job$specimen)) return(!nrow(job$specimen$landmarks))
-  if (!is.null(job$refusal)) return(FALSE)
-  if (is.character(job$landmarks)) !nzchar(job$landmarks) else !NROW(job$landmarks)
 }
 
 #' A job that is refused for want of landmarks
@@ -62,14 +64,6 @@ refused_bare <- function(job, others, never) {
   remedy <- paste0(beside, ", or have them found: found = TRUE.")
   job$refusal <- tryCatch(refuse_landmarks(problem, remedy, job$id), crestline_error = identity)
   job
-}
-
-batch_template <- function(template, scheme) {
-  if (!is.null(template)) return(check_template(template))
-  face <- face_template()
-  if (all(scheme$landmarks$landmark %in% c(rownames(face$landmarks), rownames(face$predicted)))) {
-    face
-  }
 }
 
 #' A specimen with found landmarks

@@ -50,7 +50,13 @@ frechet_mean <- function(mesh, points, weights = NULL, rings = 3) {
                     stage = "mean")
   }
   best <- which.min(total)
-  near <- vertices_within(mesh, best, rings)
+  # Vertices that so many edges lead to from one, itself among them
+  vertex <- best
+  for (ring in seq_len(rings)) {
+    touched <- colSums(matrix(mesh$it %in% vertex, 3)) > 0
+    vertex <- unique(c(vertex, mesh$it[, touched]))
+  }
+  near <- vertex
   at <- least_of_quadratic(t(mesh$vb[1:3, near]), total[near], match(best, near))
   cbind(surface_points(mesh, at), variance = total[best])
 }
@@ -76,16 +82,6 @@ check_weights <- function(weights, k, call = rlang::caller_env()) {
                     stage = "arguments", call = call)
   }
   weights / sum(weights)
-}
-
-#' Vertices that so many edges lead to from one, itself among them
-#' @noRd
-vertices_within <- function(mesh, vertex, rings) {
-  for (ring in seq_len(rings)) {
-    touched <- colSums(matrix(mesh$it %in% vertex, 3)) > 0
-    vertex <- unique(c(vertex, mesh$it[, touched]))
-  }
-  vertex
 }
 
 #' Where the quadratic of least squares through values at points of a surface is least

@@ -132,16 +132,14 @@ kept_in_index <- function(index) {
     kept <- list()
     attributes(kept) <- list(
       file = index$path[i], key = text_or_na(index$key[i]), id = index$id[i],
-      warnings = if (nzchar(index$more[i])) warnings_in_index(index$more[i]),
+      warnings = if (nzchar(index$more[i])) {
+        known <- jsonlite::fromJSON(index$more[i])$warnings
+        if (NROW(known)) as.data.frame(known)
+      },
       seen = c(index$size[i], index$time[i]), found = found[i], lacking = c(lacking[i], of[i]),
       unit = unit[i], surface = surface[i], marks = marks[i], red = red[i],
       class = c("kept_shape", "shape")
     )
     kept
   })
-}
-
-warnings_in_index <- function(text) {
-  known <- jsonlite::fromJSON(text)$warnings
-  if (NROW(known)) as.data.frame(known)
 }

@@ -53,7 +53,22 @@ file_jobs <- function(files, landmarks, reading, call, ids = NULL) {
                     "Give paths of meshes.",
                     stage = "arguments", call = call)
   }
-  reading <- check_reading(reading, call)
+  # Arguments of reading, each for the function that takes it
+  takes <- reading_arguments()
+  named <- names(reading)
+  wrong <- !is.list(reading) || length(reading) && (is.null(named) || any(!nzchar(named)))
+  strange <- if (!wrong) setdiff(names(reading), unlist(takes))
+  if (wrong || length(strange)) {
+    crestline_abort(if (wrong) {
+                      sprintf("`reading` is %s, not a list with names.", describe_value(reading))
+                    } else {
+                      sprintf("`reading` has arguments that reading does not take: %s.",
+                              shorten(strange))
+                    },
+                    sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments",
+                    call = call)
+  }
+  reading <- lapply(takes, function(names) reading[names(reading) %in% names])
   files <- mesh_files(files, call)
   if (is.null(ids)) {
     refuse_twice(files, landmarks, call)
@@ -164,26 +179,6 @@ given_landmarks <- function(landmarks, ids, options) {
   problem <- rep(NA_character_, length(ids))
   problem[!none] <- attr(some, "problem")
   structure(own, problem = problem)
-}
-
-#' Arguments of reading, each for the function that takes it
-#' @noRd
-check_reading <- function(reading, call) {
-  takes <- reading_arguments()
-  named <- names(reading)
-  wrong <- !is.list(reading) || length(reading) && (is.null(named) || any(!nzchar(named)))
-  strange <- if (!wrong) setdiff(names(reading), unlist(takes))
-  if (wrong || length(strange)) {
-    crestline_abort(if (wrong) {
-                      sprintf("`reading` is %s, not a list with names.", describe_value(reading))
-                    } else {
-                      sprintf("`reading` has arguments that reading does not take: %s.",
-                              shorten(strange))
-                    },
-                    sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments",
-                    call = call)
-  }
-  lapply(takes, function(names) reading[names(reading) %in% names])
 }
 
 #' Which arguments reading takes, of landmark files and of the specimen

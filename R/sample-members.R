@@ -10,23 +10,21 @@
 #' @noRd
 chosen_members <- function(i, ids, what, call = rlang::caller_env()) {
   if (is.factor(i)) i <- as.character(i)
-  at <- if (is.character(i)) named_members(i, ids, what, call) else
+  at <- if (is.character(i)) {
+    absent <- setdiff(i, ids)
+    if (length(absent)) {
+      refuse_member(sprintf("%s has no specimen %s.", what,
+                            shorten(ifelse(is.na(absent), "NA", absent))),
+                    members_there(ids, absent[1]), call)
+    }
+    match(i, ids)
+  } else
     if (is.logical(i)) logical_members(i, ids, what, call) else numbered_members(i, ids, what, call)
   if (anyDuplicated(at)) {
     refuse_member(sprintf("%s is asked for twice.", ids[at[anyDuplicated(at)]]),
                   "Name each specimen once.", call)
   }
   at
-}
-
-named_members <- function(i, ids, what, call) {
-  absent <- setdiff(i, ids)
-  if (length(absent)) {
-    refuse_member(sprintf("%s has no specimen %s.", what,
-                          shorten(ifelse(is.na(absent), "NA", absent))),
-                  members_there(ids, absent[1]), call)
-  }
-  match(i, ids)
 }
 
 logical_members <- function(i, ids, what, call) {

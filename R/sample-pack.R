@@ -1,11 +1,6 @@
 # Numbers of a shape in few bytes: places on a scan as a face and what its weights do not give by
 # themselves, each value checked as it is read back before it is written.
 
-#' Bytes of fixed size by their significance, so that what is alike lies together
-#' @param bytes Raw, `size` bytes a value.
-#' @noRd
-as_planes <- function(bytes, size) as.vector(t(matrix(bytes, size)))
-
 from_planes <- function(bytes, size) as.vector(t(matrix(bytes, ncol = size)))
 
 #' Doubles as they are
@@ -13,7 +8,7 @@ from_planes <- function(bytes, size) as.vector(t(matrix(bytes, ncol = size)))
 pack_exact <- function(x) {
   none <- is.na(x)
   list(n = length(x), none = if (any(none)) pack_flags(none),
-       bytes = as_planes(writeBin(x[!none], raw(), endian = "little"), 8))
+       bytes = as.vector(t(matrix(writeBin(x[!none], raw(), endian = "little"), 8))))
 }
 
 unpack_exact <- function(packed) {
@@ -146,21 +141,19 @@ pack_paths <- function(paths) {
   list(n = length(paths), names = names(paths), there = which(there),
        pool = pack_places(at[!duplicated(known), , drop = FALSE], exact = FALSE),
        rows = lapply(unname(rows), function(i) diff(c(0L, i))),
-       about = lapply(paths[there], path_about))
+       about = lapply(paths[there], function(path) {
+         # What a path is besides its places; the lengths along it only where they are not from
+         # point
+         # to point
+         own <- attributes(path)
+         xyz <- columns_of(path, c("x", "y", "z"))
+         even <- c(0, cumsum(row_lengths(diff(xyz))))
+         list(attributes = own[setdiff(names(own), "row.names")],
+              s = if (max(abs(path$s - even)) > 1e-12 * max(even)) path$s)
+       }))
 }
 
 lengths_of <- function(paths) vapply(paths, NROW, 0L)
-
-#' What a path is besides its places; the lengths along it only where they are not from point to
-#' point
-#' @noRd
-path_about <- function(path) {
-  own <- attributes(path)
-  xyz <- columns_of(path, c("x", "y", "z"))
-  even <- c(0, cumsum(row_lengths(diff(xyz))))
-  list(attributes = own[setdiff(names(own), "row.names")],
-       s = if (max(abs(path$s - even)) > 1e-12 * max(even)) path$s)
-}
 
 unpack_paths <- function(packed) {
   paths <- stats::setNames(vector("list", packed$n), packed$names)

@@ -272,20 +272,8 @@ c.shape_batch <- function(...) {
   shapes <- do.call(c, lapply(given, plain_list))
   failed <- do.call(c, lapply(given, attr, "failed"))
   failed <- failed[!duplicated(names(failed), fromLast = TRUE)]
-  keep <- with_results(shapes)
-  joined <- validate_shape_batch(new_shape_batch(
-    shapes[keep], failed[!names(failed) %in% names(which(!vapply(shapes[keep], is.null, NA)))],
-    if (length(schemes)) schemes[[1]], unlist(lapply(given, attr, "read"))
-  ))
-  warn_units(joined)
-  tell_twins(joined, "batch")
-  joined
-}
-
-#' Which elements of joined batches stay: where an id failed in one and was measured in another, the
-#' result, with a message
-#' @noRd
-with_results <- function(shapes) {
+  # Which elements of joined batches stay: where an id failed in one and was measured in another,
+  # the result, with a message
   ids <- names(shapes)
   there <- !vapply(shapes, is.null, NA)
   mended <- unique(ids[!there & ids %in% ids[there]])
@@ -296,7 +284,14 @@ with_results <- function(shapes) {
   again <- !there & !duplicated(ids, fromLast = TRUE) | there
   stay <- again & (there | !ids %in% mended)
   # In the order in which the ids come first
-  order(match(ids, ids))[stay[order(match(ids, ids))]]
+  keep <- order(match(ids, ids))[stay[order(match(ids, ids))]]
+  joined <- validate_shape_batch(new_shape_batch(
+    shapes[keep], failed[!names(failed) %in% names(which(!vapply(shapes[keep], is.null, NA)))],
+    if (length(schemes)) schemes[[1]], unlist(lapply(given, attr, "read"))
+  ))
+  warn_units(joined)
+  tell_twins(joined, "batch")
+  joined
 }
 
 #' Tell of specimens of a batch that were measured in different units

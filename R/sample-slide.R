@@ -38,7 +38,24 @@ slide_together <- function(shapes, states, template, settings, specimens, own_me
   }
   cuts <- each_in_workers(tasks, cut_task, list(plan = plan), tick)
   if (own_mean) {
-    template <- with_mean_surface(template, lapply(cuts, `[[`, "store"))
+    # The template with the mean of the specimens' surface points, each laid onto it by landmarks
+    # and curves
+    stores <- lapply(cuts, `[[`, "store")
+    xyz <- places_of(template)
+    core <- !is.na(xyz[, 1])
+    laid <- lapply(stores, function(store) {
+      own <- store[, c("x", "y", "z")]
+      fit <- superimposition(own[core, ], xyz[core, ], scale = TRUE)
+      fit(own)
+    })
+    mean <- mean_of(laid)
+    mean[core, ] <- xyz[core, ]
+    if (has_pairs(template$scheme)) {
+      mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
+    }
+    mean[core, ] <- xyz[core, ]
+    template <- template_shape(template, mean, "mean",
+                               template$points$se[!duplicated(template$scheme$points$place)])
     plan <- slide_plan(template, settings)
   }
   tasks <- with_part(tasks, "cut", cuts)
@@ -237,10 +254,13 @@ mean_curves <- function(states, template, settings, tolerance, rounds, stalled =
     moved <- sqrt(rowSums((after - before)^2))
     moved <- moved[!is.na(moved)]
     if (max(moved) >= stalled * last) after <- (before + after) / 2
+    of_curve <- function(curve, s) (s - curve$s)[curve$rows[, "point"]]
+    off <- Map(function(state, x) Map(of_curve, state$curves, x$s), states, slid)
+    distance_slid <- sqrt(mean(unlist(off)^2))
     table[[round]] <- data.frame(
       round = round, movement = sqrt(mean(moved^2)), largest = max(moved),
       energy = mean(vapply(slid, function(x) sum(x$sliding$energy_after), 0)),
-      slide = distance_slid(states, slid)
+      slide = distance_slid
     )
     template <- template_shape(template, after, "mean", mean_error(states))
     if (max(moved) <= tolerance * plan$radius) break
@@ -261,12 +281,6 @@ warn_moving <- function(rounds, moved) {
   crestline_warn(sprintf("after %d rounds the mean still moves, by %.2g at most.", rounds, moved),
                  "Give more `rounds`, or a larger `tolerance`.", stage = "homologise",
                  class = "crestline_not_converged")
-}
-
-distance_slid <- function(states, slid) {
-  of_curve <- function(curve, s) (s - curve$s)[curve$rows[, "point"]]
-  off <- Map(function(state, x) Map(of_curve, state$curves, x$s), states, slid)
-  sqrt(mean(unlist(off)^2))
 }
 
 #' Positions of landmarks and curve points, every curve re-parametrised by the sample's mean share
@@ -330,24 +344,3 @@ mean_template <- function(before, x, scheme) {
 }
 
 only_rows <- function(x, rows) replace(x, !rows, NA)
-
-#' The template with the mean of the specimens' surface points, each laid onto it by landmarks and
-#' curves
-#' @noRd
-with_mean_surface <- function(template, stores) {
-  xyz <- places_of(template)
-  core <- !is.na(xyz[, 1])
-  laid <- lapply(stores, function(store) {
-    own <- store[, c("x", "y", "z")]
-    fit <- superimposition(own[core, ], xyz[core, ], scale = TRUE)
-    fit(own)
-  })
-  mean <- mean_of(laid)
-  mean[core, ] <- xyz[core, ]
-  if (has_pairs(template$scheme)) {
-    mean <- symmetric_mean(mean, mirror_places(template$scheme), "mean", by = core)
-  }
-  mean[core, ] <- xyz[core, ]
-  template_shape(template, mean, "mean",
-                 template$points$se[!duplicated(template$scheme$points$place)])
-}

@@ -11,8 +11,20 @@
 #' @param provenance List: what came from where.
 #' @noRd
 new_shape_sample <- function(shapes, template, convergence = NULL, provenance = list()) {
+  # Points that are missing, by specimen and part
+  each <- lapply(unname(shapes), function(shape) {
+    absent <- shape$points[is.na(shape$points$x), ]
+    parts <- unique(absent[c("level", "part")])
+    count <- mapply(function(level, part) sum(absent$level == level & absent$part == part),
+                    parts$level, parts$part)
+    data.frame(id = rep(shape$id, nrow(parts)), parts, points = as.integer(count))
+  })
+  none <- data.frame(id = character(), level = character(), part = character(), points = integer())
+  each <- do.call(rbind, c(list(none), each))
+  rownames(each) <- NULL
+  missing_parts <- each
   structure(shapes, template = template, convergence = convergence,
-            missing = missing_parts(shapes), provenance = provenance, class = "shape_sample")
+            missing = missing_parts, provenance = provenance, class = "shape_sample")
 }
 
 sample_fields <- c("shapes", "template", "convergence", "missing", "provenance")
@@ -73,22 +85,6 @@ validate_shape_sample <- function(x, call = rlang::caller_env()) {
 
 #' @exportS3Method
 validate.shape_sample <- function(x) validate_shape_sample(x, call = NULL)
-
-#' Points that are missing, by specimen and part
-#' @noRd
-missing_parts <- function(shapes) {
-  each <- lapply(unname(shapes), function(shape) {
-    absent <- shape$points[is.na(shape$points$x), ]
-    parts <- unique(absent[c("level", "part")])
-    count <- mapply(function(level, part) sum(absent$level == level & absent$part == part),
-                    parts$level, parts$part)
-    data.frame(id = rep(shape$id, nrow(parts)), parts, points = as.integer(count))
-  })
-  none <- data.frame(id = character(), level = character(), part = character(), points = integer())
-  each <- do.call(rbind, c(list(none), each))
-  rownames(each) <- NULL
-  each
-}
 
 #' The specimens of a sample
 #'
