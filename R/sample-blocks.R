@@ -55,8 +55,7 @@ write_blocks <- function(sample, dir, block = 500, triangles = NULL) {
   } else {
     sample <- named_array(check_array(sample, rlang::current_env()))
     triangles <- check_triangles(triangles, dim(sample)[1], rlang::current_env())
-    name <- dimnames(sample)[[1]]
-    data.frame(level = rep("points", length(name)), point = name, place = name)
+    points_of_array(sample)
   }
   need_parquet()
   dir <- empty_sample_folder(dir)
@@ -126,6 +125,11 @@ points_of_sample <- function(template) {
              place = at$place)
 }
 
+points_of_array <- function(x) {
+  name <- dimnames(x)[[1]]
+  data.frame(level = rep("points", length(name)), point = name, place = name)
+}
+
 #' Points of some specimens, k x d x m, of all levels
 #' @noRd
 specimen_points <- function(sample, which) {
@@ -187,6 +191,10 @@ write_sample_head <- function(head, dir) {
 
 n_blocks <- function(x) max(x$block, 0L)
 
+#' Numbers of the specimens of a block
+#' @noRd
+block_rows <- function(x, i) which(x$block == i)
+
 #' Points of the specimens of a block
 #'
 #' @param rows Which of the points; all of them by default.
@@ -198,7 +206,7 @@ read_block <- function(x, i, rows = seq_len(nrow(x$points)), call = rlang::calle
   name <- as.vector(table_columns(points, x$axes))
   table <- tryCatch(nanoparquet::read_parquet(file, col_select = c("id", name)),
                     error = function(e) NULL)
-  ids <- x$ids[which(x$block == i)]
+  ids <- x$ids[block_rows(x, i)]
   if (is.null(table) || !identical(as.character(table$id), ids)) {
     refuse_blocks(sprintf("%s is damaged, or not of this sample.", file),
                   "Write the sample again.", call)
