@@ -83,6 +83,8 @@
 #' * `sexual-dimorphism`: two groups compared by landmarks, curves and surface;
 #' * `designs`: which test for which design;
 #' * `covariates`: size, age and other covariates;
+#' * `norms`: from a sample to a reference by age and sex that can be shared;
+#' * `visits`: one patient, two visits;
 #' * `interop`: to geomorph, Morpho and RRPP, and back;
 #' * `method`: every equation beside the function that does it;
 #' * `paper`: the paper, line by line, and what differs here;

@@ -126,7 +126,7 @@ scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$poi
 #' @return List: `found` (data frame `at`, `radius`, `z`), `out` (k), `u` (3k, healed), `variance`
 #'   (3k), `scan` (the first), `finished` (whether the rest has no more).
 #' @noRd
-heal_face <- function(field, found, age, sex, missing, alpha, reach = 1.2, most = 5) {
+heal_face <- function(field, found, age, sex, missing, alpha, reach = 1.5, most = 5) {
   out <- missing
   spread <- rep(1, length(out))
   healed <- list(u = found$u, variance = 0 * found$u)

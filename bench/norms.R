@@ -8,6 +8,12 @@
 #   Rscript bench/norms.R pool N                  the figures of all kept looks at norms of N faces,
 #                                                 mean over norms by number of faces, and range
 #
+#   Rscript bench/norms.R visits FACES SEED       two visits of FACES people: 0.15 mm independent
+#                                                 and 0.15 mm of range 8 mm at each visit
+#   Rscript bench/norms.R lone 200 SEED           a norm of 200 with one man beyond all others,
+#                                                 to be refused
+#   Rscript bench/norms.R simpop 45 1             a norm of Morpho's 45 faces, if they are there
+#
 # Each row printed is `what value count`. Faces have the fields, errors and ages of
 # simulate_cohort(); new faces go through the same functions as assess() uses, many at once.
 
@@ -267,6 +273,105 @@ timed <- function(norms, settings, faces) {
   suppressWarnings(assess(patient$sample[[1]], norms, 20, "male"))
   time <- system.time(assess(patient$sample[[1]], norms, 20, "male"))
   say("assess, seconds elapsed, user", time[c(3, 1)])
+}
+
+# Errors of two visits are those of `visit_settings(range = 8, share = 0.5)`.
+visits <- function(faces) {
+  people <- data.frame(age = rep(25, faces), sex = "female")
+  for (case in list(c(0, 15), c(3, 30), c(6, 45))) {
+    lesion <- data.frame(height = case[1], radius = case[2], visit = 2)
+    made <- lapply(list(c(0.15, 0), c(0.15, 8)), function(noise) {
+      simulate_cohort(faces, data = people, lesions = lesion, visits = 2, seed = 100 + seed,
+                      settings = cohort_settings(noise = noise[1], noise_range = noise[2],
+                                                 turn = 0, shift = 0))
+    })
+    clean <- simulate_cohort(faces, data = people, lesions = lesion, visits = 2,
+                             seed = 100 + seed,
+                             settings = cohort_settings(noise = 0, turn = 0, shift = 0))
+    each <- lapply(seq_len(faces), function(i) visit_row(made, clean, i))
+    each <- do.call(rbind, each)
+    label <- sprintf("visits, %g mm on %g cm:", case[1], case[2] / 5)
+    say(paste(label, "unchanged points called, family-wise"), mean(each[, "any"]), faces)
+    say(paste(label, "unchanged points beyond 1.96"), mean(each[, "points"]), faces)
+    say(paste(label, "sd of a point's change over its standard error"),
+        sqrt(mean(each[, "square"])), faces)
+    say(paste(label, "the same of patches"), sqrt(mean(each[, "patch"])), faces)
+    if (case[1] > 0) {
+      say(paste(label, "change at the centre, over the true one"), mean(each[, "centre"]), faces)
+      say(paste(label, "centre called"), mean(each[, "found"]), faces)
+    }
+  }
+}
+
+# Both errors are added to one face, whose second visit is turned and moved.
+visit_row <- function(made, clean, i) {
+  noisy <- function(visit) {
+    shape <- clean[[visit]][[i]]
+    xyz <- c("x", "y", "z")
+    for (one in made) {
+      shape$points[xyz] <- shape$points[xyz] + one[[visit]][[i]]$points[xyz] -
+        clean[[visit]][[i]]$points[xyz]
+    }
+    shape$points$se <- 0.15 * sqrt(2)
+    shape
+  }
+  after <- noisy("second")
+  turned <- as.matrix(after$points[c("x", "y", "z")]) %*% own("rotation_about")(c(0.1, -0.2, 0.1))
+  after$points[c("x", "y", "z")] <- as.data.frame(turned + 5)
+  found <- compare_visits(noisy("sample"), after, table = face_measurements()[1, ],
+                          settings = visit_settings(range = 8, share = 0.5))
+  surface <- found$points[found$points$level == "surface", ]
+  at <- match(made[[1]]$lesions$point[i], paste(surface$part, surface$point))
+  xyz <- as.matrix(surface[c("x", "y", "z")])
+  lesion <- made[[1]]$lesions[i, ]
+  far <- if (is.na(at)) rep(TRUE, nrow(xyz)) else
+    own("row_lengths")(sweep(xyz, 2, xyz[at, ])) > lesion$radius
+  whole <- vapply(split(far, surface$part), all, NA)
+  patch <- found$parts[found$parts$level == "surface" & found$parts$part %in% names(which(whole)), ]
+  c(any = any(surface$called[far]), points = mean(abs(surface$score[far]) > 1.96),
+    square = mean(surface$score[far]^2), patch = mean((patch$change / patch$se)^2),
+    centre = if (is.na(at)) NA else surface$change[at] / lesion$height,
+    found = if (is.na(at)) NA else surface$called[at])
+}
+
+if (mode == "visits") visits(n)
+
+if (mode == "lone") {
+  cohort <- simulate_cohort(n, ages = c(3, 25), seed = seed)
+  old <- simulate_cohort(1, data = data.frame(age = 39, sex = "male"), seed = 100 + seed)
+  shapes <- c(cohort$sample$shapes, stats::setNames(old$sample$shapes, "lone"))
+  shapes$lone$id <- "lone"
+  sample <- own("new_shape_sample")(shapes, cohort$sample$template,
+                                    provenance = cohort$sample$provenance)
+  data <- rbind(cohort$data, data.frame(id = "lone", age = 39, sex = "male", size = NA))
+  settings <- norm_settings(components = n %/% 50, folds = 2)
+  cat(tryCatch({
+    fit_norms(sample, ~ s(age, by = sex), data, share = TRUE, settings = settings,
+              progress = FALSE)
+    "NOT refused"
+  }, crestline_privacy = conditionMessage), "\n")
+}
+
+# Ages are invented: this shows that the machinery runs on measured, slid shapes, no more. Faces of
+# this set lie in about ten dimensions, so that they prove nothing of norms.
+if (mode == "simpop") {
+  shared <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
+  landmarks <- read.csv(file.path(shared, "landmarks.csv"))
+  files <- sort(list.files(shared, "[.]ply$", full.names = TRUE))
+  scans <- lapply(files, function(file) {
+    id <- sub("[.]ply$", "", basename(file))
+    marks <- landmarks[landmarks$id %in% c(id, sub("simpop_", "", id)), ]
+    xyz <- as.matrix(marks[c("x", "y", "z")])
+    rownames(xyz) <- marks$landmark
+    specimen(Morpho::file2mesh(file), xyz, id = id)
+  })
+  shapes <- fit_shapes(scans, face_scheme(), progress = FALSE)
+  sample <- homologise(shapes, progress = FALSE)
+  data <- data.frame(id = names(sample), age = 20 + (seq_along(names(sample)) * 7) %% 23)
+  settings <- norm_settings(components = 3, folds = 3, least = 2)
+  norms <- fit_norms(sample, ~ s(age), data, settings = settings, progress = FALSE)
+  print(norms)
+  print(assess(sample[[1]], norms, age = data$age[1]))
 }
 
 if (mode == "look") {
