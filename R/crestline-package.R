@@ -65,6 +65,7 @@
 #' * *Pictures for print*: [write_picture()].
 #' * *Pages for the browser*: [write_page()], [write_pca_page()], [quality_report()].
 #' * *From a shell, Python or Slicer*: [run_command()].
+#' * *Without code*: [crestline_app()], the whole job on a page.
 #' * *A picture step by step*: [draw_surface()], [draw_lines()], [draw_points()], [draw_band()],
 #'   [visible_points()], [picture_settings()], [widget_settings()], [drawing_engine()].
 #' * *Known truth*: [simulate_ridge()], [ridge_study()] with [study_settings()], [simulate_faces()]

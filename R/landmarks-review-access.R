@@ -4,11 +4,14 @@
 #'
 #' @param ui,server As in [shiny::shinyApp()].
 #' @param launch.browser,... As in [shiny::runApp()].
+#' @param token Text; one that is given is of a page that comes after another at its address.
 #' @return What the server ends with.
 #' @noRd
 run_review <- function(ui, server,
-                       launch.browser = getOption("shiny.launch.browser", interactive()), ...) {
-  token <- random_token()
+                       launch.browser = getOption("shiny.launch.browser", interactive()), ...,
+                       token = NULL) {
+  more <- if (is.null(token)) "" else "&app=1"
+  if (is.null(token)) token <- random_token()
   # The server for who knows the token, from the page's own site; anybody else's session is closed
   app <- shiny::shinyApp(guarded_page(ui, token), function(input, output, session) {
     address <- shiny::isolate(session$clientData$url_search)
@@ -18,7 +21,7 @@ run_review <- function(ui, server,
   })
   shiny::runApp(app,
                 launch.browser = function(url) open_page(
-                  paste0(sub("/$", "", url), "/?token=", token), launch.browser
+                  paste0(sub("/$", "", url), "/?token=", token, more), launch.browser
                 ),
                 ...)
 }

@@ -25,7 +25,8 @@ build_page <- function(title, defaults) {
                "Drag beside: turn. Wheel: nearer or farther. Right button and drag: shift.")
       )
     ),
-    shiny::includeScript(review_file("review.js")), shiny::includeScript(build_file("build.js"))
+    shiny::includeScript(review_file("review.js")), shiny::includeScript(review_file("ended.js")),
+    shiny::includeScript(build_file("build.js"))
   )
 }
 

@@ -43,17 +43,19 @@ turn_to <- function(desk, by) {
   if (at < 1 || at > length(desk$ids)) {
     return(on_current(desk, function(review) with_said(review, "There is no other specimen.")))
   }
-  id <- desk$ids[at]
-  if (is.null(desk$reviews[[id]])) {
-    review <- as_value(desk$open(id))
-    if (failed(review)) {
-      said <- sprintf("%s cannot be shown: %s", id, review$problem)
-      return(on_current(desk, function(now) with_said(now, said)))
-    }
-    desk$reviews[[id]] <- review
+  lost <- character()
+  for (id in desk$ids[if (by > 0) at:length(desk$ids) else at:1]) {
+    review <- desk$reviews[[id]]
+    if (is.null(review)) review <- as_value(desk$open(id))
+    if (!failed(review)) break
+    lost <- c(lost, sprintf("%s cannot be shown: %s", id, review$problem))
   }
-  desk$at <- id
-  desk
+  if (!failed(review)) {
+    desk$reviews[[id]] <- review
+    desk$at <- id
+  }
+  if (!length(lost)) return(desk)
+  on_current(desk, function(now) with_said(now, paste(lost, collapse = " ")))
 }
 
 #' The specimen of a review, with the curves that were drawn on it

@@ -29,7 +29,7 @@ review_page <- function(title, several = FALSE, cancel = TRUE) {
                "erase. S: snap. U, R: undo, redo.", if (several) "P, N: previous, next specimen.")
       )
     ),
-    shiny::includeScript(review_file("review.js"))
+    shiny::includeScript(review_file("review.js")), shiny::includeScript(review_file("ended.js"))
   )
 }
 
@@ -255,7 +255,9 @@ chosen_html <- function(review) {
     tags$p(class = "warning",
            "Left and right look mirrored: names that end in L belong to the subject's own left.")
   }
-  said <- tags$p(id = "told", review$said)
+  line <- review$drawn[[c(review$pen, "")[1]]]
+  known <- !is.null(line) && identical(review$said, line_words(review$pen, line))
+  said <- tags$p(id = "told", if (!known) review$said)
   if (length(review$pen)) return(tags$div(chosen_curve(review), said))
   name <- review$selected
   if (!length(name)) {

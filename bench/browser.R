@@ -40,12 +40,15 @@ open_page <- function(served, size = c(1280, 860),
   page
 }
 
-look <- function(page, code) page$Runtime$evaluate(code, returnByValue = TRUE)$result$value
+look <- function(page, code) {
+  # Long: a machine with other work is slow to answer
+  page$Runtime$evaluate(code, returnByValue = TRUE, timeout_ = 120)$result$value
+}
 
 # ---- Real mouse events, as the browser gets them from a hand.
 mouse <- function(page, type, at, button = "none", buttons = 0) {
   page$Input$dispatchMouseEvent(type = type, x = at[1], y = at[2], button = button,
-                                buttons = buttons, clickCount = 1)
+                                buttons = buttons, clickCount = 1, timeout_ = 120)
 }
 
 click <- function(page, at) {

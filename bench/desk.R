@@ -55,7 +55,7 @@ seen <- function(page, number) {
 }
 key <- function(page, name, code = name) {
   for (type in c("keyDown", "keyUp")) {
-    page$Input$dispatchKeyEvent(type = type, key = name, code = code)
+    page$Input$dispatchKeyEvent(type = type, key = name, code = code, timeout_ = 120)
   }
 }
 

@@ -167,11 +167,4 @@
     Shiny.addCustomMessageHandler("balls", function (sent) { balls = sent; });
     watch(document.getElementById("view"));
   });
-
-  $(document).on("shiny:disconnected", function () {
-    var note = document.createElement("div");
-    note.id = "ended";
-    note.textContent = "This page has ended: it can be closed.";
-    document.body.appendChild(note);
-  });
 })();

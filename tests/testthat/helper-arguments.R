@@ -218,6 +218,9 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
                             colour = "black", opacity = 0.4),
                       scene = "object", left = "object", right = "object", colour = "colour",
                       opacity = "number"),
+    # No page is opened: the argument that is checked last is wrong.
+    crestline_app = entry(given(dir = "x", port = 8000, no_such_argument = 1),
+                          dir = "text", port = "count?"),
     # No page is opened: the argument that is checked last is wrong already.
     digitise = entry(given(specimens = list(one), scheme = made$scheme, dir = NULL,
                            observer = "AB", blank = TRUE, settings = ridge_settings(),

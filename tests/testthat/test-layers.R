@@ -4,7 +4,7 @@
 floors <- c("conditions", "text", "files", "geometry", "checks", "session", "settings",
             "mesh", "landmarks", "specimen", "curvature", "path", "draw", "ridge", "scheme",
             "shape", "placing", "template", "sample", "analysis", "study", "norms", "plot",
-            "report", "command", "crestline")
+            "report", "command", "app", "crestline")
 
 # Circles of files that stay, each with its reason.
 circles <- list(
