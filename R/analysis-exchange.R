@@ -4,11 +4,11 @@
 #'
 #' `write_morphologika()` writes the text format of Morphologika, which MorphoJ, geomorph and PAST
 #' read too: names, one label, raw points, and lines between the neighbours of each curve. MorphoJ
-#' reads a table of co-ordinates, which `write_morphoj()` writes with a row for each specimen. Groups
-#' go into a second table beside it, which MorphoJ imports as classifier variables.
+#' reads a table of co-ordinates, which `write_morphoj()` writes with a row for each specimen.
+#' Groups go into a second table beside it, which MorphoJ imports as classifier variables.
 #'
-#' @param x A `shape_sample`, as [homologise()] returns it, an `aligned`, as [align()] returns it, or
-#'   a k x 3 x n (or k x 2 x n) array, in any unit.
+#' @param x A `shape_sample`, as [homologise()] returns it, an `aligned`, as [align()] returns it,
+#'   or a k x 3 x n (or k x 2 x n) array, in any unit.
 #' @param file Path of the file, ending in `.txt`.
 #' @param level Level of a `shape_sample`, as in [align()].
 #' @param group Group of each specimen, as in [compare_groups()], or `NULL`.
@@ -71,8 +71,8 @@ exchanged <- function(x, level, group, call = rlang::caller_env()) {
   if (is.null(id)) id <- paste0("s", seq_len(dim(coords)[3]))
   missing <- which(is.na(coords), arr.ind = TRUE)
   if (nrow(missing)) {
-    crestline_abort(sprintf("point %d of specimen %s is missing, and the format has no sign for it.",
-                            missing[1, 1], id[missing[1, 3]]),
+    crestline_abort(sprintf(paste("point %d of specimen %s is missing, and the format has no sign",
+                                  "for it."), missing[1, 1], id[missing[1, 3]]),
                     "Align first: align() estimates missing points.", stage = "writing",
                     call = call)
   }

@@ -81,8 +81,8 @@ level_model <- function(terms, columns, aligned, contrasts = NULL, call = rlang:
        variables = names(used), ranges = lapply(Filter(is_plain_number, used), range))
 }
 
-#' Least squares of every co-ordinate, some points at a time: of the centred ones, and what is common
-#' to all is of the constant
+#' Least squares of every co-ordinate, some points at a time: of the centred ones, and what is
+#' common to all is of the constant
 #' @param x n x p, its first column constant.
 #' @return p x dk.
 #' @noRd

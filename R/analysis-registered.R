@@ -5,9 +5,10 @@
 #'
 #' MeshMonk and similar programs lay a template on every scan, so that a vertex of a number is the
 #' same place of all (7,160 vertices for MeshMonk's face). `read_registered()` reads such meshes. No
-#' vertex is dropped, merged or moved, so that a table of values by vertex still fits. [align()] takes
-#' the result. `carry_points()` takes points that lie on one of these meshes to the same places of
-#' the others: the curves and landmarks of one face, measured by [fit_shape()], on all faces.
+#' vertex is dropped, merged or moved, so that a table of values by vertex still fits. [align()]
+#' takes the result. `carry_points()` takes points that lie on one of these meshes to the same
+#' places of the others: the curves and landmarks of one face, measured by [fit_shape()], on all
+#' faces.
 #'
 #' @param files Paths of `.obj`, `.ply` or `.stl` files. All have the same triangles; `.stl` files
 #'   have no vertices of their own, and are refused.
@@ -15,11 +16,11 @@
 #' @param from The mesh on which `x` lies: a `mesh3d` of the same vertices and triangles.
 #' @param to A k x 3 x n array of the vertices of other meshes, as `coords` of `read_registered()`.
 #' @param most Greatest distance of a point from `from`, as a share of the diagonal of its box.
-#' @return `read_registered()`: a list with `coords`, an array of vertices x 3 x meshes with the names
-#'   of the files, and `triangles`, a 3 x m matrix. `carry_points()`: an array k x 3 x n with the
-#'   names of the points; a point that is missing in `x` is NA.
-#' @section Errors: of class `crestline_error`: the meshes differ in their triangles, or a point lies
-#'   farther from the mesh than `most`.
+#' @return `read_registered()`: a list with `coords`, an array of vertices x 3 x meshes with the
+#'   names of the files, and `triangles`, a 3 x m matrix. `carry_points()`: an array k x 3 x n with
+#'   the names of the points; a point that is missing in `x` is NA.
+#' @section Errors: of class `crestline_error`: the meshes differ in their triangles, or a point
+#'   lies farther from the mesh than `most`.
 #' @template glossary
 #' @references White et al. (2019) MeshMonk: open-source large-scale intensive 3D phenotyping,
 #'   *Scientific Reports* 9, 6085.
@@ -78,8 +79,8 @@ carry_points <- function(x, from, to, most = 0.01) {
     point_matrix(x)
   }
   if (dim(to)[1] != ncol(from$vb) || dim(to)[2] != 3) {
-    crestline_abort(sprintf("`to` has %d points of %d co-ordinates, `from` %d vertices.", dim(to)[1],
-                            dim(to)[2], ncol(from$vb)),
+    crestline_abort(sprintf("`to` has %d points of %d co-ordinates, `from` %d vertices.",
+                            dim(to)[1], dim(to)[2], ncol(from$vb)),
                     "Give meshes of the same topology.", stage = "reading", call = NULL)
   }
   located <- located_points(from, xyz)

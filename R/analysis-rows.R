@@ -34,7 +34,8 @@ columns_of_points.aligned <- function(aligned, rows, factor = 1) {
 }
 
 #' Points taken at a time, so that no more than some of the numbers are made anew
-#' @param most Greatest number of numbers: 16 MB, and of files 160 MB, as each chunk opens all files.
+#' @param most Greatest number of numbers: 16 MB, and of files 160 MB, as each chunk opens all
+#'   files.
 #' @return List of rows of points.
 #' @noRd
 point_chunks <- function(aligned, most = if (inherits(aligned, "aligned_files")) 2e7 else 2e6) {

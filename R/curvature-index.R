@@ -98,8 +98,8 @@ check_shape_palette <- function(palette, call = rlang::caller_env()) {
 #'
 #' @param index Numeric vector of shape indices, in \[-1, 1\] or NA.
 #' @param missing Colour for an index that is NA.
-#' @param palette "paper", "safe", or two or more colours from cup to cap, evenly spaced. NULL: that of
-#'   `options(crestline.palette = )`, "paper" if it is not set.
+#' @param palette "paper", "safe", or two or more colours from cup to cap, evenly spaced. NULL: that
+#'   of `options(crestline.palette = )`, "paper" if it is not set.
 #' @return `shape_category()`: a factor with nine levels, from "spherical cup" to "spherical cap",
 #'   one value for each index. A value on a limit belongs to the category above it.
 #'   `shape_colours()`: colours `#RRGGBB`, one for each index. The centre of a category has its

@@ -143,7 +143,8 @@ bands_object <- function(parts, frame) {
     before <<- before + 2L * n
     cbind(rbind(i, i + 1L, i + n + 1L), rbind(i, i + n + 1L, i + n))
   }))
-  colour <- rep(vapply(parts, `[[`, "", "colour"), 2 * vapply(parts, function(one) nrow(one$left), 0L))
+  colour <- rep(vapply(parts, `[[`, "", "colour"),
+                2 * vapply(parts, function(one) nrow(one$left), 0L))
   ids_of(rgl::triangles3d(into_scene(corners, frame), indices = it, color = colour,
                           alpha = parts[[1]]$opacity, lit = FALSE, polygon_offset = 1))
 }

@@ -1,4 +1,5 @@
-# One way to draw on three engines: a surface makes a scene, lines, points and bands are added to it.
+# One way to draw on three engines: a surface makes a scene, lines, points and bands are added to
+# it.
 
 #' Draw a surface, and lines, points and bands on it
 #'
@@ -15,8 +16,8 @@
 #' Ticks below it hide its layers.
 #'
 #' `drawing_engine()` is the engine that is used if none is given. It is that of
-#' `options(crestline.engine = )`. If the option is not set it is "widget" in interactive sessions and
-#' "picture" elsewhere.
+#' `options(crestline.engine = )`. If the option is not set it is "widget" in interactive sessions
+#' and "picture" elsewhere.
 #'
 #' @param mesh A `mesh3d` with triangles, or a `specimen`.
 #' @param colour One colour, or one for each vertex.
@@ -39,10 +40,10 @@
 #' @return `draw_surface()`: a scene. For the engine "picture" it is a list of class
 #'   `picture_scene`. It has `rotation` (3 x 3), `pixel` (size of a pixel, in the unit of the mesh),
 #'   `depth` (matrix, by pixel), and the map from pixels to the plot. For "rgl" a list of class
-#'   `rgl_scene`: `ids` of the rgl objects, `diagonal` of the mesh's bounding box. For "widget" a list
-#'   of class `widget_scene`: `drawn`, what is drawn (an environment), and `diagonal`. `draw_lines()`,
-#'   `draw_points()`, `draw_band()`: the scene, with added rgl `ids` for "rgl"; invisibly, if it is
-#'   not a widget. `drawing_engine()`: the name of an engine.
+#'   `rgl_scene`: `ids` of the rgl objects, `diagonal` of the mesh's bounding box. For "widget" a
+#'   list of class `widget_scene`: `drawn`, what is drawn (an environment), and `diagonal`.
+#'   `draw_lines()`, `draw_points()`, `draw_band()`: the scene, with added rgl `ids` for "rgl";
+#'   invisibly, if it is not a widget. `drawing_engine()`: the name of an engine.
 #'   `visible_points()`: a logical value for each point of `x`, TRUE if it is visible.
 #' @template glossary
 #' @template experimental

@@ -48,7 +48,8 @@ check_engine <- function(engine, call = rlang::caller_env()) {
 #' @noRd
 settings_of <- function(engine, ..., call = rlang::caller_env()) {
   given <- list(...)
-  names <- list(picture = names(formals(picture_settings)), widget = names(formals(widget_settings)))
+  names <- list(picture = names(formals(picture_settings)),
+                widget = names(formals(widget_settings)))
   if (engine == "rgl") return(given[!names(given) %in% setdiff(unlist(names), "alpha")])
   check_dots(..., known = c(names$picture, names$widget), call = call)
   do.call(if (engine == "picture") picture_settings else widget_settings,

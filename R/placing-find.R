@@ -318,7 +318,7 @@ local_evidence <- function(prepared, cloud, fit, settings) {
   as.data.frame(t(each))
 }
 
-#' Landmarks that the surface tells nothing about, by a similarity fitted to those that were found
+#' Landmarks without a feature of the surface, by a similarity fitted to those that were found
 #' @noRd
 predicted_landmarks <- function(template, found, laid, settings, kept = NULL) {
   own <- template$predicted

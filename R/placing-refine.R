@@ -286,7 +286,8 @@ draw_refinement <- function(specimen, view, labels, main, ..., engine = "picture
   given <- as.matrix(table[paste0("given_", c("x", "y", "z"))])
   place <- as.matrix(table[c("x", "y", "z")])
   for (i in seq_len(nrow(table))) {
-    scene <- draw_lines(in_layer(scene, "ways"), rbind(given[i, ], place[i, ]), "#C04000", width = 2)
+    scene <- draw_lines(in_layer(scene, "ways"), rbind(given[i, ], place[i, ]), "#C04000",
+                        width = 2)
   }
   scene <- draw_points(in_layer(scene, "given"), given, "black", halo = "white",
                        name = paste(table$landmark, "as given"))

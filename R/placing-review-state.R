@@ -8,8 +8,8 @@
 #'   frame: `landmark`, `name`, `where`); `state` by landmark ("found", "predicted", "given",
 #'   "placed", "absent", or "missing": neither placed nor said to be absent); `selected` (name, or
 #'   none: `character()`); `drawn` (list by curve of [joined_line()]s); `pen` (name of the curve
-#'   that is drawn now, or none); `observer`; `log` as of [no_steps()]; `history` and `future` (lists of
-#'   earlier and undone reviews); `said` (text).
+#'   that is drawn now, or none); `observer`; `log` as of [no_steps()]; `history` and `future`
+#'   (lists of earlier and undone reviews); `said` (text).
 #' @noRd
 begin_review <- function(specimen, scheme, least, settings, bridge, threads, observer = "") {
   specimen <- with_located(specimen)

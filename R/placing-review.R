@@ -6,7 +6,8 @@
 #' the curves of the scheme between them. Choose a landmark in the list or by a click on its ball. A
 #' click on the surface puts it there, exactly on the mesh. The curves that end on it are fitted
 #' again at once. Drag to turn, use the wheel to zoom, and the right button to shift. Drag the
-#' chosen ball to move it. Curves can be drawn by hand, and keys press the buttons, see [digitise()].
+#' chosen ball to move it. Curves can be drawn by hand, and keys press the buttons, see
+#' [digitise()].
 #'
 #' `review_landmarks()` begins with the landmarks of the specimen. Landmarks in which
 #' [find_landmarks()] has little confidence are red. They are selected one after the other: move

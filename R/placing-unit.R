@@ -42,8 +42,8 @@ swept_pose <- function(template, scan, laid, settings, threads) {
 #'
 #' @param laid As of [settled_pose()], with `unit_known`.
 #' @param asked The unit that was tried first.
-#' @return The same; `unit_known` is FALSE where the object is larger or smaller than the template by
-#'   more than the setting `unit_apart`.
+#' @return The same; `unit_known` is FALSE where the object is larger or smaller than the template
+#'   by more than the setting `unit_apart`.
 #' @noRd
 sized_pose <- function(template, scan, laid, asked, settings, threads) {
   coarse <- !laid$unit_known || abs(log(laid$pose[13])) > log(settings$resized)

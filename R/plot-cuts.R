@@ -3,8 +3,8 @@
 #' The paths that planes through two landmarks cut from the surface
 #'
 #' @param surface `colour` of [plot.specimen()]; the arguments are described there.
-#' @return The paths, invisibly: a list with a `mesh_path` for each angle at which there is one. For a
-#'   widget its scene.
+#' @return The paths, invisibly: a list with a `mesh_path` for each angle at which there is one. For
+#'   a widget its scene.
 #' @noRd
 draw_cuts <- function(specimen, from, to, angles = c(-pi / 6, 0, pi / 6), surface = "plain",
                       colours = grDevices::hcl.colors(length(angles), "Dark 3"), width = 2.5,

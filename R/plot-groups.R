@@ -40,8 +40,8 @@
 #'   * `length_unit`: name of the unit of lengths, for the legend;
 #'   * those of [draw_surface()]. There is more `ambient` light by default, as shade would hide
 #'     colours.
-#' @return Invisibly, if it is not a widget. "boxes": list with the value of [graphics::boxplot()] for each panel. "means",
-#'   "map": the scene of [draw_surface()].
+#' @return Invisibly, if it is not a widget. "boxes": list with the value of [graphics::boxplot()]
+#'   for each panel. "means", "map": the scene of [draw_surface()].
 #' @section Errors: of class `crestline_error`: there is no such level; a map, or mean surfaces, are
 #'   asked for more than two groups.
 #' @template glossary

@@ -3,11 +3,11 @@
 #' Write a page with the turning specimen and its curves
 #'
 #' Writes one self-contained HTML file, or a file and a folder. Of a specimen, the page has the
-#' surface coloured by shape index, the curves with their bands, the colour scale with its radius, and
-#' a table with the meaning and unit of each column. For a shape it also has the triangles of its
-#' surface. Ticks hide each layer of the scene. A pointer that rests on a curve or point shows its
-#' name. Of an assessment ([assess()]) or of two visits ([compare_visits()]) it is a page without
-#' scripts, which prints on A4, also in black and white; see the sections below.
+#' surface coloured by shape index, the curves with their bands, the colour scale with its radius,
+#' and a table with the meaning and unit of each column. For a shape it also has the triangles of
+#' its surface. Ticks hide each layer of the scene. A pointer that rests on a curve or point shows
+#' its name. Of an assessment ([assess()]) or of two visits ([compare_visits()]) it is a page
+#' without scripts, which prints on A4, also in black and white; see the sections below.
 #'
 #' @param x A [specimen()]. Or a shape of [fit_shape()], which then is `curves` too. Or an
 #'   `assessment` of [assess()] or a `visit_comparison` of [compare_visits()]; for these only `file`
@@ -23,8 +23,8 @@
 #'   `_files`, is written beside it.
 #' @param size Width and height of the picture, two numbers, in pixels of the browser.
 #' @param ... Passed to [plot_curves()] or, with a shape, [plot.shape()]: `colour`, `width` (4
-#'   here), `curvature`, `radius`, `view`, `band`. Settings of [widget_settings()]. `length_unit`: name
-#'   of the unit of lengths, such as "mm". `specimen`, the former name of `x`, still works.
+#'   here), `curvature`, `radius`, `view`, `band`. Settings of [widget_settings()]. `length_unit`:
+#'   name of the unit of lengths, such as "mm". `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
 #' @section Page of an assessment: The person, the norm and the errors; the verdicts; pictures of
 #'   the face, of both maps and of the expected shape; the places that do not fit; growth charts of
@@ -81,7 +81,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
   page <- page_document(
     title, widget_html(scene, "crestline"),
     if (!is.null(caption)) htmltools::tags$p(caption),
-    if (NROW(table)) page_section(if (inherits(curves, "shape")) "Curves of the shape" else "Curves",
+    if (NROW(table)) page_section(paste0("Curves", if (inherits(curves, "shape")) " of the shape"),
                                   column_table(table, curve_meanings(unit))),
     lead = page_lead(curves, x), provenance = of
   )

@@ -15,8 +15,8 @@
 #' @param labels For "scores": whether to write the names of the specimens.
 #' @param ellipse For "scores": share of a normal distribution inside the ellipse of each group,
 #'   such as 0.95. 0: no ellipses. A group of two has no ellipse.
-#' @param view,... For "shapes", as in [draw_surface()], `engine` too ("rgl" draws as "picture"). For
-#'   "scores", passed to [graphics::plot.default()].
+#' @param view,... For "shapes", as in [draw_surface()], `engine` too ("rgl" draws as "picture").
+#'   For "scores", passed to [graphics::plot.default()].
 #' @return Invisibly: the scores that are drawn (n x 2 matrix), or a list of the two scenes. With
 #'   `engine = "widget"` one scene.
 #' @template glossary
@@ -144,8 +144,8 @@ beside <- function(meshes, view, gap = 0.1) {
 #' @param selfcontained As in [write_page()].
 #' @param ... `pca`, the former name of `x`.
 #' @return The path of the file, invisibly.
-#' @section Errors: of class `crestline_error`: there is no such component, or the folder of the file
-#'   does not exist.
+#' @section Errors: of class `crestline_error`: there is no such component, or the folder of the
+#'   file does not exist.
 #' @template glossary
 #' @examplesIf requireNamespace("htmltools", quietly = TRUE)
 #' ball <- Rvcg::vcgSphere(2)

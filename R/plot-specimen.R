@@ -21,9 +21,9 @@
 #' @param legend Whether to draw the scale of colours (not by "rgl").
 #' @param main Title.
 #' @param ... `labels`: whether to write the names of the landmarks (TRUE by default for
-#'   "refinement" only). `palette`: for "shape index" as in [shape_colours()], for "curvature" colours
-#'   from valley to ridge. Arguments of [draw_surface()], and further arguments of "placing" and
-#'   "cuts", see below.
+#'   "refinement" only). `palette`: for "shape index" as in [shape_colours()], for "curvature"
+#'   colours from valley to ridge. Arguments of [draw_surface()], and further arguments of "placing"
+#'   and "cuts", see below.
 #' @param what Kind of picture, see below.
 #' @section Pictures:
 #'   * `"surface"`: the surface with its landmarks.
@@ -44,8 +44,8 @@
 #'     [plane_path()]. The default of `angles` is `c(-pi / 6, 0, pi / 6)`. `colour` is "plain" by
 #'     default.
 #' @return The scene of [draw_surface()], for [draw_lines()] and similar functions; invisibly, if it
-#'   is not a widget. With another engine than "widget": for "placing" the specimen, for "cuts" a list
-#'   with a `mesh_path` for each angle that has a path.
+#'   is not a widget. With another engine than "widget": for "placing" the specimen, for "cuts" a
+#'   list with a `mesh_path` for each angle that has a path.
 #' @section Errors: of class `crestline_error`: the landmarks were not found by [find_landmarks()]
 #'   ("placing") or not refined ("refinement"); no cut joins the two landmarks ("cuts").
 #' @section Warnings: of class `crestline_warning`: some cuts end at a border of the mesh, and are
@@ -77,7 +77,9 @@ plot.specimen <- function(x, colour = c("natural", "shape index", "curvature", "
   more <- given[!names(given) %in% c("labels", "curvature", "palette")]
   with_more <- function(f, ...) do.call(f, c(list(...), more), quote = TRUE)
   if (what == "placing") return(with_more(draw_placing, x, engine = engine))
-  if (what == "refinement") return(with_more(draw_refinement, x, view, labels, main, engine = engine))
+  if (what == "refinement") {
+    return(with_more(draw_refinement, x, view, labels, main, engine = engine))
+  }
   if (missing(colour) && what == "cuts") colour <- "plain"
   colour <- check_choice(colour, surface_choices, "colour")
   if (what == "cuts") {

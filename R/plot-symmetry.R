@@ -12,8 +12,8 @@
 #' @param ... `limits` and `palette`: range of the colours (two numbers, in the unit of the meshes),
 #'   and colours; `length_unit`: name of the unit of lengths, for the legend; arguments of
 #'   [draw_surface()].
-#' @return The scene of [draw_surface()], or without triangles and with another engine than "widget" a
-#'   data frame of the drawn points; invisibly, if it is not a widget.
+#' @return The scene of [draw_surface()], or without triangles and with another engine than "widget"
+#'   a data frame of the drawn points; invisibly, if it is not a widget.
 #' @section Errors: of class `crestline_error`: there is no such level.
 #' @template glossary
 #' @seealso [symmetry_parts()], [plot.group_comparison()]

@@ -77,7 +77,7 @@ specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
   strange <- setdiff(id, own)
   if (length(strange)) {
     crestline_abort(sprintf("there is no shape of specimen %s.", shorten(strange)),
-                    "Give the specimens that the shapes were measured on; they are told by `id`.",
+                    "Give the specimens of the shapes, each with the `id` of its shape.",
                     stage = "page", call = call)
   }
   found <- stats::setNames(specimens[match(own, id)], names(shapes))

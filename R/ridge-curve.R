@@ -58,10 +58,10 @@
 #'     * of `path = "crest"`: the curve runs twice over. Of a closed curve: it closed in on itself,
 #'       or it is much longer than its stops are apart. The limits are those of [path_settings()];
 #'   * `closed`: whether the curve ends where it begins;
-#'   * `beside`: distances of the two landmarks from the nearest ridge or valley, across that, in the
-#'     unit of the mesh. Beyond `settings$beside` radii the curve has a hook at that end. NA if no
-#'     ridge is within the width there, if it is fainter than `settings$faint`, or if curvature is
-#'     not trusted there;
+#'   * `beside`: distances of the two landmarks from the nearest ridge or valley, across that, in
+#'     the unit of the mesh. Beyond `settings$beside` radii the curve has a hook at that end. NA if
+#'     no ridge is within the width there, if it is fainter than `settings$faint`, or if curvature
+#'     is not trusted there;
 #'   * `id`, `from`, `to`, `type`, `radius`, `width`, `settings`, `passes`;
 #'   * `key`: key of the mesh. Functions that draw or use the curve refuse another mesh.
 #' @section Standard error: `se` is the standard deviation of the curve's position across itself,

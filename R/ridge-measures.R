@@ -105,7 +105,8 @@ nearest_crest <- function(step, curved, job, reach, along = 1, width = 0.5, plac
   if (length(own) < 2) return(NA_real_)
   across <- if (job$type == "ridge") curved$direction2 else curved$direction1
   weight <- value[own] * pmax(1 - (row_lengths(step)[own] / (along * radius))^2, 0)
-  axis <- eigen(crossprod(sqrt(weight) * across[own, , drop = FALSE]), symmetric = TRUE)$vectors[, 1]
+  spread <- crossprod(sqrt(weight) * across[own, , drop = FALSE])
+  axis <- eigen(spread, symmetric = TRUE)$vectors[, 1]
   t <- drop(step %*% axis)
   normal <- colMeans(curved$normal[own, , drop = FALSE] * weight)
   beside <- drop(step %*% unit_vector(cross_product(axis, normal)))

@@ -268,7 +268,7 @@ left_by_registration <- function(xyz, normal, lagged, edge, most = 400) {
 #' The covariance of the differences of two scans is 2 smooth^2 exp(-lag^2 / (2 range^2)) less what
 #' registration takes away, and at lag 0 (1 + weight) independent^2 besides: a closest place is a
 #' mean of three vertices. Lags below `shortest` edges are left out, since closest places that near
-#' share vertices; a range below one edge cannot be told from independent noise.
+#' share vertices; a range below one edge cannot be distinguished from independent noise.
 #' @param left As of [left_by_registration()].
 #' @return List: `noise` (`independent`, `smooth`, `range`), `values` (fitted by lag).
 #' @noRd

@@ -95,10 +95,10 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
 }
 
 check_settings <- function(settings) {
-  positive <- c("cap", "window", "vertices", "anisotropy", "df", "lambda", "core",
-                "bound", "step",
-                "tolerance", "longest", "inflation", "undetermined", "faint", "beside", "kernel_most",
-                "kernel_least", "kernel_vertices", "second_gain", "second_whole", "mix")
+  positive <- c("cap", "window", "vertices", "anisotropy", "df", "lambda", "core", "bound", "step",
+                "tolerance", "longest", "inflation", "undetermined", "faint", "beside",
+                "kernel_most", "kernel_least", "kernel_vertices", "second_gain", "second_whole",
+                "mix")
   for (name in positive) {
     if (!identical(settings[[name]], Inf)) {
       check_number(settings[[name]], name, lower = 0, open = TRUE)

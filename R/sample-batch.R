@@ -40,8 +40,8 @@
 #'
 #' The file of a result has a checksum, which is compared before the file is read. A damaged or
 #' truncated result is measured again. Several runs may share a folder, at the same time too. A run
-#' deletes only its own unfinished files. Unfinished files of a run that was killed (`part-*.tmp`) remain. They are never
-#' read, and you may delete them.
+#' deletes only its own unfinished files. Unfinished files of a run that was killed (`part-*.tmp`)
+#' remain. They are never read, and you may delete them.
 #'
 #' If a result cannot be written (a full disk) or a worker dies, its specimens are tried once more,
 #' each alone. After a second error they are failures. One worker takes

@@ -184,7 +184,7 @@ tell_settings <- function(index) {
 #' @param jobs Jobs by id, each with its `stem`.
 #' @param contents List of what [job_content()] gives, by id.
 #' @param index Of the folder.
-#' @return Paths; attributes `beside`, `replaced`: numbers of the tasks that it is told of, and
+#' @return Paths; attributes `beside`, `replaced`: numbers of the tasks that get a message, and
 #'   `before`, the paths of results of other settings.
 #' @noRd
 result_files <- function(dir, jobs, contents, index) {

@@ -194,7 +194,7 @@ reading_arguments <- function() {
 #' @noRd
 job_specimen <- function(job) {
   if (!is.null(job$refusal)) {
-    # A mesh that cannot be read either is told first: landmarks would not help.
+    # An unreadable mesh is the first error: landmarks would not help.
     if (!is.null(job$mesh)) read_mesh(job$mesh, job$id)
     rlang::cnd_signal(job$refusal)
   }

@@ -1,6 +1,6 @@
-# What is told of a shape in a batch without reading it from its file.
+# Facts of a shape in a batch that are known without reading its file.
 
-#' What a batch tells of a shape without reading it
+#' Facts of a shape that a batch has without reading it
 #'
 #' @return List: `found`, whether its landmarks were; `lacking`, how many of the scheme's landmarks
 #'   are missing, and of how many; `unit` as of [shape_unit()]; `surface`, the key of its mesh;

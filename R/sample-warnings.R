@@ -1,4 +1,4 @@
-# What was warned of while a specimen was measured: kept with its shape, told by kind.
+# Warnings of a specimen's measuring: kept with its shape, counted by kind.
 
 #' What to hear warnings with: an environment whose `heard` is a data frame as `warnings` of a shape
 #' @noRd

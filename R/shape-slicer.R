@@ -5,22 +5,22 @@
 #' Writes a folder that 3D Slicer opens in one go: drop it on Slicer's window, or choose it by *Add
 #' Data, Choose Directory to Add*. All files are in the frame LPS, Slicer's default.
 #'
-#' * `model.vtk`: the surface of the shape, with scalars by vertex: `se`, the standard error (unit of
-#'   the mesh; -1 where there is none), and those of `values`;
+#' * `model.vtk`: the surface of the shape, with scalars by vertex: `se`, the standard error (unit
+#'   of the mesh; -1 where there is none), and those of `values`;
 #' * `scan.vtk`: the surface of the specimen, if it is given;
 #' * `landmarks.mrk.json`: landmarks, black;
-#' * `curves.mrk.json`: each curve by name, in the colour of its grade ([quality()]): green, amber or
-#'   red.
+#' * `curves.mrk.json`: each curve by name, in the colour of its grade ([quality()]): green, amber
+#'   or red.
 #'
 #' @template shape
 #' @param dir Path of the folder. It is made if it is not there.
 #' @param specimen The [specimen()] that the shape was measured on, or `NULL`.
-#' @param values Named list of numbers for each surface point of the shape, such as the distances of a
-#'   comparison. They become scalars of the model.
+#' @param values Named list of numbers for each surface point of the shape, such as the distances of
+#'   a comparison. They become scalars of the model.
 #' @param parts Parts of the surface, as in [shape_mesh()].
 #' @return The paths of the files, invisibly.
-#' @section Errors: of class `crestline_error`: the folder cannot be made; `values` are not one number
-#'   for each surface point.
+#' @section Errors: of class `crestline_error`: the folder cannot be made; `values` are not one
+#'   number for each surface point.
 #' @template glossary
 #' @seealso [write_landmarks()], [write_mesh()], [write_glb()]
 #' @examples
@@ -90,8 +90,8 @@ check_scalars <- function(values, n, call = rlang::caller_env()) {
   for (name in names(values)) {
     one <- values[[name]]
     if (!is.numeric(one) || length(one) != n || any(!is.finite(one))) {
-      refuse_argument("values", one, sprintf("Give %d finite numbers as %s: one a surface point.", n,
-                                             name), call)
+      remedy <- sprintf("Give %d finite numbers as %s: one a surface point.", n, name)
+      refuse_argument("values", one, remedy, call)
     }
   }
   values

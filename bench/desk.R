@@ -171,7 +171,8 @@ session <- function(width, port) {
   data.frame(
     width = width, minutes = minutes, resumed = resumed, kept = kept,
     closed = sum(first$marks$state == "placed"), scroll_width = wide, face_height = face,
-    blind = blind, placed = sum(!is.na(array[marks, 1, ])), array = paste(dim(array), collapse = " x "),
+    blind = blind, placed = sum(!is.na(array[marks, 1, ])),
+    array = paste(dim(array), collapse = " x "),
     off_goal = max(abs(array[marks, , "one"] - goal[marks, ])),
     off_ridge = max(off), said = own$reason[1],
     observers_apart = mean(sqrt(rowSums((geomorph[, , "one AB"] - geomorph[, , "one CD"])^2))),

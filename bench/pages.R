@@ -18,7 +18,8 @@ first_picture <- function(file, size) {
   page <- chromote::ChromoteSession$new(width = size[1], height = size[2])
   page$default_timeout <- 120
   page$Page$navigate(paste0("file://", normalizePath(file)))
-  code <- "new Promise(done => { const look = () => { const canvas = document.querySelector('canvas');
+  code <- "new Promise(done => { const look = () => {
+    const canvas = document.querySelector('canvas');
     if (document.readyState === 'complete' && canvas && canvas.width > 0)
       requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now())));
     else setTimeout(look, 20); }; look(); })"

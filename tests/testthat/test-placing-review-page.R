@@ -31,7 +31,8 @@ test_that("clicks choose and move a landmark, its curves follow, and the specime
     expect_equal(current_review(review())$selected, "chL")
     session$setInputs(ray = ray(target))
     expect_equal(current_review(review())$specimen$landmarks["chL", ], target, tolerance = 1e-8)
-    changed <- !mapply(identical, lapply(current_review(review())$fitting$fits, `[[`, "path"), paths)
+    now <- lapply(current_review(review())$fitting$fits, `[[`, "path")
+    changed <- !mapply(identical, now, paths)
     expect_setequal(names(which(changed)),
                     scheme$curves$curve[scheme$curves$from == "chL" | scheme$curves$to == "chL"])
     expect_match(as.character(output$chosen$html), "corner of the mouth")
@@ -63,7 +64,8 @@ test_that("placing names the next; cancel gives back what there was, closing wha
       expect_equal(current_review(review())$selected, name)
       place(session, name)
     }
-    expect_setequal(names(Filter(function(fit) !is.null(fit$path), current_review(review())$fitting$fits)),
+    fits <- current_review(review())$fitting$fits
+    expect_setequal(names(Filter(function(fit) !is.null(fit$path), fits)),
                     c("bottom", "right"))
   })
   expect_lt(max(abs(served$returned$specimen$landmarks[1:3, ] - quad_corners()[1:3, ])), 0.1)

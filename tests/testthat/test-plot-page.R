@@ -40,7 +40,8 @@ test_that("the table has a row a curve, numbers shortened, names only where ther
   expect_equal(table$kind, c("ridge", "valley"))
   expect_equal(table$se, c(0.05, 0.05))
   expect_false("curve" %in% names(curve_table(list(equator_curve()))))
-  html <- as.character(column_table(data.frame(length = pi, x = NA), list(length = "in mm", y = "z")))
+  html <- as.character(column_table(data.frame(length = pi, x = NA),
+                                    list(length = "in mm", y = "z")))
   expect_match(html, "3.14<", fixed = TRUE)
   expect_match(html, "<dd>in mm</dd>", fixed = TRUE)
   expect_no_match(html, "NA<|<dd>z")

@@ -32,7 +32,8 @@ test_that("a slider's ends are the shapes at the ends, of surfaces, curves and p
   pca <- stretched_balls()
   moving <- moving_parts(pca, 1, 2, "wheat")
   for (at in c(-2, 2)) {
-    expect_equal(t(moving$mesh$vb[1:3, ]) + at * moving$by, t(shape_at(pca, 1, at, "mesh")$vb[1:3, ]))
+    expect_equal(t(moving$mesh$vb[1:3, ]) + at * moving$by,
+                 t(shape_at(pca, 1, at, "mesh")$vb[1:3, ]))
   }
   shapes <- simplify2array(lapply(1:6, function(i) cbind(0:4, (0:4)^2 * i / 10, i %% 2)))
   rownames(shapes) <- c(paste("arc", 1:3), paste("bow", 1:2))

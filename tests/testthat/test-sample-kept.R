@@ -115,6 +115,8 @@ test_that("results that are absent, folders or cannot be written cost no connect
 
 test_that("hashes and checksums are those of other versions of rlang and R", {
   expect_identical(bytes_hash(as.raw(1:200)), "4d5d2c739a03aef0af7e5fb544c9ec7a")
-  expect_identical(content_hash(list(a = 1:3, b = "text", c = pi)), "54203a0f2cb5176643b4b6fc2c4cafdc")
-  expect_identical(checksum(as.raw(1:3), as.raw(4:6), as.raw(7:9)), "e54434537080ad24fb6b1de200f6f7a2")
+  expect_identical(content_hash(list(a = 1:3, b = "text", c = pi)),
+                   "54203a0f2cb5176643b4b6fc2c4cafdc")
+  expect_identical(checksum(as.raw(1:3), as.raw(4:6), as.raw(7:9)),
+                   "e54434537080ad24fb6b1de200f6f7a2")
 })
