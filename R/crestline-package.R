@@ -87,6 +87,7 @@
 #' * `norms`: from a sample to a reference by age and sex that can be shared;
 #' * `visits`: one patient, two visits;
 #' * `interop`: to geomorph, Morpho and RRPP, and back;
+#' * `reach`: from Slicer, Python and the shell, and back;
 #' * `method`: every equation beside the function that does it;
 #' * `paper`: the paper, line by line, and what differs here;
 #' * `how-good`: how near the curves come to ridges that are known;

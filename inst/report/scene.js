@@ -28,7 +28,7 @@ function (el, x, data) {
     return [0, 1, 2].map(function (k) { return Number((data.at[3 * i + k] / data.scale + data.middle[k]).toPrecision(6)); });
   }
 
-  rgl.canvas.addEventListener("mousemove", function (event) {
+  rgl.canvas.addEventListener("pointermove", function (event) {
     var i = event.buttons ? null : nearest(event, 12), area = el.getBoundingClientRect();
     tip.hidden = i === null;
     if (i === null) return;
@@ -36,10 +36,10 @@ function (el, x, data) {
     tip.style.left = Math.min(event.clientX - area.left + 14, area.width - tip.offsetWidth - 4) + "px";
     tip.style.top = (event.clientY - area.top + 12) + "px";
   });
-  rgl.canvas.addEventListener("mouseleave", function () { tip.hidden = true; });
-  rgl.canvas.addEventListener("mousedown", function (event) { pressed = [event.clientX, event.clientY]; }, true);
-  // A press that does not drag; on the window, since rgl keeps the events of its canvas.
-  window.addEventListener("mouseup", function (event) {
+  rgl.canvas.addEventListener("pointerleave", function () { tip.hidden = true; });
+  rgl.canvas.addEventListener("pointerdown", function (event) { pressed = [event.clientX, event.clientY]; }, true);
+  // A press that does not drag; on the window, since rgl keeps the pointer events of its canvas.
+  window.addEventListener("pointerup", function (event) {
     if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) { pressed = null; return; }
     pressed = null;
     var i = nearest(event, 12);
