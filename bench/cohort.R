@@ -10,6 +10,7 @@
 #   Rscript bench/cohort.R together [times = 50]    two processes at once in one folder
 #   Rscript bench/cohort.R homology DIR [times = 1] slid by two workers against one; memory
 #   Rscript bench/cohort.R parquet DIR              tables written and read back
+#   Rscript bench/cohort.R old DIR LIBRARY          a folder of a former version (LIBRARY) read
 #
 # "slurm" needs munged, slurmctld and slurmd (Debian: munge slurmctld slurmd), root, and one node
 # that is this machine. "targets" needs targets, crew and crew.cluster.
@@ -385,7 +386,40 @@ show_parquet <- function(dir) {
   }
 }
 
-switch(part, scans = write_scans(dir, as.integer(argument(3, 48))), serial = measure_serial(dir),
+# Old folders ----------------------------------------------------------------------------------
+
+# Three scans are measured by a former version in another process; its folder is read twice, the
+# second time after it was written anew, and compared with what that version has in memory.
+read_old <- function(dir, library) {
+  folder <- tempfile("old-")
+  memory <- tempfile(fileext = ".rds")
+  scans <- list.files(scans_in(dir), "[.]ply$", full.names = TRUE)[1:3]
+  script <- tempfile(fileext = ".R")
+  dput_scans <- paste(deparse(scans), collapse = "")
+  writeLines(c(sprintf("library(crestline, lib.loc = '%s')", library),
+               sprintf("scheme <- read_scheme('%s')", file.path(dir, "scheme")),
+               sprintf("shapes <- fit_shapes(%s, scheme, '%s')", dput_scans, folder),
+               sprintf("saveRDS(as.list(shapes), '%s')", memory)), script)
+  system2("Rscript", script)
+  before <- readRDS(memory)
+  size <- file.size(list.files(folder, "shape$", full.names = TRUE))
+  for (run in 1:2) {
+    read <- read_batch(folder)
+    equal <- vapply(names(before), function(id) {
+      fields <- setdiff(names(before[[id]]), "specimen")
+      a <- unclass(read[[id]])
+      b <- unclass(before[[id]])
+      isTRUE(all.equal(a[fields], b[fields], tolerance = 1e-9)) &&
+        identical(a$points[c("x", "y", "z")], b$points[c("x", "y", "z")]) &&
+        identical(a$specimen$mesh, b$specimen$mesh)
+    }, NA)
+    now <- file.size(list.files(folder, "shape$", full.names = TRUE))
+    cat(sprintf("time %d: %d of %d equal; %.0f bytes a result before, %.0f now\n", run, sum(equal),
+                length(equal), mean(size), mean(now)))
+  }
+}
+
+switch(part, old = read_old(dir, given[3]), scans = write_scans(dir, as.integer(argument(3, 48))), serial = measure_serial(dir),
        slurm = by_slurm(dir, as.integer(argument(3, 8))),
        targets = by_targets(dir, argument(3, "local")),
        same = for (folder in given[-(1:2)]) compare_results(file.path(dir, "serial"), folder),
