@@ -419,7 +419,8 @@ read_old <- function(dir, library) {
   }
 }
 
-switch(part, old = read_old(dir, given[3]), scans = write_scans(dir, as.integer(argument(3, 48))), serial = measure_serial(dir),
+switch(part, scans = write_scans(dir, as.integer(argument(3, 48))), serial = measure_serial(dir),
+       old = read_old(dir, given[3]),
        slurm = by_slurm(dir, as.integer(argument(3, 8))),
        targets = by_targets(dir, argument(3, "local")),
        same = for (folder in given[-(1:2)]) compare_results(file.path(dir, "serial"), folder),
