@@ -111,7 +111,10 @@ with_curvature <- function(cloud, settings, threads) {
 thinned_mesh <- function(mesh, group) {
   it <- matrix(group$number[mesh$it], 3)
   it <- it[, it[1, ] != it[2, ] & it[2, ] != it[3, ] & it[3, ] != it[1, ], drop = FALSE]
-  it <- it[, !duplicated(t(apply(it, 2, sort))), drop = FALSE]
+  least <- pmin(it[1, ], it[2, ], it[3, ])
+  most <- pmax(it[1, ], it[2, ], it[3, ])
+  key <- least + length(group$vertex) * most
+  it <- it[, !duplicated(complex(real = key, imaginary = colSums(it) - least - most)), drop = FALSE]
   structure(list(vb = mesh$vb[, group$vertex, drop = FALSE],
                  normals = mesh$normals[, group$vertex, drop = FALSE], it = it),
             class = "mesh3d")

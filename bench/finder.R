@@ -3,7 +3,8 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/finder.R [whole] [rotations] [units] [parts]
 #     [expressions] [objects] [time] [kept] [ears] [n=6]
 #
-# 19 landmarks (without t and oi), lengths in mm. `n`: rotations, or random objects.
+# 19 landmarks (without t and oi), lengths in mm. `n`: rotations, or random objects. Teeth are among
+# the objects where DOOLKIT names the unpacked source of the package doolkit.
 
 library(crestline)
 
@@ -273,8 +274,19 @@ objects <- function(n) {
     stats::setNames(blobs, paste0("blob_", seq_len(n))))
 }
 
+# An orang-utan's molar: the outer surface and that of the dentine, and a model of a tooth.
+teeth <- function() {
+  folder <- file.path(Sys.getenv("DOOLKIT"), "data")
+  if (!nzchar(Sys.getenv("DOOLKIT"))) return(list())
+  load(file.path(folder, "dkpongo.rda"))
+  load(file.path(folder, "dkmodel.rda"))
+  all <- c(dkpongo, dkmodel)
+  all <- Filter(function(one) inherits(one, "mesh3d"), all)
+  stats::setNames(all, paste0("tooth_", names(all)))
+}
+
 run_objects <- function(n) {
-  all <- objects(n)
+  all <- c(teeth(), objects(n))
   rows <- Map(function(mesh, name) {
     seconds <- system.time(found <- tryCatch(
       suppressWarnings(find_landmarks(mesh, template, id = name)), crestline_error = identity
