@@ -58,10 +58,12 @@
 #'   `as.data.frame()` gives `values`.
 #' @section Errors: of class `crestline_error`: another scheme; an age outside the norm's range for
 #'   the sex, or where fewer than 10 faces are effective; more than half of the points are missing;
-#'   a size more than 5 times that of the norm's mean face, or its inverse, which is another unit.
+#'   a size more than 5 times that of the norm's mean face, or its inverse, which is another unit; a
+#'   mirror image (class `crestline_mirrored`).
 #' @section Warnings: of class `crestline_norm_doubt`: fewer than 30 faces are effective at this
 #'   age. Of class `crestline_not_slid`: a measured shape was not slid. Of class
-#'   `crestline_red_parts`: parts of the shape are red.
+#'   `crestline_other_template`: it was slid against another template than the norm's faces. Of
+#'   class `crestline_red_parts`: parts of the shape are red.
 #' @template glossary
 #' @template experimental
 #' @seealso [fit_norms()], [plot.assessment()]
@@ -91,6 +93,7 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
   check_norm_scheme(shape, norms)
   effective <- check_norm_age(age, sex, norms, shape$id)
   warn_unready(shape, "norms")
+  warn_other_template(shape, norms)
   patient <- patient_surface(shape, norms, age, sex)
   mirror <- patient_asymmetry(patient, norms, age, sex)
   healed <- heal_face(prepared_field(norms, "surface"), patient, age, sex, patient$missing, alpha)
@@ -119,7 +122,11 @@ assess <- function(shape, norms, age, sex = NULL, error = NULL, alpha = 0.05) {
 map_limits <- function(norms) {
   at <- limit_levels() == 0.95
   scan <- function(name) norms[[name]]$scan$quantiles[at]
-  c(map = norms$limits$map[at], scan = scan("surface"),
+  map <- norms$limits$map[at]
+  if (norms$n < norms$settings$bonferroni_below) {
+    map <- stats::qnorm(1 - 0.05 / (2 * nrow(norms$points)))
+  }
+  c(map = map, scan = scan("surface"),
     if (!is.null(norms$asymmetry)) c(asymmetry = scan("asymmetry")))
 }
 
@@ -253,9 +260,9 @@ verdict_table <- function(norms, values, points, healed, other, alpha) {
   largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
   at <- function(x, names) if (all(is.na(x))) NA_character_ else names[which.max(x)]
   map <- abs(points$z_map)
-  # Below 200 faces the quantile of the largest is too uncertain: Bonferroni.
-  p_map <- if (norms$n < 200) min(1, 2 * sum(!is.na(map)) * stats::pnorm(-largest(map))) else
-    tail_p(largest(map), norms$limits$map)
+  p_map <- if (norms$n < norms$settings$bonferroni_below) {
+    min(1, 2 * sum(!is.na(map)) * stats::pnorm(-largest(map)))
+  } else tail_p(largest(map), norms$limits$map)
   rows <- data.frame(
     family = c("size", "measurements", "components", "map", "scan", "asymmetry"),
     statistic = c(z[1], largest(z[measured]), sqrt(sum(z[component]^2)), largest(map),

@@ -15,6 +15,32 @@ check_size_ratio <- function(ratio, of, id, stage, size = sample_limits()$size,
                   class = "crestline_unit_error", call = call)
 }
 
+#' Refuse a shape that fits better as its mirror image
+#' @param x,reference k x 3, NA where missing; `of` names the reference.
+#' @noRd
+check_not_mirrored <- function(x, reference, of, id, stage, call = rlang::caller_env()) {
+  known <- !is.na(x[, 1]) & !is.na(reference[, 1])
+  centred <- function(a) sweep(a[known, , drop = FALSE], 2, colMeans(a[known, , drop = FALSE]))
+  fit <- function(sign) {
+    sum(nearest_rotation(centred(x) %*% diag(c(sign, 1, 1)), centred(reference))$d)
+  }
+  if (sum(known) < 4 || fit(1) >= fit(-1)) return(invisible())
+  crestline_abort(sprintf("it is the mirror image of %s: left and right are exchanged.", of),
+                  "Exchange the names of its left and right landmarks, or mirror its scan.",
+                  stage = stage, id = id, class = "crestline_mirrored", call = call)
+}
+
+#' Warn of a shape that was slid against another template than the faces of a norm
+#' @noRd
+warn_other_template <- function(shape, norms) {
+  own <- shape$provenance$template$hash
+  theirs <- norms$scheme$template
+  if (is.null(own) || is.null(theirs) || identical(own, theirs)) return(invisible())
+  crestline_warn("it was slid against another template than the faces of the norm.",
+                 "Slide it against the template of the norm's sample: slide(shape, sample).",
+                 stage = "norms", id = shape$id, class = "crestline_other_template")
+}
+
 #' Warn of a measured shape that was not slid, and of red parts
 #' @noRd
 warn_unready <- function(shape, stage) {

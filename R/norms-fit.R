@@ -18,6 +18,8 @@
 #'   faces, 10 below 1,000, else 5.
 #' @param smooth_below Below this number of faces the scan's spread by place is smoothed over
 #'   neighbours.
+#' @param bonferroni_below Below this number of faces the marginal map is judged by Bonferroni's
+#'   limit, as the quantile of the largest z of held-out faces is too uncertain.
 #' @param least,few Effective numbers of faces at an age: below `least` [assess()] refuses, below
 #'   `few` it warns.
 #' @param unit What coefficients of points are rounded to when fitted.
@@ -32,8 +34,8 @@
 #' @export
 norm_settings <- function(components = NULL, radii = c(12, 18, 30, 45), ranges = c(3, 6, 12, 24),
                           bins = c(0, 0.01, 2, 4, 6, 9, 12, 16, 20, 26, 34, 44), nugget = 0.003,
-                          k = NULL, k_spread = NULL, folds = NULL, smooth_below = 500, least = 10,
-                          few = 30, unit = 1e-3, ...) {
+                          k = NULL, k_spread = NULL, folds = NULL, smooth_below = 500,
+                          bonferroni_below = 200, least = 10, few = 30, unit = 1e-3, ...) {
   new_settings("norm_settings", check_norm_settings, list(...))
 }
 
@@ -51,7 +53,7 @@ check_norm_settings <- function(settings) {
     refuse_argument("radii", settings$radii, "Give `radii`, `ranges` above 0 and 3 `bins` or more.",
                     NULL)
   }
-  for (name in c("nugget", "smooth_below", "least", "few")) {
+  for (name in c("nugget", "smooth_below", "bonferroni_below", "least", "few")) {
     settings[[name]] <- check_number(settings[[name]], name, lower = 0)
   }
   settings$unit <- check_number(settings$unit, "unit", lower = 0, open = TRUE)
@@ -161,6 +163,9 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   held <- cross_validated(made, plan, scales, progress)
   norms <- new_shape_norms(made, parts, held, plan, settings)
   norms$scheme <- scheme_provenance(scheme)
+  # Against which template the faces were slid, if it is one
+  templates <- unique(lapply(unname(sample$shapes), function(x) x$provenance$template$hash))
+  if (length(templates) == 1) norms$scheme$template <- templates[[1]]
   norms$about <- c(about, made_with())
   norms$table$se_norm <- c(value_errors(sample, norms), rep(0, plan$components))
   if (share) check_shared(norms)

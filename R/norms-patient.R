@@ -17,6 +17,8 @@ patient_surface <- function(shape, norms, age, sex) {
   }
   laid <- lay_face(xyz, as.matrix(norms$points[c("x", "y", "z")]))
   check_size_ratio(1 / laid$scale, "the norm's mean face", shape$id, "norms")
+  check_not_mirrored(xyz, as.matrix(norms$points[c("x", "y", "z")]), "the norm's mean face",
+                     shape$id, "norms")
   field <- prepared_field(norms, "surface")
   found <- standardised_face(field, as.vector(laid$laid), age, sex)
   se <- points$se[row] * laid$scale

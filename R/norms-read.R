@@ -72,7 +72,8 @@ norms_from_tables <- function(header, tables) {
   points <- tables$reference
   points$index <- as.character(points$index)
   sexes <- as.character(header$sexes)
-  settings <- header$settings
+  # A setting that is newer than the file has its default.
+  settings <- utils::modifyList(unclass(norm_settings()), header$settings)
   field <- function(name) {
     if (is.null(header[[name]])) return(NULL)
     own <- header[[name]]

@@ -52,8 +52,9 @@
 #'
 #'   `as.data.frame()` gives `points`.
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or fewer than
-#'   three points in common; `unchanged` names no patch; the sizes differ as units do (5 times); the
-#'   norm is of another scheme, or does not have these ages.
+#'   three points in common; `unchanged` names no patch; the sizes differ as units do (5 times);
+#'   the second is a mirror image of the first; the norm is of another scheme, or
+#'   does not have these ages.
 #' @section Warnings: of class `crestline_not_converged`: the weights still change after the last
 #'   round. Of class `crestline_not_slid`: a measured shape was not slid. Of class
 #'   `crestline_red_parts`: parts of a shape are red.
@@ -182,6 +183,8 @@ lay_visit <- function(before, after, used, robust, error, settings) {
   spread <- function(x) sqrt(sum(sweep(x, 2, colMeans(x))^2))
   check_size_ratio(spread(b[used, ]) / spread(a[used, ]), paste("the first visit,", before$id),
                    after$id, "visits")
+  check_not_mirrored(b[used, ], a[used, ], paste("the first visit,", before$id), after$id,
+                     "visits")
   se <- visit_error(before, after, error)[used]
   own <- if (anyNA(se)) rep(1, length(used)) else se
   weight <- rep(1, length(used))

@@ -120,6 +120,43 @@ test_that("ages beyond the norm, other schemes and unknown sexes are refused", {
   expect_crestline_error(assess(shape, damaged, 10, "female"), "damaged")
 })
 
+test_that("a mirror image is refused by name", {
+  mirrored <- small_patient()
+  mirrored$points$x <- -mirrored$points$x
+  expect_error(looked(mirrored), "mirror image", class = "crestline_mirrored")
+  expect_error(compare_visits(small_patient(), mirrored), "mirror image",
+               class = "crestline_mirrored")
+})
+
+test_that("another template than the norm's is said; the same one is not", {
+  norms <- small_norms()
+  norms$scheme$template <- "one"
+  shape <- small_patient()
+  shape$provenance$template <- list(id = "x", hash = "other")
+  expect_warning(suppressWarnings(assess(shape, norms, 10, "female"), "crestline_norm_doubt"),
+                 "another template", class = "crestline_other_template")
+  shape$provenance$template$hash <- "one"
+  heard <- character()
+  withCallingHandlers(assess(shape, norms, 10, "female"), warning = function(w) {
+    heard <<- c(heard, class(w))
+    rlang::cnd_muffle(w)
+  })
+  expect_false("crestline_other_template" %in% heard)
+  # The file keeps it.
+  dir <- tempfile()
+  write_norms(norms, dir)
+  expect_identical(read_norms(dir)$scheme$template, "one")
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("below a number of faces the map's limit is Bonferroni's", {
+  norms <- small_norms()
+  expect_equal(looked(small_patient())$limits[["map"]], stats::qnorm(1 - 0.05 / 70))
+  norms$settings$bonferroni_below <- 0
+  at <- limit_levels() == 0.95
+  expect_equal(looked(small_patient(), norms = norms)$limits[["map"]], norms$limits$map[at])
+})
+
 test_that("another unit is refused; red parts and a shape that was not slid are said", {
   shape <- small_patient()
   metres <- shape
