@@ -78,7 +78,9 @@
 #'   Fine relief counts as noise too. On three clean real scans the median factor of the curves is
 #'   24, 49 and 79, and the band is too wide. Two scans of one subject separate
 #'   noise from relief. With [ridge_settings()]`(noise =
-#'   )` of [scan_noise()] the standard error follows the measured noise. A wider radius adds a bias
+#'   )` of [scan_noise()] the standard error follows the measured noise. A small scan holds few
+#'   patches of smooth noise. The standard error is then wider by Student's distribution: two of
+#'   them hold what two hold of the normal distribution. A wider radius adds a bias
 #'   that the standard error does not include. `vignette("how-good", "crestline")` has the tables.
 #' @section Curves that bow, curves that close: With `path = "crest"` or a `via` the reference path
 #'   is a path of least cost, see [reference_path()]. Where `from` is `to` and there is a `via` on

@@ -14,7 +14,8 @@
 #' @param most Where more vertices than this depend on the heights, one a cell of (s, d) stands for
 #'   the others: curvatures of neighbours, whose fits share most vertices, are nearly the same.
 #' @return List: `matrix`, of the moments (square of the order of the smooth surface); `factor`, as
-#'   of [noise_factor()], 1 where the noise is known, NULL where not all vertices were used.
+#'   of [noise_factor()], 1 where the noise is known, NULL where not all vertices were used;
+#'   `doubt`, as of [noise_doubt()].
 #' @noRd
 moment_noise <- function(scan, window, radius, settings, most = Inf) {
   surface <- window$surface
@@ -41,15 +42,53 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
     target <- thinned$cell
     rows <- rows[thinned$rows]
   }
-  found <- cpp_curvature_covariance(
+  covariance <- function(other, smooth) cpp_curvature_covariance(
     scan$vb, scan$it, window$coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), margins, target,
     window$coordinates$vertex[fitted], sigma, other, smooth,
     kernel_settings(radius, settings$order)
   )
+  found <- covariance(other, smooth)
   if (length(rows) < length(live)) return(list(matrix = found$matrix))
-  list(matrix = found$matrix,
-       factor = if (anyNA(known)) noise_factor(surface, live, margins, found) else 1)
+  if (anyNA(known)) {
+    return(list(matrix = found$matrix, factor = noise_factor(surface, live, margins, found)))
+  }
+  list(matrix = found$matrix, factor = 1, doubt = noise_doubt(known, found$matrix, covariance))
+}
+
+#' What the doubt about a measured noise does to the covariance of the moments
+#'
+#' @param known Noise as of [noise_setting()].
+#' @param whole Covariance of the moments under it.
+#' @param covariance Function of the independent standard deviation, and of the smooth one with its
+#'   range.
+#' @return List: `parts`, the covariances of the moments by the independent and the smooth part;
+#'   `df`, their degrees of freedom. NULL where the noise is not measured but known.
+#' @noRd
+noise_doubt <- function(known, whole, covariance) {
+  df <- attr(known, "df")
+  if (is.null(df)) return(NULL)
+  single <- covariance(known[[1]], c(0, 0))$matrix
+  list(parts = list(single, whole - single), df = df)
+}
+
+#' Variances of linear functions of the moments under a noise, with its factor
+#'
+#' Where the noise was measured, a variance is a sum of two estimates v_i with f_i degrees of
+#' freedom, and has (v_1 + v_2)^2 / (v_1^2 / f_1 + v_2^2 / f_2) itself (Satterthwaite 1946). It is
+#' widened, so that two standard errors hold of Student's distribution with these what they hold of
+#' the normal one.
+#'
+#' @param rows A function a row.
+#' @param noise As of [moment_noise()].
+#' @noRd
+noise_variance <- function(rows, noise) {
+  variance <- noise$factor * linear_variance(rows, noise$matrix)
+  if (is.null(noise$doubt)) return(variance)
+  doubt <- Map(function(part, df) linear_variance(rows, part)^2 / df, noise$doubt$parts,
+               noise$doubt$df)
+  df <- variance^2 / Reduce(`+`, doubt)
+  variance * ifelse(variance > 0, stats::qt(stats::pnorm(2), df) / 2, 1)^2
 }
 
 #' How much more the strengths scatter about their smooth surface than under independent noise
@@ -91,8 +130,8 @@ noise_factor <- function(surface, live, margins, covariance) {
 #' @return Numeric, one standard error for each of `line$s`, in the unit of the mesh.
 #' @noRd
 ridge_error <- function(line, slope, noise, bias, closed, settings) {
-  variance <- with_ends(linear_variance(slope, noise$matrix), closed)
-  error <- sqrt(settings$inflation^2 * noise$factor * variance + bias^2)
+  variance <- with_ends(noise_variance(slope, noise), closed)
+  error <- sqrt(settings$inflation^2 * variance + bias^2)
   if (closed) return(error)
   pmin(error, line$s - line$s[1], line$s[length(line$s)] - line$s)
 }

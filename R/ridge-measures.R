@@ -10,14 +10,13 @@
 with_measures <- function(scan, fit, known, settings) {
   line <- fit$line
   strength <- strength_along(fit$surface, line, known$slope)
-  covariance <- known$noise$factor * known$noise$matrix
   fit$line$strength <- strength$value
-  fit$line$strength_se <- sqrt(linear_variance(strength$rows, covariance))
-  fit$strength_se <- sqrt(linear_variance(t(colMeans(strength$rows)), covariance))
+  fit$line$strength_se <- sqrt(noise_variance(strength$rows, known$noise))
+  fit$strength_se <- sqrt(noise_variance(t(colMeans(strength$rows)), known$noise))
   if (!fit$found) return(fit)
   rate <- length_rate(scan, fit$path, line$s / line$s[length(line$s)], goes_round(fit$surface))
   moved <- crossprod(rate, known$slope)
-  fit$length_se <- sqrt(settings$inflation^2 * linear_variance(moved, covariance) +
+  fit$length_se <- sqrt(settings$inflation^2 * noise_variance(moved, known$noise) +
                           sum(rate * known$bias[-c(1, length(known$bias))])^2)
   fit
 }

@@ -31,6 +31,9 @@
 #'   * `independent`, `smooth`: standard deviations of the two parts, in the unit of the mesh;
 #'   * `range`: range of the correlation, in the unit of the mesh (0: no smooth part);
 #'   * `sd`: standard deviation of both parts together, in the unit of the mesh;
+#'   * `df`: degrees of freedom of the variances of both parts (no unit). Those of the smooth part
+#'     count the patches of smooth noise that the compared vertices hold. Standard errors under this
+#'     noise are widened for few of them, see [ridge_curve()];
 #'   * `covariance`: data frame by `lag` (unit of the mesh): covariance of the distances between the
 #'     scans, and the `fitted` covariance;
 #'   * `points`: number of vertices compared;
@@ -91,10 +94,21 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
   }
   structure(c(fitted$noise, list(
               sd = sqrt(fitted$noise$independent^2 + fitted$noise$smooth^2),
+              df = noise_df(fitted$noise, left, sum(laid$kept)),
               covariance = cbind(lagged, fitted = fitted$values), points = sum(laid$kept),
               converged = laid$converged, rounds = laid$rounds
             )),
             class = "scan_noise")
+}
+
+#' Degrees of freedom of the variances of both parts
+#'
+#' @param left As of [left_by_registration()].
+#' @param points Number of distances.
+#' @noRd
+noise_df <- function(noise, left, points) {
+  c(independent = points * attr(left, "share"),
+    smooth = if (noise$smooth > 0) attr(left, "df")(noise$range) else Inf)
 }
 
 abort_few_compared <- function(count, id) {
@@ -236,8 +250,9 @@ lagged_covariance <- function(xyz, distance, edge, lags, block = 500) {
 #' @param lagged As of [lagged_covariance()].
 #' @param most Number of vertices that stand for all.
 #' @return Function of a range: for each lag the mean of what is left of the correlation
-#'   exp(-d^2 / (2 range^2)), with the lag 0 first. Attribute `share`: what is left of independent
-#'   noise.
+#'   exp(-d^2 / (2 range^2)), with the lag 0 first. Attributes: `share`, what is left of independent
+#'   noise; `df`, function of a range: with C what is left, tr(C)^2 / tr(C^2), the degrees of
+#'   freedom of a mean square of such noise (Satterthwaite 1946).
 #' @noRd
 left_by_registration <- function(xyz, normal, lagged, edge, most = 400) {
   about <- sweep(xyz, 2, colMeans(xyz))
@@ -252,15 +267,21 @@ left_by_registration <- function(xyz, normal, lagged, edge, most = 400) {
   bin[diag(nrow(apart)) == 1] <- 1
   used <- which(!is.na(bin))
   count <- tabulate(bin[used], nrow(lagged))
-  left <- function(range) {
+  left_of <- function(range) {
     whole <- exp(-apart^2 / (2 * range^2))
     moved <- whole %*% moves
     part <- tcrossprod(moves, moved)
-    rest <- whole - part - t(part) + moves %*% tcrossprod(crossprod(moves, moved), moves)
-    sums <- rowsum(rest[used], bin[used])
+    whole - part - t(part) + moves %*% tcrossprod(crossprod(moves, moved), moves)
+  }
+  left <- function(range) {
+    sums <- rowsum(left_of(range)[used], bin[used])
     replace(rep(NA_real_, nrow(lagged)), as.integer(rownames(sums)), sums) / count
   }
-  structure(left, share = 1 - rank / nrow(xyz))
+  df <- function(range) {
+    rest <- left_of(range)
+    sum(diag(rest))^2 / sum(rest^2)
+  }
+  structure(left, share = 1 - rank / nrow(xyz), df = df)
 }
 
 #' Independent and smooth part of the noise of each scan
@@ -315,12 +336,20 @@ print.scan_noise <- function(x, ...) {
 }
 
 #' The setting `noise`: NA, or standard deviations and correlation length
+#'
+#' What [scan_noise()] measured has its degrees of freedom as an attribute, `df`.
 #' @noRd
 noise_setting <- function(noise, call = rlang::caller_env()) {
-  if (inherits(noise, "scan_noise")) noise <- unlist(noise[c("independent", "smooth", "range")])
+  df <- attr(noise, "df")
+  if (inherits(noise, "scan_noise")) {
+    df <- noise$df
+    noise <- unlist(noise[c("independent", "smooth", "range")])
+  }
   if (length(noise) == 1 && is.na(noise)) return(NA)
   known <- is.numeric(noise) && length(noise) == 3 && all(is.finite(noise)) && all(noise >= 0)
-  if (known) return(stats::setNames(as.numeric(noise), c("independent", "smooth", "range")))
+  if (known) {
+    return(structure(as.numeric(noise), names = c("independent", "smooth", "range"), df = df))
+  }
   crestline_abort(sprintf("`noise` is %s.", describe_value(noise)),
                   "Give what scan_noise() returns, or NA.", stage = "arguments", call = call)
 }

@@ -10,7 +10,8 @@
 # normals (0.1 and 0.3 mm, independent; 0.1 mm, smoothed nine times over the mesh, some three
 # steps), or every landmark moved by 1 mm; RMS distance (mm) of the middle 60 % of each curve from
 # the same estimator's curve on the scan as it is, and whether it lies within two of its median
-# standard errors. "known": the noise is given as scan_noise() measures it in two such scans.
+# standard errors in the surface (the mesh itself moves along its normals). "known": the noise is
+# given as scan_noise() measures it in two such scans.
 # "coverage": share of the inner points of simulated ridges within two standard errors of the crest,
 # with the noise factor, with scan_noise() of two simulated scans, and with the true noise; and how
 # many curves count as determined. "limits": standard errors of the ridges and valleys of good faces
@@ -76,6 +77,22 @@ off <- function(path, line) {
                                   as.matrix(as.data.frame(line)[c("x", "y", "z")]))$distance
 }
 
+# The part of that distance in the surface, square to the normal of the scan as it is: noise in the
+# heights moves every place of the surface, and no standard error across a curve is of that.
+across <- function(path, line, mesh) {
+  xyz <- middle(path)
+  line <- as.matrix(as.data.frame(line)[c("x", "y", "z")])
+  places <- do.call(rbind, lapply(seq_len(nrow(line) - 1), function(i) {
+    outer(1 - 0:9 / 10, line[i, ]) + outer(0:9 / 10, line[i + 1, ])
+  }))
+  nearest <- apply(xyz, 1, function(p) which.min(colSums((t(places) - p)^2)))
+  step <- xyz - places[nearest, ]
+  at <- crestline:::surface_points(mesh, places[nearest, ])
+  normal <- t(crestline:::path_normals(mesh, at))
+  normal <- normal / sqrt(rowSums(normal^2))
+  sqrt(rowSums((step - normal * rowSums(step * normal))^2))
+}
+
 repeated <- function() {
   from <- file.path(Sys.getenv("CRESTLINE_SHARED"), "scan_a")
   face <- suppressWarnings(read_specimen(file.path(from, "surface.ply"),
@@ -103,9 +120,10 @@ repeated <- function() {
       for (curve in table$curve) {
         if (is.null(shape$paths[[curve]]) || is.null(before$paths[[curve]])) next
         away <- off(shape$paths[[curve]], before$paths[[curve]])
+        aside <- rms(across(shape$paths[[curve]], before$paths[[curve]], face$mesh))
         se <- shape$status$se[shape$status$part == curve & shape$status$level == "curves"]
         rows[[length(rows) + 1]] <- data.frame(
-          seed, noise = name, way, curve, away = rms(away), se, within = rms(away) <= 2 * se,
+          seed, noise = name, way, curve, away = rms(away), aside, se, within = aside <= 2 * se,
           determined = shape$checks$determined[shape$checks$part == curve &
                                                shape$checks$level == "curves"]
         )

@@ -92,8 +92,25 @@ test_that("known noise takes the noise factor's place, and widens the kernel if 
   expect_identical(known$noise_factor, 1)
   expect_gt(blind$noise_factor, 10)
   expect_gt(known$line$kernel, blind$line$kernel)
-  expect_identical(known$settings$noise,
+  expect_identical(structure(known$settings$noise, df = NULL),
                    c(independent = noise$independent, smooth = noise$smooth, range = noise$range))
+  # The same noise, but exactly known: the band is narrower by Student's quantile, between those of
+  # both parts.
+  exact <- fit(ridge_settings(noise = structure(known$settings$noise, df = NULL)))
+  wider <- (known$se / exact$se)
+  expect_gt(wider, 1.01)
+  expect_lt(wider, stats::qt(stats::pnorm(2), noise$df[["smooth"]]) / 2)
+})
+
+test_that("smooth noise has as many degrees of freedom as a scan holds patches of it", {
+  scans <- repeated(0.01, 2, 5, b = 0.05)
+  noise <- scan_noise(scans[[1]], scans[[2]], near = scans[[1]]$mesh$vb[1:3, ] |> t())
+  # On a square of side 2 a mean square has area / (pi range^2), but for the borders, and the
+  # movements that registration takes.
+  patches <- 4 / (pi * noise$range^2)
+  expect_gt(noise$df[["smooth"]], 0.7 * patches)
+  expect_lt(noise$df[["smooth"]], 1.3 * patches)
+  expect_gt(noise$df[["independent"]], 0.9 * noise$points)
 })
 
 test_that("scans that cannot be compared are refused", {
