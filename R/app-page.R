@@ -24,7 +24,8 @@ app_page <- function(dir, columns = c("id", "group")) {
              button("step_quality", "Quality", "Grade all parts, and write a page"),
              button("step_homologise", "Homologise", "Make the points homologous")),
         form("4 Compare", field("table", "Table of groups (.csv)", "", class = "wide"),
-             field("id", "Column of names", columns[1]), field("by", "Column of groups", columns[2]),
+             field("id", "Column of names", columns[1]),
+             field("by", "Column of groups", columns[2]),
              button("step_groups", "Groups", "Read the table"),
              choice("level", "Points", c("curves", "landmarks", "surface")),
              field("permutations", "Permutations", 1000, "number", min = 99, step = 1),
@@ -38,7 +39,7 @@ app_page <- function(dir, columns = c("id", "group")) {
       tags$div(id = "results", shiny::uiOutput("told"), shiny::uiOutput("files"),
                tags$h2("Code"),
                tags$p(class = "help", "What was run. Run again, it gives the same numbers."),
-               tags$pre(id = "code", shiny::textOutput("code", inline = TRUE)))
+               shiny::verbatimTextOutput("code"))
     ),
     shiny::includeScript(review_file("ended.js"))
   )

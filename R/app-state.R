@@ -3,8 +3,8 @@
 
 #' Begin
 #' @return List: `code` (lines that were run, the whole analysis), `values` (environment of what
-#'   they made), `shown` (what the last step printed), `told` (warnings and messages of it), `failed`
-#'   (whether it failed), `steps` (names of the steps that were done).
+#'   they made), `shown` (what the last step printed), `told` (warnings and messages of it),
+#'   `failed` (whether it failed), `steps` (names of the steps that were done).
 #' @noRd
 begin_app <- function() {
   list(code = "library(crestline)", values = new.env(parent = app_parent()), shown = character(),

@@ -9,8 +9,8 @@
 #'
 #' * *Scans*: a folder with PLY, OBJ or STL files. Results go into its folder `output`.
 #' * *Landmarks*: "Find" leaves them to [find_landmarks()]. "Beside" reads the landmark file beside
-#'   each scan. "By hand" opens the page of [digitise()], with the found landmarks once the scans are
-#'   measured. After "Done" there you are back here.
+#'   each scan. "By hand" opens the page of [digitise()], with the found landmarks once the scans
+#'   are measured. After "Done" there you are back here.
 #' * *Measure*: [fit_shapes()], with a bar. Scans that fail are listed with the reason and the
 #'   remedy. "Quality" is [quality()] and [quality_report()], "Homologise" [homologise()].
 #' * *Compare*: a table with a column of names (those of the files, without extension) and one of
@@ -22,8 +22,8 @@
 #' @param ... `launch.browser` and `quiet` of [shiny::runApp()], as in [review_landmarks()].
 #' @details The page runs on this computer only (127.0.0.1). Its address has a random token. R
 #'   answers only requests with this token, and none from pages of another site.
-#' @return Invisibly a list: `code` (lines, the whole analysis) and `values` (list by name of what it
-#'   made, such as `shapes`, `sample`, `compared`).
+#' @return Invisibly a list: `code` (lines, the whole analysis) and `values` (list by name of what
+#'   it made, such as `shapes`, `sample`, `compared`).
 #' @section Errors: of class `crestline_error`: an argument is wrong, or a package is not installed.
 #'   What goes wrong on the page is said there.
 #' @template glossary
@@ -70,8 +70,12 @@ app_by_hand <- function(state, form, address) {
   if (inherits(desk, "crestline_error")) {
     return(after_failure(state, paste(desk$problem, desk$remedy)))
   }
-  # All that was shown is kept, untouched ones too
-  for (review in desk$reviews) keep_review(review, file.path(state$values$dir, "desk"))
+  # Of measured scans all are kept, untouched and unseen ones too
+  for (id in if (wanted$blank) names(desk$reviews) else desk$ids) {
+    review <- desk$reviews[[id]]
+    if (is.null(review)) review <- as_value(desk$open(id))
+    if (!failed(review)) keep_review(review, file.path(state$values$dir, "desk"))
+  }
   do_step(state, "hand", form)
 }
 
