@@ -143,6 +143,7 @@ aligned_of.sample_files <- function(sample, level, triangles, settings, limits, 
     level = given$level, missing = given$missing, moved = fit$moved, triangles = given$triangles,
     settings = settings, reference = given$reference,
     provenance = with_settings(sample$provenance, "align", settings), distance = made$distance,
+    kept = new.env(parent = emptyenv()),
     class = c("aligned_files", "aligned")
   )
   warn_of_files(aligned, made$hash, limits)
@@ -284,15 +285,25 @@ centred_block <- function(aligned, i, factor) {
   t((flat - as.vector(attr(aligned, "center"))) * rep(factor, ncol(aligned$mean)))
 }
 
+#' Inner products of the specimens, or products of the co-ordinates
+#' @noRd
+shape_products <- function(aligned, weights, wide) {
+  if (wide) return(over_points(aligned, tcrossprod, weights))
+  products <- 0
+  for (i in seq_len(n_blocks(attr(aligned, "files")))) {
+    products <- products + crossprod(centred_block(aligned, i, sqrt(weights)))
+  }
+  products
+}
+
 shape_svd.aligned_files <- function(aligned, weights, tolerance, most) {
   files <- attr(aligned, "files")
   root <- sqrt(weights)
   wide <- length(aligned) <= length(aligned$mean)
-  products <- 0
-  if (wide) products <- over_points(aligned, tcrossprod, weights) else
-    for (i in seq_len(n_blocks(files))) {
-      products <- products + crossprod(centred_block(aligned, i, root))
-    }
+  # Components and tests of one alignment need the same products, which take a pass each.
+  products <- kept(list(kept = attr(aligned, "kept")), weights, function() {
+    shape_products(aligned, weights, wide)
+  })
   parts <- symmetric_parts(products, most)
   keep <- kept_components(parts$values, tolerance, length(aligned), most)
   d <- sqrt(parts$values[keep])
