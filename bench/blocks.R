@@ -1,8 +1,9 @@
 # Statistics of a sample in files: time, memory, and the same numbers as in memory.
 #
-#   CRESTLINE_SHARED=../shared/data Rscript bench/blocks.R [cohort] [same] [n] [folder]
+#   CRESTLINE_SHARED=../shared/data Rscript bench/blocks.R [cohort] [all] [model] [same] [n]
+#     [folder]
 #
-# The points are made: 922 points of the 23 dense meshes of simpop, their components resampled, with
+# The points are made: some 920 points of the 23 dense meshes of simpop, their components resampled, with
 # 0.3 mm of independent noise, a pose of its own for each face, and in the second half a step of
 # 1 mm. cohort: n faces (50,000 if not given) written in blocks of 500, opened, aligned, 50
 # components, two groups with 1,000 permutations, a linear model of two terms. Prints processor and
@@ -14,18 +15,18 @@ library(crestline)
 inner <- function(name) getFromNamespace(name, "crestline")
 quiet <- function(code) suppressWarnings(suppressMessages(code))
 args <- commandArgs(TRUE)
-wanted <- intersect(args, c("cohort", "same", "model"))
+wanted <- intersect(args, c("cohort", "same", "model", "all"))
 if (!length(wanted)) wanted <- c("same", "cohort")
 n <- as.integer(c(grep("^[0-9]+$", args, value = TRUE), 50000)[1])
 folder <- c(setdiff(args, c(wanted, n)), tempfile("cohort-"))[1]
 
-# Mean (k x 3, mm), components (3k x 22) times their standard deviations, triangles, of 922 points.
+# Mean (k x 3, mm), components (3k x 22) times their standard deviations, triangles, of the points.
 real_sample <- function() {
   shared <- file.path(Sys.getenv("CRESTLINE_SHARED"), "simpop")
   ids <- unique(read.csv(file.path(shared, "landmarks.csv"))$id)
   meshes <- lapply(file.path(shared, paste0(ids, ".ply")), Rvcg::vcgImport, readcolor = FALSE,
                    silent = TRUE)
-  coarse <- Rvcg::vcgQEdecim(meshes[[1]], tarface = 1830, silent = TRUE)
+  coarse <- Rvcg::vcgQEdecim(meshes[[1]], tarface = 1704, silent = TRUE)
   at <- unique(Rvcg::vcgKDtree(meshes[[1]], t(coarse$vb[1:3, ]), k = 1)$index[, 1])
   own <- Rvcg::vcgKDtree(t(meshes[[1]]$vb[1:3, at]), t(coarse$vb[1:3, ]), k = 1)$index[, 1]
   it <- matrix(own[coarse$it], 3)
@@ -89,10 +90,12 @@ cohort <- function() {
   cat("rounds:", length(aligned$moved), "\n")
   row("50 components", pca <- shape_pca(aligned, components = 50))
   group <- stats::setNames(rep(c("a", "b"), c(ceiling(n / 2), floor(n / 2))), names(aligned))
-  for (tests in list("shape", "points", comparison_settings()$tests)) {
-    row(paste("two groups, 1,000 permutations:", if (length(tests) > 1) "all tests" else tests),
-        found <- compare_groups(aligned, group, seed = 1,
-                                settings = comparison_settings(tests = tests)))
+  whole <- comparison_settings()$tests
+  for (tests in c(list(c("size", "shape", "points")), if ("all" %in% wanted) list(whole))) {
+    what <- if (length(tests) > 3) "all tests" else "size, shape, map"
+    row(paste("two groups, 1,000 permutations:", what), found <- compare_groups(
+      aligned, group, seed = 1, settings = comparison_settings(tests = tests)
+    ))
   }
   print(found)
   if ("model" %in% wanted) {
