@@ -166,7 +166,8 @@ points_object <- function(parts, frame, balls) {
   if (is.null(labels) || !any(known)) return(drawn)
   labelled <- do.call(rbind, lapply(parts, function(one) if (!is.null(one$labels)) one$xyz))
   c(drawn, ids_of(rgl::text3d(
-    into_scene(labelled, frame), texts = labels, cex = max(1, 0.8 * size), adj = c(-0.5, 0.5), lit = FALSE,
+    into_scene(labelled, frame), texts = labels, cex = max(1, 0.8 * size), adj = c(-0.5, 0.5),
+    lit = FALSE,
     color = rep(colour, length.out = nrow(labelled)), depth_test = "always"
   )))
 }
