@@ -47,7 +47,7 @@ as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "mod
                         ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
-  validate(sample)
+  if (inherits(sample, "aligned")) validate(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   columns <- covariates(data, dimnames(aligned$coords)[[3]])
   structure(c(list(coords = aligned$coords, size = aligned$size), columns),
@@ -75,7 +75,7 @@ as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model")
 as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model"), ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
-  validate(sample)
+  if (inherits(sample, "aligned")) validate(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
   variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share,

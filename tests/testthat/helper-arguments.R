@@ -315,7 +315,7 @@ argument_calls <- function(made = argument_objects(), folder = tempfile()) {
     read_digitised = entry(given(dir = made_desk(one, path("desk")), observer = NULL),
                            dir = "text", observer = "names?"),
     read_norms = entry(given(dir = path("norms_read")), dir = "object"),
-    visit_settings = fields(visit_settings, rounds = "count", draws = "count", seed = "number"),
+    visit_settings = fields(visit_settings, rounds = "count", draws = "count", seed = "number?"),
     compare_visits = entry(given(before = cohort$sample[[1]], after = cohort$sample[[2]],
                                  error = 0.2, unchanged = "mid", table = NULL, norms = norms,
                                  ages = c(10, 11), sex = "female", settings = visit_settings()),

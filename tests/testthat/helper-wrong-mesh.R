@@ -139,6 +139,7 @@ own_mesh_calls <- function() {
     surface_faults = function(case, one) surface_faults(case$shape, one),
     quality_report = function(case, one)
       quality_report(case$shape, temporary(".html"), one, size = c(300, 150)),
+    write_slicer = function(case, one) write_slicer(case$shape, tempfile("slicer"), one),
     path_coordinates = function(case, one) path_coordinates(one, case$path, 10),
     lift = function(case, one)
       lift(one, case$coordinates, case$path, c(0, attr(case$path, "length")), c(0, 0)),
@@ -225,6 +226,8 @@ specimen_calls <- function() {
     refine_landmarks = function(case, one) refine_landmarks(one, case$defined),
     review_landmarks = function(case, one)
       review_landmarks(one, case$shape$scheme, launch.browser = FALSE),
+    digitise = function(case, one)
+      digitise(list(one), case$shape$scheme, launch.browser = FALSE),
     check_placing = function(case, one) check_placing(one),
     second_opinion = function(case, one) second_opinion(one, case$places),
     check_scheme = function(case, one) check_scheme(case$shape$scheme, one),

@@ -52,7 +52,7 @@ test_that("stops on one side are not determined, and say so", {
 
 test_that("a width that is cut is told", {
   wide <- ridge_curve(ring_specimen(), "a", "a", "ridge", ring_radius, 9, 24, via = "b")
-  expect_output(print(wide), "of its width 9 only 4.5 is used: 1.5 radii")
+  expect_output(print(wide), "only 4.5 of its width is used, 1.5 radii")
   expect_output(print(closed_ring(ring_specimen(), "b")), "\\n  converged")
 })
 
