@@ -26,7 +26,8 @@ whole_specimen.stored_specimen <- function(x) {
   structure(fields, class = "specimen")
 }
 
-#' The scan of a stored specimen; the last one that was read is in memory still
+#' The scan of a stored specimen; the last one that was read is in memory still. What is known of
+#' landmarks is the specimen's own: another result may have others on the same scan
 #' @return List: `mesh`, `geometry`.
 #' @noRd
 stored_scan <- function(x) {
@@ -36,11 +37,10 @@ stored_scan <- function(x) {
   now <- list(fields$key, fields$id, at, about$size, about$mtime)
   if (!identical(now, last_scan$what)) {
     scan <- scan_from(at, fields)
-    last_scan$scan <- list(mesh = scan$mesh,
-                           geometry = c(scan$geometry[c("twin", "piece")], fields$geometry))
+    last_scan$scan <- list(mesh = scan$mesh, geometry = scan$geometry[c("twin", "piece")])
     last_scan$what <- now
   }
-  last_scan$scan
+  list(mesh = last_scan$scan$mesh, geometry = c(last_scan$scan$geometry, fields$geometry))
 }
 
 last_scan <- new.env(parent = emptyenv())

@@ -27,6 +27,18 @@ test_that("it is the specimen that it was, its scan read when it is asked for", 
   expect_identical(stored$mesh$vb, made$whole$mesh$vb)
 })
 
+test_that("two results of one scan have their own landmarks", {
+  made <- stored_example()
+  on.exit(unlink(made$dir, recursive = TRUE))
+  moved <- made$whole$landmarks
+  moved["a", ] <- moved["b", ]
+  other <- read_specimen(made$mesh, moved)
+  second <- stored_specimen(other, unclass(made$stored)$source)
+  expect_identical(made$stored$geometry$landmarks, made$whole$geometry$landmarks)
+  expect_identical(second$geometry$landmarks, other$geometry$landmarks)
+  expect_identical(whole_specimen(second), other)
+})
+
 test_that("a scan that is gone, moved or changed is named, with the remedy", {
   made <- stored_example()
   moved <- tempfile("moved-")
