@@ -12,9 +12,12 @@ desk_paths <- function(dir, observer, id) {
        table = file.path(own, paste0(file_word(id), ".csv")))
 }
 
-#' A name as a file's name
+#' A name as a file's name, of its own for each: one that has "%20" in it, or is a way out of the
+#' folder, too
 #' @noRd
-file_word <- function(name) utils::URLencode(enc2utf8(name), reserved = TRUE)
+file_word <- function(name) {
+  sub("^[.]", "%2E", utils::URLencode(enc2utf8(name), reserved = TRUE, repeated = TRUE))
+}
 
 #' Numbers as text that reads back to the same
 #' @noRd
@@ -43,14 +46,23 @@ keep_review <- function(review, dir) {
   there <- specimen$landmarks[!is.na(specimen$landmarks[, 1]), , drop = FALSE]
   part <- paste0(paths$table, ".part.csv")
   write_landmarks(there, part, curves = drawn_points(review))
-  file.rename(part, paths$table)
+  put_in_place(part, paths$table)
   invisible(paths$record)
 }
 
 put_file <- function(text, path) {
   part <- paste0(path, ".part")
   writeLines(enc2utf8(text), part, useBytes = TRUE)
-  file.rename(part, path)
+  put_in_place(part, path)
+}
+
+#' Give a file that is whole its name
+#' @noRd
+put_in_place <- function(part, path) {
+  if (suppressWarnings(file.rename(part, path))) return(invisible(path))
+  crestline_abort(sprintf("the record cannot be written to %s.", path),
+                  "Close the program that has the file open, or check who may write there.",
+                  stage = "desk", class = "crestline_desk_error", call = NULL)
 }
 
 #' Read a record
@@ -110,7 +122,9 @@ resumed_review <- function(review, path) {
   }
   gone <- marks$landmark[is.na(marks$x) & marks$state == "absent"]
   for (name in gone) review$specimen <- move_landmark(review$specimen, name, NULL)
-  review$state[marks$landmark] <- marks$state
+  # What was still missing then may have been found since
+  told <- marks$state != "missing" | !marks$landmark %in% names(review$state)
+  review$state[marks$landmark[told]] <- marks$state[told]
   review$about <- with_new_marks(review$about, marks$landmark)
   if (!is.null(review$fitting)) review$fitting <- at_landmarks(review$fitting, review$specimen)
   review$log <- record$steps

@@ -61,6 +61,38 @@ test_that("a desk goes on from its folder, and a second observer sees nothing of
   unlink(dir, recursive = TRUE)
 })
 
+test_that("names of files are names of their own, in the folder", {
+  names <- c("a b", "a%20b", ".", "..", "a/b", "%2E/../x", "C:x")
+  words <- vapply(names, file_word, "")
+  expect_equal(anyDuplicated(words), 0)
+  expect_false(any(grepl("^[.]|[/\\\\:]", words)))
+  expect_identical(unname(vapply(words, utils::URLdecode, "")), names)
+})
+
+test_that("landmarks that were missing on the desk and have been found since are found", {
+  dir <- tempfile("desk")
+  place_at(two_balls(dir), "a")
+  again <- current_review(two_balls(dir, blank = FALSE))
+  expect_identical(again$state, c(a = "placed", b = "given", c = "given", d = "given"))
+  expect_false(anyNA(again$specimen$landmarks))
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("a step that cannot be written is said", {
+  dir <- tempfile("desk")
+  desk <- place_at(two_balls(dir), "a")
+  record <- file.path(dir, "AB", "records", "one.json")
+  unlink(record)
+  dir.create(file.path(record, "taken"), recursive = TRUE)
+  after <- place_at(desk, "b")
+  expect_match(current_review(after)$said, "not written: .*record cannot be written")
+  expect_equal(current_review(after)$state[["b"]], "placed")
+  unlink(record, recursive = TRUE)
+  place_at(after, "c")
+  expect_equal(sum(read_digitised(dir)$marks$state == "placed"), 3)
+  unlink(dir, recursive = TRUE)
+})
+
 test_that("a record of another mesh is refused", {
   dir <- tempfile("desk")
   place_at(two_balls(dir), "a")
