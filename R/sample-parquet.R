@@ -65,7 +65,7 @@ point_rows <- function(x, form, block = 200) {
     shape <- x[[name]]
     if (is.null(shape)) return(NULL)
     if (is.null(first)) first <<- shape else check_same_scheme(shape, first)
-    if (form == "wide") return(wide_points(shape))
+    if (form == "wide") return(wide_points(shape, name))
     points <- shape$points[c("level", "part", "point", "x", "y", "z", "se")]
     cbind(id = rep(name, nrow(points)), points)
   }
@@ -75,13 +75,14 @@ point_rows <- function(x, form, block = 200) {
 }
 
 #' One shape's points as a row
+#' @param id Name of the specimen among the others.
 #' @noRd
-wide_points <- function(shape) {
+wide_points <- function(shape, id) {
   name <- table_columns(points_of_sample(shape), c("x", "y", "z"))
   values <- columns_of(shape$points, c("x", "y", "z"))
   order <- as.vector(t(matrix(seq_along(name), nrow(name))))
   row <- as.list(stats::setNames(as.vector(values)[order], name[order]))
-  as.data.frame(c(list(id = shape$id), row), optional = TRUE)
+  as.data.frame(c(list(id = id), row), optional = TRUE)
 }
 
 #' A table of parts' measures and grades
