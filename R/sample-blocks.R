@@ -125,8 +125,13 @@ points_of_sample <- function(template) {
              place = at$place)
 }
 
-points_of_array <- function(x) {
+points_of_array <- function(x, call = rlang::caller_env()) {
   name <- dimnames(x)[[1]]
+  if (anyDuplicated(name)) {
+    crestline_abort(sprintf("two points have the name \"%s\".", name[anyDuplicated(name)]),
+                    "Name each of its own: columns of the files are found by name.",
+                    stage = "sample", call = call)
+  }
   data.frame(level = rep("points", length(name)), point = name, place = name)
 }
 
