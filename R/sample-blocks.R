@@ -5,7 +5,7 @@
 #' Keeps the points of a sample in a folder, some hundreds of specimens a file. [align()],
 #' [shape_pca()], [compare_groups()] and [shape_lm()] take such a sample in place of one in memory.
 #' They read one file at a time. Memory then does not grow with the number of points times
-#' specimens: 50,000 faces of 922 points take less than 2 GB.
+#' specimens: alignment and 50 components of 50,000 faces of 921 points take 0.45 GB.
 #'
 #' `write_blocks()` writes the folder, `open_sample()` opens it. Opening reads no points.
 #'
