@@ -12,11 +12,18 @@ desk_paths <- function(dir, observer, id) {
        table = file.path(own, paste0(file_word(id), ".csv")))
 }
 
-#' A name as a file's name, of its own for each: one that has "%20" in it, or is a way out of the
-#' folder, too
+#' A name as a file's name, of its own for each
+#'
+#' It is the name itself, by which [fit_shapes()] finds the table of a scan, but for signs that a
+#' disk does not take or that lead out of the folder: these are as in addresses.
 #' @noRd
 file_word <- function(name) {
-  sub("^[.]", "%2E", utils::URLencode(enc2utf8(name), reserved = TRUE, repeated = TRUE))
+  letters <- strsplit(enc2utf8(name), "")[[1]]
+  odd <- grepl("[%<>:\"/\\\\|?*\001-\037]", letters)
+  ends <- unique(c(1, length(letters)))
+  odd[ends] <- odd[ends] | letters[ends] %in% c(".", " ")
+  letters[which(odd)] <- sprintf("%%%02X", vapply(letters[which(odd)], utf8ToInt, 0L))
+  paste(letters, collapse = "")
 }
 
 #' Numbers as text that reads back to the same
@@ -105,6 +112,14 @@ read_record <- function(path) {
 resumed_review <- function(review, path) {
   if (!file.exists(path)) return(review)
   record <- read_record(path)
+  # On disks without capitals two names may have one file
+  if (!identical(c(record$specimen, record$observer), c(review$specimen$id, review$observer))) {
+    crestline_abort(sprintf("its record would be that of %s by %s.", record$specimen,
+                            record$observer),
+                    "Give specimens and observers names that differ by more than capitals.",
+                    stage = "desk", id = review$specimen$id, class = "crestline_desk_error",
+                    call = NULL)
+  }
   if (!identical(record$mesh, specimen_key(review$specimen))) {
     crestline_abort("its record in the desk's folder is of another mesh.",
                     sprintf("Give the mesh as it was, or take %s away.", path),
