@@ -107,11 +107,9 @@ read_record <- function(path) {
   record
 }
 
-#' A review that goes on where its record ended
+#' Refuse a record that is of another specimen, observer or mesh than a review
 #' @noRd
-resumed_review <- function(review, path) {
-  if (!file.exists(path)) return(review)
-  record <- read_record(path)
+check_record <- function(record, review, path) {
   # On disks without capitals two names may have one file
   if (!identical(c(record$specimen, record$observer), c(review$specimen$id, review$observer))) {
     crestline_abort(sprintf("its record would be that of %s by %s.", record$specimen,
@@ -126,6 +124,14 @@ resumed_review <- function(review, path) {
                     stage = "desk", id = review$specimen$id, class = "crestline_desk_error",
                     call = NULL)
   }
+}
+
+#' A review that goes on where its record ended
+#' @noRd
+resumed_review <- function(review, path) {
+  if (!file.exists(path)) return(review)
+  record <- read_record(path)
+  check_record(record, review, path)
   marks <- record$landmarks
   for (i in which(!is.na(marks$x))) {
     point <- surface_points(review$specimen$mesh, as.matrix(marks[i, c("x", "y", "z")]))
