@@ -48,14 +48,19 @@ last_scan <- new.env(parent = emptyenv())
 #' Where the file of a scan is now
 #'
 #' The path of the run; the same relative to the folder of results, where both were moved together;
-#' the file's name in a folder of the option `crestline.scans`.
+#' the file's name in a folder of the option `crestline.scans`. Of several that are there, the first
+#' that has not changed.
 #' @noRd
 stored_place <- function(fields) {
   source <- fields$source
   folders <- getOption("crestline.scans")
-  at <- c(source$file, if (!is.null(source$beside)) source$beside,
-          if (length(folders)) file.path(folders, basename(source$file)))
+  at <- unique(c(source$file, if (!is.null(source$beside)) source$beside,
+                 if (length(folders)) file.path(folders, basename(source$file))))
   there <- at[file.exists(at)]
+  if (length(there) > 1) {
+    own <- vapply(there, rlang::hash_file, "") == source$hash
+    there <- c(there[own], there[!own])
+  }
   if (length(there)) return(there[1])
   refuse_scan(sprintf("its scan is not there: %s.", source$file), fields$id)
 }

@@ -55,6 +55,11 @@ test_that("a scan that is gone, moved or changed is named, with the remedy", {
   expect_identical(made$stored$landmarks, made$whole$landmarks)
   options(crestline.scans = moved)
   expect_identical(made$stored$mesh, made$whole$mesh)
+  # Another file in the place of the first: the one that has not changed is read.
+  writeLines("another scan", made$mesh)
+  last_scan$what <- NULL
+  expect_identical(made$stored$mesh, made$whole$mesh)
+  unlink(made$mesh)
   bytes <- readBin(file.path(moved, basename(made$mesh)), "raw", 1e6)
   bytes[length(bytes) - 5] <- xor(bytes[length(bytes) - 5], as.raw(1))
   writeBin(bytes, file.path(moved, basename(made$mesh)))
