@@ -53,7 +53,7 @@ test_that("what cannot be written is told", {
   shape <- fit_shape(batch_specimens(1)[[1]], edge_scheme(), progress = FALSE)
   file <- tempfile()
   for (wrong in list(data.frame(a = 1), data.frame(id = c("a", "a")), data.frame(id = "a", x = 1),
-                     "a")) {
+                     data.frame(id = "another", site = 1), "a")) {
     expect_crestline_error(write_parquet(shape, file, specimens = wrong), "`specimens`")
   }
   expect_crestline_error(write_parquet(shape, file.path(file, "none")), "cannot be written")
