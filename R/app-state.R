@@ -23,6 +23,8 @@ app_parent <- function() {
 
 #' Do a step: its lines are run, and are added to the code if all of them ran
 #'
+#' What was made of former objects of the same name is taken away, so that no later step mixes both.
+#'
 #' @param form As in [step_code()].
 #' @param around Function of an expression, in which the lines run: for a bar of progress.
 #' @noRd
@@ -59,6 +61,7 @@ run_lines <- function(state, name, code) {
       conditionMessage(shown)
     return(after_failure(state, c(paste(said, collapse = " "), told)))
   }
+  rm(list = intersect(app_outdated(name), ls(values)), envir = values)
   state$values <- values
   state$code <- c(state$code, sprintf("# %s", app_titles()[[name]]), code)
   state$steps <- c(setdiff(state$steps, name), name)

@@ -10,7 +10,16 @@ app_needs <- function() {
   list(folder = character(), find = "files", hand = "files", beside = "files",
        measure = c("files", "landmarks"), quality = "shapes", homologise = "shapes",
        groups = "sample", compare = c("sample", "group"), pictures = c("sample", "compared"),
-       exports = "sample")
+       exports = c("sample", "graded", "compared"))
+}
+
+#' What was made of the objects that each step makes anew: it has to be made again
+#' @noRd
+app_outdated <- function(name) {
+  sample <- c("graded", "sample", "compared", "pca")
+  switch(name, folder = c("landmarks", "found", "shapes", "group", sample), find = , beside = ,
+         hand = c("shapes", sample), measure = sample, homologise = c("compared", "pca"),
+         groups = "compared", character())
 }
 
 #' The code of a step

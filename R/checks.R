@@ -74,13 +74,6 @@ check_flags <- function(..., call = rlang::caller_env()) {
   invisible(Map(check_flag, list(...), names, MoreArgs = list(call = call)))
 }
 
-#' Arguments of one function that are numbers of at least 0 each, given as they are called there
-#' @noRd
-check_shares <- function(..., call = rlang::caller_env()) {
-  names <- vapply(substitute(list(...))[-1], as.character, "")
-  invisible(Map(check_number, list(...), names, MoreArgs = list(lower = 0, call = call)))
-}
-
 check_choice <- function(x, choices, name, call = rlang::caller_env()) {
   if (!is.character(x) || length(x) < 1 || !x[[1]] %in% choices) {
     refuse_argument(name, x,

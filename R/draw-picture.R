@@ -11,8 +11,8 @@
 #' @param gloss Strength of highlights, 0 to 1. Large values hide colours.
 #' @param sharpness Exponent of the highlights (Blinn-Phong). Highlights are smaller for larger
 #'   values.
-#' @param resolution Pixels per inch of the surface's raster. NULL: the resolution of the device, at
-#'   least 150.
+#' @param resolution Pixels per inch of the surface's raster. The default is the resolution of the
+#'   device, in a file of [write_picture()] its `dpi`, but at least 150.
 #' @param samples Root of the number of samples in a pixel.
 #' @param margin Margin of the picture, as a share of the size of its content.
 #' @param around Points (as `x` of [draw_lines()]) to which the picture is cropped. NULL: the whole
@@ -31,7 +31,8 @@ picture_settings <- function(light = c(-0.45, 0.55, 1), ambient = 0.3, wrap = 0.
                              sharpness = 20,
                              resolution = max(150,
                                               grDevices::dev.size("px") /
-                                              grDevices::dev.size("in")),
+                                              grDevices::dev.size("in"),
+                                              getOption("crestline.dpi")),
                              samples = 3, margin = 0.02, around = NULL, tolerance = 0.005,
                              inside = NA) {
   if (!is.numeric(light) || length(light) != 3 || any(!is.finite(light)) || all(light == 0)) {

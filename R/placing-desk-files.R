@@ -12,9 +12,19 @@ desk_paths <- function(dir, observer, id) {
        table = file.path(own, paste0(file_word(id), ".csv")))
 }
 
-#' A name as a file's name
+#' A name as a file's name, of its own for each
+#'
+#' It is the name itself, by which [fit_shapes()] finds the table of a scan, but for signs that a
+#' disk does not take or that lead out of the folder: these are as in addresses.
 #' @noRd
-file_word <- function(name) utils::URLencode(enc2utf8(name), reserved = TRUE)
+file_word <- function(name) {
+  letters <- strsplit(enc2utf8(name), "")[[1]]
+  odd <- grepl("[%<>:\"/\\\\|?*\001-\037]", letters)
+  ends <- unique(c(1, length(letters)))
+  odd[ends] <- odd[ends] | letters[ends] %in% c(".", " ")
+  letters[which(odd)] <- sprintf("%%%02X", vapply(letters[which(odd)], utf8ToInt, 0L))
+  paste(letters, collapse = "")
+}
 
 #' Numbers as text that reads back to the same
 #' @noRd
@@ -43,14 +53,23 @@ keep_review <- function(review, dir) {
   there <- specimen$landmarks[!is.na(specimen$landmarks[, 1]), , drop = FALSE]
   part <- paste0(paths$table, ".part.csv")
   write_landmarks(there, part, curves = drawn_points(review))
-  file.rename(part, paths$table)
+  put_in_place(part, paths$table)
   invisible(paths$record)
 }
 
 put_file <- function(text, path) {
   part <- paste0(path, ".part")
   writeLines(enc2utf8(text), part, useBytes = TRUE)
-  file.rename(part, path)
+  put_in_place(part, path)
+}
+
+#' Give a file that is whole its name
+#' @noRd
+put_in_place <- function(part, path) {
+  if (suppressWarnings(file.rename(part, path))) return(invisible(path))
+  crestline_abort(sprintf("the record cannot be written to %s.", path),
+                  "Close the program that has the file open, or check who may write there.",
+                  stage = "desk", class = "crestline_desk_error", call = NULL)
 }
 
 #' Read a record
@@ -88,17 +107,31 @@ read_record <- function(path) {
   record
 }
 
-#' A review that goes on where its record ended
+#' Refuse a record that is of another specimen, observer or mesh than a review
 #' @noRd
-resumed_review <- function(review, path) {
-  if (!file.exists(path)) return(review)
-  record <- read_record(path)
+check_record <- function(record, review, path) {
+  # On disks without capitals two names may have one file
+  if (!identical(c(record$specimen, record$observer), c(review$specimen$id, review$observer))) {
+    crestline_abort(sprintf("its record would be that of %s by %s.", record$specimen,
+                            record$observer),
+                    "Give specimens and observers names that differ by more than capitals.",
+                    stage = "desk", id = review$specimen$id, class = "crestline_desk_error",
+                    call = NULL)
+  }
   if (!identical(record$mesh, specimen_key(review$specimen))) {
     crestline_abort("its record in the desk's folder is of another mesh.",
                     sprintf("Give the mesh as it was, or take %s away.", path),
                     stage = "desk", id = review$specimen$id, class = "crestline_desk_error",
                     call = NULL)
   }
+}
+
+#' A review that goes on where its record ended
+#' @noRd
+resumed_review <- function(review, path) {
+  if (!file.exists(path)) return(review)
+  record <- read_record(path)
+  check_record(record, review, path)
   marks <- record$landmarks
   for (i in which(!is.na(marks$x))) {
     point <- surface_points(review$specimen$mesh, as.matrix(marks[i, c("x", "y", "z")]))
@@ -110,7 +143,9 @@ resumed_review <- function(review, path) {
   }
   gone <- marks$landmark[is.na(marks$x) & marks$state == "absent"]
   for (name in gone) review$specimen <- move_landmark(review$specimen, name, NULL)
-  review$state[marks$landmark] <- marks$state
+  # What was still missing then may have been found since
+  told <- marks$state != "missing" | !marks$landmark %in% names(review$state)
+  review$state[marks$landmark[told]] <- marks$state[told]
   review$about <- with_new_marks(review$about, marks$landmark)
   if (!is.null(review$fitting)) review$fitting <- at_landmarks(review$fitting, review$specimen)
   review$log <- record$steps

@@ -22,13 +22,20 @@ desk_of <- function(review) begin_desk(review$specimen$id, function(id) review)
 
 current_review <- function(desk) desk$reviews[[desk$at]]
 
-#' The desk after a change of the review that is shown; it is kept
+#' The desk after a change of the review that is shown; it is kept, and where it cannot be written
+#' the desk says so: the next step writes all
 #' @noRd
 on_current <- function(desk, change) {
   before <- current_review(desk)
   after <- as_value(change(before))
   if (failed(after)) after <- with_said(before, paste(after$problem, after$remedy))
-  if (!identical(after[kept_parts], before[kept_parts])) desk$keep(after)
+  fault <- if (!identical(after[kept_parts], before[kept_parts])) {
+    tryCatch({
+      desk$keep(after)
+      NULL
+    }, error = conditionMessage)
+  }
+  if (!is.null(fault)) after <- with_said(after, paste("This step is not written:", fault))
   desk$reviews[[desk$at]] <- after
   desk
 }

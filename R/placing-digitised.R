@@ -102,9 +102,13 @@ steps_of <- function(specimen, observer, steps) {
 record_marks <- function(record, dir) {
   marks <- record$landmarks
   table <- desk_paths(dir, record$observer, record$specimen)$table
-  curves <- if (length(record$curves) && file.exists(table)) {
-    attr(read_landmarks(table), "curves")
+  if (length(record$curves) && !file.exists(table)) {
+    crestline_abort(sprintf("the table of its curves is not there: %s.", table),
+                    "Put it back, or open the specimen with digitise() and make a step.",
+                    stage = "desk", id = record$specimen, class = "crestline_desk_error",
+                    call = NULL)
   }
+  curves <- if (length(record$curves)) attr(read_landmarks(table), "curves")
   snapped <- stats::setNames(vapply(record$curves, `[[`, NA, "snapped"),
                              vapply(record$curves, `[[`, "", "curve"))
   digitised_marks(record$specimen, record$observer, marks$landmark, marks$state,

@@ -12,7 +12,7 @@
 #'   settings of [picture_settings()].
 #' @param title Title above the picture. NULL: none.
 #' @param size Width and height in cm, two numbers.
-#' @param dpi Pixels per inch, of the surface in a PDF too.
+#' @param dpi Pixels per inch, of the surface in a PDF too (there at least 150).
 #' @param unit Name of the unit of the mesh, for the scale bar.
 #' @param ruler Whether to draw the scale bar. Pictures without a surface have none.
 #' @return The path of the file, invisibly.
@@ -40,7 +40,12 @@ write_picture <- function(x, file, ..., title = NULL, size = c(16, 14), dpi = 30
   check_pixels(prod(size / 2.54) * dpi^2, dpi)
   more$engine <- "picture"
   made <- tempfile(fileext = paste0(".", file_extension(file)))
-  on.exit(unlink(made))
+  # A PDF has no pixels of its own
+  old <- options(crestline.dpi = dpi)
+  on.exit({
+    unlink(made)
+    options(old)
+  })
   before <- grDevices::dev.cur()
   open_device(made, size / 2.54, dpi)
   tryCatch({

@@ -68,8 +68,7 @@ visit_parts <- function(x, most = 12) {
   rest <- rows[-first]
   tags$section(tags$h2("Curves and patches"), page_table(head, utils::head(rows, length(first))),
                tags$p(class = "note", "Mean change along the normal, outward positive."),
-               if (length(rest)) tags$details(tags$summary("The others, which did not change"),
-                                              page_table(head, rest)))
+               if (length(rest)) tags$details(tags$summary("The others"), page_table(head, rest)))
 }
 
 visit_measurements <- function(x) {

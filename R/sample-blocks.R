@@ -5,7 +5,7 @@
 #' Keeps the points of a sample in a folder, some hundreds of specimens a file. [align()],
 #' [shape_pca()], [compare_groups()] and [shape_lm()] take such a sample in place of one in memory.
 #' They read one file at a time. Memory then does not grow with the number of points times
-#' specimens: 50,000 faces of 922 points take less than 2 GB.
+#' specimens: alignment and 50 components of 50,000 faces of 921 points take 0.45 GB.
 #'
 #' `write_blocks()` writes the folder, `open_sample()` opens it. Opening reads no points.
 #'
@@ -125,8 +125,13 @@ points_of_sample <- function(template) {
              place = at$place)
 }
 
-points_of_array <- function(x) {
+points_of_array <- function(x, call = rlang::caller_env()) {
   name <- dimnames(x)[[1]]
+  if (anyDuplicated(name)) {
+    crestline_abort(sprintf("two points have the name \"%s\".", name[anyDuplicated(name)]),
+                    "Name each of its own: columns of the files are found by name.",
+                    stage = "sample", call = call)
+  }
   data.frame(level = rep("points", length(name)), point = name, place = name)
 }
 

@@ -57,15 +57,20 @@ cohort_elements <- function(shapes, call) {
 }
 
 #' What there is to slide: `shape`, and where the result goes
+#'
+#' The key of a result is of what was measured, points and all, not of the mesh alone, and of what
+#' decides how it is slid.
 #' @noRd
 slide_tasks <- function(elements, template, given, dir) {
   ids <- names(elements)
   way <- list(template_provenance(template$id, places_of(template)), template$energy_scale,
-              lapply(unclass(given$settings), identity), given$red)
+              lapply(unclass(given$settings), identity), given$red,
+              if (given$red == "leave out") lapply(unclass(given$limits), identity))
   way <- content_hash(way)
   stems <- file_stems(ids)
   Map(function(shape, id, stem) {
-    own <- if (inherits(shape, "kept_shape")) attr(shape, "key") else shape_key(shape)
+    own <- if (inherits(shape, "kept_shape")) attr(shape, "key") else
+      list(shape_key(shape), shape$points)
     list(name = id, shape = shape, key = content_hash(list(own, way)),
          file = if (!is.null(dir)) file.path(dir, paste0(stem, ".shape")))
   }, elements, ids, stems)

@@ -13,7 +13,8 @@
 #' @section Errors: of class `crestline_error`: there is no folder or file of that name, it has no
 #'   results, or its results have several schemes.
 #' @section Messages: if a specimen has several results, the newest is taken, and the message names
-#'   the others. If the specimens were measured with different settings, the message counts them.
+#'   the others. If a later run failed on a specimen, such as with other landmarks, the result before
+#'   is taken, and the message names the specimen. If the specimens were measured with different settings, the message counts them.
 #'   Give the paths of the files that you want instead.
 #' @section Failures: a result that is damaged is a failure, see [failures()].
 #' @template glossary
@@ -81,11 +82,23 @@ failures_in_index <- function(index) {
   })
 }
 
-#' Without failures of specimens that have a result
+#' Without failures of specimens that have a result; of one that failed later a message tells
 #' @noRd
 without_old_failures <- function(index) {
   failed <- index$state == "failed"
-  index[!failed | !index$id %in% index$id[!failed], ]
+  again <- failed & index$id %in% index$id[!failed]
+  time <- suppressWarnings(as.numeric(index$time))
+  later <- vapply(which(again), function(i) {
+    isTRUE(time[i] > max(time[!failed & index$id == index$id[i]]))
+  }, NA)
+  if (any(later)) {
+    crestline_inform(c(
+      sprintf("The last run failed on %s; the results before are taken.",
+              shorten(index$id[which(again)[later]], 8)),
+      i = "fit_shapes() with the same arguments tells why."
+    ))
+  }
+  index[!again, ]
 }
 
 #' Remember the ids of a cohort that is measured in parts

@@ -106,15 +106,6 @@ index_row <- function(file, opened = open_kept(file)) {
 #' @noRd
 one_line <- function(x) gsub("[\t\r\n]+", " ", enc2utf8(ifelse(is.na(x), "", x)))
 
-#' What the index knows of a shape, as [told_of()] has it
-#' @noRd
-told_in_index <- function(row) {
-  number <- function(x) suppressWarnings(as.numeric(x))
-  list(found = row$found == "TRUE", lacking = as.integer(number(c(row$lacking, row$of))),
-       unit = number(row$unit), surface = text_or_na(row$surface), marks = text_or_na(row$marks),
-       red = as.integer(number(row$red)))
-}
-
 text_or_na <- function(x) ifelse(nzchar(x), x, NA_character_)
 
 #' Results that are whole, as kept shapes, by id

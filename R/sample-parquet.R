@@ -26,8 +26,8 @@
 #'   * status, long: the columns of [quality()], with `id` in place of `specimen`;
 #'   * status, wide: `curves brow left.grade` and so on (level and part): "green", "amber", "red".
 #' @section Errors: of class `crestline_error`: `x` has no shapes; shapes have different schemes;
-#'   `specimens` has no column `id`, an id twice, or a column of the file's own; the file cannot be
-#'   written; the package nanoparquet is not installed.
+#'   `specimens` has no column `id`, an id twice, none of the ids of `x`, or a column of the file's
+#'   own; the file cannot be written; the package nanoparquet is not installed.
 #' @template glossary
 #' @seealso [write_blocks()] for a sample in files that [align()] reads
 #' @examplesIf rlang::is_installed("nanoparquet")
@@ -51,7 +51,7 @@ write_parquet <- function(x, file, what = c("points", "status"), form = c("long"
   if (inherits(x, "shape_sample")) validate(x)
   if (!inherits(x, "shape_batch")) x <- named_shapes(x)
   rows <- if (what == "status") status_rows(x, form) else point_rows(x, form)
-  write_table_parts(rows, check_covariates(specimens, rows$columns), file)
+  write_table_parts(rows, check_covariates(specimens, rows$columns, names(x)), file)
   invisible(file)
 }
 
@@ -65,7 +65,7 @@ point_rows <- function(x, form, block = 200) {
     shape <- x[[name]]
     if (is.null(shape)) return(NULL)
     if (is.null(first)) first <<- shape else check_same_scheme(shape, first)
-    if (form == "wide") return(wide_points(shape))
+    if (form == "wide") return(wide_points(shape, name))
     points <- shape$points[c("level", "part", "point", "x", "y", "z", "se")]
     cbind(id = rep(name, nrow(points)), points)
   }
@@ -75,13 +75,14 @@ point_rows <- function(x, form, block = 200) {
 }
 
 #' One shape's points as a row
+#' @param id Name of the specimen among the others.
 #' @noRd
-wide_points <- function(shape) {
+wide_points <- function(shape, id) {
   name <- table_columns(points_of_sample(shape), c("x", "y", "z"))
   values <- columns_of(shape$points, c("x", "y", "z"))
   order <- as.vector(t(matrix(seq_along(name), nrow(name))))
   row <- as.list(stats::setNames(as.vector(values)[order], name[order]))
-  as.data.frame(c(list(id = shape$id), row), optional = TRUE)
+  as.data.frame(c(list(id = id), row), optional = TRUE)
 }
 
 #' A table of parts' measures and grades
@@ -102,8 +103,9 @@ status_rows <- function(x, form) {
 }
 
 #' What is known of specimens, a row each
+#' @param ids Of the specimens of the file.
 #' @noRd
-check_covariates <- function(specimens, columns, call = rlang::caller_env()) {
+check_covariates <- function(specimens, columns, ids, call = rlang::caller_env()) {
   if (is.null(specimens)) return(NULL)
   problem <- if (!is.data.frame(specimens) || !"id" %in% names(specimens)) {
     "has no column `id`"
@@ -111,6 +113,8 @@ check_covariates <- function(specimens, columns, call = rlang::caller_env()) {
     sprintf("has the id %s twice", specimens$id[anyDuplicated(specimens$id)])
   } else if (length(twice <- intersect(setdiff(names(specimens), "id"), columns))) {
     sprintf("has a column of the table's own: %s", shorten(twice))
+  } else if (!any(ids %in% specimens$id)) {
+    sprintf("has none of %s", shorten(ids))
   }
   if (is.null(problem)) return(specimens)
   refuse_argument("specimens", specimens, "Give a data frame with a row for each specimen.", call,

@@ -26,7 +26,8 @@ whole_specimen.stored_specimen <- function(x) {
   structure(fields, class = "specimen")
 }
 
-#' The scan of a stored specimen; the last one that was read is in memory still
+#' The scan of a stored specimen; the last one that was read is in memory still. What is known of
+#' landmarks is the specimen's own: another result may have others on the same scan
 #' @return List: `mesh`, `geometry`.
 #' @noRd
 stored_scan <- function(x) {
@@ -36,11 +37,10 @@ stored_scan <- function(x) {
   now <- list(fields$key, fields$id, at, about$size, about$mtime)
   if (!identical(now, last_scan$what)) {
     scan <- scan_from(at, fields)
-    last_scan$scan <- list(mesh = scan$mesh,
-                           geometry = c(scan$geometry[c("twin", "piece")], fields$geometry))
+    last_scan$scan <- list(mesh = scan$mesh, geometry = scan$geometry[c("twin", "piece")])
     last_scan$what <- now
   }
-  last_scan$scan
+  list(mesh = last_scan$scan$mesh, geometry = c(last_scan$scan$geometry, fields$geometry))
 }
 
 last_scan <- new.env(parent = emptyenv())
@@ -48,14 +48,19 @@ last_scan <- new.env(parent = emptyenv())
 #' Where the file of a scan is now
 #'
 #' The path of the run; the same relative to the folder of results, where both were moved together;
-#' the file's name in a folder of the option `crestline.scans`.
+#' the file's name in a folder of the option `crestline.scans`. Of several that are there, the first
+#' that has not changed.
 #' @noRd
 stored_place <- function(fields) {
   source <- fields$source
   folders <- getOption("crestline.scans")
-  at <- c(source$file, if (!is.null(source$beside)) source$beside,
-          if (length(folders)) file.path(folders, basename(source$file)))
+  at <- unique(c(source$file, if (!is.null(source$beside)) source$beside,
+                 if (length(folders)) file.path(folders, basename(source$file))))
   there <- at[file.exists(at)]
+  if (length(there) > 1) {
+    own <- vapply(there, rlang::hash_file, "") == source$hash
+    there <- c(there[own], there[!own])
+  }
   if (length(there)) return(there[1])
   refuse_scan(sprintf("its scan is not there: %s.", source$file), fields$id)
 }

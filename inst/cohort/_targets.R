@@ -32,14 +32,28 @@ tar_option_set(packages = "crestline", controller = controller, error = "null")
 at_once <- as.integer(setting("AT_ONCE", "50"))
 lots_of <- function(files) split(files, ceiling(seq_along(files) / at_once))
 
+# Scans with the landmark files beside them: a lot is measured again if the content of one changes.
+landmark_ends <- c(".csv", ".mrk.json", ".fcsv", ".pts", ".pp", ".tps", ".nts", ".dta", ".ckpt",
+                   ".landmarkAscii")
+with_landmarks <- function(lot) {
+  beside <- as.vector(outer(sub("[.]ply$", "", lot), landmark_ends, paste0))
+  c(lot, beside[file.exists(beside)])
+}
+
 list(
   # A branch for each lot of scans. One that is in `results` already is read in no time, so that
   # nothing is measured twice if the pipeline is stopped.
   tar_target(files, list.files(scans, "[.]ply$", full.names = TRUE), cue = tar_cue("always")),
-  tar_target(scheme, if (nzchar(own_scheme)) read_scheme(own_scheme) else face_scheme()),
+  tar_target(scheme, if (nzchar(own_scheme)) read_scheme(own_scheme) else face_scheme(),
+             deployment = "main", cue = tar_cue("always")),
   tar_target(lot, unname(lots_of(files)), iteration = "list"),
-  tar_target(measured, names(fit_shapes(lot, scheme, dir = results, progress = FALSE)),
-             pattern = map(lot)),
+  tar_target(content, with_landmarks(lot), pattern = map(lot), format = "file",
+             deployment = "main", cue = tar_cue("always")),
+  tar_target(measured, {
+    shapes <- fit_shapes(grep("[.]ply$", content, value = TRUE), scheme, dir = results,
+                         progress = FALSE)
+    c(names(shapes), tools::md5sum(content))
+  }, pattern = map(content)),
   # The whole, whatever became of single branches.
   tar_target(shapes, {
     measured
@@ -48,8 +62,9 @@ list(
   tar_target(failed, failures(shapes), deployment = "main"),
   tar_target(sample, homologise(shapes, template_from = 100, seed = 1, progress = FALSE,
                                 red = "keep")),
+  tar_target(group_file, groups, format = "file", deployment = "main"),
   tar_target(group, {
-    table <- utils::read.csv(groups, colClasses = "character")
+    table <- utils::read.csv(group_file, colClasses = "character")
     stats::setNames(table$group, table$id)[names(sample)]
   }),
   tar_target(comparison, compare_groups(sample, group, "curves", n_perm = 999, seed = 1,

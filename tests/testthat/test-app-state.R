@@ -27,6 +27,7 @@ app_form <- function(dir) {
 test_that("steps are the code that is shown, which runs again to the same numbers", {
   skip_if_not_installed("future")
   skip_if_not_installed("progressr")
+  skip_if_not_installed("htmltools")
   dir <- ball_folder()
   form <- app_form(dir)
   state <- begin_app()
@@ -38,6 +39,12 @@ test_that("steps are the code that is shown, which runs again to the same number
   expect_equal(state$steps[7], "compare")
   expect_length(state$values$sample, 7)
   expect_true(file.exists(file.path(dir, "output", "quality.html")))
+  expect_false(do_step(state, "exports", form)$failed)
+  # Another folder: nothing of the former one is compared, or written
+  moved <- do_step(state, "folder", form)
+  for (name in c("measure", "homologise", "compare", "exports")) {
+    expect_match(do_step(moved, name, form)$told, "This step needs")
+  }
   unlink(file.path(dir, "output"), recursive = TRUE)
   again <- new.env(parent = app_parent())
   lines <- state$code[-1]

@@ -61,6 +61,69 @@ test_that("a desk goes on from its folder, and a second observer sees nothing of
   unlink(dir, recursive = TRUE)
 })
 
+test_that("names of files are names of their own, in the folder", {
+  names <- c("a b", "a%20b", ".", "..", "a/b", "%2E/../x", "C:x")
+  words <- vapply(names, file_word, "")
+  expect_equal(anyDuplicated(words), 0)
+  expect_false(any(grepl("^[.]|[/\\\\:]", words)))
+  expect_identical(unname(vapply(words, utils::URLdecode, "")), names)
+  expect_identical(file_word("Sch\u00e4del 1.v2"), "Sch\u00e4del 1.v2")
+})
+
+test_that("fit_shapes() finds the tables of a desk by the names of the scans", {
+  skip_without_futures()
+  skip_if_not(isTRUE(l10n_info()[["UTF-8"]]), "no UTF-8 here")
+  dir <- tempfile("scans")
+  dir.create(dir)
+  on.exit(unlink(dir, recursive = TRUE))
+  files <- file.path(dir, c("a b.ply", "Sch\u00e4del 1.v2.ply"))
+  for (file in files) write_mesh(quad_specimen(), file)
+  desk <- desk_from(desk_sources(files), quad_scheme(), file.path(dir, "desk"), "A B", TRUE,
+                    ridge_settings(error = FALSE), review_settings())
+  for (i in 1:2) {
+    for (name in c("a", "b", "c", "d")) desk <- place_at(desk, name)
+    if (i == 1) desk <- turn_to(desk, 1)
+  }
+  # Both scans are the same.
+  expect_warning(shapes <- fit_shapes(files, quad_scheme(), found = FALSE,
+                                      landmarks = file.path(dir, "desk", file_word("A B"))),
+                 class = "crestline_twin")
+  expect_identical(nrow(failures(shapes)), 0L)
+})
+
+test_that("a record of another observer or specimen, in a file of the same name, is refused", {
+  dir <- tempfile("desk")
+  place_at(two_balls(dir), "a")
+  record <- file.path(dir, "AB", "records", "one.json")
+  writeLines(sub("\"observer\": \"AB\"", "\"observer\": \"ab\"", readLines(record)), record)
+  expect_error(two_balls(dir), "that of one by ab", class = "crestline_desk_error")
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("landmarks that were missing on the desk and have been found since are found", {
+  dir <- tempfile("desk")
+  place_at(two_balls(dir), "a")
+  again <- current_review(two_balls(dir, blank = FALSE))
+  expect_identical(again$state, c(a = "placed", b = "given", c = "given", d = "given"))
+  expect_false(anyNA(again$specimen$landmarks))
+  unlink(dir, recursive = TRUE)
+})
+
+test_that("a step that cannot be written is said", {
+  dir <- tempfile("desk")
+  desk <- place_at(two_balls(dir), "a")
+  record <- file.path(dir, "AB", "records", "one.json")
+  unlink(record)
+  dir.create(file.path(record, "taken"), recursive = TRUE)
+  after <- place_at(desk, "b")
+  expect_match(current_review(after)$said, "not written: .*record cannot be written")
+  expect_equal(current_review(after)$state[["b"]], "placed")
+  unlink(record, recursive = TRUE)
+  place_at(after, "c")
+  expect_equal(sum(read_digitised(dir)$marks$state == "placed"), 3)
+  unlink(dir, recursive = TRUE)
+})
+
 test_that("a record of another mesh is refused", {
   dir <- tempfile("desk")
   place_at(two_balls(dir), "a")
@@ -105,6 +168,8 @@ test_that("two observers make a table, an array for geomorph and repeatability()
   expect_match(status_of(shape, "bottom")$reason, "drawn by hand (C/D", fixed = TRUE)
   expect_identical(read_digitised(dir, "AB")$marks$observer, rep("AB", 22))
   expect_crestline_error(as.array(both, "surface"), "level")
+  unlink(file.path(dir, "AB", "two.csv"))
+  expect_error(read_digitised(dir), "table of its curves", class = "crestline_desk_error")
   expect_crestline_error(read_digitised(tempdir(check = TRUE), "nobody"), "no records")
   unlink(dir, recursive = TRUE)
 })

@@ -19,6 +19,19 @@ test_that("a picture has its size in cm, its scale bar and its title", {
   expect_equal(sum(apply(titled[270:300, , ], 1:2, max) < 0.05), 0)
 })
 
+test_that("the surface of a PDF has as many pixels as are asked for", {
+  pdf <- tempfile(fileext = ".pdf")
+  on.exit(unlink(pdf))
+  width <- function(dpi) {
+    write_picture(ball_specimen(), pdf, "plain", size = c(5, 5), dpi = dpi)
+    bytes <- readBin(pdf, "raw", 1e6)
+    text <- rawToChar(bytes[bytes > as.raw(0x1f) & bytes < as.raw(0x7f)])
+    as.numeric(sub("/Width ", "", regmatches(text, regexpr("/Width [0-9]+", text))))
+  }
+  expect_equal(width(300) / width(150), 2, tolerance = 0.02)
+  expect_null(getOption("crestline.dpi"))
+})
+
 test_that("other endings, other objects, and what is refused", {
   pdf <- tempfile(fileext = ".pdf")
   on.exit(unlink(pdf))

@@ -19,6 +19,15 @@ test_that("an array comes back to the last bit, whatever the size of the blocks"
   }
 })
 
+test_that("points of one name are refused before anything is written", {
+  skip_if_not_installed("nanoparquet")
+  x <- named_array(posed_sample(k = 4, n = 3))
+  rownames(x)[2:3] <- "tip"
+  folder <- blocks_folder()
+  expect_crestline_error(write_blocks(x, folder), "two points have the name \"tip\"")
+  expect_false(dir.exists(folder))
+})
+
 test_that("another reader finds a row a specimen and a column a co-ordinate", {
   skip_if_not_installed("nanoparquet")
   x <- named_array(posed_sample(k = 4, n = 3))

@@ -43,6 +43,25 @@ test_that("slid shapes go into files, and a run that was cut short goes on", {
   expect_identical(file.mtime(file.path(slid, "ball 1.shape")), before)
 })
 
+test_that("a slid shape is found again only if it was measured and slid in the same way", {
+  shapes <- lapply(batch_specimens(2), fit_shape, quad_scheme(), progress = FALSE)
+  names(shapes) <- c("ball 1", "ball 2")
+  template <- template_shape(shapes[[1]], places_of(shapes[[1]]), "mean")
+  keys <- function(shapes, ...) {
+    given <- utils::modifyList(list(settings = slide_settings(), red = "warn",
+                                    limits = quality_limits()), list(...))
+    vapply(slide_tasks(shapes, template, given, NULL), `[[`, "", "key")
+  }
+  before <- keys(shapes)
+  moved <- shapes
+  moved[[2]]$points$x[1] <- moved[[2]]$points$x[1] + 1e-6
+  expect_identical(keys(moved) == before, c("ball 1" = TRUE, "ball 2" = FALSE))
+  other <- quality_limits(se_max = c(1, 7))
+  expect_identical(keys(shapes, limits = other), before)
+  expect_false(any(keys(shapes, red = "leave out", limits = other) ==
+                     keys(shapes, red = "leave out")))
+})
+
 test_that("workers slide as one process does, and what fails is named", {
   skip_without_futures()
   skip_on_cran()

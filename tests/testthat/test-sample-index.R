@@ -52,6 +52,21 @@ test_that("the index alone is read by print(), failures() and warnings", {
   expect_identical(nrow(failures(read_batch(out))), 0L)
 })
 
+test_that("a result whose specimen failed later is taken with a message", {
+  skip_without_futures()
+  dir <- batch_folder(batch_specimens(2))
+  out <- tempfile("out-")
+  on.exit(unlink(c(dir, out), recursive = TRUE))
+  fit_shapes(dir, edge_scheme(), out)
+  expect_silent(read_batch(out))
+  marks <- list.files(dir, "csv$", full.names = TRUE)[1]
+  lines <- readLines(marks)
+  writeLines(replace(lines, 2, sub(",[^,]*$", ",99999", lines[2])), marks)
+  expect_identical(failures(suppressWarnings(fit_shapes(dir, edge_scheme(), out)))$id, "ball 1")
+  expect_message(read <- read_batch(out), "last run failed on ball 1;")
+  expect_identical(nrow(failures(read)), 0L)
+})
+
 test_that("a cohort is measured in parts, and what waits is a failure", {
   skip_without_futures()
   dir <- batch_folder(batch_specimens(5))

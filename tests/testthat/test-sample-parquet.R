@@ -34,12 +34,26 @@ test_that("points and status come back, long and wide, with what is known of spe
   expect_identical(wide[["curves top.grade"]], as.character(one$grade))
 })
 
+test_that("specimens have the names of the list, long and wide", {
+  skip_if_not_installed("nanoparquet")
+  file <- tempfile(fileext = ".parquet")
+  on.exit(unlink(file))
+  shape <- fit_shape(batch_specimens(1)[[1]], edge_scheme(), progress = FALSE)
+  known <- data.frame(id = c("first", "second"), site = c("a", "b"))
+  for (what in c("points", "status")) for (form in c("long", "wide")) {
+    write_parquet(list(first = shape, second = shape), file, what, form, known)
+    table <- nanoparquet::read_parquet(file)
+    expect_identical(unique(table$id), known$id)
+    expect_identical(unique(table$site), known$site)
+  }
+})
+
 test_that("what cannot be written is told", {
   skip_if_not_installed("nanoparquet")
   shape <- fit_shape(batch_specimens(1)[[1]], edge_scheme(), progress = FALSE)
   file <- tempfile()
   for (wrong in list(data.frame(a = 1), data.frame(id = c("a", "a")), data.frame(id = "a", x = 1),
-                     "a")) {
+                     data.frame(id = "another", site = 1), "a")) {
     expect_crestline_error(write_parquet(shape, file, specimens = wrong), "`specimens`")
   }
   expect_crestline_error(write_parquet(shape, file.path(file, "none")), "cannot be written")

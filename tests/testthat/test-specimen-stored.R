@@ -27,6 +27,18 @@ test_that("it is the specimen that it was, its scan read when it is asked for", 
   expect_identical(stored$mesh$vb, made$whole$mesh$vb)
 })
 
+test_that("two results of one scan have their own landmarks", {
+  made <- stored_example()
+  on.exit(unlink(made$dir, recursive = TRUE))
+  moved <- made$whole$landmarks
+  moved["a", ] <- moved["b", ]
+  other <- read_specimen(made$mesh, moved)
+  second <- stored_specimen(other, unclass(made$stored)$source)
+  expect_identical(made$stored$geometry$landmarks, made$whole$geometry$landmarks)
+  expect_identical(second$geometry$landmarks, other$geometry$landmarks)
+  expect_identical(whole_specimen(second), other)
+})
+
 test_that("a scan that is gone, moved or changed is named, with the remedy", {
   made <- stored_example()
   moved <- tempfile("moved-")
@@ -43,6 +55,11 @@ test_that("a scan that is gone, moved or changed is named, with the remedy", {
   expect_identical(made$stored$landmarks, made$whole$landmarks)
   options(crestline.scans = moved)
   expect_identical(made$stored$mesh, made$whole$mesh)
+  # Another file in the place of the first: the one that has not changed is read.
+  writeLines("another scan", made$mesh)
+  last_scan$what <- NULL
+  expect_identical(made$stored$mesh, made$whole$mesh)
+  unlink(made$mesh)
   bytes <- readBin(file.path(moved, basename(made$mesh)), "raw", 1e6)
   bytes[length(bytes) - 5] <- xor(bytes[length(bytes) - 5], as.raw(1))
   writeBin(bytes, file.path(moved, basename(made$mesh)))
