@@ -134,7 +134,9 @@ renew_file <- function(shape, about, file) {
   tryCatch({
     stored <- stored_shape(shape, dir, source)
     keep(stored, about, file, if (is.null(source)) 1 else "xz")
-    append_index(index_row(file, opened), dir)
+    row <- index_row(file, opened)
+    append_index(row, dir)
+    note_measures(shape, row, dir)
   }, crestline_error = function(e) NULL)
   invisible()
 }
