@@ -134,9 +134,7 @@ renew_file <- function(shape, about, file) {
   tryCatch({
     stored <- stored_shape(shape, dir, source)
     keep(stored, about, file, if (is.null(source)) 1 else "xz")
-    row <- index_row(file, opened)
-    append_index(row, dir)
-    note_measures(shape, row, dir)
+    append_index(index_row(file, opened), dir)
   }, crestline_error = function(e) NULL)
   invisible()
 }
