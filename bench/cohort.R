@@ -7,7 +7,7 @@
 #   Rscript bench/cohort.R targets DIR [local|slurm]   by targets and crew
 #   Rscript bench/cohort.R same DIR FOLDER...       are the results of a folder those of "serial"
 #   Rscript bench/cohort.R store DIR                bytes of a specimen; print() of 2,000 and 50,000
-#   Rscript bench/cohort.R quality DIR [n = 2000] [runs = 3]   quality() of n entries, from the index
+#   Rscript bench/cohort.R quality DIR [n = 2000] [runs = 3]   quality() of n entries
 #   Rscript bench/cohort.R together [times = 50]    two processes at once in one folder
 #   Rscript bench/cohort.R homology DIR [times = 1] slid by two workers against one; memory
 #   Rscript bench/cohort.R parquet DIR              tables written and read back

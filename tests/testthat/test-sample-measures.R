@@ -24,7 +24,8 @@ test_that("quality() of a folder is that of its shapes, and opens none", {
   expect_identical(opened_by(graded <- quality(shapes)), 0)
   by_shapes <- quality(structure(own, failed = attr(shapes, "failed")))
   expect_identical(as.data.frame(graded), as.data.frame(by_shapes))
-  expect_identical(attributes(graded)[c("found", "rows")], attributes(by_shapes)[c("found", "rows")])
+  expect_identical(attributes(graded)[c("found", "rows")],
+                   attributes(by_shapes)[c("found", "rows")])
   expect_identical(opened_by(graded <- quality(own[[1]], others = shapes[3])), 0)
   expect_identical(graded, quality(own[[1]], others = own[3]))
   expect_identical(as.data.frame(quality(shapes[c(3, 1)])), as.data.frame(quality(own[c(3, 1)])))
