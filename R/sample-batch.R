@@ -32,7 +32,8 @@
 #' are read, and written anew in this way.
 #'
 #' An index (`index-*.tsv`) lists the results. [print()], [failures()] and [warnings_of()] read it
-#' alone. It is made anew where it is lost or out of date.
+#' alone. [quality()] reads the measures of all parts beside it (`quality-*.tsv`, 3 to 7 kB a
+#' specimen), and opens no result. Both are made anew where they are lost or out of date.
 #'
 #' For thousands of scans, run `fit_shapes(files, scheme, dir, part = c(i, n))` in n jobs, each with
 #' its own `i`. Every job measures every n-th specimen. [read_batch()] opens the whole. If a job is

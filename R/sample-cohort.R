@@ -137,21 +137,34 @@ tell_cohort <- function(slid, red, most = 5, apart = 0.02) {
   warn_cut_factors(vapply(slid, `[[`, 0, "cut"), "homologise", apart)
 }
 
-#' Slid shapes in files as a sample in files, a block of them in memory at a time
+#' Slid shapes in files as a sample in files; workers write its blocks, each with one in memory
+#'
+#' @param block,least Most and fewest specimens of a block; between these there are `parts` blocks,
+#'   so that several workers have some. They do not depend on the number of workers.
 #' @noRd
-write_cohort <- function(shapes, base, dir, block = 500) {
+write_cohort <- function(shapes, base, dir, block = 500, least = 20, parts = 8) {
   points <- points_of_sample(base$template)
-  at <- (seq_along(shapes) - 1L) %/% block + 1L
-  for (i in unique(at)) {
-    each <- lapply(shapes[at == i], function(shape) {
-      columns_of(unkept(shape)$points, c("x", "y", "z"))
-    })
-    array <- array(unlist(each), c(nrow(points), 3, length(each)),
-                   list(NULL, c("x", "y", "z"), names(each)))
-    write_block(array, points, dir, i)
-  }
+  size <- min(block, max(least, ceiling(length(shapes) / parts)))
+  at <- (seq_along(shapes) - 1L) %/% as.integer(size) + 1L
+  tasks <- lapply(unique(at), function(i) {
+    list(name = sprintf("block %d", i), number = i, shapes = shapes[at == i])
+  })
+  each_in_workers(tasks, block_task, list(points = points, dir = dir), function() NULL)
   write_sample_head(list(ids = names(shapes), block = at, points = points,
                          axes = c("x", "y", "z"), triangles = NULL, template = base$template,
                          provenance = base$provenance), dir)
   open_sample(dir)
+}
+
+#' The points of some slid shapes written as a block
+#' @param task List: `name`, `number` of the block, `shapes` (in files).
+#' @noRd
+block_task <- function(task, points, dir) {
+  each <- lapply(task$shapes, function(shape) {
+    columns_of(unkept(shape)$points, c("x", "y", "z"))
+  })
+  array <- array(unlist(each), c(nrow(points), 3, length(each)),
+                 list(NULL, c("x", "y", "z"), names(each)))
+  write_block(array, points, dir, task$number)
+  task$name
 }

@@ -37,28 +37,31 @@ time_text <- function(info) sprintf("%.6f", as.numeric(info$mtime))
 #' The lines of all index files, of each result the last
 #'
 #' A line that was cut short, by a full disk or a process that was killed, is left out.
+#' @param kind First word of the files' names.
+#' @param columns Names of their columns, `file` the first and `end` the last.
+#' @param most Files of which one is made where there are more.
 #' @noRd
-read_index <- function(dir, most = 8) {
-  parts <- list.files(dir, "^index-.*[.]tsv$", full.names = TRUE)
+read_index <- function(dir, kind = "index", columns = index_columns, most = 8) {
+  parts <- list.files(dir, sprintf("^%s-.*[.]tsv$", kind), full.names = TRUE)
   lines <- unlist(lapply(parts, function(part) {
     tryCatch(suppressWarnings(readLines(part, encoding = "UTF-8")), error = function(e) NULL)
   }))
   fields <- strsplit(as.character(lines), "\t", fixed = TRUE)
-  whole <- lengths(fields) == length(index_columns)
-  table <- matrix(as.character(unlist(fields[whole])), ncol = length(index_columns), byrow = TRUE,
-                  dimnames = list(NULL, index_columns))
+  whole <- lengths(fields) == length(columns)
+  table <- matrix(as.character(unlist(fields[whole])), ncol = length(columns), byrow = TRUE,
+                  dimnames = list(NULL, columns))
   table <- as.data.frame(table)
   table <- table[table$end == "." & !duplicated(table$file, fromLast = TRUE), ]
-  if (length(parts) > most) merge_index(table, parts, dir)
+  if (length(parts) > most) merge_index(table, parts, dir, kind)
   table
 }
 
 #' One index file in place of many. A line that another process adds meanwhile may be lost: it is
 #' made anew from its file
 #' @noRd
-merge_index <- function(table, parts, dir) {
+merge_index <- function(table, parts, dir, kind) {
   part <- tempfile(part_prefix(), dir, ".tmp")
-  merged <- file.path(dir, sprintf("index-%s.tsv", substr(basename(part), 6, 60)))
+  merged <- file.path(dir, sprintf("%s-%s.tsv", kind, substr(basename(part), 6, 60)))
   on.exit(unlink(part))
   written <- tryCatch({
     write_whole(charToRaw(paste0(index_lines(table), "\n", collapse = "")), part)
@@ -68,13 +71,13 @@ merge_index <- function(table, parts, dir) {
 }
 
 index_lines <- function(rows) {
-  do.call(paste, c(unname(lapply(rows[index_columns], enc2utf8)), sep = "\t"))
+  do.call(paste, c(unname(lapply(rows, function(x) enc2utf8(as.character(x)))), sep = "\t"))
 }
 
 #' Add lines to this process's own index file; nothing where that cannot be: an index may be absent
 #' @noRd
-append_index <- function(rows, dir) {
-  name <- sub("-$", ".tsv", sub("^part", "index", part_prefix()))
+append_index <- function(rows, dir, kind = "index") {
+  name <- sub("-$", ".tsv", sub("^part", kind, part_prefix()))
   text <- paste0(index_lines(rows), "\n", collapse = "")
   tryCatch({
     to <- suppressWarnings(file(file.path(dir, name), "ab"))

@@ -157,6 +157,7 @@ keep_shape <- function(shape, task) {
   task$file <- keep_apart(task, function(file, new) keep(stored, about, file, small, new))
   row <- index_row(task$file, list(state = "whole", about = about))
   append_index(row, dir)
+  note_measures(shape, row, dir)
   unlink(failure_file(task$file))
   kept_shape(task, about, c(row$size, row$time))
 }

@@ -1,16 +1,13 @@
 # From measures to grades: every check gives a level and a sentence.
 
-#' Grade the parts of one specimen
+#' Grade the parts of specimens of one scheme
 #'
-#' @param parts As of [part_measures()].
-#' @param scores Scores of the lengths, by curve.
+#' @param parts As of [part_measures()], of any number of specimens, with `z`.
 #' @param limits [quality_limits()].
-#' @param scheme The scheme of the shape.
+#' @param scheme The scheme of the shapes.
 #' @return Data frame with the columns of [quality()].
 #' @noRd
-grade_parts <- function(parts, scores, limits, scheme) {
-  curves <- parts$level == "curves"
-  parts$z[curves] <- scores[parts$part[curves]]
+grade_parts <- function(parts, limits, scheme) {
   judged <- judge_parts(parts, limits, scheme)
   judged <- c(judged, judge_landmarks(parts, limits, scheme))
   levels <- lapply(judged, `[[`, "level")
@@ -19,18 +16,27 @@ grade_parts <- function(parts, scores, limits, scheme) {
   bounds <- judge_bounds(parts, do.call(pmax, levels[names(judged) != "se_max"]), scheme)
   judged <- c(judged, list(bounds))
   level <- pmax(level, bounds$level)
-  why <- vapply(seq_along(level), function(i) {
-    said <- vapply(judged, function(check) if (check$level[i] > 0) check$text[i] else NA_character_,
-                   "")
-    said <- unique(stats::na.omit(sub("[.]$", "", c(parts$reason[i], said))))
-    if (length(said)) paste(said, collapse = "; ") else NA_character_
-  }, "")
   parts$grade <- factor(grades[level + 1], grades, ordered = TRUE)
-  parts$why <- why
+  parts$why <- reasons_said(parts$reason, judged)
   parts[quality_columns]
 }
 
-#' Every check of the parts of one specimen
+#' The reason of every part: its own, and those of the checks that doubt it
+#' @noRd
+reasons_said <- function(reason, judged) {
+  doubted <- do.call(pmax, lapply(judged, `[[`, "level")) > 0
+  why <- rep(NA_character_, length(doubted))
+  at <- which(doubted | !is.na(reason))
+  said <- lapply(judged, function(check) ifelse(check$level[at] > 0, check$text[at], NA))
+  said <- matrix(sub("[.]$", "", unlist(c(list(reason[at]), said))), length(at))
+  why[at] <- vapply(seq_along(at), function(i) {
+    own <- unique(said[i, !is.na(said[i, ])])
+    if (length(own)) paste(own, collapse = "; ") else NA_character_
+  }, "")
+  why
+}
+
+#' Every check of the parts of specimens
 #'
 #' @return List of checks, each a list of `level` (0 green, 1 amber, 2 red) and `text`, both by
 #'   part; the text is NA if the part's own reason has it.
@@ -104,12 +110,13 @@ judge_landmarks <- function(parts, limits, scheme) {
                      text = rep("it is predicted by the other landmarks", nrow(parts)))
   )
   ends <- lapply(checks, judge_ends, parts, scheme)
-  of <- sum(parts$state %in% c("found", "placed"))
-  share <- if (of) sum(low > 0) / of else 0
-  all <- list(level = rep(level_beyond(share, limits$doubtful, FALSE), nrow(parts)),
-              text = rep(sprintf("%d of %d found landmarks have little confidence", sum(low > 0),
-                                 of),
-                         nrow(parts)))
+  # Counted by specimen
+  specimens <- unique(parts$specimen)
+  one <- match(parts$specimen, specimens)
+  of <- tabulate(one[parts$state %in% c("found", "placed")], length(specimens))
+  few <- tabulate(one[low > 0], length(specimens))
+  all <- list(level = level_beyond(few / pmax(of, 1), limits$doubtful, FALSE)[one],
+              text = sprintf("%d of %d found landmarks have little confidence", few, of)[one])
   # A landmark's own reason says already that it looks exchanged.
   checks$exchanged$text[marks] <- NA
   unname(c(checks, ends, list(all)))
@@ -121,12 +128,16 @@ judge_ends <- function(check, parts, scheme) {
   level <- numeric(nrow(parts))
   text <- rep(NA_character_, nrow(parts))
   marks <- which(parts$level == "landmarks" & check$level > 0)
-  for (i in which(parts$level == "curves")) {
-    row <- match(parts$part[i], scheme$curves$curve)
-    at <- marks[parts$part[marks] %in% unlist(scheme$curves[row, c("from", "to")])]
-    if (!length(at)) next
-    level[i] <- max(check$level[at])
-    text[i] <- paste(sprintf("it ends on %s: %s", parts$part[at], check$text[at]), collapse = "; ")
+  curves <- which(parts$level == "curves")
+  row <- match(parts$part[curves], scheme$curves$curve)
+  known <- paste(parts$specimen[marks], parts$part[marks], sep = "\t")
+  from <- match(paste(parts$specimen[curves], scheme$curves$from[row], sep = "\t"), known)
+  to <- match(paste(parts$specimen[curves], scheme$curves$to[row], sep = "\t"), known)
+  for (i in which(!is.na(from) | !is.na(to))) {
+    at <- marks[sort(unique(c(from[i], to[i])))]
+    level[curves[i]] <- max(check$level[at])
+    text[curves[i]] <- paste(sprintf("it ends on %s: %s", parts$part[at], check$text[at]),
+                             collapse = "; ")
   }
   list(level = level, text = text)
 }
@@ -146,9 +157,13 @@ level_beyond <- function(value, limit, falling) {
 #' @noRd
 judge_bounds <- function(parts, level, scheme) {
   doubtful <- which(parts$level == "curves" & level > 0 & !is.na(parts$length))
+  doubtful <- split(doubtful, parts$specimen[doubtful])
   text <- rep(NA_character_, nrow(parts))
-  for (i in which(parts$level == "surface")) {
-    found <- doubtful[parts$part[doubtful] %in% bounding_curves(parts$part[i], scheme)]
+  patches <- which(parts$level == "surface" & parts$specimen %in% names(doubtful))
+  bounds <- lapply(stats::setNames(nm = unique(parts$part[patches])), bounding_curves, scheme)
+  for (i in patches) {
+    found <- doubtful[[parts$specimen[i]]]
+    found <- found[parts$part[found] %in% bounds[[parts$part[i]]]]
     named <- sprintf("%s (%s)", parts$part[found], grades[level[found] + 1])
     if (length(found)) text[i] <- paste("bounded by", shorten(named, 3))
   }

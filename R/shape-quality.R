@@ -117,29 +117,70 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   if (inherits(x, "shape_sample")) validate(x)
-  shapes <- each_shape(x, to_grade)
+  shapes <- measures_of(x, "x", rlang::current_env())
   measured <- Filter(Negate(is.null), shapes)
-  other <- if (!is.null(others)) Filter(Negate(is.null), each_shape(others, to_grade, "others"))
+  other <- if (!is.null(others)) {
+    Filter(Negate(is.null), measures_of(others, "others", rlang::current_env()))
+  }
   scores <- sample_scores(measured, other, limits)
-  parts <- Map(function(one, name) grade_parts(one$parts, scores[name, ], limits, one$scheme),
-               measured, names(measured))
-  noted <- lapply(names(measured), function(name) {
-    said <- unique(measured[[name]]$warnings$problem)
-    if (length(said)) specimen_row(name, "amber", paste(sub("[.]$", "", said), collapse = "; "))
-  })
+  said <- lapply(measured, `[[`, "said")
+  said <- said[lengths(said) > 0]
+  noted <- specimen_rows(names(said), "amber", vapply(said, function(one) {
+    paste(sub("[.]$", "", one), collapse = "; ")
+  }, ""))
   failed <- attr(x, "failed")
-  lost <- lapply(setdiff(names(shapes), names(measured)), function(name) {
-    # A specimen that could not be measured
-    reason <- failed[[name]]$message
-    why <- if (!is.null(reason)) sub("[.]$", "", paste0(": ", reason, " ", failed[[name]]$remedy))
-    specimen_row(name, "red", paste0("it was not measured", why))
-  })
-  table <- do.call(rbind, c(unname(parts), noted, lost))
-  table <- table[order(match(table$specimen, names(shapes))), ]
+  lost <- setdiff(names(shapes), names(measured))
+  # Specimens that could not be measured
+  reason <- vapply(failed[lost], function(one) {
+    if (is.null(one$message)) "" else sub("[.]$", "", paste0(": ", one$message, " ", one$remedy))
+  }, "")
+  lost <- specimen_rows(lost, "red", paste0(rep("it was not measured", length(lost)), reason))
+  table <- rbind(graded_measures(measured, scores, limits), noted, lost)
+  at <- match(table$specimen, names(shapes))
+  if (is.unsorted(at)) table <- table[order(at), ]
   rownames(table) <- NULL
   found <- vapply(measured, `[[`, NA, "found")
   structure(table, found = names(measured)[found], rows = nrow(table),
             class = c("shape_quality", "data.frame"))
+}
+
+#' Measures of many specimens graded, some at a time
+#'
+#' @param measured As of [to_grade()], by name.
+#' @param scores As of [sample_scores()].
+#' @param block Specimens at a time.
+#' @noRd
+graded_measures <- function(measured, scores, limits, block = 500) {
+  schemes <- list()
+  kind <- vapply(measured, function(one) {
+    for (i in seq_along(schemes)) if (identical(schemes[[i]], one$scheme)) return(i)
+    schemes[[length(schemes) + 1]] <<- one$scheme
+    length(schemes)
+  }, 0L)
+  some <- lapply(split(seq_along(kind), kind), function(at) {
+    split(at, (seq_along(at) - 1) %/% block)
+  })
+  graded <- lapply(unlist(unname(some), recursive = FALSE), function(at) {
+    parts <- rows_together(lapply(measured[at], unpacked_parts), names(measured)[at])
+    parts$z <- NA_real_
+    curves <- parts$level == "curves"
+    own <- scores[at, , drop = FALSE]
+    parts$z[curves] <- own[cbind(match(parts$specimen[curves], names(measured)[at]),
+                                 match(parts$part[curves], colnames(own)))]
+    grade_parts(parts, limits, measured[[at[1]]]$scheme)
+  })
+  do.call(rbind, unname(graded))
+}
+
+#' Tables of the same columns, one below the other, with the name of each as `specimen`
+#' @noRd
+rows_together <- function(tables, names) {
+  columns <- setdiff(names(tables[[1]]), "specimen")
+  columns <- lapply(stats::setNames(nm = columns), function(column) {
+    unlist(lapply(tables, `[[`, column), use.names = FALSE)
+  })
+  columns$specimen <- rep(names, vapply(tables, nrow, 0L))
+  as.data.frame(columns, optional = TRUE)
 }
 
 #' Lines of what is not green: each part of one specimen; of several each specimen as a whole, and
@@ -181,15 +222,42 @@ each_shape <- function(x, f, name = "x", call = rlang::caller_env()) {
   })
 }
 
+#' What grading takes of each shape, by name; NULL for those that failed
+#' @noRd
+measures_of <- function(x, name, call) UseMethod("measures_of")
+
+#' @exportS3Method
+measures_of.default <- function(x, name, call) each_shape(x, to_grade, name, call)
+
 #' What grading takes of a shape
+#' @return List: `parts` (as of [part_measures()], or packed), `scheme`, `said` (its warnings),
+#'   `lengths` (of curves with a score), `found` (whether landmarks were).
 #' @noRd
 to_grade <- function(shape, name) {
-  curves <- shape$status[shape$status$level == "curves", ]
-  free <- is.na(shape$scheme$curves$cut_share)
-  list(parts = part_measures(shape, name), scheme = shape$scheme, warnings = shape$warnings,
-       lengths = stats::setNames(ifelse(free, curves$length, NA), curves$part),
-       found = has_found(shape))
+  parts <- part_measures(shape, name)
+  list(parts = parts, scheme = shape$scheme, said = unique(shape$warnings$problem),
+       lengths = scored_lengths(parts, shape$scheme), found = has_found(shape))
 }
+
+#' Lengths of curves as they are compared with the others': none of those that the scheme cuts off
+#' @noRd
+scored_lengths <- function(parts, scheme) {
+  curves <- parts[["level"]] == "curves"
+  stats::setNames(ifelse(is.na(scheme$curves$cut_share), parts[["length"]][curves], NA),
+                  parts[["part"]][curves])
+}
+
+#' Measures as bytes, and again: whose they are, their scheme and their scores are elsewhere
+#' @noRd
+pack_measures <- function(one) {
+  one$parts[c("specimen", "z")] <- NULL
+  memCompress(serialize(one[c("parts", "said", "found")], NULL), "gzip")
+}
+
+unpack_measures <- function(packed) unserialize(memDecompress(packed, "gzip"))
+
+unpacked_parts <- function(one) if (is.raw(one$parts)) unpack_measures(one$parts)$parts else
+  one$parts
 
 #' A list of shapes by name of specimen; every name once
 #' @noRd
@@ -256,14 +324,17 @@ sample_scores <- function(shapes, others, limits) {
   scores[seq_along(shapes), , drop = FALSE]
 }
 
-specimen_row <- function(name, grade, why) {
-  empty <- stats::setNames(as.list(rep(NA_real_, length(quality_columns))), quality_columns)
-  said <- list(specimen = name, part = "whole specimen", level = "specimen", kind = "specimen",
-               why = why)
-  empty[names(said)] <- said
-  empty$grade <- factor(grade, grades, ordered = TRUE)
-  empty$faults <- NA_integer_
-  as.data.frame(empty)
+#' Rows of specimens as a whole; NULL where there are none
+#' @noRd
+specimen_rows <- function(names, grade, why) {
+  if (!length(names)) return(NULL)
+  said <- list(specimen = names, part = "whole specimen", level = "specimen", kind = "specimen",
+               why = unname(why))
+  rows <- stats::setNames(rep(list(NA_real_), length(quality_columns)), quality_columns)
+  rows[names(said)] <- said
+  rows$grade <- factor(grade, grades, ordered = TRUE)
+  rows$faults <- NA_integer_
+  as.data.frame(rows)
 }
 
 #' @export
@@ -362,15 +433,37 @@ print_rows <- function(x, most) {
 length_scores <- function(lengths, others, spread) {
   share <- stats::medpolish(log(lengths), trace.iter = FALSE, na.rm = TRUE)$residuals
   score <- function(x) {
-    vapply(seq_along(x), function(i) {
-      rest <- x[-i][!is.na(x[-i])]
-      if (length(rest) < others) return(NA_real_)
-      (x[i] - stats::median(rest)) / max(stats::mad(rest), spread)
-    }, 0)
+    scores <- rep(NA_real_, length(x))
+    known <- which(is.finite(x))
+    if (length(known) - 1 < others) return(scores)
+    own <- x[known]
+    centre <- medians_without(own)
+    width <- numeric(length(own))
+    for (one in unique(centre)) {
+      at <- centre == one
+      width[at] <- medians_without(abs(own - one))[at]
+    }
+    # As in mad()
+    scores[known] <- (own - centre) / pmax(formals(stats::mad)$constant * width, spread)
+    scores
   }
   scores <- matrix(apply(share, 2, score), nrow(lengths))
   dimnames(scores) <- dimnames(lengths)
   scores
+}
+
+#' Of every value the median of the others
+#'
+#' There are three at most: without one below the middle, without the middle, without one above.
+#' @param x Numeric without NA, two at least.
+#' @noRd
+medians_without <- function(x) {
+  side <- sign(rank(x, ties.method = "first") - (length(x) + 1) / 2)
+  values <- vapply(-1:1, function(one) {
+    at <- match(one, side)
+    if (is.na(at)) NA_real_ else stats::median(x[-at])
+  }, 0)
+  values[side + 2]
 }
 
 # How far a curve is from the mirror image of its partner: what one specimen can say against itself.

@@ -7,6 +7,7 @@
 #   Rscript bench/cohort.R targets DIR [local|slurm]   by targets and crew
 #   Rscript bench/cohort.R same DIR FOLDER...       are the results of a folder those of "serial"
 #   Rscript bench/cohort.R store DIR                bytes of a specimen; print() of 2,000 and 50,000
+#   Rscript bench/cohort.R quality DIR [n = 2000] [runs = 3]   quality() of n entries
 #   Rscript bench/cohort.R together [times = 50]    two processes at once in one folder
 #   Rscript bench/cohort.R homology DIR [times = 1] slid by two workers against one; memory
 #   Rscript bench/cohort.R parquet DIR              tables written and read back
@@ -241,7 +242,34 @@ copied_entries <- function(from, n) {
   rows$size <- inner("size_text")(info)
   rows$time <- inner("time_text")(info)
   writeLines(inner("index_lines")(rows), file.path(folder, "index-copied.tsv"))
+  columns <- inner("measures_columns")
+  known <- inner("read_index")(file.path(from, "serial"), "quality", columns)
+  known <- known[match(index$file, known$file), ][rep_len(seq_len(nrow(index)), n), ]
+  known[c("file", "size", "time", "key")] <- rows[c("file", "size", "time", "key")]
+  writeLines(inner("index_lines")(known), file.path(folder, "quality-copied.tsv"))
   folder
+}
+
+# quality() of a folder of n entries from the measures beside its index; that of the folder that
+# they are copied from is compared with that of its results, read one by one.
+show_quality <- function(dir, n = 2000, runs = 3) {
+  quality(suppressMessages(read_batch(file.path(dir, "serial"))))
+  folder <- copied_entries(dir, n)
+  batch <- read_batch(folder)
+  for (run in seq_len(runs)) {
+    took <- processor(graded <- quality(batch))
+    cat(sprintf("quality() of %d: %.2f s, %.2f s of processor, %d rows, %.0f MB, peak %.0f MB\n", n,
+                took[["elapsed"]], took[["user"]], nrow(graded),
+                as.numeric(object.size(graded)) / 2^20, resident()))
+  }
+  took <- processor(utils::capture.output(print(graded)))
+  cat(sprintf("print() of it: %.2f s of processor\n", took[["user"]]))
+  files <- list.files(file.path(dir, "serial"), "^quality-.*tsv", full.names = TRUE)
+  index <- suppressMessages(read_batch(file.path(dir, "serial")))
+  cat(sprintf("measures: %.0f bytes a specimen; equal to those of the results: %s\n",
+              sum(file.size(files)) / length(index),
+              identical(quality(index), quality(as.list(index)))))
+  unlink(folder, recursive = TRUE)
 }
 
 show_store <- function(dir) {
@@ -424,5 +452,7 @@ switch(part, scans = write_scans(dir, as.integer(argument(3, 48))), serial = mea
        slurm = by_slurm(dir, as.integer(argument(3, 8))),
        targets = by_targets(dir, argument(3, "local")),
        same = for (folder in given[-(1:2)]) compare_results(file.path(dir, "serial"), folder),
-       store = show_store(dir), together = together(as.integer(argument(2, 50))),
+       store = show_store(dir),
+       quality = show_quality(dir, as.integer(argument(3, 2000)), as.integer(argument(4, 3))),
+       together = together(as.integer(argument(2, 50))),
        homology = show_homology(dir, as.integer(argument(3, 1))), parquet = show_parquet(dir))

@@ -37,6 +37,18 @@ test_that("slid shapes go into files, and a run that was cut short goes on", {
   expect_identical(unname(points[sample$points$level == "surface", , ]),
                    unname(as.array(memory, "surface")))
   expect_crestline_error(run(), "has a sample already")
+  # In more blocks, the last of them smaller
+  more <- tempfile("more-")
+  dir.create(more)
+  on.exit(unlink(more, recursive = TRUE), add = TRUE)
+  kept <- plain_list(read_batch(slid))
+  base <- list(template = memory$template, provenance = memory$provenance)
+  blocks <- write_cohort(kept, base, more, block = 3, least = 1)
+  expect_identical(n_blocks(blocks), 4L)
+  blocks <- write_cohort(kept, base, more, block = 3, least = 3)
+  expect_identical(n_blocks(blocks), 2L)
+  together <- array(c(read_block(blocks, 1), read_block(blocks, 2)), dim(points), dimnames(points))
+  expect_identical(together, points)
   unlink(file.path(slid, c("sample.head", "block-0001.parquet", "ball 2.shape")))
   before <- file.mtime(file.path(slid, "ball 1.shape"))
   expect_identical(read_block(run(), 1), points)

@@ -385,3 +385,36 @@ test_that("chosen rows print each with its grade and reason, and one reason is s
   expect_identical(sum(grepl("one thing", lines)), 1L)
   expect_match(lines, paste(graded$part[1:2], collapse = ", "), all = FALSE, fixed = TRUE)
 })
+
+test_that("the median and MAD of the others are those of the values without one", {
+  for (n in c(3, 4, 9, 12)) {
+    x <- with_seed(n, round(stats::rnorm(n), 1))
+    others <- vapply(seq_along(x), function(i) stats::median(x[-i]), 0)
+    expect_identical(medians_without(x), others)
+    expect_identical(medians_without(rep(1, n)), rep(1, n))
+  }
+  lengths <- with_seed(1, matrix(exp(stats::rnorm(60, sd = 0.1)), 15))
+  lengths[c(4, 20)] <- NA
+  share <- stats::medpolish(log(lengths), trace.iter = FALSE, na.rm = TRUE)$residuals
+  alone <- apply(share, 2, function(x) {
+    vapply(seq_along(x), function(i) {
+      rest <- stats::na.omit(x[-i])
+      (x[i] - stats::median(rest)) / max(stats::mad(rest), 0.01)
+    }, 0)
+  })
+  expect_equal(length_scores(lengths, 5, 0.01), alone, tolerance = 1e-12)
+})
+
+test_that("specimens graded together have the grades that each has alone", {
+  shapes <- list(one = quad_shape(), three = two_patch_shape(),
+                 two = quad_shape(landmarks = quad_corners()[c("a", "b", "d"), ]))
+  # Three are too few to compare lengths, and those of a ball are all alike.
+  together <- suppressWarnings(as.data.frame(quality(shapes)))
+  alone <- lapply(names(shapes), function(name) as.data.frame(quality(shapes[name])))
+  expect_equal(together, do.call(rbind, alone), ignore_attr = c("found", "rows"))
+  shapes <- shapes[c("one", "two")]
+  measured <- Map(to_grade, shapes, names(shapes))
+  scores <- sample_scores(measured, NULL, quality_limits())
+  expect_identical(graded_measures(measured, scores, quality_limits(), block = 1),
+                   graded_measures(measured, scores, quality_limits()))
+})
