@@ -14,6 +14,7 @@ plotted_instead <- c(
   curve_distance = "Plot the shapes: plot(shape).",
   curve_route = "Plot a curve that was found with it: plot(curve).",
   curve_scheme = "Plot a specimen or a shape of this scheme: plot(specimen), plot(shape).",
+  digitised = "Plot one of its specimens: plot(digitised$specimens[[1]]).",
   find_settings = "Plot a specimen with the landmarks found: plot(find_landmarks(specimen)).",
   keep_away = "Plot the curve that was found with it: plot(curve).",
   keep_side = "Plot the curve that was found with it: plot(curve).",
@@ -33,6 +34,7 @@ plotted_instead <- c(
   rgl_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
   ridge_line = "Plot the curve that it belongs to: plot(curve, \"panel\").",
   ridge_settings = "Plot a curve that was found with them: plot(curve).",
+  sample_files = "Plot the components of its alignment: plot(shape_pca(align(sample))).",
   sample_limits = "Plot the sample: plot(sample).",
   scan_noise = "Plot the specimen: plot(specimen).",
   shape_batch = "Plot one shape: plot(shapes[[1]]).",
@@ -62,6 +64,7 @@ plotted_instead <- c(
 #' S3method(plot,curve_distance,refuse_plot)
 #' S3method(plot,curve_route,refuse_plot)
 #' S3method(plot,curve_scheme,refuse_plot)
+#' S3method(plot,digitised,refuse_plot)
 #' S3method(plot,find_settings,refuse_plot)
 #' S3method(plot,keep_away,refuse_plot)
 #' S3method(plot,keep_side,refuse_plot)
@@ -80,6 +83,7 @@ plotted_instead <- c(
 #' S3method(plot,rgl_scene,refuse_plot)
 #' S3method(plot,ridge_line,refuse_plot)
 #' S3method(plot,ridge_settings,refuse_plot)
+#' S3method(plot,sample_files,refuse_plot)
 #' S3method(plot,sample_limits,refuse_plot)
 #' S3method(plot,scan_noise,refuse_plot)
 #' S3method(plot,shape_batch,refuse_plot)
