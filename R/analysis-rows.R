@@ -73,8 +73,9 @@ inner_products <- function(aligned, block = 500) {
     for (y in columns_of_points(aligned, rows, root[rows])) {
       for (own in blocks) {
         before <- seq_len(max(own))
-        gram[before, own] <- gram[before, own] +
-          tcrossprod(y[before, , drop = FALSE], y[own, , drop = FALSE])
+        # Of the first block the symmetric product, which costs half.
+        later <- if (own[1] > 1) y[own, , drop = FALSE]
+        gram[before, own] <- gram[before, own] + tcrossprod(y[before, , drop = FALSE], later)
       }
     }
   }
