@@ -486,11 +486,17 @@ spread_line <- function(x) {
           worst$level, format.pval(worst$p_value, digits = 2, eps = 1e-4))
 }
 
-#' One line where the default costs power
+#' One line where the groups' sizes and spreads are such that pooled tests are wrong, or else where
+#' the default costs power
 #' @param ratio Of the greatest group's size to the smallest's, from which it is said.
 #' @noRd
 power_line <- function(x, ratio = 2) {
   sizes <- table(x$design$group)
+  if (unequal_spread(x)) {
+    return(paste("groups of unequal size differ in spread:", if (x$equal_spread) {
+      "pooled p-values are wrong then, give equal_spread = FALSE"
+    } else "equal_spread = TRUE would give wrong p-values"))
+  }
   tested <- x$tests$test %in% c("size t", "size F") | grepl("^PC[0-9]+$", x$tests$test)
   if (x$equal_spread || !any(tested) || max(sizes) < ratio * min(sizes)) return(NULL)
   paste("groups are unequal in size: tests of size and of single components have more power with",
@@ -502,15 +508,21 @@ worst_spread <- function(x) {
   if (NROW(own)) own[which.max(own$statistic), ]
 }
 
+#' Whether groups of unequal size differ in spread
 #' @param ratio Of the spreads of groups of unequal size, above which pooled tests are not to be
 #'   trusted. At 24 and 6 specimens and a ratio of 3 they reject a true null hypothesis in more than
 #'   40 % of samples: `tests/testthat/test-analysis-spread.R`.
 #' @noRd
-warn_unequal_spread <- function(x, ratio = 1.5) {
+unequal_spread <- function(x, ratio = 1.5) {
   worst <- worst_spread(x)
   sizes <- table(x$design$group)
-  if (!x$equal_spread || is.null(worst) || min(sizes) == max(sizes) ||
-      worst$statistic <= ratio) return(invisible())
+  !is.null(worst) && min(sizes) != max(sizes) && isTRUE(worst$statistic > ratio)
+}
+
+warn_unequal_spread <- function(x) {
+  if (!x$equal_spread || !unequal_spread(x)) return(invisible())
+  worst <- worst_spread(x)
+  sizes <- table(x$design$group)
   crestline_warn(
     sprintf(paste("the groups are unequal in size (%s), and their spreads differ by a factor of",
                   "%.2g (%s)."),
@@ -523,9 +535,9 @@ warn_unequal_spread <- function(x, ratio = 1.5) {
 points_line <- function(points, level = 0.05) {
   found <- which(points$p_adjusted <= level)
   untested <- sum(is.na(points$p_adjusted))
-  text <- sprintf("%s: %s differ (family-wise %g)", points$level[1],
-                  paste(length(found), "of", amount(nrow(points) - untested, "point"),
-                        if (untested) sprintf("(%d more: no test)", untested)), level)
+  more <- if (untested) sprintf(" (%d more: no test)", untested) else ""
+  text <- sprintf("%s: %d of %s%s differ (family-wise %g)", points$level[1], length(found),
+                  amount(nrow(points) - untested, "point"), more, level)
   if (!length(found) || all(is.na(points$displacement))) return(text)
   sprintf("%s, by %.3g at most (%s)", text, max(points$displacement[found]),
           points$point[found][which.max(points$displacement[found])])

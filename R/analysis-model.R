@@ -17,6 +17,10 @@ model_terms <- function(formula, call = rlang::caller_env()) {
     fail(sprintf("`formula` cannot be read: %s.", rlang::cnd_message(e)),
          "Name every variable; a `.` is not known.")
   })
+  if (any(c("|", "Error") %in% all.names(formula))) {
+    fail("`formula` has a random effect.",
+         "Give pairs, repeats, families as `block`; else RRPP::lmm.rrpp(), vignette(\"interop\").")
+  }
   if (!length(attr(terms, "term.labels"))) fail("`formula` has no term.", "Give ~ age, say.")
   if (!attr(terms, "intercept")) fail("`formula` has no intercept.", "Leave out `0` or `- 1`.")
   if (!is.null(attr(terms, "offset"))) fail("`formula` has an offset.", "Leave it out.")
@@ -31,6 +35,10 @@ model_terms <- function(formula, call = rlang::caller_env()) {
 #' @return List of columns.
 #' @noRd
 model_data <- function(terms, data, ids, call = rlang::caller_env()) {
+  # Names of the sample's own, where the formula does not ask for them.
+  if (is.data.frame(data)) {
+    data <- data[setdiff(names(data), setdiff(c("coords", "size"), all.vars(terms)))]
+  }
   columns <- covariates(data, ids, call)
   outside <- setdiff(all.vars(terms), c(names(columns), "size"))
   frame <- environment(terms)
@@ -265,15 +273,16 @@ check_new_values <- function(model, newdata, call) {
 model_at <- function(model, newdata, call = rlang::caller_env()) {
   terms <- stats::delete.response(model$terms)
   check_new_values(model, newdata, call)
+  rows <- if (is.null(rownames(newdata))) seq_len(nrow(newdata)) else rownames(newdata)
+  say_missing(newdata[model$variables], rows, call, sample = FALSE)
   frame <- tryCatch(
     stats::model.frame(terms, newdata, na.action = stats::na.pass, xlev = model$xlev),
     error = function(e) refuse_formula(e, call)
   )
-  say_missing(frame, if (is.null(rownames(newdata))) seq_len(nrow(newdata)) else
-    rownames(newdata), call, sample = FALSE)
+  say_missing(frame, rows, call, sample = FALSE)
   x <- stats::model.matrix(terms, frame, model$contrasts)
-  rows <- qr(t(model$matrix))
-  off <- sqrt(rowSums(t(qr.resid(rows, t(x)))^2) / rowSums(x^2))
+  known <- qr(t(model$matrix))
+  off <- sqrt(rowSums(t(qr.resid(known, t(x)))^2) / rowSums(x^2))
   if (any(off > 1e-6)) {
     crestline_abort(sprintf("row %s of `newdata` is a combination of which the sample has nothing.",
                             shorten(which(off > 1e-6))),

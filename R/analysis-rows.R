@@ -59,6 +59,39 @@ over_points <- function(aligned, f, weights = aligned$weights) {
   found
 }
 
+#' Inner products of the specimens, summed in place: one n x n matrix is made, and parts of it
+#'
+#' @param block Specimens at a time.
+#' @return n x n.
+#' @noRd
+inner_products <- function(aligned, block = 500) {
+  n <- length(aligned)
+  root <- sqrt(aligned$weights)
+  blocks <- permutation_blocks(n, block)
+  gram <- matrix(0, n, n)
+  for (rows in point_chunks(aligned)) {
+    for (y in columns_of_points(aligned, rows, root[rows])) {
+      for (own in blocks) {
+        before <- seq_len(max(own))
+        # Of the first block the symmetric product, which costs half.
+        later <- if (own[1] > 1) y[own, , drop = FALSE]
+        gram[before, own] <- gram[before, own] + tcrossprod(y[before, , drop = FALSE], later)
+      }
+    }
+  }
+  for (own in blocks[-1]) {
+    before <- seq_len(min(own) - 1)
+    gram[own, before] <- t(gram[before, own])
+  }
+  gram
+}
+
+#' Sum of the squares of a matrix, some columns at a time
+#' @noRd
+sum_of_squares <- function(x, block = 500) {
+  sum(vapply(permutation_blocks(ncol(x), block), function(columns) sum(x[, columns]^2), 0))
+}
+
 #' The specimens as matrices of doubles, without an array of all
 #' @noRd
 numbers_by_specimen <- function(aligned) {

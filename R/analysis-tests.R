@@ -339,9 +339,9 @@ mean_shape_test <- function(total, labels, spread, counts) {
 #' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1).
 #' @noRd
 whole_shape <- function(aligned, labels, spread, leading) {
-  gram <- if (length(aligned) <= length(aligned$mean)) over_points(aligned, tcrossprod)
+  gram <- if (length(aligned) <= length(aligned$mean)) inner_products(aligned)
   squares <- cbind(if (is.null(gram)) over_points(aligned, squares_by_row) else diag(gram))
-  square <- if (spread$equal) NA else if (is.null(gram)) leading else sum(gram^2)
+  square <- if (spread$equal) NA else if (is.null(gram)) leading else sum_of_squares(gram)
   dimensions <- if (spread$equal) 1 else max(1, sum(squares)^2 / square, na.rm = TRUE)
   about <- function(member) total_of_sums(aligned, gram, member)
   sums <- if (is.null(gram)) whole_sums(aligned, labels) else by_columns(labels, group_sums, about)

@@ -16,7 +16,7 @@ check_array <- function(x, call, name = "sample") {
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
     crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]),
-                    "Name each of its own.",
+                    "Name each of its own; scans of one person share a `block` in a comparison.",
                     stage = "align", call = call)
   }
   x

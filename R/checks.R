@@ -376,3 +376,13 @@ check_method_dots <- function(..., known = character(), call = rlang::caller_env
 check_most <- function(most, call = rlang::caller_env()) {
   if (!identical(most, Inf)) check_count(most, "most", lower = 0, call = call)
 }
+
+#' A call of base graphics, whose errors are said as those of the package
+#' @noRd
+drawn_or_refused <- function(code) {
+  tryCatch(code, error = function(e) {
+    crestline_abort(sprintf("the picture cannot be drawn: %s.",
+                            sub("[.]$", "", conditionMessage(e))),
+                    "Check the further arguments of plot().", stage = "picture", call = NULL)
+  })
+}

@@ -70,6 +70,7 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
   validate(x)
   what <- check_choice(what, c("boxes", "means", "map"), "what")
   check_colour(colour, "colour")
+  check_flags(legend)
   engine <- check_engine(engine)
   level <- level_to_plot(x, level, what)
   groups <- nlevels(x$group)
@@ -115,10 +116,10 @@ plot_boxes <- function(x, level, colour, main, ..., components = 1:3) {
 
 # One boxplot: points beside each other where they would hide each other, the means as diamonds.
 box_panel <- function(y, group, title, colour, ...) {
-  drawn <- graphics::boxplot(
+  drawn <- drawn_or_refused(graphics::boxplot(
     y ~ group, outline = FALSE, ylim = range(y), col = grDevices::adjustcolor(colour, 0.25),
     border = colour, xlab = "", ylab = "", las = 1, boxwex = 0.55, ...
-  )
+  ))
   graphics::title(title, font.main = 1, cex.main = 1)
   graphics::points(as.integer(group) + box_shift(y, group), y, pch = 16, cex = 0.9,
                    col = grDevices::adjustcolor(colour[as.integer(group)], 0.7))

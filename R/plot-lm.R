@@ -15,8 +15,8 @@
 #' @param unit For "map": number of units of the term whose effect is shown, such as 10 for 10
 #'   years.
 #' @param engine,view,legend,main As in [plot.group_comparison()].
-#' @param ... For "map" those of [plot.group_comparison()], but `adjust`: the significance level is
-#'   family-wise. For "scores" those of [graphics::plot.default()].
+#' @param ... For "map" those of [plot.group_comparison()], `adjust` too. For "scores" those of
+#'   [graphics::plot.default()].
 #' @return Invisibly: the scene of [draw_surface()], or for "scores" a data frame with `variable`
 #'   and `score` of each specimen.
 #' @section Errors: of class `crestline_error`: there is no such term or level, or the points were
@@ -44,6 +44,7 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   validate(x)
   what <- check_choice(what, c("map", "scores"), "what")
   engine <- check_engine(engine)
+  check_flags(legend)
   terms <- attr(x$models[[1]]$terms, "term.labels")
   term <- if (is.null(term)) terms[1] else check_choice(term, terms, "term")
   level <- level_of_map(x$aligned, level, what == "map")
@@ -58,12 +59,14 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
   }
   triangles <- x$aligned[[level]]$triangles
   signed <- any(!is.na(points$distance))
+  adjust <- given$look$adjust
+  points$p_adjusted <- held_p(points, adjust, x$aligned[[level]]$weights)
   found <- sum(points$p_adjusted <= significance, na.rm = TRUE)
-  words <- sprintf("%s, %s; %s: p < %g (%d of %d points)", term,
+  words <- sprintf("%s, %s\n%s: %s < %g (%d of %d points)", term,
                    if (signed) sprintf("along the normal for %g", unit) else
                      "root mean square displacement",
-                   if (is.null(triangles)) "ringed" else "outlined", significance, found,
-                   nrow(points))
+                   if (is.null(triangles)) "ringed" else "outlined", held_words[[adjust]],
+                   significance, found, nrow(points))
   draw_map(points, if (signed) points$distance * unit else points$displacement, signed, triangles,
            if (is.null(main)) words else main, given, engine, view, legend)
 }
@@ -104,7 +107,9 @@ plot_lm_scores <- function(x, term, level, main, ...) {
   on.exit(graphics::par(old))
   group <- if (!is.numeric(variable)) factor(variable)
   if (is.null(group)) {
-    graphics::plot(variable, score, xlab = term, ylab = "", las = 1, pch = 16, ...)
+    drawn_or_refused(
+      graphics::plot(variable, score, xlab = term, ylab = "", las = 1, pch = 16, ...)
+    )
   } else {
     box_panel(score, group, "", grDevices::hcl.colors(nlevels(group), "Dark 3"), ...)
     graphics::title(xlab = term)

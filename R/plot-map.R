@@ -15,7 +15,6 @@ plot_map <- function(x, level, engine, view, legend, main, ...) {
   points$p_adjusted <- held_p(points, look$adjust, aligned$weights)
   found <- sum(points$p_adjusted <= look$significance, na.rm = TRUE)
   surface <- !is.null(aligned$triangles)
-  measure <- c(fwe = "family-wise p", fdr = "false discovery rate", none = "p of each point")
   words <- sprintf(
     "%s\n%s: %s < %g (%d of %d points)",
     if (surface) {
@@ -23,7 +22,7 @@ plot_map <- function(x, level, engine, view, legend, main, ...) {
     } else {
       "distance between the means"
     },
-    if (surface) "outlined" else "ringed", measure[[look$adjust]], look$significance, found,
+    if (surface) "outlined" else "ringed", held_words[[look$adjust]], look$significance, found,
     nrow(points)
   )
   draw_map(points, if (surface) points$distance else points$displacement, surface,
@@ -89,11 +88,16 @@ map_look <- function(significance = 0.05, limits = NULL,
                      palette = grDevices::hcl.colors(21, "Blue-Red"),
                      adjust = c("fwe", "fdr", "none"), length_unit = "unit of the meshes",
                      call = rlang::caller_env()) {
+  if (!is.null(limits)) limits <- check_numbers(limits, "limits", n = 2, call = call)
   list(significance = check_number(significance, "significance", 0, 1, call = call),
-       limits = limits, palette = palette,
+       limits = limits, palette = check_colour(palette, "palette", call = call),
        adjust = check_choice(adjust, c("fwe", "fdr", "none"), "adjust", call),
        length_unit = check_text(length_unit, "length_unit", call = call))
 }
+
+#' What is held, as a title names it
+#' @noRd
+held_words <- c(fwe = "family-wise p", fdr = "false discovery rate", none = "p of each point")
 
 #' p-values of points by what is held
 #' @param weights k numbers, of the points.

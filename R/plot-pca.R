@@ -66,7 +66,7 @@ draw_scores <- function(at, group, colour, names, labels, ellipse, ...) {
          col = grDevices::adjustcolor(colour[as.integer(group)], 0.8)),
     given
   )
-  do.call(graphics::plot, c(list(at), given), quote = TRUE)
+  drawn_or_refused(do.call(graphics::plot, c(list(at), given), quote = TRUE))
   for (g in seq_along(rings)) graphics::lines(rings[[g]], col = colour[g])
   if (labels) graphics::text(at, rownames(at), pos = 3, offset = 0.35, cex = 0.6, xpd = NA)
   graphics::abline(h = 0, v = 0, col = "grey80", lwd = 0.6)

@@ -34,7 +34,7 @@ plotted_instead <- c(
   rgl_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
   ridge_line = "Plot the curve that it belongs to: plot(curve, \"panel\").",
   ridge_settings = "Plot a curve that was found with them: plot(curve).",
-  sample_files = "Plot components of its alignment: plot(shape_pca(align(sample))).",
+  sample_files = "Plot the components of its alignment: plot(shape_pca(align(sample))).",
   sample_limits = "Plot the sample: plot(sample).",
   scan_noise = "Plot the specimen: plot(specimen).",
   shape_batch = "Plot one shape: plot(shapes[[1]]).",

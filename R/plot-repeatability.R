@@ -64,9 +64,10 @@ plot_part_errors <- function(x, most, palette, ...) {
   graphics::par(mar = c(3.2, name_width, 1.5, 3), mgp = c(2, 0.6, 0), las = 1)
   several <- x$counts[["specimens"]] > 1
   top <- max(parts$error, if (several) parts$specimen)
-  graphics::plot(NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n",
-                 ylab = "", xaxs = "i", bty = "n",
-                 xlab = "standard deviation of a point (unit of the meshes)", ...)
+  drawn_or_refused(graphics::plot(
+    NA, xlim = c(0, top * 1.02), ylim = c(0.5, nrow(parts) + 0.5), yaxt = "n", ylab = "",
+    xaxs = "i", bty = "n", xlab = "standard deviation of a point (unit of the meshes)", ...
+  ))
   if (several) graphics::rect(0, at - 0.35, parts$specimen, at + 0.35, col = "grey88", border = NA)
   colour <- error_colours(parts$error, x, palette)
   graphics::segments(0, at, parts$error, at, col = colour, lwd = 2)

@@ -35,6 +35,7 @@ plot.symmetry_parts <- function(x, what = c("directional", "symmetric", "asymmet
   validate(x)
   what <- check_choice(what, c("directional", "symmetric", "asymmetric"), "what")
   engine <- check_engine(engine)
+  check_flags(legend)
   given <- map_arguments(...)
   level <- level_of_map(x$symmetric, level, TRUE)
   one <- x[[if (what == "asymmetric") "asymmetric" else "symmetric"]][[level]]

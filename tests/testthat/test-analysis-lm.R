@@ -343,3 +343,33 @@ test_that("specimens without a value are named with the way to leave them out", 
   expect_error(shape_lm(made$x, ~ age, data[-4, ]), "or leave the specimen out",
                class = "crestline_error")
 })
+
+test_that("exact duplicates do not differ", {
+  shape <- with_seed(1, matrix(rnorm(24), 8))
+  each <- with_seed(2, replicate(6, shape * runif(1, 1, 2) + rnorm(24, sd = 0.02)))
+  data <- data.frame(sex = rep(c("a", "b"), each = 6))
+  model <- suppressWarnings(shape_lm(each[, , rep(1:6, 2)], ~ sex, data, n_perm = 99, seed = 1,
+                                     settings = model_settings(components = 3)))
+  expect_equal(model$tests$squares[model$tests$test != "manova"], rep(0, 5))
+  expect_equal(model$tests$p_value, rep(1, 6))
+  expect_equal(model$points$p_value, rep(1, 8))
+  expect_equal(model$points$p_adjusted, rep(1, 8))
+})
+
+test_that("random effects are sent elsewhere; a column of the sample's own name may stand beside", {
+  data <- people()
+  aligned <- modelled_sample(data)
+  fit <- function(formula, data) {
+    shape_lm(aligned, formula, data, n_perm = 19, seed = 1,
+             settings = model_settings(tests = "shape"))
+  }
+  for (formula in list(~ age + (1 | site), ~ age + Error(site))) {
+    expect_crestline_error(fit(formula, data), c("random effect", "`block`", "lmm.rrpp"))
+  }
+  measured <- transform(data, size = 1)
+  expect_identical(fit(~ age, measured)$tests, fit(~ age, data)$tests)
+  expect_crestline_error(fit(~ age + size, measured), "has a column `size`")
+  model <- fit(~ splines::ns(age, 3) + sex, data)
+  expect_crestline_error(predict(model, data.frame(age = c(10, NA), sex = "F")),
+                         "`age` is missing or infinite for 2")
+})

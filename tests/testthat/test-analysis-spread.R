@@ -216,6 +216,19 @@ test_that("the loss of power with groups of unequal size is said where there is 
   expect_false(said(c(11, 6)))
 })
 
+test_that("groups unequal in size and in spread are not advised to pool", {
+  printed <- function(ratio, ...) {
+    data <- spread_sample(c(20, 6), ratio, 1)
+    compared <- suppressWarnings(comparing(data$x, data$group, n_perm = 19, components = 2,
+                                           progress = FALSE, ...))
+    paste(trimws(capture.output(print(compared))), collapse = " ")
+  }
+  expect_match(printed(3), "unequal size differ in spread: equal_spread = TRUE would give wrong")
+  expect_no_match(printed(3), "more power")
+  expect_match(printed(3, equal_spread = TRUE), "give equal_spread = FALSE")
+  expect_match(printed(1), "more power")
+})
+
 test_that("exact duplicates do not differ", {
   compare_groups <- function(...) suppressWarnings(crestline::compare_groups(...))
   shape <- with_seed(1, matrix(rnorm(24), 8))
