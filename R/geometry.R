@@ -69,8 +69,9 @@ nearest_on_polyline <- function(xyz, line) {
 
 mesh_diagonal <- function(mesh) box_diagonal(mesh$vb)
 
-# The columns of a point on a mesh.
-mesh_columns <- c("x", "y", "z", "face", "w1", "w2", "w3")
+# The columns of a point on a mesh: its triangle and weights, and with the position.
+face_columns <- c("face", "w1", "w2", "w3")
+mesh_columns <- c("x", "y", "z", face_columns)
 
 # The largest value that is there, NA where none is.
 largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)

@@ -46,11 +46,13 @@ refuse_landmarks <- function(problem, remedy, id) {
 #' @param midline Names of landmarks of the midline from top to bottom.
 #' @param piece Number of the piece of every triangle.
 #' @param size Of [mesh_size()]; NULL: that of the pieces that carry the landmarks.
+#' @param located Places of the landmarks on the mesh, where they are known.
 #' @return A list: `landmarks` on the surface, `located` (see surface_points()), `report`, `size`,
 #'   `slips` (of [exchanged_landmarks()]).
 #' @noRd
-check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NULL, size = NULL) {
-  located <- surface_points(mesh, landmarks)
+check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NULL, size = NULL,
+                            located = NULL) {
+  if (is.null(located)) located <- surface_points(mesh, landmarks)
   if (is.null(size)) {
     # Size of the pieces of a mesh that carry its landmarks; of all where none does
     on <- unique(piece[located$face[!is.na(located$face)]])

@@ -33,7 +33,7 @@
 #'     * `state`: "found"; "placed" (the specimen had it before); "predicted" (the template marks it
 #'       so: it is placed by the positions of the others, perhaps off the mesh); or "absent" (the
 #'       scan has no surface there). Where a face has ears, the predicted tragion is put where a
-#'       patch of an ear fits best (setting `ear`); it is still some 6 mm off, and "predicted";
+#'       patch of an ear fits best (setting `ear`); it is still some 5 mm off, and "predicted";
 #'     * `confidence`: from 0 to 1, doubtful below 0.5. It is 1 / (1 + (`moved` / a)^2 + (`residual`
 #'       / b)^2 + (`sd` / c)^2), where a, b and c are the settings `moved`, `off` and `vague`. The
 #'       corners and the middle of the mouth share their doubt (setting `shared_doubt`). If
@@ -103,7 +103,10 @@ find_landmarks <- function(mesh, template = face_template(), id = NULL, settings
   laid <- expressed$laid
   if (laid$verdict %in% "perhaps" && laid$agree >= settings$agree[2]) laid$verdict <- "face"
   placed <- placed_landmarks(expressed$template, template, scan, laid, kept)
-  if (laid$inverted) scan <- turned_inside_out(scan)
+  if (laid$inverted) {
+    scan <- turned_inside_out(scan)
+    placed[face_columns] <- NULL
+  }
   doubt <- placing_doubt(placed, settings$low)
   size <- if (laid$unit_known) laid$pose[13] * laid$asked / laid$unit else 1
   match <- c(laid[c("score", "agree", "verdict")],
@@ -199,6 +202,8 @@ warn_doubtful <- function(found, doubt, settings) {
 }
 
 #' A specimen with landmarks as they were placed; those that are kept to the last digit
+#' @param placing As `placing` of [find_landmarks()]; with the columns of faces and weights too, the
+#'   places are not sought again.
 #' @noRd
 with_placing <- function(scan, placing, match,
                          kept = scan$landmarks[0, , drop = FALSE]) {
@@ -206,14 +211,18 @@ with_placing <- function(scan, placing, match,
   at[placing$state == "absent", ] <- NA
   rownames(at) <- placing$landmark
   on <- placing$state == "found"
-  found <- check_landmarks(at[on, , drop = FALSE], scan$mesh, scan$id, Inf, character())
+  known <- if (all(face_columns %in% names(placing))) {
+    frame_of(lapply(placing[mesh_columns], `[`, on))
+  }
+  found <- check_landmarks(at[on, , drop = FALSE], scan$mesh, scan$id, Inf, character(),
+                           located = known)
   at[on, ] <- found$landmarks
   at[rownames(kept), ] <- kept
   origin <- origin_of(scan)
   scan$landmarks <- at
   scan$geometry$landmarks <- rbind(found$landmarks, kept)
   scan$geometry$located <- rbind(found$located, surface_points(scan$mesh, kept))
-  scan$placing <- placing
+  scan$placing <- placing[setdiff(names(placing), face_columns)]
   scan$match <- match
   scan$origin <- origin
   mine <- !placing$landmark %in% rownames(kept)
@@ -225,7 +234,7 @@ with_placing <- function(scan, placing, match,
 #'
 #' What is kept is compared with what the surface alone gives. Those near it take part in the bend.
 #'
-#' @return Data frame as `placing` of [find_landmarks()].
+#' @return Data frame as of [carried_landmarks()].
 #' @noRd
 placed_landmarks <- function(prepared, template, scan, laid, kept) {
   found <- carried_landmarks(prepared, template, scan, laid)
@@ -244,7 +253,8 @@ placed_landmarks <- function(prepared, template, scan, laid, kept) {
 
 #' The template's landmarks carried to a scan, with what speaks for each
 #' @param pins As of [warp_pins()]; `kept` (k x 3): what predicts others too.
-#' @return Data frame as `placing` of [find_landmarks()].
+#' @return Data frame as `placing` of [find_landmarks()], with `face`, `w1`, `w2`, `w3` besides (NA
+#'   where a landmark is predicted).
 #' @noRd
 carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept = NULL) {
   settings <- prepared$settings
@@ -255,7 +265,8 @@ carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept 
   to_scan <- function(xyz) from_frame(xyz, laid)
   carried <- lapply(list(bent, laid$plain),
                     function(fit) to_scan(fit$moved[-seq_len(n), , drop = FALSE]))
-  places <- columns_of(surface_points(scan$mesh, do.call(rbind, carried)), c("x", "y", "z"))
+  located <- surface_points(scan$mesh, do.call(rbind, carried))
+  places <- columns_of(located, c("x", "y", "z"))
   with_curvature <- seq_len(nrow(own))
   at <- places[with_curvature, , drop = FALSE]
   rownames(at) <- rownames(own)
@@ -271,6 +282,7 @@ carried_landmarks <- function(prepared, template, scan, laid, pins = NULL, kept 
                       lost = here$lost,
                       x = at[, 1], y = at[, 2], z = at[, 3], row.names = NULL)
   found$confidence[found$state == "absent"] <- NA
+  found[face_columns] <- located[with_curvature, face_columns]
   found <- with_shared_doubt(found, prepared$modes$slit, settings$shared_doubt)
   if (!nrow(template$predicted)) return(found)
   rbind(found, predicted_landmarks(template, found, laid, settings, kept))
@@ -333,5 +345,5 @@ predicted_landmarks <- function(template, found, laid, settings, kept = NULL) {
   data.frame(landmark = rownames(own), state = "predicted", confidence = NA_real_, moved = NA_real_,
              sd = NA_real_,
              residual = NA_real_, lost = NA_real_, x = at[, 1], y = at[, 2], z = at[, 3],
-             row.names = NULL)
+             face = NA_integer_, w1 = NA_real_, w2 = NA_real_, w3 = NA_real_, row.names = NULL)
 }

@@ -50,6 +50,23 @@ test_that("stops on one side are not determined, and say so", {
   expect_false(bad$determined)
 })
 
+test_that("a loop that went elsewhere is told by running twice over, not by `competing`", {
+  ring <- ring_specimen(c(a = 20, c = 110, d = 80, e = 150))
+  right <- closed_ring(ring, "c")
+  expect_true(right$determined)
+  expect_equal(right$length, 24 * pi, tolerance = 0.02)
+  # No rival is warned of: the wrong loop is cheaper beside its rivals than the right one.
+  bad <- withCallingHandlers(closed_ring(ring, c("d", "e")), warning = function(w) {
+    expect_s3_class(w, "crestline_undetermined")
+    invokeRestart("muffleWarning")
+  })
+  competing <- function(curve) attr(curve$reference, "competing")
+  expect_lt(competing(bad), competing(right))
+  expect_lt(bad$length, 12 * pi)
+  expect_false(bad$determined)
+  expect_match(bad$reason, "twice over")
+})
+
 test_that("a width that is cut is told", {
   wide <- ridge_curve(ring_specimen(), "a", "a", "ridge", ring_radius, 9, 24, via = "b")
   expect_output(print(wide), "only 4.5 of its width is used, 1.5 radii")

@@ -43,6 +43,23 @@ test_that("neither pose, unit nor the sense of the triangles changes what is fou
   expect_equal(found$placing$moved * 1000, face$placing$moved, tolerance = 1e-6)
 })
 
+test_that("where found landmarks lie on the mesh is kept, also of a scan that was turned", {
+  mesh <- humface_scan()
+  mesh$it <- mesh$it[c(1, 3, 2), ]
+  inside_out <- suppressWarnings(specimen(mesh, outward = "keep"))
+  turned <- find_landmarks(inside_out, settings = quick_settings())
+  expect_true(turned$match$inverted)
+  for (face in list(found_humface(), turned)) {
+    on <- which(face$placing$state == "found")
+    located <- face$geometry$located
+    expect_equal(nrow(located), length(on))
+    expect_equal(place_on_faces(face$mesh, located$face, as.matrix(located[c("w1", "w2", "w3")])),
+                 unname(face$landmarks[on, ]), tolerance = 1e-10)
+    expect_equal(located$face, surface_points(face$mesh, face$landmarks[on, ])$face)
+    expect_false(any(c("face", "w1") %in% names(face$placing)))
+  }
+})
+
 test_that("where the scan has no surface landmarks are absent, the others stay", {
   placed <- humface_landmarks()
   mesh <- humface_scan()
