@@ -13,9 +13,9 @@
 #' @section Errors: of class `crestline_error`: there is no folder or file of that name, it has no
 #'   results, or its results have several schemes.
 #' @section Messages: if a specimen has several results, the newest is taken, and the message names
-#'   the others. If a later run failed on a specimen, such as with other landmarks, the result before
-#'   is taken, and the message names the specimen. If the specimens were measured with different settings, the message counts them.
-#'   Give the paths of the files that you want instead.
+#'   the others. If a later run failed on a specimen, the result before is taken, and the message
+#'   names the specimen. If the specimens were measured with different settings, the message counts
+#'   them. Give the paths of the files that you want instead.
 #' @section Failures: a result that is damaged is a failure, see [failures()].
 #' @template glossary
 #' @seealso [fit_shapes()], [homologise()]
