@@ -17,7 +17,8 @@ model_terms <- function(formula, call = rlang::caller_env()) {
     fail(sprintf("`formula` cannot be read: %s.", rlang::cnd_message(e)),
          "Name every variable; a `.` is not known.")
   })
-  if (any(c("|", "Error") %in% all.names(formula))) {
+  random <- function(x) is.call(x) && deparse1(x[[1]]) %in% c("|", "||", "Error")
+  if (any(vapply(as.list(attr(terms, "variables"))[-1], random, NA))) {
     fail("`formula` has a random effect.",
          "Give pairs, repeats, families as `block`; else RRPP::lmm.rrpp(), vignette(\"interop\").")
   }
@@ -37,7 +38,7 @@ model_terms <- function(formula, call = rlang::caller_env()) {
 model_data <- function(terms, data, ids, call = rlang::caller_env()) {
   # Names of the sample's own, where the formula does not ask for them.
   if (is.data.frame(data)) {
-    data <- data[setdiff(names(data), setdiff(c("coords", "size"), all.vars(terms)))]
+    for (name in setdiff(c("coords", "size"), all.vars(terms))) data[[name]] <- NULL
   }
   columns <- covariates(data, ids, call)
   outside <- setdiff(all.vars(terms), c(names(columns), "size"))

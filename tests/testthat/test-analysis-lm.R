@@ -366,6 +366,7 @@ test_that("random effects are sent elsewhere; a column of the sample's own name 
   for (formula in list(~ age + (1 | site), ~ age + Error(site))) {
     expect_crestline_error(fit(formula, data), c("random effect", "`block`", "lmm.rrpp"))
   }
+  expect_s3_class(fit(~ I(age > 20 | sex == "F"), data), "shape_lm")
   measured <- transform(data, size = 1)
   expect_identical(fit(~ age, measured)$tests, fit(~ age, data)$tests)
   expect_crestline_error(fit(~ age + size, measured), "has a column `size`")
