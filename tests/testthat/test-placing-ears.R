@@ -7,7 +7,7 @@ test_that("on the head that the patch is of, the tragion is where it was placed;
   file <- system.file("extdata", "dummyhead_landmarks.csv", package = "crestline")
   placed <- read_landmarks(file)[ear_names, ]
   settings <- function(ear) find_settings(points = 1000, warp_steps = 10, ear = ear)
-  head <- find_landmarks(dummyhead.mesh, settings = settings(c(0.55, 0.72)))
+  head <- find_landmarks(dummyhead.mesh, settings = settings(c(0.55, 0.8)))
   without <- find_landmarks(dummyhead.mesh, settings = settings(c(1e-6, 1e-6)))
   off <- row_lengths(ears_of(head) - placed)
   before <- row_lengths(ears_of(without) - placed)
