@@ -58,7 +58,7 @@ test_that("measures that are absent, stale, damaged or of another version are ma
   changed(with_column("version", function(x) "0"))
   changed(with_column("time", function(x) "1.000000"))
   changed(with_column("key", function(x) "another"))
-  for (at in c(1, 50, 200, 400)) changed(with_column("packed", function(x) {
+  for (at in c(50, 400)) changed(with_column("packed", function(x) {
     paste0(substr(x, 1, at - 1), "AzBy", substring(x, at + 4))
   }))
   changed(with_column("packed", function(x) "no letters of 64: \u00e4"))

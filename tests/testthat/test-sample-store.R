@@ -83,3 +83,9 @@ test_that("common files that are gone or damaged are told, and written again", {
   fit_shapes(c(batch_specimens(2)[2]), edge_scheme(6), out)
   expect_s3_class(shapes[[1]], "shape")
 })
+
+test_that("a result of a later version is refused, not misread", {
+  later <- structure(list(version = stored_version + 1L), class = "stored_shape")
+  expect_error(from_stored(later, tempdir()), "later version.*Install",
+               class = "crestline_keeping_error")
+})
