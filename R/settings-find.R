@@ -108,11 +108,11 @@
 #' @param smile,smile_gain Distances by which the mouth's corners are drawn outwards and up (two, as
 #'   shares of half the mouth's width). The best is used if it lowers the energy of the warp by at
 #'   least the share `smile_gain`.
-#' @param ear Share of a patch of an ear that may differ from the scan in position or curvature (two
-#'   numbers): anywhere, and where the scan is as hollow as `ear_hollow` says. Beyond it the tragion
-#'   is where the other landmarks predict it. The share was at most 0.57 on 22 ears of 11 simulated
-#'   faces, 0.63 and 0.71 on those of a scan, and 0.66 to 0.79 on twelve sides without an ear or with
-#'   a stump of it.
+#' @param ear Share of a patch of an ear that may differ from the scan in position or curvature
+#'   (two numbers): anywhere, and where the scan is as hollow as `ear_hollow` says. Beyond it the
+#'   tragion is where the other landmarks predict it. The share was at most 0.57 on 22 ears of 11
+#'   simulated faces, 0.63 and 0.71 on those of a scan, and 0.66 to 0.79 on twelve sides without an
+#'   ear or with a stump of it.
 #' @param ear_radius,ear_shift,ear_tilt,ear_reach The patch is fitted to the scan within
 #'   `ear_radius` of the prediction (length). Starts lie `ear_shift` below and above the hollow of
 #'   the scan's ear (length), and are tilted by `ear_tilt` (radians). `ear_reach` is the

@@ -5,10 +5,10 @@
 #
 # The points are made: some 920 points of the 23 dense meshes of simpop, their components
 # resampled, with 0.3 mm of independent noise, a pose of its own for each face, and in the second
-# half a step of 1 mm. cohort: n faces (50,000 if not given) written in blocks of 500, opened, aligned, 50
-# components, two groups with 1,000 permutations, a linear model of two terms. Prints processor and
-# elapsed seconds, and the peak of the process. same: 500 faces in files against the same in memory.
-# The folder (a temporary one if not given) is removed.
+# half a step of 1 mm. cohort: n faces (50,000 if not given) written in blocks of 500, opened,
+# aligned, 50 components, two groups with 1,000 permutations, a linear model of two terms. Prints
+# processor and elapsed seconds, and the peak of the process. same: 500 faces in files against the
+# same in memory. The folder (a temporary one if not given) is removed.
 
 library(crestline)
 
