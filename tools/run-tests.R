@@ -47,9 +47,10 @@ print_section <- function(title, lines) {
 }
 
 files <- list.files("tests/testthat", "^test-.*\\.[rR]$", full.names = TRUE)
-# The sanitizers look at C++, and slow it five times. These files have no kernels of their own.
+# The sanitizers look at C++, and slow it five times. These files reach no kernel that others do not.
 if (identical(Sys.getenv("CRESTLINE_INSTRUMENTED"), "sanitizers")) {
-  r_only <- "^test-(app|command|help|layers|messages|norms|plot|portable|report)|^test-placing-desk"
+  r_only <- paste0("^test-(app|command|help|layers|messages|norms|plot|portable|print|report|",
+                   "sample|study)|^test-placing-(build|check|desk|kept|page|review|suggest)")
   files <- files[!grepl(r_only, basename(files))]
 }
 blocks <- unlist(lapply(files, run_file), recursive = FALSE)
