@@ -37,7 +37,7 @@ test_that("other endings, other objects, and what is refused", {
   on.exit(unlink(pdf))
   before <- grDevices::dev.list()
   write_picture(quad_shape(), pdf, quad_specimen(), surface = "plain", size = c(5, 5), dpi = 72)
-  expect_match(readBin(pdf, "character"), "%PDF")
+  expect_identical(readBin(pdf, "raw", 4), charToRaw("%PDF"))
   expect_identical(grDevices::dev.list(), before)
   expect_crestline_error(write_picture(ball_specimen(), "x.gif"), "ends in .png")
   expect_crestline_error(write_picture(ball_specimen(), tempfile(fileext = ".png"), "colourful"),
