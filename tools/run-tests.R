@@ -47,7 +47,8 @@ print_section <- function(title, lines) {
 }
 
 files <- list.files("tests/testthat", "^test-.*\\.[rR]$", full.names = TRUE)
-# The sanitizers look at C++, and slow it five times. These files reach no kernel that others do not.
+# The sanitizers look at C++, and slow it five times. These files reach no kernel that others do
+# not.
 if (identical(Sys.getenv("CRESTLINE_INSTRUMENTED"), "sanitizers")) {
   r_only <- paste0("^test-(app|command|help|layers|messages|norms|plot|portable|print|report|",
                    "sample|study)|^test-placing-(build|check|desk|kept|page|review|suggest)")
