@@ -47,7 +47,7 @@ read_registered <- function(files) {
                             basename(files[stl][1])),
                     "Save it as .obj or .ply.", stage = "reading", call = NULL)
   }
-  id <- make.unique(sub("[.](obj|ply)([.]gz)?$", "", basename(files), ignore.case = TRUE))
+  id <- file_ids(sub("[.]gz$", "", files, ignore.case = TRUE))
   meshes <- Map(read_mesh, unname(files), id)
   for (i in seq_along(meshes)) {
     same <- identical(dim(meshes[[i]]$it), dim(meshes[[1]]$it)) &&

@@ -2,6 +2,8 @@
 
 #' Run the page at an address with a random token, which page and socket ask for
 #'
+#' One session is served: a second would begin from the first state, and overwrite its records.
+#'
 #' @param ui,server As in [shiny::shinyApp()].
 #' @param launch.browser,... As in [shiny::runApp()].
 #' @param token Text; one that is given is of a page that comes after another at its address.
@@ -13,11 +15,16 @@ run_review <- function(ui, server,
   more <- if (is.null(token)) "" else "&app=1"
   if (is.null(token)) token <- random_token()
   # The server for who knows the token, from the page's own site; anybody else's session is closed
+  taken <- FALSE
   app <- shiny::shinyApp(guarded_page(ui, token), function(input, output, session) {
     address <- shiny::isolate(session$clientData$url_search)
-    if (is_own_site(session$request) &&
-        has_token(address, token)) return(server(input, output, session))
-    session$close()
+    if (!is_own_site(session$request) || !has_token(address, token)) return(session$close())
+    if (taken) {
+      message("The page is open already: another tab of its address was closed.")
+      return(session$close())
+    }
+    taken <<- TRUE
+    server(input, output, session)
   })
   shiny::runApp(app,
                 launch.browser = function(url) open_page(

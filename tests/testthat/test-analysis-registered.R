@@ -28,6 +28,13 @@ test_that("vertices come in their order, whatever the format, and values by vert
   write_mesh(Rvcg::vcgSphere(1), other)
   expect_crestline_error(read_registered(c(at$files[1], other)), c("other", "triangles"))
   expect_crestline_error(read_registered("x.stl"), "x.stl")
+  # Two files of one name are told apart by their folders.
+  twin <- file.path(dirname(at$files[1]), "second", "a.obj")
+  dir.create(dirname(twin))
+  file.copy(at$files[3], twin)
+  twins <- read_registered(c(at$files[1], twin))$coords
+  expect_equal(basename(dirname(dimnames(twins)[[3]])),
+               c(basename(dirname(at$files[1])), "second"))
 })
 
 test_that("points go to the same place of every mesh", {

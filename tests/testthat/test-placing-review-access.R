@@ -43,9 +43,10 @@ test_that("the address with the token is given to a function, or printed", {
 })
 
 # What a browser does with the page of a review in another process, by hand: opens the socket from
-# `origin`, shows the server `search` as its address, and asks for the landmark "a" to be taken away
-# and the review to end.
-answer_review <- function(port, origin, search) {
+# `origin`, shows the server `search` as its address, and asks for `landmark` to be taken away and
+# the review to end.
+# `midway` is called when the socket is open.
+answer_review <- function(port, origin, search, landmark = "a", midway = NULL) {
   socket <- socketConnection("127.0.0.1", port, open = "r+b", blocking = TRUE, timeout = 10)
   on.exit(close(socket))
   head <- c("GET /websocket/ HTTP/1.1", sprintf("Host: 127.0.0.1:%d", port), "Upgrade: websocket",
@@ -66,7 +67,8 @@ answer_review <- function(port, origin, search) {
     say("init", "absent:shiny.action" = 0, "done:shiny.action" = 0, .clientdata_url_search = search,
         .clientdata_output_list_hidden = FALSE, .clientdata_output_face_hidden = TRUE,
         .clientdata_pixelratio = 1)
-    say("update", select = "a")
+    if (!is.null(midway)) midway()
+    say("update", select = landmark)
     say("update", "absent:shiny.action" = 1)
     say("update", "done:shiny.action" = 1)
   }, silent = TRUE)
@@ -105,7 +107,11 @@ test_that("a review in another process obeys its own page, and nobody else", {
   answer_review(port, "http://evil.example", query)
   answer_review(port, own, "?token=0123")
   expect_false(waits_for(result, 1))
-  answer_review(port, own, query)
+  # A second tab of the address is closed: what it asks for is not done.
+  answer_review(port, own, query, midway = function() {
+    answer_review(port, own, query, "b")
+    expect_false(file.exists(result))
+  })
   expect_true(waits_for(result, 20))
   Sys.sleep(0.2)
   landmarks <- readRDS(result)
