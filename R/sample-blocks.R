@@ -28,7 +28,7 @@
 #'
 #'   `length()` is the number of specimens, `names()` are their names.
 #' @section Errors: of class `crestline_error`: the folder cannot be made, or has a sample already;
-#'   there is no sample in it; a file is absent, damaged or of another sample (the error names it);
+#'   there is no sample in it; a file is absent, damaged or of other specimens (the error names it);
 #'   the package nanoparquet is not installed.
 #' @template glossary
 #' @seealso [homologise()], [align()], [compare_groups()]

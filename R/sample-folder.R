@@ -260,7 +260,7 @@ tell_places <- function(files, ids, contents) {
   replaced <- attr(files, "replaced")
   if (length(replaced)) {
     crestline_inform(sprintf(
-      "%s in %s by other landmarks of the same scan, or by a former version: replaced, of %s.",
+      "%s in %s by other landmarks of the same scan, or a former version: to be replaced, of %s.",
       amount(length(replaced), "result"), dirname(files[1]), shorten(ids[replaced])
     ))
   }
