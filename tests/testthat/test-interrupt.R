@@ -20,8 +20,9 @@ seconds_to_end <- function(code, patience = 20) {
                     error = function(e) 'failed')
     say(c(how, format(as.numeric(Sys.time()), digits = 16)), '%s')", code, begun, ended), script)
   # A shell lets what it starts in the background ignore interrupts, and R 4.5 obeys.
-  system2("env", c("--default-signal=INT", file.path(R.home("bin"), "Rscript"), "--vanilla", script),
-          wait = FALSE, stdout = FALSE, stderr = FALSE)
+  rscript <- file.path(R.home("bin"), "Rscript")
+  system2("env", c("--default-signal=INT", rscript, "--vanilla", script), wait = FALSE,
+          stdout = FALSE, stderr = FALSE)
   waits_for <- function(file, seconds) {
     end <- Sys.time() + seconds
     while (!file.exists(file) && Sys.time() < end) Sys.sleep(0.05)
