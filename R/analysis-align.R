@@ -101,17 +101,17 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   settings <- list(scale = scale, weights = weights, missing = missing, tangent = isTRUE(tangent),
                    tolerance = settings$tolerance, rounds = settings$rounds)
   check_class(limits, "sample_limits", "limits", "sample_limits()")
-  aligned_of(sample, level, triangles, settings, limits, folder, rlang::current_env())
+  aligned_of(sample, level, triangles, settings, limits, folder)
 }
 
 #' The alignment of a sample in memory, or in files
 #' @noRd
-aligned_of <- function(sample, level, triangles, settings, limits, folder, call) {
+aligned_of <- function(sample, level, triangles, settings, limits, folder) {
   UseMethod("aligned_of")
 }
 
-aligned_of.default <- function(sample, level, triangles, settings, limits, folder, call) {
-  aligned <- align_configurations(configurations(sample, level, triangles, call), settings, call)
+aligned_of.default <- function(sample, level, triangles, settings, limits, folder) {
+  aligned <- align_configurations(configurations(sample, level, triangles), settings)
   attr(aligned, "provenance") <- aligned_provenance(sample, settings)
   warn_of_doubts(aligned, limits)
 }
@@ -120,13 +120,13 @@ aligned_of.default <- function(sample, level, triangles, settings, limits, folde
 #' @param settings List of arguments of [align()]: `scale`, `weights`, `missing`, `tangent`,
 #'   `tolerance`, `rounds`.
 #' @noRd
-align_configurations <- function(given, settings, call = rlang::caller_env()) {
-  scaling <- check_scaling(settings$scale, call)
-  whole <- complete_configurations(given, settings$missing, call)
-  weight <- point_weights(settings$weights, whole, call)
+align_configurations <- function(given, settings) {
+  scaling <- check_scaling(settings$scale)
+  whole <- complete_configurations(given, settings$missing)
+  weight <- point_weights(settings$weights, whole)
   if (is.numeric(settings$weights)) settings$weights <- settings$weights[whole$kept]
   fit <- fit_alignment(whole, weight, scaling, settings$tolerance, settings$rounds)
-  check_extent(fit$size, call)
+  check_extent(fit$size)
   if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
   projected <- settings$tangent && scaling > 0
   coords <- if (projected) tangent_projection(fit$coords, fit$mean, weight) else fit$coords
@@ -149,10 +149,10 @@ tangent_projection <- function(coords, mean, weight) {
 #' @return List: `coords` (k x d x n with names), `reference` (k x d: where the result is laid, or
 #'   `NULL`), `triangles` (3 x m or `NULL`), `places` (k: points that coincide share one), `level`.
 #' @noRd
-configurations <- function(sample, level, triangles = NULL, call = rlang::caller_env()) {
+configurations <- function(sample, level, triangles = NULL) {
   if (inherits(sample, "shape_sample")) {
-    check_class(sample, "shape_sample", "sample", "homologise()", call)
-    level <- check_choice(level, sample_levels, "level", call)
+    check_class(sample, "shape_sample", "sample", "homologise()")
+    level <- check_choice(level, sample_levels, "level")
     scheme <- sample$template$scheme
     whole <- level == "model"
     coords <- as.array(sample, level)
@@ -161,7 +161,7 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
     reference <- level_places(sample$template, level)
     places <- if (whole) rownames(reference) else scheme$points$place[scheme$points$level == level]
   } else {
-    coords <- named_array(check_array(sample, call))
+    coords <- named_array(check_array(sample))
     level <- if (is.character(level) && length(level) == 1) level else "points"
     reference <- NULL
     places <- dimnames(coords)[[1]]
@@ -170,10 +170,10 @@ configurations <- function(sample, level, triangles = NULL, call = rlang::caller
   if (length(ids) < 2) {
     crestline_abort(sprintf("there is %s specimen%s.", if (length(ids)) "one" else "no",
                             if (length(ids)) " only" else ""),
-                    "Give two or more.", stage = "align", call = call)
+                    "Give two or more.", stage = "align")
   }
   list(coords = coords, reference = reference,
-       triangles = check_triangles(triangles, dim(coords)[1], call),
+       triangles = check_triangles(triangles, dim(coords)[1]),
        places = places, level = level)
 }
 
@@ -204,11 +204,11 @@ mean_of_sizes <- function(whole, tolerance = 1e-6, rounds = 100) {
   fit_alignment(whole, rep(1, dim(whole$coords)[1]), 1L, tolerance, rounds)$mean
 }
 
-check_extent <- function(size, call = rlang::caller_env()) {
+check_extent <- function(size) {
   at <- which(!(size > 0))
   if (length(at)) {
     crestline_abort("all its points in `sample` coincide.", "Leave this specimen out.",
-                    stage = "align", id = names(size)[at[1]], call = call)
+                    stage = "align", id = names(size)[at[1]])
   }
 }
 

@@ -35,10 +35,10 @@ no_missing_points <- function() {
 
 #' The rules of an alignment
 #' @noRd
-validate_aligned <- function(x, call = rlang::caller_env()) {
+validate_aligned <- function(x) {
   refuse <- function(wrong, problem) {
     remedy <- "Make an alignment with align()."
-    if (wrong) crestline_abort(problem, remedy, stage = "align", call = call)
+    if (wrong) crestline_abort(problem, remedy, stage = "align")
   }
   mean <- x$mean
   k <- nrow(mean)
@@ -163,8 +163,7 @@ NULL
 `$.aligned` <- function(x, name) {
   if (!name %in% aligned_fields) {
     refuse_member(sprintf("an alignment has no field `%s`.", name),
-                  sprintf("Fields are %s.", paste(aligned_fields, collapse = ", ")),
-                  rlang::caller_env())
+                  sprintf("Fields are %s.", paste(aligned_fields, collapse = ", ")))
   }
   aligned_field(x, name)
 }
@@ -181,10 +180,9 @@ fields_of <- function(x, names = aligned_fields) {
 #' @export
 `$<-.aligned` <- function(x, name, value) {
   if (!name %in% aligned_fields) {
-    refuse_member(sprintf("an alignment has no field `%s`.", name), "Make one with align().",
-                  rlang::caller_env())
+    refuse_member(sprintf("an alignment has no field `%s`.", name), "Make one with align().")
   }
-  if (name == "coords") value <- named_array(check_array(value, rlang::caller_env()))
+  if (name == "coords") value <- named_array(check_array(value))
   fields <- fields_of(x)
   fields[name] <- list(value)
   do.call(new_aligned, fields)
@@ -193,8 +191,7 @@ fields_of <- function(x, names = aligned_fields) {
 #' @rdname aligned
 #' @export
 `[<-.aligned` <- function(x, i, ..., value) {
-  refuse_member("specimens of an alignment cannot be replaced.", "Align the changed sample again.",
-                rlang::caller_env())
+  refuse_member("specimens of an alignment cannot be replaced.", "Align the changed sample again.")
 }
 
 #' @rdname aligned
@@ -243,8 +240,7 @@ c.aligned <- function(...) {
   twice <- unique(twice[duplicated(twice)])
   if (length(twice)) {
     refuse_member(sprintf("more than one of the alignments has %s.", shorten(twice)),
-                  "Drop it from one, aligned[-i], or rename: names(aligned) <- ...",
-                  rlang::caller_env())
+                  "Drop it from one, aligned[-i], or rename: names(aligned) <- ...")
   }
   raw <- lapply(each, raw_configurations)
   coords <- array(unlist(raw), c(dim(first$mean), length(unlist(lapply(each, names)))),
@@ -337,10 +333,10 @@ with_dropped <- function(x, ...) {
 
 #' Whether specimens of two alignments can be aligned together
 #' @noRd
-check_alike_aligned <- function(a, b, call = rlang::caller_env()) {
+check_alike_aligned <- function(a, b) {
   fail <- function(problem) {
     crestline_abort(problem, "Join the samples or arrays instead, and align() them together.",
-                    stage = "align", call = call)
+                    stage = "align")
   }
   if (is.null(a$settings) || is.null(b$settings)) {
     fail("how one of them was aligned is not known (as_aligned()).")

@@ -14,9 +14,9 @@ fit_alignment <- function(whole, weight, scaling, tolerance, rounds) {
 
 #' k weights of mean 1
 #' @noRd
-point_weights <- function(weights, whole, call = rlang::caller_env()) {
+point_weights <- function(weights, whole) {
   k <- length(whole$kept)
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call)
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align")
   if (is.null(weights)) return(rep(1, k))
   if (identical(weights, "places")) {
     weights <- 1 / as.vector(table(whole$places)[whole$places])

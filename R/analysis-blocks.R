@@ -9,23 +9,23 @@
 #'   units: the specimens, or the blocks where these are whole), `silent` (blocks that say nothing
 #'   as all their specimens are of one group).
 #' @noRd
-comparison_design <- function(group, block, call = rlang::caller_env()) {
+comparison_design <- function(group, block) {
   ids <- names(group)
   if (is.null(block)) return(list(kind = "free", group = group))
-  block <- check_block(block, ids, call)
+  block <- check_block(block, ids)
   groups <- rowSums(table(block, group) > 0)
   if (all(groups == 1)) {
     of_block <- group[match(levels(block), block)]
     units <- stats::setNames(of_block, levels(block))
-    check_units(units, call)
+    check_units(units)
     return(list(kind = "whole", block = block, group = units))
   }
   list(kind = "within", block = block, group = group, silent = names(groups)[groups == 1])
 }
 
-check_block <- function(block, ids, call, name = "block") {
+check_block <- function(block, ids, name = "block") {
   fail <- function(problem, remedy) crestline_abort(
-    problem, remedy, stage = "comparison", call = call
+    problem, remedy, stage = "comparison"
   )
   if (!is.atomic(block)) {
     fail(sprintf("`%s` is %s.", name, describe_value(block)),
@@ -50,13 +50,13 @@ check_block <- function(block, ids, call, name = "block") {
   droplevels(as.factor(unname(block)))
 }
 
-check_units <- function(group, call) {
+check_units <- function(group) {
   few <- names(which.min(table(group)))
   if (min(table(group)) < 2) {
     crestline_abort(sprintf("the group \"%s\" has one block.", few),
                     paste("Every block lies in one group, so that blocks are compared: give",
                           "every group two or more."),
-                    stage = "comparison", call = call)
+                    stage = "comparison")
   }
 }
 
@@ -90,15 +90,14 @@ in_design <- function(aligned, design) {
 #' Regroupings of the units of a design
 #' @return As [regroupings()].
 #' @noRd
-design_regroupings <- function(design, n_perm, exact, permutations, seed,
-                               call = rlang::caller_env()) {
+design_regroupings <- function(design, n_perm, exact, permutations, seed) {
   if (design$kind != "within") {
-    return(regroupings(design$group, n_perm, exact, permutations, seed, call))
+    return(regroupings(design$group, n_perm, exact, permutations, seed))
   }
   if (!is.null(permutations)) {
     crestline_abort("`permutations` and `block` are both given.",
                     "Give one of them: orders within blocks are drawn here.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   code <- as.integer(design$group)
   members <- split(seq_along(code), design$block)

@@ -76,10 +76,10 @@ distance_row <- function(part, distance) {
 
 #' A set of curves as a named list of k x 3 matrices
 #' @noRd
-curve_list <- function(x, level, name, call = rlang::caller_env()) {
+curve_list <- function(x, level, name) {
   if (inherits(x, "shape")) {
-    check_class(x, "shape", name, "fit_shape()", call)
-    level <- check_choice(level, c("landmarks", "curves", "surface"), "level", call)
+    check_class(x, "shape", name, "fit_shape()")
+    level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
     own <- x$points[x$points$level == level, ]
     return(split_rows(as.matrix(own[c("x", "y", "z")]), own$part))
   }
@@ -95,7 +95,7 @@ curve_list <- function(x, level, name, call = rlang::caller_env()) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)),
                     paste("Give a shape, a named list of k x 3 matrices, or a matrix with row",
                           "names \"curve point\"."),
-                    stage = "distance", call = call)
+                    stage = "distance")
   }
   x
 }
@@ -105,14 +105,14 @@ split_rows <- function(xyz, part) {
   lapply(rows, function(row) xyz[row, , drop = FALSE])
 }
 
-check_same_counts <- function(a, b, call = rlang::caller_env()) {
+check_same_counts <- function(a, b) {
   differ <- which(vapply(a, nrow, 0L) != vapply(b, nrow, 0L))
   if (length(differ)) {
     i <- differ[1]
     crestline_abort(sprintf("%s has %d points in `a` and %d in `b`.", names(a)[i], nrow(a[[i]]),
                             nrow(b[[i]])),
                     "Give as many, or use between = \"curves\" without matching.",
-                    stage = "distance", call = call)
+                    stage = "distance")
   }
 }
 

@@ -63,22 +63,21 @@ write_morphoj <- function(x, file, level = "landmarks", group = NULL) {
 
 #' Co-ordinates, ids and groups of a sample, as other programs can read them
 #' @noRd
-exchanged <- function(x, level, group, call = rlang::caller_env()) {
+exchanged <- function(x, level, group) {
   coords <- if (inherits(x, "shape_sample")) as.array(x, level) else
     if (inherits(x, "aligned")) as.array(x) else x
-  check_array(coords, call, "x")
+  check_array(coords, "x")
   id <- dimnames(coords)[[3]]
   if (is.null(id)) id <- paste0("s", seq_len(dim(coords)[3]))
   missing <- which(is.na(coords), arr.ind = TRUE)
   if (nrow(missing)) {
     crestline_abort(sprintf(paste("point %d of specimen %s is missing, and the format has no sign",
                                   "for it."), missing[1, 1], id[missing[1, 3]]),
-                    "Align first: align() estimates missing points.", stage = "writing",
-                    call = call)
+                    "Align first: align() estimates missing points.", stage = "writing")
   }
   if (!is.null(group)) {
     fail <- function(problem, remedy) {
-      crestline_abort(problem, remedy, stage = "writing", call = call)
+      crestline_abort(problem, remedy, stage = "writing")
     }
     group <- without_breaks(as.character(by_specimen(group, id, "group", fail)))
   }

@@ -6,7 +6,7 @@
 #' @return List: `files`, `rows` (of the files' points), `names`, `reference`, `triangles`,
 #'   `places`, `level`, `given` (number of points), `kept` (which of them are used).
 #' @noRd
-configurations_in_files <- function(sample, level, triangles, call) {
+configurations_in_files <- function(sample, level, triangles) {
   points <- sample$points
   template <- sample$template
   reference <- NULL
@@ -16,7 +16,7 @@ configurations_in_files <- function(sample, level, triangles, call) {
     names <- places <- points$point
     if (is.null(triangles)) triangles <- sample$triangles
   } else {
-    level <- check_choice(level, sample_levels, "level", call)
+    level <- check_choice(level, sample_levels, "level")
     whole <- level == "model"
     rows <- which(if (whole) !duplicated(points$place) else points$level == level)
     places <- points$place[rows]
@@ -27,7 +27,7 @@ configurations_in_files <- function(sample, level, triangles, call) {
     reference <- level_places(template, level)
   }
   list(files = sample, rows = rows, names = names, reference = reference,
-       triangles = check_triangles(triangles, length(rows), call), places = places, level = level,
+       triangles = check_triangles(triangles, length(rows)), places = places, level = level,
        given = length(rows), kept = seq_along(rows))
 }
 
@@ -43,24 +43,24 @@ over_blocks <- function(files, f) lapply(seq_len(n_blocks(files)), f)
 
 #' The same without points that are missing, and with a reference
 #' @noRd
-complete_in_files <- function(given, missing, call) {
+complete_in_files <- function(given, missing) {
   gone <- do.call(rbind, over_blocks(given$files, function(i) {
     gap <- gaps(level_block(given, i))
     at <- which(gap, arr.ind = TRUE)
     data.frame(id = colnames(gap)[at[, 2]], point = rownames(gap)[at[, 1]])
   }))
   gone$action <- rep("dropped", nrow(gone))
-  if (nrow(gone) && missing == "stop") abort_missing(gone, call)
+  if (nrow(gone) && missing == "stop") abort_missing(gone)
   count <- table(factor(gone$point, given$names))
   if (missing == "estimate" && any(count > 0 & count < length(given$files))) {
     crestline_abort(sprintf("%s missing, and points of a sample in files are not estimated.",
                             amount(sum(count > 0), "point")),
                     "Give missing = \"drop\", or estimate them before the files are written.",
-                    stage = "align", call = call)
+                    stage = "align")
   }
   if (sum(count == 0) <= length(given$files$axes)) {
     crestline_abort("no more than three points are there in every specimen.",
-                    "Leave out the worst specimens.", stage = "align", call = call)
+                    "Leave out the worst specimens.", stage = "align")
   }
   given <- without_points(given, as.vector(count) > 0)
   given$missing <- gone
@@ -87,7 +87,7 @@ one_laid <- function(x, mean, weight, scaling) {
 #' The Procrustes mean, a pass over the files a round; as [fit_alignment()]
 #' @return List: `mean` (k x d, in the pose of the reference), `moved`, `converged`.
 #' @noRd
-mean_of_files <- function(given, weight, scaling, tolerance, rounds, call) {
+mean_of_files <- function(given, weight, scaling, tolerance, rounds) {
   norm <- function(x) sqrt(sum(weight * x^2))
   mean <- start <- one_laid(given$reference, given$reference, weight, scaling)
   if (scaling > 0) mean <- start <- start / norm(start)
@@ -96,7 +96,7 @@ mean_of_files <- function(given, weight, scaling, tolerance, rounds, call) {
     total <- 0 * mean
     for (i in seq_len(n_blocks(given$files))) {
       laid <- laid_block(level_block(given, i), mean, weight, scaling)
-      check_extent(laid$size, call)
+      check_extent(laid$size)
       total <- total + rowSums(laid$coords, dims = 2)
     }
     after <- if (scaling > 0) total / norm(total) else total / length(given$files)
@@ -110,31 +110,29 @@ mean_of_files <- function(given, weight, scaling, tolerance, rounds, call) {
 
 #' Weights of the points; areas on the mean of equal weights
 #' @noRd
-weights_in_files <- function(weights, given, call, tolerance = 1e-6, rounds = 100) {
+weights_in_files <- function(weights, given, tolerance = 1e-6, rounds = 100) {
   if (!identical(weights, "area") || is.null(given$triangles)) {
-    return(point_weights(weights, given, call))
+    return(point_weights(weights, given))
   }
   points <- seq_along(given$kept)
-  mean <- mean_of_files(given, rep(1, length(points)), 1L, tolerance, rounds, call)$mean
-  point_weights(point_areas(mean, given$triangles), list(given = length(points), kept = points),
-                call)
+  mean <- mean_of_files(given, rep(1, length(points)), 1L, tolerance, rounds)$mean
+  point_weights(point_areas(mean, given$triangles), list(given = length(points), kept = points))
 }
 
-aligned_of.sample_files <- function(sample, level, triangles, settings, limits, folder, call) {
-  need_parquet(call)
+aligned_of.sample_files <- function(sample, level, triangles, settings, limits, folder) {
+  need_parquet()
   if (length(sample) < 2) {
-    crestline_abort("there is one specimen only.", "Give two or more.", stage = "align",
-                    call = call)
+    crestline_abort("there is one specimen only.", "Give two or more.", stage = "align")
   }
-  scaling <- check_scaling(settings$scale, call)
-  given <- configurations_in_files(sample, level, triangles, call)
-  given <- complete_in_files(given, settings$missing, call)
-  weight <- weights_in_files(settings$weights, given, call)
+  scaling <- check_scaling(settings$scale)
+  given <- configurations_in_files(sample, level, triangles)
+  given <- complete_in_files(given, settings$missing)
+  weight <- weights_in_files(settings$weights, given)
   if (is.numeric(settings$weights)) settings$weights <- settings$weights[given$kept]
-  fit <- mean_of_files(given, weight, scaling, settings$tolerance, settings$rounds, call)
+  fit <- mean_of_files(given, weight, scaling, settings$tolerance, settings$rounds)
   if (!fit$converged) warn_alignment(settings$rounds, utils::tail(fit$moved, 1))
   dimnames(fit$mean) <- list(given$names[given$kept], sample$axes)
-  folder <- empty_sample_folder(if (is.null(folder)) tempfile("aligned-") else folder, call)
+  folder <- empty_sample_folder(if (is.null(folder)) tempfile("aligned-") else folder)
   tangent <- settings$tangent && scaling > 0
   made <- write_aligned(given, fit$mean, weight, scaling, tangent, folder)
   aligned <- structure(
@@ -198,9 +196,8 @@ warn_of_files <- function(aligned, hash, limits, floor = 0.15) {
   warn_of_said(said, aligned)
 }
 
-refuse_in_files <- function(what, remedy, call = rlang::caller_env()) {
-  crestline_abort(sprintf("the alignment is in files: %s.", what), remedy, stage = "align",
-                  call = call)
+refuse_in_files <- function(what, remedy) {
+  crestline_abort(sprintf("the alignment is in files: %s.", what), remedy, stage = "align")
 }
 
 #' @export

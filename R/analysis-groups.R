@@ -324,7 +324,7 @@ comparison_ticks <- function(progress, n) {
 
 #' `aligned`s named by level
 #' @noRd
-aligned_levels <- function(sample, level, scale, weights, missing, call = rlang::caller_env()) {
+aligned_levels <- function(sample, level, scale, weights, missing) {
   if (inherits(sample, "aligned")) {
     validate(sample)
     return(stats::setNames(list(sample), sample$level))
@@ -334,7 +334,7 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     if (inherits(one, "aligned")) one else align(one, level, scale, if (!areas) weights, missing)
   }
   if (has_scheme(sample)) {
-    level <- check_choices(level, sample_levels, "level", call)
+    level <- check_choices(level, sample_levels, "level")
     return(lapply(stats::setNames(nm = level), function(one) as_aligned(sample, one)))
   }
   stored <- inherits(sample, "sample_files")
@@ -344,7 +344,7 @@ aligned_levels <- function(sample, level, scale, weights, missing, call = rlang:
     if (!all(vapply(ids, identical, NA, ids[[1]]))) {
       crestline_abort("the levels have different specimens.",
                       "Give arrays with the same specimens in the same order.",
-                      stage = "comparison", call = call)
+                      stage = "comparison")
     }
     return(aligned)
   }
@@ -359,9 +359,9 @@ has_scheme <- function(x) {
 
 #' A factor with the levels that occur, in the order of the specimens
 #' @noRd
-check_group <- function(group, ids, call = rlang::caller_env()) {
+check_group <- function(group, ids) {
   fail <- function(problem, remedy) crestline_abort(
-    problem, remedy, stage = "comparison", call = call
+    problem, remedy, stage = "comparison"
   )
   group <- by_specimen(group, ids, "group", fail)
   if (!is.factor(group)) group <- as.factor(if (is.character(group)) trimws(group) else group)

@@ -106,7 +106,7 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   check_given()
   level <- check_text(level, "level")
   coords <- if (inherits(x, "nosymproc")) x$orpdata else if (is.list(x)) x$coords else x
-  coords <- named_array(check_array(coords, rlang::current_env(), "x"))
+  coords <- named_array(check_array(coords, "x"))
   n <- dim(coords)[3]
   if (is.null(size) && is.list(x)) size <- if (is.null(x$size)) x$Csize else x$size
   own <- apply(coords, 3, function(one) sqrt(sum(sweep(one, 2, colMeans(one))^2)))
@@ -124,21 +124,21 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
     provenance = made_with(), coords, apply(coords, 1:2, mean),
     stats::setNames(as.vector(size), dimnames(coords)[[3]]), rep(1, dim(coords)[1]),
     dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
-    triangles = check_triangles(triangles, dim(coords)[1], rlang::current_env())
+    triangles = check_triangles(triangles, dim(coords)[1])
   ))
 }
 
-sizes_by_specimen <- function(size, ids, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align", call = call)
+sizes_by_specimen <- function(size, ids) {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align")
   by_specimen(size, ids, "size", fail)
 }
 
 #' Columns of covariates in the order of the specimens
 #' @noRd
-covariates <- function(data, ids, call = rlang::caller_env()) {
+covariates <- function(data, ids) {
   if (is.null(data)) return(list())
   fail <- function(problem, remedy) crestline_abort(
-    problem, remedy, stage = "arguments", call = call
+    problem, remedy, stage = "arguments"
   )
   if (!is.data.frame(data)) {
     fail(sprintf("`data` is %s.", describe_value(data)), "Give a data frame.")

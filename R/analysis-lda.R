@@ -101,14 +101,14 @@ left_out <- function(aligned, group, components, prior, progress) {
   })
 }
 
-check_prior <- function(prior, group, call = rlang::caller_env()) {
+check_prior <- function(prior, group) {
   if (is.null(prior)) {
     return(stats::setNames(as.vector(table(group)) / length(group), levels(group)))
   }
   if (!is.numeric(prior) || length(prior) != nlevels(group) || !all(is.finite(prior) & prior > 0) ||
       (!is.null(names(prior)) && !setequal(names(prior), levels(group)))) {
     refuse_argument("prior", prior,
-                    sprintf("Give a number above 0 for each of %s.", shorten(levels(group))), call)
+                    sprintf("Give a number above 0 for each of %s.", shorten(levels(group))))
   }
   if (!is.null(names(prior))) prior <- prior[levels(group)]
   stats::setNames(prior / sum(prior), levels(group))
@@ -117,14 +117,14 @@ check_prior <- function(prior, group, call = rlang::caller_env()) {
 #' Discriminants of aligned specimens, on the number of components that errs least among them
 #' @return List: `lda`, `pca`, `components`.
 #' @noRd
-fit_lda <- function(aligned, group, candidates, prior, call = rlang::caller_env()) {
+fit_lda <- function(aligned, group, candidates, prior) {
   pca <- shape_pca(aligned)
   # One more is left out when the number is chosen.
   most <- min(length(pca$sdev), length(group) - nlevels(group) - 2)
   candidates <- candidates[candidates <= most]
   if (!length(candidates)) {
     crestline_abort("`components` are more than the specimens allow.",
-                    sprintf("Give numbers of at most %d.", most), stage = "comparison", call = call)
+                    sprintf("Give numbers of at most %d.", most), stage = "comparison")
   }
   group <- unname(group)
   discriminate <- function(count, ...) {

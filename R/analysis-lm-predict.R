@@ -53,9 +53,9 @@ predict.shape_lm <- function(object, newdata = NULL, level = NULL, as = c("array
 
 #' Sizes of predicted shapes
 #' @noRd
-size_at <- function(size, x, newdata, model, aligned, call = rlang::caller_env()) {
-  if (is.numeric(size)) return(check_number(size, "size", lower = 0, open = TRUE, call = call))
-  if (check_choice(size, c("mean", "fitted"), "size", call) == "mean") return(mean(aligned$size))
+size_at <- function(size, x, newdata, model, aligned) {
+  if (is.numeric(size)) return(check_number(size, "size", lower = 0, open = TRUE))
+  if (check_choice(size, c("mean", "fitted"), "size") == "mean") return(mean(aligned$size))
   if ("size" %in% model$variables) {
     return(if (is.null(newdata)) aligned$size else newdata$size)
   }

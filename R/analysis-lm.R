@@ -120,11 +120,10 @@ shape_lm <- function(sample, formula, data = NULL, level = c("landmarks", "curve
   units <- if (design$kind == "whole") lapply(aligned, in_design, design) else aligned
   if (design$kind == "whole") columns <- of_first(columns, design$block)
   orders <- model_orders(length(units[[1]]), design, n_perm, settings$permutations, seed)
-  here <- rlang::current_env()
   models <- lapply(units, level_model, terms = terms, columns = columns,
-                   contrasts = settings$contrasts, call = here)
+                   contrasts = settings$contrasts)
   warn_contrasts(models[[1]], ss)
-  spans <- lapply(models, term_spans, ss, here)
+  spans <- lapply(models, term_spans, ss)
   warn_few_orders(least_of_orders(orders, design), "model")
   tick <- comparison_ticks(progress, length(units) * length(spans[[1]]))
   each <- Map(function(one, span, name) {
@@ -153,9 +152,9 @@ of_first <- function(columns, block) {
 #'
 #' @return List: `kind` ("free", "within", "whole"), `block` (factor of n).
 #' @noRd
-model_blocks <- function(block, terms, columns, ids, call = rlang::caller_env()) {
+model_blocks <- function(block, terms, columns, ids) {
   if (is.null(block)) return(list(kind = "free"))
-  block <- check_block(block, ids, call)
+  block <- check_block(block, ids)
   used <- columns[intersect(names(columns), all.vars(terms))]
   constant <- function(x) {
     x <- if (length(dim(x)) == 2) interaction(as.data.frame(x), drop = TRUE) else x
@@ -167,9 +166,9 @@ model_blocks <- function(block, terms, columns, ids, call = rlang::caller_env())
 
 #' Orders of the units, the observed one first
 #' @noRd
-model_orders <- function(n, design, n_perm, permutations, seed, call = rlang::caller_env()) {
-  check_memory(n * as.numeric(n_perm), n_perm, "n_perm", call)
-  random <- if (!is.null(permutations)) check_permutations(permutations, n, call) else
+model_orders <- function(n, design, n_perm, permutations, seed) {
+  check_memory(n * as.numeric(n_perm), n_perm, "n_perm")
+  random <- if (!is.null(permutations)) check_permutations(permutations, n) else
     with_seed(seed, if (design$kind == "within") {
       block <- as.integer(design$block)
       own <- order(block)

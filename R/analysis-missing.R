@@ -6,7 +6,7 @@
 #' @return `given` with complete `coords`, and `missing` (data frame `id`, `point`, `action`),
 #'   `kept` (rows of the given points), `given` (their number), `reference` (filled).
 #' @noRd
-complete_configurations <- function(given, missing, call = rlang::caller_env()) {
+complete_configurations <- function(given, missing) {
   coords <- given$coords
   gap <- gaps(coords)
   at <- which(gap, arr.ind = TRUE)
@@ -17,7 +17,7 @@ complete_configurations <- function(given, missing, call = rlang::caller_env()) 
   given$given <- dim(coords)[1]
   given$kept <- seq_len(given$given)
   if (any(gap)) {
-    if (missing == "stop") abort_missing(given$missing, call)
+    if (missing == "stop") abort_missing(given$missing)
     nowhere <- rowSums(!gap) == 0
     if (missing == "estimate" && any(nowhere) && sum(!nowhere) > dim(coords)[2] + 1) {
       # A face without ears is no reason to stop: nothing is known of these points.
@@ -27,9 +27,9 @@ complete_configurations <- function(given, missing, call = rlang::caller_env()) 
       given <- without_points(given, nowhere)
       gap <- gap[!nowhere, , drop = FALSE]
     }
-    check_enough(gap, dim(coords)[2], missing, call)
+    check_enough(gap, dim(coords)[2], missing)
     if (missing == "drop") given <- without_points(given, rowSums(gap) > 0) else
-      if (any(gap)) given <- estimated(given, gap, call)
+      if (any(gap)) given <- estimated(given, gap)
   }
   if (is.null(given$reference) ||
       anyNA(given$reference)) given$reference <- unnamed_slice(given$coords, 1)
@@ -45,15 +45,15 @@ gaps <- function(coords) {
 
 unnamed_slice <- function(coords, i) matrix(coords[, , i], dim(coords)[1])
 
-abort_missing <- function(missing, call) {
+abort_missing <- function(missing) {
   crestline_abort(sprintf("%s missing, of %s.", amount(nrow(missing), "point"),
                           shorten(unique(missing$id), 5)),
-                  "Let them be estimated or dropped: see `missing`.", stage = "align", call = call)
+                  "Let them be estimated or dropped: see `missing`.", stage = "align")
 }
 
-check_enough <- function(gap, dim, missing, call) {
+check_enough <- function(gap, dim, missing) {
   fail <- function(problem, remedy, id = NULL) crestline_abort(
-    problem, remedy, stage = "align", id = id, call = call
+    problem, remedy, stage = "align", id = id
   )
   if (missing == "drop") {
     if (sum(rowSums(gap) == 0) <= dim) {
@@ -99,13 +99,13 @@ without_points <- function(given, out) {
 #'   specimen's centroid size (1e-6: about a thousandth of a millimetre on a face).
 #' @param rounds Most rounds.
 #' @noRd
-estimated <- function(given, gap, call, tolerance = 1e-6, rounds = 50) {
+estimated <- function(given, gap, tolerance = 1e-6, rounds = 50) {
   given$reference <- if (is.null(given$reference) || anyNA(given$reference)) NULL else
     given$reference
   mean <- mean_with_gaps(given$coords, gap)
   before <- given$coords
   for (round in seq_len(rounds)) {
-    given$coords <- with_spline_places(given$coords, mean, gap, call)
+    given$coords <- with_spline_places(given$coords, mean, gap)
     moved <- max(abs(given$coords - before)[rep_gap(gap, dim(before)[2])])
     if (!is.na(moved) && moved <= tolerance * sqrt(sum(mean^2))) break
     before <- given$coords
@@ -119,10 +119,10 @@ estimated <- function(given, gap, call, tolerance = 1e-6, rounds = 50) {
 
 rep_gap <- function(gap, dim) aperm(array(gap, c(dim(gap), dim)), c(1, 3, 2))
 
-with_spline_places <- function(coords, mean, gap, call) {
+with_spline_places <- function(coords, mean, gap) {
   for (i in which(colSums(gap) > 0)) {
     own <- unnamed_slice(coords, i)
-    own[gap[, i], ] <- spline_places(mean, own, gap[, i], colnames(gap)[i], call)
+    own[gap[, i], ] <- spline_places(mean, own, gap[, i], colnames(gap)[i])
     coords[, , i] <- own
   }
   coords
@@ -153,7 +153,7 @@ mean_with_gaps <- function(coords, gap) {
 #'   plane: on a line).
 #' @return Matrix, a row a TRUE of `gap`.
 #' @noRd
-spline_places <- function(template, own, gap, id, call, rank = 1e-6) {
+spline_places <- function(template, own, gap, id, rank = 1e-6) {
   template <- template / sqrt(sum(sweep(template, 2, colMeans(template))^2))
   known <- which(!gap)
   known <- known[!duplicated(template[known, , drop = FALSE])]
@@ -171,8 +171,7 @@ spline_places <- function(template, own, gap, id, call, rank = 1e-6) {
   spread <- svd(sweep(from, 2, colMeans(from)), 0, 0)$d
   if (min(spread) < rank * max(spread)) {
     crestline_abort("the points that are there lie in a plane: the others cannot be placed.",
-                    "Leave this specimen out, or use missing = \"drop\".", stage = "align", id = id,
-                    call = call)
+                    "Leave this specimen out, or use missing = \"drop\".", stage = "align", id = id)
   }
   weight <- solve(system, right, tol = 0)
   cbind(kernel(distance(at)), 1, at) %*% weight

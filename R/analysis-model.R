@@ -3,9 +3,9 @@
 
 #' A right-hand side as terms
 #' @noRd
-model_terms <- function(formula, call = rlang::caller_env()) {
+model_terms <- function(formula) {
   fail <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "model", call = call)
+    crestline_abort(problem, remedy, stage = "model")
   }
   if (!inherits(formula, "formula")) {
     fail(sprintf("`formula` is %s.", describe_value(formula)), "Give one, such as ~ age + sex.")
@@ -35,12 +35,12 @@ model_terms <- function(formula, call = rlang::caller_env()) {
 #'
 #' @return List of columns.
 #' @noRd
-model_data <- function(terms, data, ids, call = rlang::caller_env()) {
+model_data <- function(terms, data, ids) {
   # Names of the sample's own, where the formula does not ask for them.
   if (is.data.frame(data)) {
     for (name in setdiff(c("coords", "size"), all.vars(terms))) data[[name]] <- NULL
   }
-  columns <- covariates(data, ids, call)
+  columns <- covariates(data, ids)
   outside <- setdiff(all.vars(terms), c(names(columns), "size"))
   frame <- environment(terms)
   for (name in outside) {
@@ -49,7 +49,7 @@ model_data <- function(terms, data, ids, call = rlang::caller_env()) {
       crestline_abort(sprintf("`%s` of the formula is no column of `data`.", name),
                       paste("Its columns are", shorten(c(names(columns), "size")),
                             "(the centroid size); rows are matched to specimens there."),
-                      stage = "model", call = call)
+                      stage = "model")
     }
   }
   columns
@@ -63,25 +63,25 @@ model_data <- function(terms, data, ids, call = rlang::caller_env()) {
 #'   p), `assign` (term of each column, 0 the intercept), `coefficients` (p x dk), `variables`,
 #'   `ranges` (least and greatest value of each variable that is a number).
 #' @noRd
-level_model <- function(terms, columns, aligned, contrasts = NULL, call = rlang::caller_env()) {
+level_model <- function(terms, columns, aligned, contrasts = NULL) {
   ids <- names(aligned$size)
   columns$size <- unname(aligned$size)
   used <- columns[intersect(names(columns), all.vars(terms))]
   used <- lapply(used, function(x) if (is.character(x)) factor(x) else x)
-  say_single_levels(used, call)
+  say_single_levels(used)
   frame_data <- list2DF(used, length(ids))
-  say_missing(frame_data, ids, call)
+  say_missing(frame_data, ids)
   say_codes(used)
   frame <- tryCatch(
     suppressWarnings(stats::model.frame(
       terms, frame_data, na.action = stats::na.pass, drop.unused.levels = TRUE
     )),
-    error = function(e) refuse_formula(e, call)
+    error = function(e) refuse_formula(e)
   )
-  say_missing(frame, ids, call)
+  say_missing(frame, ids)
   terms <- attr(frame, "terms")
   x <- tryCatch(stats::model.matrix(terms, frame, contrasts), error = function(e) {
-    refuse_formula(e, call)
+    refuse_formula(e)
   })
   rownames(x) <- ids
   list(terms = terms, frame = frame, xlev = stats::.getXlevels(terms, frame),
@@ -112,18 +112,18 @@ is_plain_number <- function(x) is.numeric(x) && length(dim(x)) < 2
 
 #' Stops where a factor has one level only
 #' @noRd
-say_single_levels <- function(used, call) {
+say_single_levels <- function(used) {
   single <- function(x) !is.numeric(x) && length(unique(x[!is.na(x)])) == 1
   for (name in names(used)[vapply(used, single, NA)]) {
     crestline_abort(sprintf("`%s` has one level only (%s).", name,
                             as.character(used[[name]][!is.na(used[[name]])][1])),
-                    "Leave it out of the formula.", stage = "model", call = call)
+                    "Leave it out of the formula.", stage = "model")
   }
 }
 
-refuse_formula <- function(e, call) {
+refuse_formula <- function(e) {
   crestline_abort(sprintf("the model cannot be built: %s.", sub("[.]$", "", conditionMessage(e))),
-                  "Check the formula, and the columns of `data`.", stage = "model", call = call)
+                  "Check the formula, and the columns of `data`.", stage = "model")
 }
 
 #' Whole numbers of few values may be codes of groups
@@ -153,7 +153,7 @@ quoted_ids <- function(ids, most = 3) {
 
 #' Stops where a variable is missing or infinite, and names the specimens
 #' @noRd
-say_missing <- function(frame, ids, call, sample = TRUE) {
+say_missing <- function(frame, ids, sample = TRUE) {
   for (name in names(frame)) {
     value <- frame[[name]]
     absent <- if (is.numeric(value)) !is.finite(value) else is.na(value)
@@ -163,7 +163,7 @@ say_missing <- function(frame, ids, call, sample = TRUE) {
                       paste0("Give these values", if (sample) paste0(
                         ", or leave these specimens out: sample[setdiff(names(sample), ",
                         quoted_ids(ids[absent]), ")]"), "."),
-                      stage = "model", call = call)
+                      stage = "model")
     }
   }
 }
@@ -214,20 +214,19 @@ term_span <- function(model, term, ss) {
 
 #' The spans of all terms by name; stops where one adds nothing
 #' @noRd
-term_spans <- function(model, ss, call = rlang::caller_env()) {
+term_spans <- function(model, ss) {
   labels <- attr(model$terms, "term.labels")
   spans <- lapply(stats::setNames(seq_along(labels), labels),
                   function(term) term_span(model, term, ss))
   empty <- labels[vapply(spans, function(span) span$df == 0, NA)]
   if (length(empty)) {
     crestline_abort(sprintf("the term %s adds nothing to the others.", shorten(empty)),
-                    "Leave it out: it is constant, or follows from other terms.", stage = "model",
-                    call = call)
+                    "Leave it out: it is constant, or follows from other terms.", stage = "model")
   }
   if (spans[[1]]$left < 1) {
     crestline_abort(sprintf("the model has as many coefficients as there are specimens (%d).",
                             nrow(model$matrix)),
-                    "Give fewer terms, or more specimens.", stage = "model", call = call)
+                    "Give fewer terms, or more specimens.", stage = "model")
   }
   spans
 }
@@ -235,9 +234,9 @@ term_spans <- function(model, ss, call = rlang::caller_env()) {
 #' That new values are there, and are numbers where the model has numbers; a warning of those
 #' outside of the sample's
 #' @noRd
-check_new_values <- function(model, newdata, call) {
+check_new_values <- function(model, newdata) {
   fail <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "model", call = call)
+    crestline_abort(problem, remedy, stage = "model")
   }
   absent <- setdiff(model$variables, names(newdata))
   if (length(absent)) {
@@ -271,24 +270,23 @@ check_new_values <- function(model, newdata, call) {
 #'
 #' @return n x p, a row a row of `newdata`.
 #' @noRd
-model_at <- function(model, newdata, call = rlang::caller_env()) {
+model_at <- function(model, newdata) {
   terms <- stats::delete.response(model$terms)
-  check_new_values(model, newdata, call)
+  check_new_values(model, newdata)
   rows <- if (is.null(rownames(newdata))) seq_len(nrow(newdata)) else rownames(newdata)
-  say_missing(newdata[model$variables], rows, call, sample = FALSE)
+  say_missing(newdata[model$variables], rows, sample = FALSE)
   frame <- tryCatch(
     stats::model.frame(terms, newdata, na.action = stats::na.pass, xlev = model$xlev),
-    error = function(e) refuse_formula(e, call)
+    error = function(e) refuse_formula(e)
   )
-  say_missing(frame, rows, call, sample = FALSE)
+  say_missing(frame, rows, sample = FALSE)
   x <- stats::model.matrix(terms, frame, model$contrasts)
   known <- qr(t(model$matrix))
   off <- sqrt(rowSums(t(qr.resid(known, t(x)))^2) / rowSums(x^2))
   if (any(off > 1e-6)) {
     crestline_abort(sprintf("row %s of `newdata` is a combination of which the sample has nothing.",
                             shorten(which(off > 1e-6))),
-                    "Predict only where the model's coefficients are estimated.", stage = "model",
-                    call = call)
+                    "Predict only where the model's coefficients are estimated.", stage = "model")
   }
   x
 }

@@ -300,11 +300,11 @@ shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size 
 
 #' A mesh of the points that have triangles
 #' @noRd
-points_mesh <- function(xyz, triangles, call = rlang::caller_env()) {
+points_mesh <- function(xyz, triangles) {
   if (is.null(triangles) || !ncol(triangles) || ncol(xyz) != 3) {
     crestline_abort("these points have no triangles between them.",
                     "Use the level \"surface\" of a sample, or give align() `triangles`.",
-                    stage = "components", call = call)
+                    stage = "components")
   }
   row <- sort(unique(as.vector(triangles)))
   mesh <- rgl::mesh3d(vertices = unname(rbind(t(xyz[row, ]), 1)),
@@ -312,9 +312,9 @@ points_mesh <- function(xyz, triangles, call = rlang::caller_env()) {
   structure(with_normals(mesh), row = row)
 }
 
-check_component <- function(component, pca, call = rlang::caller_env()) {
+check_component <- function(component, pca) {
   if (!is.numeric(component) || !length(component) || !all(component %in% seq_along(pca$sdev))) {
     refuse_argument("component", component,
-                    sprintf("There are components 1 to %d.", length(pca$sdev)), call)
+                    sprintf("There are components 1 to %d.", length(pca$sdev)))
   }
 }

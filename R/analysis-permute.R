@@ -9,11 +9,10 @@
 #' @return List: `labels` (n x B integer matrix of group numbers, the observed first), `exact`
 #'   (logical).
 #' @noRd
-regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL,
-                        call = rlang::caller_env()) {
+regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL) {
   code <- as.integer(group)
   if (!is.null(permutations)) {
-    orders <- check_permutations(permutations, length(code), call)
+    orders <- check_permutations(permutations, length(code))
     labels <- matrix(0L, length(code), ncol(orders))
     labels[cbind(as.vector(orders), rep(seq_len(ncol(orders)), each = length(code)))] <- code
     return(list(labels = cbind(code, labels, deparse.level = 0), exact = FALSE))
@@ -23,7 +22,7 @@ regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL,
   list(labels = cbind(code, random, deparse.level = 0), exact = FALSE)
 }
 
-check_permutations <- function(x, n, call) {
+check_permutations <- function(x, n) {
   if (is.list(x) && length(x) && all(lengths(x) == n)) x <- matrix(unlist(x), ncol = length(x))
   is_order <- function(order) all(sort(order) == seq_len(n))
   ok <- is.matrix(x) && is.numeric(x) && ncol(x) > 0 && nrow(x) == n && all(apply(x, 2, is_order))
@@ -32,7 +31,7 @@ check_permutations <- function(x, n, call) {
                     sprintf(paste("Give a matrix of %d rows, every column an order of 1, ...,",
                                   "%d; their number is `n_perm`."),
                             n, n),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   # The first of RRPP's permutations is the observed order.
   if (all(x[, 1] == seq_len(n))) x[, -1, drop = FALSE] else x

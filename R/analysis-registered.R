@@ -39,7 +39,7 @@
 read_registered <- function(files) {
   check_given()
   check_names(files, "files")
-  if (!length(files)) refuse_argument("files", files, "Give paths of meshes.", NULL)
+  if (!length(files)) refuse_argument("files", files, "Give paths of meshes.")
   for (file in files) check_file(file, "reading", "files")
   stl <- grepl("[.]stl([.]gz)?$", files, ignore.case = TRUE)
   if (any(stl)) {
@@ -71,7 +71,7 @@ carry_points <- function(x, from, to, most = 0.01) {
   check_surface(from, "from")
   from <- as_mesh(from)
   most <- check_number(most, "most", lower = 0)
-  check_array(to, rlang::current_env(), "to")
+  check_array(to, "to")
   xyz <- if (inherits(x, "shape")) {
     check_class(x, "shape", "x", "fit_shape()")
     do.call(rbind, lapply(c("landmarks", "curves", "surface"), function(level) coords(x, level)))

@@ -154,25 +154,25 @@ measurement_names <- function(shapes, n) {
 
 #' Measurements as a k x 3 x N array
 #' @noRd
-measured_coords <- function(shapes, level, call = rlang::caller_env()) {
+measured_coords <- function(shapes, level) {
   if (inherits(shapes, "shape_sample")) return(as.array(shapes, level))
   if (is.list(shapes) && length(shapes) && all(vapply(shapes, inherits, NA, "shape"))) {
-    for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
+    for (shape in shapes) check_same_scheme(shape, shapes[[1]])
     each <- lapply(shapes, coords, level)
     return(array(unlist(each), c(dim(each[[1]]), length(each)), c(dimnames(each[[1]]), list(NULL))))
   }
   if (!is.array(shapes) || length(dim(shapes)) != 3 || !is.numeric(shapes) || dim(shapes)[2] != 3) {
     crestline_abort(sprintf("`shapes` is %s.", describe_value(shapes)),
                     "Give a list of shapes, or a k x 3 x N array.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   if (is.null(rownames(shapes))) rownames(shapes) <- paste("point", seq_len(nrow(shapes)))
   shapes
 }
 
-check_factor <- function(x, ids, name, call = rlang::caller_env()) {
+check_factor <- function(x, ids, name) {
   fail <- function(problem, remedy) crestline_abort(
-    problem, remedy, stage = "arguments", call = call
+    problem, remedy, stage = "arguments"
   )
   bad <- !is.atomic(x) || is.null(names(x)) && length(x) != length(ids) || anyNA(x)
   if (bad && !is.data.frame(x)) {
@@ -191,9 +191,9 @@ check_factor <- function(x, ids, name, call = rlang::caller_env()) {
   x
 }
 
-check_repeats <- function(coords, specimen, observer, call = rlang::caller_env()) {
+check_repeats <- function(coords, specimen, observer) {
   fail <- function(problem, remedy) crestline_abort(
-    problem, remedy, stage = "repeatability", call = call
+    problem, remedy, stage = "repeatability"
   )
   if (!nrow(coords)) {
     fail("no point is in all measurements.", "Leave out the measurements that lack most.")

@@ -53,11 +53,11 @@ predict.shape_pca <- function(object, newdata = NULL, ...) {
 #' Configurations of new shapes, their points in the order of the components' and complete
 #' @return k x d x m array.
 #' @noRd
-new_configurations <- function(newdata, pca, call = rlang::caller_env()) {
-  if (inherits(newdata, c("shape", "shape_sample"))) check_comparable(newdata, pca, call)
-  coords <- configurations_of(newdata, pca$level, call)
+new_configurations <- function(newdata, pca) {
+  if (inherits(newdata, c("shape", "shape_sample"))) check_comparable(newdata, pca)
+  coords <- configurations_of(newdata, pca$level)
   fail <- function(problem, remedy, id = NULL) {
-    crestline_abort(problem, remedy, stage = "components", id = id, call = call)
+    crestline_abort(problem, remedy, stage = "components", id = id)
   }
   points <- rownames(pca$mean)
   absent <- setdiff(points, dimnames(coords)[[1]])
@@ -76,14 +76,14 @@ new_configurations <- function(newdata, pca, call = rlang::caller_env()) {
   if (!is.na(few)) fail(sprintf("%s only.", amount(sum(!gap[, few]), "point")),
                         "Leave this one out: too few to place the others by.",
                         colnames(gap)[few])
-  with_spline_places(coords, pca$mean, gap, call)
+  with_spline_places(coords, pca$mean, gap)
 }
 
 #' That measured shapes have the components' level, and were slid against their template
 #' @noRd
-check_comparable <- function(newdata, pca, call) {
+check_comparable <- function(newdata, pca) {
   fail <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "components", call = call)
+    crestline_abort(problem, remedy, stage = "components")
   }
   if (!pca$level %in% sample_levels) {
     fail(sprintf("the components are of \"%s\", which is no level of a shape.", pca$level),
@@ -101,7 +101,7 @@ check_comparable <- function(newdata, pca, call) {
 
 #' Configurations of a level, of a shape, a sample, an alignment, an array or a matrix
 #' @noRd
-configurations_of <- function(newdata, level, call) {
+configurations_of <- function(newdata, level) {
   if (inherits(newdata, c("shape", "shape_sample"))) return(as.array(newdata, level))
   if (inherits(newdata, "aligned")) {
     validate(newdata)
@@ -112,7 +112,7 @@ configurations_of <- function(newdata, level, call) {
       if (is.null(dimnames(newdata))) list(NULL, NULL) else dimnames(newdata), list("1")
     ))
   }
-  named_array(check_array(newdata, call, "newdata"))
+  named_array(check_array(newdata, "newdata"))
 }
 
 #' Each configuration laid onto a mean, as the alignment laid those of the sample

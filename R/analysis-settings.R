@@ -48,8 +48,7 @@ check_align_settings <- function(settings) {
   check_number(settings$tolerance, "tolerance", lower = 0)
   settings$rounds <- check_count(settings$rounds, "rounds")
   if (!is.null(settings$dir) && !is_path(settings$dir)) {
-    refuse_argument("dir", settings$dir, "Give the path of one folder, or NULL.",
-                    rlang::caller_env())
+    refuse_argument("dir", settings$dir, "Give the path of one folder, or NULL.")
   }
   settings
 }
@@ -82,8 +81,7 @@ check_model_settings <- function(settings) {
   settings$ss <- check_choice(settings$ss, c("I", "II", "III"), "ss")
   contrasts <- settings$contrasts
   if (!is.null(contrasts) && (!is.list(contrasts) || is.null(names(contrasts)))) {
-    refuse_argument("contrasts", contrasts, "Give a list by factor, or NULL.",
-                    rlang::caller_env())
+    refuse_argument("contrasts", contrasts, "Give a list by factor, or NULL.")
   }
   check_test_settings(settings, c("shape", "size", "manova", "components", "points"))
 }
@@ -98,23 +96,21 @@ check_test_settings <- function(settings, known) {
   settings
 }
 
-check_components <- function(components, call = rlang::caller_env()) {
-  components <- check_number(components, "components", lower = 0, call = call)
+check_components <- function(components) {
+  components <- check_number(components, "components", lower = 0)
   if (components == 0) {
     crestline_abort("`components` is 0.",
-                    "Give a whole number, or a share of the variance below 1.", stage = "arguments",
-                    call = call)
+                    "Give a whole number, or a share of the variance below 1.", stage = "arguments")
   }
-  if (components >= 1) check_count(components, "components", call = call) else components
+  if (components >= 1) check_count(components, "components") else components
 }
 
-check_scaling <- function(scale, call = rlang::caller_env()) {
+check_scaling <- function(scale) {
   if (isTRUE(scale)) return(1L)
   if (isFALSE(scale)) return(0L)
   if (identical(scale, "full")) return(2L)
   crestline_abort(sprintf("`scale` is %s.", describe_value(scale)),
-                  "Choose TRUE, \"full\" or FALSE.", stage = "arguments",
-                  call = call)
+                  "Choose TRUE, \"full\" or FALSE.", stage = "arguments")
 }
 
 #' @export

@@ -70,7 +70,7 @@ symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), 
   individual <- if (is.null(individual)) {
     factor(ids, ids)
   } else {
-    check_block(individual, ids, rlang::current_env(), "individual")
+    check_block(individual, ids, "individual")
   }
   if (nlevels(individual) < 2) {
     crestline_abort("`individual` names one individual.", "Give two or more.", stage = "symmetry")
@@ -92,9 +92,9 @@ symmetry_parts <- function(sample, level = c("landmarks", "curves", "surface"), 
 
 #' The point that each point of an alignment is mirrored to
 #' @noRd
-partners <- function(aligned, level, template, pairs, call = rlang::caller_env()) {
+partners <- function(aligned, level, template, pairs) {
   fail <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "symmetry", call = call)
+    crestline_abort(problem, remedy, stage = "symmetry")
   }
   points <- rownames(aligned$mean)
   if (is.null(pairs) && !is.null(template)) {

@@ -1,23 +1,22 @@
 # Arrays of configurations, as they are given: checked and named.
 
-check_array <- function(x, call, name = "sample") {
+check_array <- function(x, name = "sample") {
   if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
     size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else
       describe_value(x)
     crestline_abort(sprintf("`%s` is %s.", name, size),
                     paste("Give a shape_sample, as homologise() returns it, or a k x 3 x n",
-                          "array of numbers."), stage = "align",
-                    call = call)
+                          "array of numbers."), stage = "align")
   }
   if (any(is.infinite(x))) {
     crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.",
-                    stage = "align", call = call)
+                    stage = "align")
   }
   ids <- dimnames(x)[[3]]
   if (anyDuplicated(ids)) {
     crestline_abort(sprintf("two specimens have the name \"%s\".", ids[anyDuplicated(ids)]),
                     "Name each of its own; scans of one person share a `block` in a comparison.",
-                    stage = "align", call = call)
+                    stage = "align")
   }
   x
 }
@@ -30,14 +29,13 @@ named_array <- function(x) {
   x
 }
 
-check_triangles <- function(triangles, k, call) {
+check_triangles <- function(triangles, k) {
   if (is.null(triangles)) return(NULL)
   ok <- is.matrix(triangles) && nrow(triangles) == 3 && is.numeric(triangles) &&
     all(triangles %in% seq_len(k))
   if (!ok) {
     crestline_abort("`triangles` is no matrix of three rows with numbers of points.",
-                    "Give the `it` of a mesh whose vertices are the points.", stage = "align",
-                    call = call)
+                    "Give the `it` of a mesh whose vertices are the points.", stage = "align")
   }
   matrix(as.integer(triangles), 3)
 }

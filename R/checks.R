@@ -11,44 +11,41 @@ argument_limits <- function() {
        bytes = 1.6e10)
 }
 
-refuse_argument <- function(name, x, remedy, call, said = describe_value(x)) {
-  crestline_abort(sprintf("`%s` is %s.", name, said), remedy, stage = "arguments", call = call)
+refuse_argument <- function(name, x, remedy, said = describe_value(x)) {
+  crestline_abort(sprintf("`%s` is %s.", name, said), remedy, stage = "arguments")
 }
 
-check_number <- function(x, name, lower = -Inf, upper = Inf, open = FALSE,
-                         call = rlang::caller_env()) {
+check_number <- function(x, name, lower = -Inf, upper = Inf, open = FALSE) {
   ok <- is.numeric(x) && length(x) == 1 && is.finite(x) &&
     (if (open) x > lower && x < upper else x >= lower && x <= upper)
   if (!ok) {
     refuse_argument(name, x,
-                    sprintf("Give one finite number %s.", describe_range(lower, upper, open)), call)
+                    sprintf("Give one finite number %s.", describe_range(lower, upper, open)))
   }
   as.numeric(x)
 }
 
-check_count <- function(x, name, lower = 1, upper = argument_limits()$count,
-                        call = rlang::caller_env()) {
-  x <- check_number(x, name, lower = lower, upper = upper, call = call)
-  if (x != round(x)) refuse_argument(name, x, "Give a whole number.", call)
+check_count <- function(x, name, lower = 1, upper = argument_limits()$count) {
+  x <- check_number(x, name, lower = lower, upper = upper)
+  if (x != round(x)) refuse_argument(name, x, "Give a whole number.")
   as.integer(x)
 }
 
-check_threads <- function(threads, call = rlang::caller_env()) {
-  check_count(threads, "threads", upper = argument_limits()$threads, call = call)
+check_threads <- function(threads) {
+  check_count(threads, "threads", upper = argument_limits()$threads)
 }
 
 #' A length as a share of another, above 0; Inf: without end
 #' @noRd
-check_reach <- function(reach, name = "reach", call = rlang::caller_env()) {
+check_reach <- function(reach, name = "reach") {
   if (identical(reach, Inf)) reach else
-    check_number(reach, name, lower = 0, open = TRUE, call = call)
+    check_number(reach, name, lower = 0, open = TRUE)
 }
 
 #' A vector of finite numbers, or of NA too
 #' @param n How many; any number but 0 where NULL.
 #' @noRd
-check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing = FALSE,
-                          call = rlang::caller_env()) {
+check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing = FALSE) {
   number <- is.numeric(x) || (missing && is.logical(x) && all(is.na(x)))
   ok <- number && is.null(dim(x)) && (if (is.null(n)) length(x) > 0 else length(x) %in% n) &&
     all((missing & is.na(x) & !is.nan(x)) | (is.finite(x) & x >= lower & x <= upper))
@@ -57,55 +54,55 @@ check_numbers <- function(x, name, n = NULL, lower = -Inf, upper = Inf, missing 
     remedy <- paste0(
       trimws(paste0("Give ", many, "finite numbers ", describe_range(lower, upper, FALSE))), "."
     )
-    refuse_argument(name, x, if (missing) paste(remedy, "NA: missing.") else remedy, call)
+    refuse_argument(name, x, if (missing) paste(remedy, "NA: missing.") else remedy)
   }
   as.numeric(x)
 }
 
-check_flag <- function(x, name, call = rlang::caller_env()) {
-  if (!isTRUE(x) && !isFALSE(x)) refuse_argument(name, x, "Choose TRUE or FALSE.", call)
+check_flag <- function(x, name) {
+  if (!isTRUE(x) && !isFALSE(x)) refuse_argument(name, x, "Choose TRUE or FALSE.")
   invisible(x)
 }
 
 #' Arguments of one function that are TRUE or FALSE each, given as they are called there
 #' @noRd
-check_flags <- function(..., call = rlang::caller_env()) {
+check_flags <- function(...) {
   names <- vapply(substitute(list(...))[-1], as.character, "")
-  invisible(Map(check_flag, list(...), names, MoreArgs = list(call = call)))
+  invisible(Map(check_flag, list(...), names))
 }
 
-check_choice <- function(x, choices, name, call = rlang::caller_env()) {
+check_choice <- function(x, choices, name) {
   if (!is.character(x) || length(x) < 1 || !x[[1]] %in% choices) {
     refuse_argument(name, x,
-                    paste0("Choose one of ", paste0('"', choices, '"', collapse = ", "), "."), call)
+                    paste0("Choose one of ", paste0('"', choices, '"', collapse = ", "), "."))
   }
   x[[1]]
 }
 
 #' Some of several choices
 #' @noRd
-check_choices <- function(x, choices, name, call = rlang::caller_env()) {
+check_choices <- function(x, choices, name) {
   if (!is.character(x) || !length(x) || !all(x %in% choices)) {
     refuse_argument(name, x,
-                    paste0("Choose among ", paste0('"', choices, '"', collapse = ", "), "."), call)
+                    paste0("Choose among ", paste0('"', choices, '"', collapse = ", "), "."))
   }
   unique(x)
 }
 
 #' One string, as plain text
 #' @noRd
-check_text <- function(x, name, null = FALSE, call = rlang::caller_env()) {
+check_text <- function(x, name, null = FALSE) {
   if (is.null(x) && null) return(NULL)
   if (!is.character(x) || length(x) != 1 || is.na(x)) {
-    refuse_argument(name, x, if (null) "Give one string, or NULL." else "Give one string.", call)
+    refuse_argument(name, x, if (null) "Give one string, or NULL." else "Give one string.")
   }
   as.character(x)
 }
 
-check_names <- function(x, name, null = FALSE, call = rlang::caller_env()) {
+check_names <- function(x, name, null = FALSE) {
   if (is.null(x) && null) return(NULL)
   if (!is.character(x) || anyNA(x)) {
-    refuse_argument(name, x, "Give names: strings, none of them NA.", call)
+    refuse_argument(name, x, "Give names: strings, none of them NA.")
   }
   as.character(x)
 }
@@ -113,7 +110,7 @@ check_names <- function(x, name, null = FALSE, call = rlang::caller_env()) {
 #' Colours as R knows them: names, "#RRGGBB", numbers of the palette
 #' @param none Whether one colour is asked for, or NA: none.
 #' @noRd
-check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
+check_colour <- function(x, name, none = FALSE) {
   if (none && length(x) == 1 && is.atomic(x) && is.na(x) && !is.nan(x)) return(NA)
   known <- function(x) !is.null(tryCatch(suppressWarnings(grDevices::col2rgb(x)),
                                          error = function(e) NULL))
@@ -121,28 +118,27 @@ check_colour <- function(x, name, none = FALSE, call = rlang::caller_env()) {
   if (!kind || !length(x) || (none && length(x) > 1) || anyNA(x) || !known(unique(x))) {
     refuse_argument(name, x,
                     sprintf("Give colours, such as \"black\" or \"#16218C\"%s.",
-                            if (none) ", or NA" else ""),
-                    call)
+                            if (none) ", or NA" else ""))
   }
   x
 }
 
 # Colours of vertices: one, or one for each.
-check_colours <- function(colour, n, call = rlang::caller_env()) {
-  check_colour(colour, "colour", call = call)
+check_colours <- function(colour, n) {
+  check_colour(colour, "colour")
   if (!length(colour) %in% c(1L, n)) {
     crestline_abort(sprintf("`colour` has %d values for %d vertices.", length(colour), n),
-                    "Give one colour, or one for each vertex.", stage = "picture", call = call)
+                    "Give one colour, or one for each vertex.", stage = "picture")
   }
   rep_len(colour, n)
 }
 
 #' An object of a class of ours, or of `mesh3d`, with the parts that it has at least
 #' @noRd
-check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
+check_class <- function(x, class, name, maker) {
   make <- sprintf("Make one with %s.", maker)
   if (!inherits(x, class)) {
-    refuse_argument(name, x, make, call, sprintf(
+    refuse_argument(name, x, make, sprintf(
       "%s, not of class \"%s\"", describe_value(x), class
     ))
   }
@@ -155,7 +151,7 @@ check_class <- function(x, class, name, maker, call = rlang::caller_env()) {
   }, NA)
   lacks <- names(parts)[!is_there]
   if (length(lacks)) {
-    refuse_argument(name, x, make, call, sprintf(
+    refuse_argument(name, x, make, sprintf(
       "a damaged \"%s\": it has no proper %s", class, paste0("`", lacks, "`", collapse = ", ")
     ))
   }
@@ -191,16 +187,16 @@ remember_passed <- function(x, class, most = 2) {
 validate.default <- function(x) invisible(x)
 #' A specimen or a mesh
 #' @noRd
-check_surface <- function(x, name, call = rlang::caller_env()) {
+check_surface <- function(x, name) {
   if (inherits(x, "specimen")) {
-    return(check_class(x, "specimen", name, "specimen() or read_specimen()", call))
+    return(check_class(x, "specimen", name, "specimen() or read_specimen()"))
   }
-  check_class(x, "mesh3d", name, "specimen(), read_specimen() or `Rvcg::vcgImport()`", call)
+  check_class(x, "mesh3d", name, "specimen(), read_specimen() or `Rvcg::vcgImport()`")
 }
 
 #' Ends of a line, of which no specimen is known yet: names of landmarks, or positions, by argument
 #' @noRd
-check_ends <- function(..., call = rlang::caller_env()) {
+check_ends <- function(...) {
   ends <- list(...)
   for (name in names(ends)) {
     x <- ends[[name]]
@@ -211,22 +207,21 @@ check_ends <- function(..., call = rlang::caller_env()) {
     position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
     if (!position && !is_path(x)) {
       refuse_argument(name, x,
-                      paste0("Give the name of a landmark, or three ", "finite co-ordinates."),
-                      call)
+                      paste0("Give the name of a landmark, or three ", "finite co-ordinates."))
     }
   }
 }
 
 #' Regions in which strength does not count: one, a list of them, or NULL
 #' @noRd
-check_regions <- function(x, name = "keep_away", call = rlang::caller_env()) {
+check_regions <- function(x, name = "keep_away") {
   if (is.null(x)) return(NULL)
   if (inherits(x, c("keep_away", "keep_side"))) x <- list(x)
   plain <- is.list(x) && !is.object(x)
-  if (!plain) check_class(x, "keep_away", name, "keep_away() or keep_side()", call)
+  if (!plain) check_class(x, "keep_away", name, "keep_away() or keep_side()")
   for (one in x) if (!inherits(one,
                                "keep_side")) check_class(one, "keep_away", name,
-                                                         "keep_away() or keep_side()", call)
+                                                         "keep_away() or keep_side()")
   x
 }
 
@@ -243,38 +238,38 @@ class_parts <- list(
 
 #' A list of objects of a class; one alone counts as a list of it
 #' @noRd
-check_list <- function(x, class, name, maker, call = rlang::caller_env()) {
+check_list <- function(x, class, name, maker) {
   if (inherits(x, class)) x <- list(x)
-  if (!is.list(x) || is.object(x) || !length(x)) check_class(x, class, name, maker, call)
-  for (one in x) check_class(one, class, name, maker, call)
+  if (!is.list(x) || is.object(x) || !length(x)) check_class(x, class, name, maker)
+  for (one in x) check_class(one, class, name, maker)
   x
 }
 
-check_table <- function(x, name, null = FALSE, call = rlang::caller_env()) {
+check_table <- function(x, name, null = FALSE) {
   if (is.null(x) && null) return(NULL)
-  if (!is.data.frame(x)) refuse_argument(name, x, "Give a data frame.", call)
+  if (!is.data.frame(x)) refuse_argument(name, x, "Give a data frame.")
   x
 }
 
-check_function <- function(x, name, call = rlang::caller_env()) {
-  if (!is.function(x)) refuse_argument(name, x, "Give a function.", call)
+check_function <- function(x, name) {
+  if (!is.function(x)) refuse_argument(name, x, "Give a function.")
   x
 }
 
 #' A seed that R takes, or NULL
 #' @noRd
-check_seed <- function(x, name = "seed", call = rlang::caller_env()) {
+check_seed <- function(x, name = "seed") {
   if (is.null(x)) return(NULL)
   most <- .Machine$integer.max
-  as.integer(check_number(x, name, lower = -most, upper = most, call = call))
+  as.integer(check_number(x, name, lower = -most, upper = most))
 }
 
 #' Width and height in pixels
 #' @noRd
-check_size <- function(x, name = "size", call = rlang::caller_env()) {
-  x <- check_numbers(x, name, 2, lower = 1, call = call)
+check_size <- function(x, name = "size") {
+  x <- check_numbers(x, name, 2, lower = 1)
   if (prod(x) > argument_limits()$pixels) {
-    refuse_argument(name, x, sprintf("Give at most %g pixels.", argument_limits()$pixels), call)
+    refuse_argument(name, x, sprintf("Give at most %g pixels.", argument_limits()$pixels))
   }
   x
 }
@@ -284,23 +279,21 @@ check_size <- function(x, name = "size", call = rlang::caller_env()) {
 #' @param x,name The argument that makes it large.
 #' @param numbers How many numbers of 8 bytes it holds.
 #' @noRd
-check_memory <- function(numbers, x, name, call = rlang::caller_env()) {
+check_memory <- function(numbers, x, name) {
   gigabytes <- 8 * numbers / 1e9
   most <- argument_limits()$bytes / 1e9
   if (gigabytes <= most) return(invisible(x))
   refuse_argument(name, x,
                   sprintf("Give less: the result would take %.3g GB, the limit is %g.", gigabytes,
-                          most),
-                  call)
+                          most))
 }
 
 #' The path of a file to be written, in a folder that exists
 #' @param endings Extensions that will do, without the dot; any where NULL.
 #' @noRd
-check_path_to_write <- function(x, name, endings = NULL, stage = "arguments",
-                                call = rlang::caller_env()) {
+check_path_to_write <- function(x, name, endings = NULL, stage = "arguments") {
   fail <- function(said, remedy) crestline_abort(
-    sprintf("`%s` is %s.", name, said), remedy, stage = stage, call = call
+    sprintf("`%s` is %s.", name, said), remedy, stage = stage
   )
   if (!is_path(x)) fail(describe_value(x), "Give the path of one file.")
   if (!is.null(endings) && !file_extension(x) %in% endings) {
@@ -329,7 +322,7 @@ check_given <- function(but = character(), frame = parent.frame(),
   if (!length(absent)) return(invisible())
   crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "),
                           if (length(absent) == 1) "is" else "are"),
-                  "See the help page of the function.", stage = "arguments", call = frame)
+                  "See the help page of the function.", stage = "arguments")
 }
 
 #' No argument that the function does not know
@@ -337,7 +330,7 @@ check_given <- function(but = character(), frame = parent.frame(),
 #' @param ... The dots of the function that asks.
 #' @param known Names that will do.
 #' @noRd
-check_dots <- function(..., known = character(), call = rlang::caller_env()) {
+check_dots <- function(..., known = character()) {
   given <- ...names()
   if (is.null(given)) given <- character(...length())
   strange <- which(!given %in% known)
@@ -348,14 +341,13 @@ check_dots <- function(..., known = character(), call = rlang::caller_env()) {
   near <- known[order(utils::adist(name, known, ignore.case = TRUE))]
   crestline_abort(said,
                   if (length(near)) sprintf("Near names: %s.", shorten(near)) else "Leave it out.",
-                  stage = "arguments",
-                  call = call)
+                  stage = "arguments")
 }
 
 #' No argument that a method of print(), as.data.frame() and the like does not know; R itself passes
 #' some
 #' @noRd
-check_method_dots <- function(..., known = character(), call = rlang::caller_env()) {
+check_method_dots <- function(..., known = character()) {
   own <- c("digits", "quote", "right", "max", "row.names", "optional", "stringsAsFactors",
            "make.names", "check.names",
            "col.names", "nm", "cut.names", "fix.empty.names")
@@ -367,14 +359,14 @@ check_method_dots <- function(..., known = character(), call = rlang::caller_env
                     } else {
                       "Leave it out."
                     },
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
 }
 
 #' How many rows are printed; Inf: all
 #' @noRd
-check_most <- function(most, call = rlang::caller_env()) {
-  if (!identical(most, Inf)) check_count(most, "most", lower = 0, call = call)
+check_most <- function(most) {
+  if (!identical(most, Inf)) check_count(most, "most", lower = 0)
 }
 
 #' A call of base graphics, whose errors are said as those of the package

@@ -7,15 +7,23 @@
 #' @param stage Where it happened: "reading", "landmarks", "curvature", ...
 #' @param id Identifier of the specimen, where there is one.
 #' @param class Further class in front of `crestline_error`.
-#' @param call The call to blame.
+#' @param call The call to blame; NULL: none.
 #' @return Never returns; the condition carries `id`, `stage`, `problem`, `remedy`.
 #' @noRd
 crestline_abort <- function(problem, remedy, stage, id = NULL, class = NULL,
-                            call = rlang::caller_env()) {
+                            call = called_function()) {
   rlang::abort(
     condition_text(problem, remedy, stage, id), class = c(class, "crestline_error"),
     id = id, stage = stage, problem = problem, remedy = remedy, call = call
   )
+}
+
+#' The frame of the function that the user called: the outermost one of the package
+#' @noRd
+called_function <- function() {
+  for (i in seq_len(sys.nframe())) {
+    if (identical(topenv(environment(sys.function(i))), topenv())) return(sys.frame(i))
+  }
 }
 
 #' Warn with the same parts as [crestline_abort()]

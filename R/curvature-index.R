@@ -44,12 +44,12 @@ curvedness <- function(x, k2 = NULL) {
   sqrt((k$k1^2 + k$k2^2) / 2)
 }
 
-principal_pair <- function(x, k2, call = rlang::caller_env()) {
+principal_pair <- function(x, k2) {
   if (inherits(x, "curvature") && is.numeric(x$k1) && is.numeric(x$k2)) return(x[c("k1", "k2")])
   if (!is.numeric(x) || !is.numeric(k2) || length(x) != length(k2)) {
     crestline_abort("`x` and `k2` are not two numeric vectors of one length.",
                     "Give a `curvature` as `x`, or k1 as `x` and k2 as `k2`.",
-                    stage = "curvature", call = call)
+                    stage = "curvature")
   }
   list(k1 = pmax(x, k2), k2 = pmin(x, k2))
 }
@@ -76,15 +76,15 @@ shape_palettes <- list(
 
 #' A palette of the shape index: a name, or colours
 #' @noRd
-check_shape_palette <- function(palette, call = rlang::caller_env()) {
+check_shape_palette <- function(palette) {
   if (is.null(palette)) palette <- getOption("crestline.palette", "paper")
   if (is.character(palette) && length(palette) == 1) {
-    return(check_choice(palette, names(shape_palettes), "palette", call))
+    return(check_choice(palette, names(shape_palettes), "palette"))
   }
   if (length(palette) < 2) {
-    refuse_argument("palette", palette, "Give \"paper\", \"safe\", or two colours or more.", call)
+    refuse_argument("palette", palette, "Give \"paper\", \"safe\", or two colours or more.")
   }
-  check_colour(palette, "palette", call = call)
+  check_colour(palette, "palette")
 }
 
 #' Names and colours of shapes
@@ -127,10 +127,10 @@ shape_colours <- function(index, missing = "#BEBEBE", palette = NULL) {
   ramp_colours((index + 1) / 2, shape_scale(check_shape_palette(palette))$colour, missing)
 }
 
-check_index <- function(index, call = rlang::caller_env()) {
+check_index <- function(index) {
   number <- is.null(dim(index)) && (is.numeric(index) || (is.logical(index) && all(is.na(index))))
   if (!number || any(abs(index) > 1, na.rm = TRUE)) {
     crestline_abort("`index` is not a vector of numbers in [-1, 1].",
-                    "Compute it with shape_index().", stage = "curvature", call = call)
+                    "Compute it with shape_index().", stage = "curvature")
   }
 }

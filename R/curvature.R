@@ -203,8 +203,8 @@ fit_orders <- list(adaptive = c(2L, 4L), "adaptive cubic" = c(2L, 3L), quadratic
                    cubic = c(3L, 3L),
                    quartic = c(4L, 4L), forced = c(2L, 2L))
 
-check_order <- function(order, call = rlang::caller_env()) check_choice(
-  order, names(fit_orders), "order", call
+check_order <- function(order) check_choice(
+  order, names(fit_orders), "order"
 )
 
 #' Settings of the local fit, checked

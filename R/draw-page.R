@@ -67,7 +67,7 @@ column_table <- function(table, meanings = NULL, digits = 3) {
 #' @param ... The dots of the writer.
 #' @return List `x`, `file` and `more`, the rest of the dots.
 #' @noRd
-object_first <- function(x, file, writer, former, ..., call = rlang::caller_env()) {
+object_first <- function(x, file, writer, former, ...) {
   more <- list(...)
   given <- c(x = !missing(x), file = !missing(file))
   if (former %in% names(more)) {
@@ -75,13 +75,13 @@ object_first <- function(x, file, writer, former, ..., call = rlang::caller_env(
       crestline_abort(sprintf("`%s`, the former name of `x`, does not go with these arguments.",
                               former),
                       sprintf("Write %s(x, file), and all that follows by name.", writer),
-                      stage = "arguments", call = call)
+                      stage = "arguments")
     }
     inform_former(paste0(writer, "(", former, " = )"), sprintf("%s(x, file)", writer))
     return(list(x = more[[former]], file = if (given[["file"]]) file else x,
                 more = more[names(more) != former]))
   }
-  check_given(frame = call, fn = rlang::caller_fn())
+  check_given(frame = rlang::caller_env(), fn = rlang::caller_fn())
   if (!is.character(x) || is.character(file)) return(list(x = x, file = file, more = more))
   inform_former(sprintf("%s(file, x)", writer), sprintf("%s(x, file)", writer))
   list(x = file, file = x, more = more)
@@ -173,7 +173,7 @@ inline_files <- function(html, folder, pattern, element, closing) {
   html
 }
 
-check_page_file <- function(file, call = rlang::caller_env()) {
-  file <- check_path_to_write(file, "file", c("html", "htm"), "page", call)
+check_page_file <- function(file) {
+  file <- check_path_to_write(file, "file", c("html", "htm"), "page")
   file.path(normalizePath(dirname(file)), basename(file))
 }

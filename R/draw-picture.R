@@ -101,8 +101,7 @@ check_pixels <- function(pixels, resolution) {
   most <- argument_limits()$pixels
   if (pixels <= most) return(invisible())
   refuse_argument("resolution", resolution,
-                  sprintf("Give less, or fewer `samples`: %.3g pixels, at most %g.", pixels, most),
-                  NULL)
+                  sprintf("Give less, or fewer `samples`: %.3g pixels, at most %g.", pixels, most))
 }
 
 # 3 x n colours in [0, 1] under ambient light, one lamp (Lambert, wrapped) and its highlight (Blinn
@@ -193,12 +192,11 @@ runs_of <- function(x) {
 }
 
 # n x 3 co-ordinates from a matrix or from columns x, y, z.
-point_matrix <- function(x, call = rlang::caller_env(), name = "x") {
+point_matrix <- function(x, name = "x") {
   if (is.data.frame(x) && all(c("x", "y", "z") %in% names(x))) x <- as.matrix(x[c("x", "y", "z")])
   if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
     refuse_argument(name, x,
-                    "Give points: a matrix with three columns or a data frame with x, y and z.",
-                    call)
+                    "Give points: a matrix with three columns or a data frame with x, y and z.")
   }
   x
 }

@@ -90,16 +90,16 @@ draw_lines <- function(scene, x, colour = "black", width = 2, halo = NA, name = 
 
 #' A scene of one engine or the other
 #' @noRd
-check_scene <- function(scene, call = rlang::caller_env()) {
+check_scene <- function(scene) {
   if (inherits(scene, c("rgl_scene", "widget_scene"))) return(invisible(scene))
-  check_class(scene, "picture_scene", "scene", "draw_surface()", call)
+  check_class(scene, "picture_scene", "scene", "draw_surface()")
 }
 
 #' Colours and rings of what is drawn
 #' @noRd
-check_drawn <- function(colour, halo = NA, call = rlang::caller_env()) {
-  check_colour(colour, "colour", call = call)
-  check_colour(halo, "halo", none = TRUE, call = call)
+check_drawn <- function(colour, halo = NA) {
+  check_colour(colour, "colour")
+  check_colour(halo, "halo", none = TRUE)
 }
 
 #' @rdname draw_surface
@@ -137,24 +137,23 @@ draw_band <- function(scene, left, right, colour = "black", opacity = 0.4) {
   UseMethod("draw_band")
 }
 
-view_rotation <- function(view, call = rlang::caller_env()) {
+view_rotation <- function(view) {
   if (is.matrix(view) && is.numeric(view)) {
     proper <- identical(dim(view), c(3L, 3L)) && all(is.finite(view)) &&
       max(abs(crossprod(view) - diag(3))) < 1e-6 && det(view) > 0
     if (!proper) {
       crestline_abort("`view` is a matrix but not a 3 x 3 rotation.",
-                      "Its rows must be orthonormal and its determinant 1.", stage = "picture",
-                      call = call)
+                      "Its rows must be orthonormal and its determinant 1.", stage = "picture")
     }
     return(unname(view))
   }
   angles <- list("front" = c(0, 0), "left" = c(pi / 2, 0), "right" = c(-pi / 2, 0),
                  "three-quarter" = c(pi / 5, pi / 18), "below" = c(0, -pi / 2),
                  "above" = c(0, pi / 2), "back" = c(pi, 0))
-  if (is.character(view)) view <- angles[[check_choice(view, names(angles), "view", call)]]
+  if (is.character(view)) view <- angles[[check_choice(view, names(angles), "view")]]
   if (!is.numeric(view) || length(view) != 2 || any(!is.finite(view))) {
     crestline_abort("`view` is neither a name, nor two angles, nor a 3 x 3 rotation.",
-                    "Give \"front\", or c(round, up) in radians.", stage = "picture", call = call)
+                    "Give \"front\", or c(round, up) in radians.", stage = "picture")
   }
   round <- view[[1]]
   up <- view[[2]]

@@ -38,20 +38,20 @@ engines <- c("widget", "rgl", "picture")
 
 #' An engine that was asked for, or that the option names
 #' @noRd
-check_engine <- function(engine, call = rlang::caller_env()) {
-  check_choice(engine, engines, "engine", call)
+check_engine <- function(engine) {
+  check_choice(engine, engines, "engine")
 }
 
 #' The dots of `draw_surface()` that this engine knows
 #'
 #' Settings of the other engines are left out, so that one call draws with all of them.
 #' @noRd
-settings_of <- function(engine, ..., call = rlang::caller_env()) {
+settings_of <- function(engine, ...) {
   given <- list(...)
   names <- list(picture = names(formals(picture_settings)),
                 widget = names(formals(widget_settings)))
   if (engine == "rgl") return(given[!names(given) %in% setdiff(unlist(names), "alpha")])
-  check_dots(..., known = c(names$picture, names$widget), call = call)
+  check_dots(..., known = c(names$picture, names$widget))
   do.call(if (engine == "picture") picture_settings else widget_settings,
           given[names(given) %in% names[[engine]]], quote = TRUE)
 }

@@ -143,7 +143,7 @@ read_sets <- function(file, frame = "LPS", missing = 9999, scale = TRUE) {
 write_landmarks <- function(x, file, curves = NULL, frame = c("LPS", "RAS"), missing = 9999) {
   check_given()
   if (is.null(x) && is.null(curves)) {
-    refuse_argument("x", x, "Give landmarks, a specimen or a shape.", rlang::current_env())
+    refuse_argument("x", x, "Give landmarks, a specimen or a shape.")
   }
   format <- landmark_format(file)
   if (is.null(format$write)) {

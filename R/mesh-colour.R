@@ -87,7 +87,7 @@ surface_colours <- function(mesh, colour, palette = grDevices::hcl.colors(11, "V
     colours[mesh$it[, own]] <- rep(hues[match(group[own], patches)], each = 3)
     return(colours)
   }
-  if (!is.numeric(colour)) return(check_colours(colour, ncol(mesh$vb), call = NULL))
+  if (!is.numeric(colour)) return(check_colours(colour, ncol(mesh$vb)))
   if (is.null(limits)) limits <- if (any(is.finite(colour))) range(colour[is.finite(colour)]) else
     0:1
   span <- max(limits[2] - limits[1], .Machine$double.xmin)

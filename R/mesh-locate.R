@@ -37,10 +37,9 @@ frame_of <- function(columns, ..., class = NULL) {
 locate <- function(mesh, xyz) {
   mesh <- as_mesh(mesh)
   # Positions as an n x 3 matrix of numbers, each finite or NA
-  call <- rlang::current_env()
   remedy <- "Give an n x 3 matrix, three numbers, or a data frame with columns x, y, z."
   refuse <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "arguments", call = call)
+    crestline_abort(problem, remedy, stage = "arguments")
   }
   given <- xyz
   if (is.data.frame(xyz)) {

@@ -130,26 +130,25 @@ map_limits <- function(norms) {
     if (!is.null(norms$asymmetry)) c(asymmetry = scan("asymmetry")))
 }
 
-check_norm_scheme <- function(shape, norms, call = rlang::caller_env()) {
+check_norm_scheme <- function(shape, norms) {
   if (identical(scheme_hash(shape$scheme), norms$scheme$hash)) return(invisible())
   crestline_abort(sprintf("the shape has another scheme than the norm (%s).", norms$scheme$name),
-                  "Measure it by the scheme of the norm.", stage = "norms", id = shape$id,
-                  call = call)
+                  "Measure it by the scheme of the norm.", stage = "norms", id = shape$id)
 }
 
-check_norm_sex <- function(sex, norms, call = rlang::caller_env()) {
+check_norm_sex <- function(sex, norms) {
   known <- norms$ages$sex
   if (is.null(sex) && identical(known, "all")) return("all")
-  check_choice(as.character(sex), known, "sex", call)
+  check_choice(as.character(sex), known, "sex")
 }
 
 #' Effective number of faces at an age, which must be within the norm's
 #' @noRd
-check_norm_age <- function(age, sex, norms, id, call = rlang::caller_env()) {
+check_norm_age <- function(age, sex, norms, id) {
   range <- unlist(norms$ages[norms$ages$sex == sex, c("from", "to")])
   refuse <- function(problem) {
     crestline_abort(problem, "Use a norm that has people of this age; none is extended.",
-                    stage = "norms", id = id, class = "crestline_norm_range", call = call)
+                    stage = "norms", id = id, class = "crestline_norm_range")
   }
   if (age < range[1] || age > range[2]) {
     refuse(sprintf("`age` %.4g is outside the norm's range for %s, %.4g to %.4g.", age, sex,

@@ -164,21 +164,21 @@ cohort_template <- function() {
   })
 }
 
-check_people <- function(data, n, call = rlang::caller_env()) {
+check_people <- function(data, n) {
   if (is.null(data)) return(NULL)
-  check_table(data, "data", call = call)
+  check_table(data, "data")
   ok <- nrow(data) == n && is.numeric(data$age) && all(is.finite(data$age) & data$age >= 0) &&
     all(as.character(data$sex) %in% c("female", "male")) && length(data$sex) == n
   if (!isTRUE(ok)) {
     refuse_argument("data", data,
-                    sprintf("Give `age` and `sex` (\"female\", \"male\") of %d people.", n), call)
+                    sprintf("Give `age` and `sex` (\"female\", \"male\") of %d people.", n))
   }
   data.frame(age = as.numeric(data$age), sex = as.character(data$sex))
 }
 
-check_lesions <- function(lesions, n, model, call = rlang::caller_env()) {
+check_lesions <- function(lesions, n, model) {
   if (is.null(lesions)) lesions <- data.frame(height = 0, radius = 1)
-  check_table(lesions, "lesions", call = call)
+  check_table(lesions, "lesions")
   if (is.null(lesions$point)) lesions$point <- rep(NA_character_, nrow(lesions))
   if (is.null(lesions$visit)) lesions$visit <- rep(1, nrow(lesions))
   lesions$point <- as.character(lesions$point)
@@ -188,7 +188,7 @@ check_lesions <- function(lesions, n, model, call = rlang::caller_env()) {
   if (!isTRUE(ok)) {
     refuse_argument("lesions", lesions,
                     paste("Give columns `height` and `radius` (above 0), perhaps `point` (of the",
-                          "surface) and `visit` (1 or 2)."), call)
+                          "surface) and `visit` (1 or 2)."))
   }
   lesions[rep_len(seq_len(nrow(lesions)), n), c("height", "radius", "point", "visit")]
 }

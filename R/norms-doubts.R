@@ -6,19 +6,18 @@
 #' @param of What it is compared with, in words.
 #' @param size Greatest ratio, or its inverse, as in [sample_limits()].
 #' @noRd
-check_size_ratio <- function(ratio, of, id, stage, size = sample_limits()$size,
-                             call = rlang::caller_env()) {
+check_size_ratio <- function(ratio, of, id, stage, size = sample_limits()$size) {
   if (is.na(ratio) || ratio <= size && ratio >= 1 / size) return(invisible())
   crestline_abort(sprintf("its size is %.3g times that of %s: another unit.", ratio, of),
                   sprintf("Read its scan with `rescale = %s`, measure and slide it again.",
                           format(signif(1 / ratio, 1), scientific = FALSE)), stage = stage, id = id,
-                  class = "crestline_unit_error", call = call)
+                  class = "crestline_unit_error")
 }
 
 #' Refuse a shape that fits better as its mirror image
 #' @param x,reference k x 3, NA where missing; `of` names the reference.
 #' @noRd
-check_not_mirrored <- function(x, reference, of, id, stage, call = rlang::caller_env()) {
+check_not_mirrored <- function(x, reference, of, id, stage) {
   known <- !is.na(x[, 1]) & !is.na(reference[, 1])
   centred <- function(a) sweep(a[known, , drop = FALSE], 2, colMeans(a[known, , drop = FALSE]))
   fit <- function(sign) {
@@ -27,7 +26,7 @@ check_not_mirrored <- function(x, reference, of, id, stage, call = rlang::caller
   if (sum(known) < 4 || fit(1) >= fit(-1)) return(invisible())
   crestline_abort(sprintf("it is the mirror image of %s: left and right are exchanged.", of),
                   "Exchange the names of its left and right landmarks, or mirror its scan.",
-                  stage = stage, id = id, class = "crestline_mirrored", call = call)
+                  stage = stage, id = id, class = "crestline_mirrored")
 }
 
 #' Warn of a shape that was slid against another template than the faces of a norm

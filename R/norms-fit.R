@@ -50,8 +50,7 @@ check_norm_settings <- function(settings) {
     settings[[name]] <- sort(check_numbers(settings[[name]], name, lower = 0))
   }
   if (settings$radii[1] == 0 || settings$ranges[1] == 0 || length(settings$bins) < 3) {
-    refuse_argument("radii", settings$radii, "Give `radii`, `ranges` above 0 and 3 `bins` or more.",
-                    NULL)
+    refuse_argument("radii", settings$radii, "Give `radii`, `ranges` above 0 and 3 `bins` or more.")
   }
   for (name in c("nugget", "smooth_below", "bonferroni_below", "least", "few")) {
     settings[[name]] <- check_number(settings[[name]], name, lower = 0)
@@ -150,7 +149,7 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   table <- norm_measurements(table, scheme)
   people <- norm_people(formula, data, names(sample))
   made <- norm_data(sample, if (!is.null(table)) measurement_plan(table, scheme),
-                    settings$unit, rlang::current_env())
+                    settings$unit)
   made$people <- people
   made$table <- table
   made <- transformed_values(made)
@@ -175,8 +174,8 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
 
 #' The table of measurements: that of the face for its scheme, where none is given
 #' @noRd
-norm_measurements <- function(table, scheme, call = rlang::caller_env()) {
-  if (!is.null(table)) return(check_measurement_table(table, call))
+norm_measurements <- function(table, scheme) {
+  if (!is.null(table)) return(check_measurement_table(table))
   if (identical(scheme_hash(scheme), scheme_hash(face_scheme()))) face_measurements()
 }
 
@@ -225,13 +224,13 @@ transformed_values <- function(made) {
   made
 }
 
-check_about <- function(about, call = rlang::caller_env()) {
+check_about <- function(about) {
   known <- c("name", "licence", "citation", "population", "device")
   ok <- is.list(about) && !is.object(about) && all(names(about) %in% known) &&
     length(names(about)) == length(about) &&
     all(vapply(about, function(x) is.character(x) && length(x) == 1 && !is.na(x), NA))
   if (!ok) {
-    refuse_argument("about", about, sprintf("Give a list of texts: %s.", toString(known)), call)
+    refuse_argument("about", about, sprintf("Give a list of texts: %s.", toString(known)))
   }
   about
 }
@@ -239,9 +238,9 @@ check_about <- function(about, call = rlang::caller_env()) {
 #' Ages and groups of a sample by a formula
 #' @return List: `age`, `group` (factor), `names` (columns of both).
 #' @noRd
-norm_people <- function(formula, data, ids, least = 20, call = rlang::caller_env()) {
+norm_people <- function(formula, data, ids, least = 20) {
   fail <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "norms", call = call)
+    crestline_abort(problem, remedy, stage = "norms")
   }
   form <- "Write ~ s(age, by = sex) or ~ s(age), with names of columns of `data`."
   term <- if (inherits(formula, "formula") && length(formula) == 2) formula[[2]]
@@ -250,7 +249,7 @@ norm_people <- function(formula, data, ids, least = 20, call = rlang::caller_env
                              is.name(term[[3]])))
   if (!isTRUE(ok)) fail("`formula` is of another form.", form)
   names <- c(age = as.character(term[[2]]), sex = if (length(term) == 3) as.character(term[[3]]))
-  check_table(data, "data", call = call)
+  check_table(data, "data")
   absent <- setdiff(names, names(data))
   if (length(absent)) {
     fail(sprintf("`data` has no column `%s`.", absent[1]),

@@ -78,18 +78,18 @@ measured_growth <- function(before, growth) {
 
 #' What growth is subtracted, by the arguments of [compare_visits()]; NULL for none
 #' @noRd
-checked_growth <- function(before, norms, ages, sex, call = rlang::caller_env()) {
+checked_growth <- function(before, norms, ages, sex) {
   if (is.null(norms)) {
     if (!is.null(ages) || !is.null(sex)) {
       crestline_abort("`ages` and `sex` are of the growth that `norms` expect.",
-                      "Give `norms`, or leave them out.", stage = "visits", call = call)
+                      "Give `norms`, or leave them out.", stage = "visits")
     }
     return(NULL)
   }
-  check_class(norms, "shape_norms", "norms", "fit_norms() or read_norms()", call)
-  ages <- check_numbers(ages, "ages", 2, lower = 0, call = call)
-  sex <- check_norm_sex(sex, norms, call)
-  check_norm_scheme(before, norms, call)
-  for (age in ages) check_norm_age(age, sex, norms, before$id, call)
+  check_class(norms, "shape_norms", "norms", "fit_norms() or read_norms()")
+  ages <- check_numbers(ages, "ages", 2, lower = 0)
+  sex <- check_norm_sex(sex, norms)
+  check_norm_scheme(before, norms)
+  for (age in ages) check_norm_age(age, sex, norms, before$id)
   expected_growth(before, norms, ages, sex)
 }

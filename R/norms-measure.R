@@ -73,16 +73,16 @@ no_measurements <- function() {
 
 #' @return Numbers by landmark, NA where unknown.
 #' @noRd
-check_landmark_error <- function(error, scheme, call = rlang::caller_env()) {
+check_landmark_error <- function(error, scheme) {
   landmark <- scheme$landmarks$landmark
   known <- stats::setNames(rep(NA_real_, length(landmark)), landmark)
   if (is.null(error)) return(known)
   names <- names(error)
   many <- if (is.null(names)) 1 else NULL
-  error <- check_numbers(error, "error", many, lower = 0, call = call)
+  error <- check_numbers(error, "error", many, lower = 0)
   strange <- setdiff(names, landmark)
   if (length(strange)) {
-    refuse_argument("error", error, "Name landmarks of the scheme.", call,
+    refuse_argument("error", error, "Name landmarks of the scheme.",
                     sprintf("of a landmark \"%s\" that the scheme has not", strange[1]))
   }
   known[if (is.null(names)) landmark else names] <- error

@@ -162,13 +162,13 @@ own_errors <- function(shape, norms, error = NULL, draws = 100) {
 
 #' The rule of components
 #' @noRd
-check_shared_components <- function(plan, n, call = rlang::caller_env()) {
+check_shared_components <- function(plan, n) {
   most <- n %/% 50
   if (plan$components > most) {
     crestline_abort(sprintf("%s of %d faces are too many to share: at most %d (a fiftieth).",
                             amount(plan$components, "component"), n, most),
                     sprintf("Give more faces, or norm_settings(components = %d).", max(most, 1)),
-                    stage = "norms", class = "crestline_privacy", call = call)
+                    stage = "norms", class = "crestline_privacy")
   }
 }
 
@@ -177,10 +177,9 @@ check_shared_components <- function(plan, n, call = rlang::caller_env()) {
 #' @param least Least effective number of faces at any age.
 #' @param ratio,auc Limits of the attack.
 #' @noRd
-check_shared <- function(norms, least = 10, ratio = 0.95, auc = 0.60,
-                         call = rlang::caller_env()) {
+check_shared <- function(norms, least = 10, ratio = 0.95, auc = 0.60) {
   refuse <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "norms", class = "crestline_privacy", call = call)
+    crestline_abort(problem, remedy, stage = "norms", class = "crestline_privacy")
   }
   own <- norms$privacy
   if (own$least < least) {

@@ -42,10 +42,10 @@ asymmetric_part <- function(x, partner) {
 #' @return List: `xyz` (k x 3), `coords` (k x 3 x n, complete), `missing` (names of points left
 #'   out), `triangles` (3 x m, rows), `estimated` (data frame of [align()]).
 #' @noRd
-norm_reference <- function(sample, call) {
+norm_reference <- function(sample) {
   settings <- list(scale = TRUE, weights = NULL, missing = "estimate", tangent = FALSE,
                    tolerance = 1e-12, rounds = 200)
-  aligned <- align_configurations(configurations(sample, "surface", call = call), settings, call)
+  aligned <- align_configurations(configurations(sample, "surface"), settings)
   size <- exp(mean(log(aligned$size)))
   list(xyz = aligned$mean * size / sqrt(sum(sweep(aligned$mean, 2, colMeans(aligned$mean))^2)),
        coords = aligned$coords * rep(aligned$size, each = length(aligned$mean)),
@@ -90,8 +90,8 @@ rounded_points <- function(xyz, unit) {
 #'   (n x 3l: the asymmetric part on the side), `values` (n x m: log size and measurements),
 #'   `estimated`.
 #' @noRd
-norm_data <- function(sample, plan, unit, call) {
-  reference <- norm_reference(sample, call)
+norm_data <- function(sample, plan, unit) {
+  reference <- norm_reference(sample)
   points <- norm_points(reference, sample$template$scheme, unit)
   xyz <- as.matrix(points[c("x", "y", "z")])
   n <- dim(reference$coords)[3]

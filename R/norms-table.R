@@ -52,11 +52,11 @@ measurement_kinds <- function() {
 #'   places), `base`, `lines` (list of rows of places), `triangles` (3 x m rows of places), `of`
 #'   (numbers of two measurements).
 #' @noRd
-measurement_plan <- function(table, scheme, call = rlang::caller_env()) {
-  table <- check_measurement_table(table, call)
+measurement_plan <- function(table, scheme) {
+  table <- check_measurement_table(table)
   refuse <- function(row, problem) {
     crestline_abort(sprintf("`table`: measurement \"%s\": %s.", table$measurement[row], problem),
-                    "See `?face_measurements`.", stage = "measurements", call = call)
+                    "See `?face_measurements`.", stage = "measurements")
   }
   # Rows of places of landmarks, curves and groups of triangles, each a named list
   points <- scheme$points
@@ -106,9 +106,9 @@ known_parts <- function(text, known, n, what, refuse) {
   parts
 }
 
-check_measurement_table <- function(table, call = rlang::caller_env()) {
-  check_table(table, "table", call = call)
-  refuse <- function(said, remedy) refuse_argument("table", table, remedy, call, said)
+check_measurement_table <- function(table) {
+  check_table(table, "table")
+  refuse <- function(said, remedy) refuse_argument("table", table, remedy, said)
   lacking <- setdiff(c("measurement", "kind", "of"), names(table))
   if (length(lacking)) {
     refuse(sprintf("a data frame without %s", toString(paste0("`", lacking, "`"))),

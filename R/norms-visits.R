@@ -107,16 +107,16 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
 #' Both visits with their errors: their own, or those of repeated scans
 #' @return List: `before`, `after`, `error` (for points without any, or NULL), `settings`.
 #' @noRd
-visits_with_errors <- function(before, after, error, settings, call = rlang::caller_env()) {
+visits_with_errors <- function(before, after, error, settings) {
   if (!inherits(error, "visit_errors")) {
     if (!is.null(error)) {
-      error <- check_number(error, "error", lower = 0, open = TRUE, call = call)
+      error <- check_number(error, "error", lower = 0, open = TRUE)
     }
     return(list(before = before, after = after, error = error, settings = settings))
   }
   if (!identical(error$hash, scheme_hash(before$scheme))) {
     crestline_abort("`error` is of another scheme.", "Give repeated scans of this scheme.",
-                    stage = "visits", call = call)
+                    stage = "visits")
   }
   settings[c("range", "share")] <- error[c("range", "share")]
   list(before = with_errors(before, error), after = with_errors(after, error), error = NULL,

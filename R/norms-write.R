@@ -55,7 +55,7 @@ write_norms <- function(norms, dir, share = FALSE) {
   check_class(norms, "shape_norms", "norms", "fit_norms() or read_norms()")
   check_flags(share)
   if (!is_path(dir)) {
-    refuse_argument("dir", dir, "Give the path of one folder.", rlang::current_env())
+    refuse_argument("dir", dir, "Give the path of one folder.")
   }
   if (share) {
     check_shared_components(list(components = length(norms$surface$values)), norms$n)
@@ -75,9 +75,9 @@ write_norms <- function(norms, dir, share = FALSE) {
   invisible(dir)
 }
 
-check_norm_folder <- function(dir, call = rlang::caller_env()) {
+check_norm_folder <- function(dir) {
   fail <- function(problem, remedy) {
-    crestline_abort(problem, remedy, stage = "writing", call = call)
+    crestline_abort(problem, remedy, stage = "writing")
   }
   if (!dir.exists(dir) && !suppressWarnings(dir.create(dir, recursive = TRUE))) {
     fail(sprintf("`dir`: %s cannot be made.", dir), "Check the path and the right to write there.")

@@ -167,29 +167,28 @@ crest_fault <- function(path, ends, radius, search) {
 #' @param path,via As in [reference_path()].
 #' @return List: `path`, "plane" or "crest"; `via`, a list of places, NULL where there is none.
 #' @noRd
-check_route <- function(path, via, type, call = rlang::caller_env()) {
-  path <- check_choice(path, c("plane", "crest"), "path", call)
-  via <- listed_places(via, call)
+check_route <- function(path, via, type) {
+  path <- check_choice(path, c("plane", "crest"), "path")
+  via <- listed_places(via)
   if (!is.null(via)) path <- "crest"
   if (path == "crest" && type == "plane") {
     crestline_abort("a plane cut has no crest to follow.",
-                    "Give `path` and `via` for a ridge or a valley.", stage = "arguments",
-                    call = call)
+                    "Give `path` and `via` for a ridge or a valley.", stage = "arguments")
   }
   list(path = path, via = via)
 }
 
 #' Places on the way as a list of names and positions, NULL where there is none
 #' @noRd
-listed_places <- function(via, call = rlang::caller_env()) {
+listed_places <- function(via) {
   if (is.null(via)) return(NULL)
   if (is.character(via)) via <- as.list(via)
   if (is.numeric(via) && is.null(dim(via))) via <- list(via)
   if (is.data.frame(via)) via <- lapply(seq_len(nrow(via)), function(i) via[i, ])
   if (is.matrix(via)) via <- unname(split(via, seq_len(nrow(via))))
   if (!is.list(via) || !length(via)) {
-    refuse_argument("via", via, "Give names of landmarks, or positions.", call)
+    refuse_argument("via", via, "Give names of landmarks, or positions.")
   }
-  for (at in via) check_ends(via = at, call = call)
+  for (at in via) check_ends(via = at)
   via
 }

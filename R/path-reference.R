@@ -98,15 +98,14 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
 #' @param objects,fields,silent As in [with_former()].
 #' @return The objects, with `curvature` (or NULL) and `threads`, as were arguments formerly.
 #' @noRd
-path_arguments <- function(objects, fields, ..., silent = character(),
-                           call = rlang::caller_env()) {
-  check_dots(..., known = c(unlist(fields), "curvature", "threads"), call = call)
+path_arguments <- function(objects, fields, ..., silent = character()) {
+  check_dots(..., known = c(unlist(fields), "curvature", "threads"))
   given <- list(...)
   today <- c(curvature = "radius = <the curvature>", threads = "options(crestline.threads = )")
   for (name in intersect(names(given), names(today))) inform_former(paste(name, "="), today[[name]])
   threads <- if (is.null(given$threads)) getOption("crestline.threads", 1L) else given$threads
   c(with_former(objects, fields, given, silent),
-    list(curvature = given$curvature, threads = check_threads(threads, call)))
+    list(curvature = given$curvature, threads = check_threads(threads)))
 }
 
 #' Curvature of a radius, or what is given in its place
@@ -114,9 +113,9 @@ path_arguments <- function(objects, fields, ..., silent = character(),
 #' @param radius A number, or a [curvature()].
 #' @param asked As of [path_arguments()].
 #' @noRd
-source_at <- function(radius, asked, specimen, order, call = rlang::caller_env()) {
+source_at <- function(radius, asked, specimen, order) {
   given <- inherits(radius, "curvature")
-  check_number(radius_of(radius), "radius", lower = 0, open = TRUE, call = call)
+  check_number(radius_of(radius), "radius", lower = 0, open = TRUE)
   known_curvature(if (given) radius else asked$curvature, specimen, radius, asked$threads, order)
 }
 
@@ -389,12 +388,11 @@ trusted_path <- function(trust, scan, path) {
                optima = attr(path, "optima"), competing = attr(path, "competing"))
 }
 
-check_trusted <- function(trust, call = rlang::caller_env()) {
+check_trusted <- function(trust) {
   if (!is.numeric(trust) || length(trust) != 2 || !all(is.finite(trust)) || trust[1] < 0 ||
       trust[2] > 1 || trust[1] >= trust[2]) {
     crestline_abort(sprintf("`trust` is %s.", describe_value(trust)),
-                    "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments",
-                    call = call)
+                    "Give two rising shares of the path, such as c(0, 0.75).", stage = "arguments")
   }
   trust
 }

@@ -108,14 +108,14 @@ plain_frame <- function(x) {
   x
 }
 
-check_one_mesh <- function(paths, call = rlang::caller_env()) {
+check_one_mesh <- function(paths) {
   keys <- unique(unlist(lapply(paths, attr, "key")))
   if (length(keys) < 2) return(invisible())
   ids <- unique(unlist(lapply(paths, attr, "id")))
   crestline_abort(sprintf("the paths lie on %d meshes%s.", length(keys),
                           if (length(ids) > 1) paste0(": ", shorten(ids)) else ""),
                   "Join paths of one mesh only: their faces are numbers of its triangles.",
-                  stage = "path", call = call)
+                  stage = "path")
 }
 
 #' An attribute that all have alike, NULL where they have not

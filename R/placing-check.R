@@ -48,12 +48,12 @@ check_placing <- function(specimen, least = 0.5, doubtful = 0, picture = NULL) {
                   class = c("crestline_placing_error", "crestline_landmark_error"), call = NULL)
 }
 
-placing_of <- function(specimen, call = rlang::caller_env()) {
-  check_class(specimen, "specimen", "specimen", "find_landmarks()", call = call)
+placing_of <- function(specimen) {
+  check_class(specimen, "specimen", "specimen", "find_landmarks()")
   if (is.null(specimen$placing)) {
     crestline_abort("the landmarks of `specimen` were not found but given.",
                     "Give a specimen of find_landmarks().", stage = "landmarks",
-                    id = specimen$id, call = call)
+                    id = specimen$id)
   }
   specimen$placing
 }

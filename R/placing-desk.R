@@ -75,8 +75,7 @@ digitise <- function(specimens, scheme = face_scheme(), dir = NULL, observer = "
   observer <- trimws(check_text(observer, "observer"))
   dir <- check_text(dir, "dir", null = TRUE)
   if (!is.null(dir) && !nzchar(observer)) {
-    refuse_argument("observer", observer, "Records in a folder need the observer's name.",
-                    rlang::current_env())
+    refuse_argument("observer", observer, "Records in a folder need the observer's name.")
   }
   if (!is.null(view)) view_rotation(view)
   sources <- desk_sources(specimens)

@@ -2,13 +2,13 @@
 
 #' Where the specimens of a desk come from: by id a path, a specimen or a mesh
 #' @noRd
-desk_sources <- function(specimens, call = rlang::caller_env()) {
+desk_sources <- function(specimens) {
   if (inherits(specimens, c("specimen", "mesh3d"))) specimens <- list(specimens)
   if (is.character(specimens) && length(specimens) && all(vapply(specimens, is_path, NA))) {
     ids <- sub("(.)[.][^.]*$", "\\1", basename(specimens))
     sources <- as.list(unname(specimens))
   } else if (is.list(specimens) && length(specimens)) {
-    for (one in specimens) check_surface(one, "specimens", call)
+    for (one in specimens) check_surface(one, "specimens")
     given <- names(specimens)
     ids <- vapply(seq_along(specimens), function(i) {
       own <- if (inherits(specimens[[i]], "specimen")) specimens[[i]]$id
@@ -16,13 +16,12 @@ desk_sources <- function(specimens, call = rlang::caller_env()) {
     }, "")
     sources <- unname(specimens)
   } else {
-    refuse_argument("specimens", specimens, "Give paths of meshes, or a list of specimens.", call)
+    refuse_argument("specimens", specimens, "Give paths of meshes, or a list of specimens.")
   }
   twice <- unique(ids[duplicated(ids)])
   if (length(twice)) {
     crestline_abort(sprintf("`specimens` has two named %s.", shorten(twice)),
-                    "Give a list with a name of its own for each.", stage = "arguments",
-                    call = call)
+                    "Give a list with a name of its own for each.", stage = "arguments")
   }
   stats::setNames(sources, ids)
 }
@@ -130,8 +129,7 @@ as.array.digitised <- function(x, level = c("landmarks", "curves"), ...) {
   check_method_dots(...)
   level <- check_names(level, "level")
   if (!all(level %in% c("landmarks", "curves"))) {
-    refuse_argument("level", level, "Give \"landmarks\", \"curves\", or both.",
-                    rlang::current_env())
+    refuse_argument("level", level, "Give \"landmarks\", \"curves\", or both.")
   }
   marks <- x$marks[x$marks$level %in% level, ]
   several <- length(unique(marks$observer)) > 1

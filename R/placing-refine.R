@@ -132,30 +132,30 @@ print.refine_settings <- function(x, ...) {
   print_settings(x, "<refine_settings> of refine_landmarks()")
 }
 
-definitions_of <- function(scheme, specimen, unit, call = rlang::caller_env()) {
-  check_class(scheme, "curve_scheme", "scheme", "curve_scheme() or face_scheme()", call = call)
+definitions_of <- function(scheme, specimen, unit) {
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme() or face_scheme()")
   scheme <- scheme_in_unit(scheme, unit, specimen)
   definitions <- scheme$definitions
   if (!NROW(definitions)) {
     crestline_abort(sprintf("the scheme %s has no definitions of landmarks.", scheme$name),
-                    "Give curve_scheme() a table `definitions`.", stage = "scheme", call = call)
+                    "Give curve_scheme() a table `definitions`.", stage = "scheme")
   }
   if (!any(definitions$landmark %in% rownames(specimen$landmarks))) {
     refuse_landmarks(sprintf("it has none of the landmarks that %s defines.", scheme$name),
                      near_names(definitions$landmark[1], rownames(specimen$landmarks)), specimen$id)
   }
-  check_scale(specimen, scheme, unit, call)
+  check_scale(specimen, scheme, unit)
   definitions
 }
 
-check_move <- function(move, names, call = rlang::caller_env()) {
+check_move <- function(move, names) {
   if (isTRUE(move)) return(names)
   if (isFALSE(move)) return(character())
   wrong <- if (is.character(move)) setdiff(move, names) else describe_value(move)
   if (length(wrong)) {
     crestline_abort(sprintf("`move` is %s.", shorten(wrong)),
                     sprintf("Give TRUE, FALSE or some of %s.", shorten(names, 30)),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   move
 }

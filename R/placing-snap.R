@@ -80,7 +80,7 @@ snap <- function(mesh, points = NULL, to = c("ridge", "valley", "cap", "cup", "s
 
 #' Positions with names, from names of landmarks or positions
 #' @noRd
-points_to_snap <- function(mesh, points, call = rlang::caller_env()) {
+points_to_snap <- function(mesh, points) {
   known <- if (inherits(mesh, "specimen")) mesh$landmarks
   if (is.null(points)) points <- rownames(known)
   if (is.character(points) && length(points)) {
@@ -91,9 +91,9 @@ points_to_snap <- function(mesh, points, call = rlang::caller_env()) {
     }
     return(known[points, , drop = FALSE])
   }
-  at <- point_matrix(points, call, "points")
+  at <- point_matrix(points, "points")
   storage.mode(at) <- "double"
-  if (any(is.infinite(at))) refuse_argument("points", points, "Mark what is missing as NA.", call)
+  if (any(is.infinite(at))) refuse_argument("points", points, "Mark what is missing as NA.")
   if (is.null(rownames(at))) rownames(at) <- paste("point", seq_len(nrow(at)), recycle0 = TRUE)
   at
 }

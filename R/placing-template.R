@@ -213,11 +213,10 @@ read_face_template <- function() {
 
 #' A template, or a specimen made into one
 #' @noRd
-check_template <- function(template, call = rlang::caller_env()) {
+check_template <- function(template) {
   if (inherits(template, "specimen")) {
-    check_class(template, "specimen", "template", "specimen() or read_specimen()", call)
+    check_class(template, "specimen", "template", "specimen() or read_specimen()")
     return(landmark_template(template))
   }
-  check_class(template, "landmark_template", "template", "landmark_template() or face_template()",
-              call)
+  check_class(template, "landmark_template", "template", "landmark_template() or face_template()")
 }

@@ -164,7 +164,7 @@ se_along_path <- function(curve) {
   stats::approx(curve$points$s[known], curve$points$se[known], curve$path$s, rule = 2)$y
 }
 
-check_curves <- function(curves, call = rlang::caller_env()) {
+check_curves <- function(curves) {
   if (is.list(curves) && !is.object(curves) && !length(curves)) return(curves)
-  check_list(curves, "curve", "curves", "ridge_curve()", call)
+  check_list(curves, "curve", "curves", "ridge_curve()")
 }

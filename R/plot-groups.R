@@ -82,13 +82,13 @@ plot.group_comparison <- function(x, what = c("boxes", "means", "map"), level = 
   shown(drawn)
 }
 
-level_to_plot <- function(x, level, what, call = rlang::caller_env()) {
+level_to_plot <- function(x, level, what) {
   has_surface <- vapply(x$aligned, function(one) !is.null(one$triangles), NA)
   possible <- names(x$aligned)[order(what != "boxes" & !has_surface)]
-  level <- if (is.null(level)) possible[1] else check_choice(level, possible, "level", call)
+  level <- if (is.null(level)) possible[1] else check_choice(level, possible, "level")
   if (nlevels(x$group) != 2 && (what == "map" || what == "means" && has_surface[[level]])) {
     crestline_abort(sprintf("there are %d groups.", nlevels(x$group)),
-                    "Compare two, or plot \"boxes\".", stage = "picture", call = call)
+                    "Compare two, or plot \"boxes\".", stage = "picture")
   }
   level
 }

@@ -74,9 +74,9 @@ plot.shape_lm <- function(x, what = c("map", "scores"), term = NULL, level = NUL
 #' The level that is asked for; of a map the first with triangles, if there is one
 #' @param aligned List by level.
 #' @noRd
-level_of_map <- function(aligned, level, map, call = rlang::caller_env()) {
+level_of_map <- function(aligned, level, map) {
   levels <- names(aligned)
-  if (!is.null(level)) return(check_choice(level, levels, "level", call))
+  if (!is.null(level)) return(check_choice(level, levels, "level"))
   surfaces <- levels[!vapply(aligned, function(one) is.null(one$triangles), NA)]
   c(if (map) surfaces, levels)[1]
 }

@@ -78,21 +78,20 @@ draw_map <- function(points, value, signed, triangles, title, given, engine, vie
 #' @param ... The dots of a `plot()`.
 #' @return List: `look`, as of [map_look()]; `more`, the other arguments.
 #' @noRd
-map_arguments <- function(..., call = rlang::caller_env()) {
+map_arguments <- function(...) {
   given <- list(...)
   own <- names(given) %in% names(formals(map_look))
-  list(look = do.call(map_look, c(given[own], list(call = call)), quote = TRUE), more = given[!own])
+  list(look = do.call(map_look, given[own], quote = TRUE), more = given[!own])
 }
 
 map_look <- function(significance = 0.05, limits = NULL,
                      palette = grDevices::hcl.colors(21, "Blue-Red"),
-                     adjust = c("fwe", "fdr", "none"), length_unit = "unit of the meshes",
-                     call = rlang::caller_env()) {
-  if (!is.null(limits)) limits <- check_numbers(limits, "limits", n = 2, call = call)
-  list(significance = check_number(significance, "significance", 0, 1, call = call),
-       limits = limits, palette = check_colour(palette, "palette", call = call),
-       adjust = check_choice(adjust, c("fwe", "fdr", "none"), "adjust", call),
-       length_unit = check_text(length_unit, "length_unit", call = call))
+                     adjust = c("fwe", "fdr", "none"), length_unit = "unit of the meshes") {
+  if (!is.null(limits)) limits <- check_numbers(limits, "limits", n = 2)
+  list(significance = check_number(significance, "significance", 0, 1),
+       limits = limits, palette = check_colour(palette, "palette"),
+       adjust = check_choice(adjust, c("fwe", "fdr", "none"), "adjust"),
+       length_unit = check_text(length_unit, "length_unit"))
 }
 
 #' What is held, as a title names it

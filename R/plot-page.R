@@ -95,22 +95,22 @@ specimen_of_page <- function(shape) {
   if (!is.null(shape$specimen)) return(shape$specimen)
   crestline_abort("`x` is a shape without its specimen.",
                   "Give the specimen first: write_page(specimen, file, curves = shape).",
-                  stage = "arguments", id = shape$id, call = rlang::caller_env())
+                  stage = "arguments", id = shape$id)
 }
 
 #' The page of an object that is no specimen
 #'
 #' @param given Names of other arguments, which such a page has not.
 #' @noRd
-other_page <- function(x, file, title, given, call = rlang::caller_env()) {
+other_page <- function(x, file, title, given) {
   if (length(given)) {
     crestline_abort(sprintf("`%s` is for pages of a specimen.", given[1]),
                     sprintf("Of an object of class %s give a file, and perhaps a `title`.",
-                            class(x)[1]), stage = "arguments", call = call)
+                            class(x)[1]), stage = "arguments")
   }
-  title <- check_text(title, "title", null = TRUE, call = call)
+  title <- check_text(title, "title", null = TRUE)
   rlang::check_installed("htmltools", "to write a page.")
-  file <- check_page_file(file, call)
+  file <- check_page_file(file)
   page_of(x, file, title)
   invisible(file)
 }
@@ -129,7 +129,7 @@ page_scene <- function(curves, specimen, surface, size, more, edges = "#505050",
   more$size <- size
   more$surface <- surface
   of_shape <- inherits(curves, "shape")
-  if (!is.null(more$colour)) check_colour(more$colour, "colour", call = NULL)
+  if (!is.null(more$colour)) check_colour(more$colour, "colour")
   if (of_shape && is.null(more$patches)) more$patches <- FALSE
   scene <- do.call(if (of_shape) plot.shape else plot_curves, c(list(curves, specimen), more),
                    quote = TRUE)

@@ -78,10 +78,9 @@ plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colour
 #' @noRd
 shape_look <- function(edges = "#00000070", band = TRUE, points = TRUE, patches = points,
                        width = 2) {
-  call <- rlang::caller_env()
-  check_flags(band, points, patches, call = call)
+  check_flags(band, points, patches)
   list(edges = edges, band = band, points = points, patches = patches,
-       width = check_number(width, "width", lower = 0, call = call))
+       width = check_number(width, "width", lower = 0))
 }
 
 #' The curves of a shape, by kind

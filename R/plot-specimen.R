@@ -112,8 +112,8 @@ draw_landmarks <- function(scene, landmarks, labels) {
 
 #' The curvature that colours show: the given one, after a check, or computed
 #' @noRd
-shown_curvature <- function(x, colour, given, radius, call = rlang::caller_env()) {
+shown_curvature <- function(x, colour, given, radius) {
   if (!is.null(given)) check_curvature_on(given, x)
   if (!is.null(given) || !colour %in% c("shape index", "curvature")) return(given)
-  curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE, call = call))
+  curvature(x$mesh, check_number(radius, "radius", 0, open = TRUE))
 }

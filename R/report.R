@@ -69,16 +69,16 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
 
 #' The specimens by name of shape; NULL where there is none
 #' @noRd
-specimens_of <- function(specimens, shapes, call = rlang::caller_env()) {
+specimens_of <- function(specimens, shapes) {
   if (is.null(specimens)) return(list())
-  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
+  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()")
   id <- vapply(specimens, `[[`, "", "id")
   own <- vapply(shapes, function(shape) if (is.null(shape)) NA_character_ else shape$id, "")
   strange <- setdiff(id, own)
   if (length(strange)) {
     crestline_abort(sprintf("there is no shape of specimen %s.", shorten(strange)),
                     "Give the specimens of the shapes, each with the `id` of its shape.",
-                    stage = "page", call = call)
+                    stage = "page")
   }
   found <- stats::setNames(specimens[match(own, id)], names(shapes))
   for (name in names(shapes)) if (!is.null(found[[name]])) check_shape_on(shapes[[name]],

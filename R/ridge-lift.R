@@ -42,8 +42,7 @@ lift <- function(specimen, coordinates, path, s, alpha) {
                     stage = "arguments")
   }
   if (is_closed(path) && alpha[1] != alpha[length(alpha)]) {
-    refuse_argument("alpha", alpha, "A closed curve ends with the offset that it begins with.",
-                    rlang::current_env())
+    refuse_argument("alpha", alpha, "A closed curve ends with the offset that it begins with.")
   }
   check_path_on(path, specimen, "`path`")
   check_coordinates_on(coordinates, specimen, "`coordinates`")

@@ -72,7 +72,7 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
   rounds <- check_count(rounds, "rounds")
   check_number(tolerance, "tolerance", lower = 0, open = TRUE)
   marks <- list(first$landmarks, second$landmarks)
-  near <- if (!is.null(near)) point_matrix(near, rlang::current_env(), "near") else marks[[1]]
+  near <- if (!is.null(near)) point_matrix(near, "near") else marks[[1]]
   scans <- list(walkable(first), walkable(second))
   compared <- compared_vertices(scans[[1]], near, reach, points)
   if (nrow(compared$xyz) < 100) abort_few_compared(nrow(compared$xyz), scans[[1]]$id)
@@ -339,7 +339,7 @@ print.scan_noise <- function(x, ...) {
 #'
 #' What [scan_noise()] measured has its degrees of freedom as an attribute, `df`.
 #' @noRd
-noise_setting <- function(noise, call = rlang::caller_env()) {
+noise_setting <- function(noise) {
   df <- attr(noise, "df")
   if (inherits(noise, "scan_noise")) {
     df <- noise$df
@@ -351,5 +351,5 @@ noise_setting <- function(noise, call = rlang::caller_env()) {
     return(structure(as.numeric(noise), names = c("independent", "smooth", "range"), df = df))
   }
   crestline_abort(sprintf("`noise` is %s.", describe_value(noise)),
-                  "Give what scan_noise() returns, or NA.", stage = "arguments", call = call)
+                  "Give what scan_noise() returns, or NA.", stage = "arguments")
 }

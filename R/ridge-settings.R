@@ -120,7 +120,7 @@ check_settings <- function(settings) {
   check_choice(settings$lambda_scale, c("feature", "grid"), "lambda_scale")
   check_count(settings$basis_most, "basis_most", lower = 5)
   basis <- check_numbers(settings$basis, "basis", 2, lower = 5)
-  if (any(basis != round(basis))) refuse_argument("basis", basis, "Give whole numbers.", NULL)
+  if (any(basis != round(basis))) refuse_argument("basis", basis, "Give whole numbers.")
   if (settings$df <= 4 || settings$df >= prod(settings$basis)) {
     crestline_abort(sprintf("`df` is %s.", describe_value(settings$df)),
                     sprintf("Give a number between 4 and %g.", prod(settings$basis)),

@@ -49,7 +49,7 @@ confint.curve <- function(object, parm = object$points$point, level = 0.95, ...)
   level <- check_number(level, "level", 0, 1, open = TRUE)
   row <- match(check_numbers(parm, "parm"), object$points$point)
   if (anyNA(row)) {
-    refuse_argument("parm", parm, "Give numbers of points of the curve.", rlang::current_env())
+    refuse_argument("parm", parm, "Give numbers of points of the curve.")
   }
   tail <- (1 - level) / 2
   bounds <- object$points$d[row] +

@@ -6,8 +6,7 @@
 #'   `doubtful`, `found`, `settings`.
 #' @return The batch, with results in the place of failures, or new failures.
 #' @noRd
-fit_again <- function(batch, changed, landmarks, reading, chunk, progress,
-                      call = rlang::caller_env()) {
+fit_again <- function(batch, changed, landmarks, reading, chunk, progress) {
   batch <- renewed_batch(batch)
   failed <- attr(batch, "failed")
   again <- Filter(function(one) !is.null(one$job), failed)
@@ -17,10 +16,10 @@ fit_again <- function(batch, changed, landmarks, reading, chunk, progress,
     # Jobs that failed, with landmarks and arguments of reading that are given anew
     jobs <- lapply(again[of], `[[`, "job")
     files <- Filter(function(job) !is.null(job$mesh), jobs)
-    if (length(files) < length(jobs)) refuse_for_specimens(landmarks, reading, call)
+    if (length(files) < length(jobs)) refuse_for_specimens(landmarks, reading)
     jobs <- if (!length(files)) jobs else {
       meshes <- vapply(files, `[[`, "", "mesh")
-      read <- file_jobs(meshes, landmarks, reading, call, ids = names(files))
+      read <- file_jobs(meshes, landmarks, reading, ids = names(files))
       jobs[names(files)] <- Map(function(old, new) {
         if (is.null(landmarks) && !old$beside) {
           new["landmarks"] <- old["landmarks"]
@@ -35,7 +34,7 @@ fit_again <- function(batch, changed, landmarks, reading, chunk, progress,
     }
     told <- lapply(plain_list(batch)[setdiff(names(batch), names(again))], told_of)
     part <- fit_jobs(jobs, run_again(run, changed), chunk, progress,
-                     placed = sum(!vapply(told, `[[`, NA, "found")), call = call)
+                     placed = sum(!vapply(told, `[[`, NA, "found")))
     elements <- plain_list(batch)
     elements[names(part)] <- plain_list(part)
     failed[names(part)] <- NULL

@@ -147,14 +147,13 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
   run <- list(settings = settings, dir = dir, template = template, doubtful = doubtful,
               found = found, part = part, embed = embed)
   if (inherits(x, "shape_batch")) {
-    if (!missing(scheme)) refuse_other_scheme(rlang::current_env())
+    if (!missing(scheme)) refuse_other_scheme()
     given <- c("settings", names(match.call()))
     return(fit_again(x, run[intersect(names(run), given)], landmarks, reading, chunk, progress))
   }
   check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
   jobs <- batch_jobs(x, landmarks, reading)
-  batch <- fit_jobs(jobs, rlang::as_environment(c(run, list(scheme = scheme))), chunk, progress,
-                    call = rlang::current_env())
+  batch <- fit_jobs(jobs, rlang::as_environment(c(run, list(scheme = scheme))), chunk, progress)
   tell_twins(batch, "batch")
   batch
 }
@@ -162,26 +161,25 @@ fit_shapes <- function(x, scheme = face_scheme(), dir = NULL, landmarks = NULL, 
 #' Specimens that one worker takes at a time; NULL: as many as give each worker two parts
 #' @param former As given by the former argument.
 #' @noRd
-check_chunk <- function(former, call = rlang::caller_env()) {
+check_chunk <- function(former) {
   if (!is.null(former)) inform_former("chunk =", "options(crestline.chunk = )")
   chunk <- if (is.null(former)) getOption("crestline.chunk") else former
-  if (!is.null(chunk)) check_count(chunk, "chunk", call = call)
+  if (!is.null(chunk)) check_count(chunk, "chunk")
 }
 
-refuse_other_scheme <- function(call) {
+refuse_other_scheme <- function() {
   crestline_abort("`scheme` goes with meshes or specimens, but `x` is a batch.",
                   "Its failed specimens are measured again by its own scheme: leave it out.",
-                  stage = "arguments", call = call)
+                  stage = "arguments")
 }
 
 #' Arguments for fit_shape() with the unit of what is read
 #' @noRd
-with_unit <- function(settings, unit, call = rlang::caller_env()) {
+with_unit <- function(settings, unit) {
   if (!is.null(settings$unit) && !identical(settings$unit, unit)) {
-    crestline_abort("`unit` and `reading$unit` differ.", "Give one of them.", stage = "arguments",
-                    call = call)
+    crestline_abort("`unit` and `reading$unit` differ.", "Give one of them.", stage = "arguments")
   }
-  settings$unit <- check_number(unit, "reading$unit", 0, open = TRUE, call = call)
+  settings$unit <- check_number(unit, "reading$unit", 0, open = TRUE)
   settings
 }
 
@@ -203,7 +201,7 @@ with_former_fields <- function(settings) {
 
 #' Arguments for fit_shape(), none that it does not take
 #' @noRd
-check_fit_arguments <- function(settings, call = rlang::caller_env()) {
+check_fit_arguments <- function(settings) {
   given <- names(settings)
   if (is.null(given)) given <- rep("", length(settings))
   takes <- setdiff(names(formals(fit_shape)), c("specimen", "scheme", "..."))
@@ -217,6 +215,6 @@ check_fit_arguments <- function(settings, call = rlang::caller_env()) {
     if (length(for_reading)) {
       sprintf("What reading takes goes into `reading`: reading = list(%s = ...).", for_reading[1])
     } else sprintf("Further arguments: %s.", shorten(takes, 20)),
-    stage = "arguments", call = call
+    stage = "arguments"
   )
 }

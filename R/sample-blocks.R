@@ -48,13 +48,12 @@ write_blocks <- function(sample, dir, block = 500, triangles = NULL) {
   points <- if (inherits(sample, "shape_sample")) {
     validate(sample)
     if (!is.null(triangles)) {
-      refuse_argument("triangles", triangles, "Leave it out: the sample has its own.",
-                      rlang::current_env())
+      refuse_argument("triangles", triangles, "Leave it out: the sample has its own.")
     }
     points_of_sample(sample$template)
   } else {
-    sample <- named_array(check_array(sample, rlang::current_env()))
-    triangles <- check_triangles(triangles, dim(sample)[1], rlang::current_env())
+    sample <- named_array(check_array(sample))
+    triangles <- check_triangles(triangles, dim(sample)[1])
     points_of_array(sample)
   }
   need_parquet()
@@ -76,8 +75,7 @@ write_blocks <- function(sample, dir, block = 500, triangles = NULL) {
 #' @export
 open_sample <- function(dir) {
   check_given()
-  if (!is_path(dir)) refuse_argument("dir", dir, "Give the path of one folder.",
-                                     rlang::current_env())
+  if (!is_path(dir)) refuse_argument("dir", dir, "Give the path of one folder.")
   file <- file.path(dir, "sample.head")
   opened <- open_kept(file)
   if (opened$state != "whole") {
@@ -94,23 +92,23 @@ open_sample <- function(dir) {
   found
 }
 
-refuse_blocks <- function(problem, remedy, call = rlang::caller_env()) {
-  crestline_abort(problem, remedy, stage = "sample", class = "crestline_blocks_error", call = call)
+refuse_blocks <- function(problem, remedy) {
+  crestline_abort(problem, remedy, stage = "sample", class = "crestline_blocks_error")
 }
 
-need_parquet <- function(call = rlang::caller_env()) {
+need_parquet <- function() {
   if (requireNamespace("nanoparquet", quietly = TRUE)) return(invisible())
   refuse_blocks("the package nanoparquet is not installed.",
-                "Samples in files need it: install.packages(\"nanoparquet\").", call)
+                "Samples in files need it: install.packages(\"nanoparquet\").")
 }
 
 #' A folder that has no sample yet
 #' @noRd
-empty_sample_folder <- function(dir, call = rlang::caller_env()) {
-  dir <- results_folder(dir, call)
+empty_sample_folder <- function(dir) {
+  dir <- results_folder(dir)
   if (file.exists(file.path(dir, "sample.head"))) {
     refuse_blocks(sprintf("`dir`, %s, has a sample already.", dir),
-                  "Choose another, or delete it.", call)
+                  "Choose another, or delete it.")
   }
   dir
 }
@@ -125,12 +123,12 @@ points_of_sample <- function(template) {
              place = at$place)
 }
 
-points_of_array <- function(x, call = rlang::caller_env()) {
+points_of_array <- function(x) {
   name <- dimnames(x)[[1]]
   if (anyDuplicated(name)) {
     crestline_abort(sprintf("two points have the name \"%s\".", name[anyDuplicated(name)]),
                     "Name each of its own: columns of the files are found by name.",
-                    stage = "sample", call = call)
+                    stage = "sample")
   }
   data.frame(level = rep("points", length(name)), point = name, place = name)
 }
@@ -205,7 +203,7 @@ block_rows <- function(x, i) which(x$block == i)
 #' @param rows Which of the points; all of them by default.
 #' @return k x d x m array with names.
 #' @noRd
-read_block <- function(x, i, rows = seq_len(nrow(x$points)), call = rlang::caller_env()) {
+read_block <- function(x, i, rows = seq_len(nrow(x$points))) {
   file <- file.path(x$dir, block_name(i))
   points <- x$points[rows, ]
   name <- as.vector(table_columns(points, x$axes))
@@ -214,7 +212,7 @@ read_block <- function(x, i, rows = seq_len(nrow(x$points)), call = rlang::calle
   ids <- x$ids[block_rows(x, i)]
   if (is.null(table) || !identical(as.character(table$id), ids)) {
     refuse_blocks(sprintf("%s is damaged, or not of this sample.", file),
-                  "Write the sample again.", call)
+                  "Write the sample again.")
   }
   flat <- matrix(as.numeric(unlist(table[name], use.names = FALSE)), length(ids))
   array(t(flat), c(nrow(points), length(x$axes), length(ids)), list(points$point, x$axes, ids))

@@ -4,29 +4,29 @@
 #' Further arguments of [homologise()] for large samples
 #' @return List: `template_from`, `seed`, `dir`, NULL where not given; NULL where nothing is.
 #' @noRd
-share_settings <- function(given, call = rlang::caller_env()) {
+share_settings <- function(given) {
   if (!length(given)) return(NULL)
   from <- given$template_from
   if (is.null(from)) {
     refuse_argument("template_from", from, paste("`seed` and `dir` go with the number of specimens",
-                                                 "that the template is made from."), call)
+                                                 "that the template is made from."))
   }
-  from <- check_count(from, "template_from", lower = 2, call = call)
+  from <- check_count(from, "template_from", lower = 2)
   seed <- given$seed
-  if (!is.null(seed)) seed <- check_number(seed, "seed", call = call)
+  if (!is.null(seed)) seed <- check_number(seed, "seed")
   list(template_from = from, seed = seed,
-       dir = if (!is.null(given$dir)) empty_sample_folder(given$dir, call))
+       dir = if (!is.null(given$dir)) empty_sample_folder(given$dir))
 }
 
 #' @param many As of [share_settings()].
 #' @param given Arguments of [homologise()].
 #' @noRd
-homologise_share <- function(shapes, many, given, progress, call = rlang::caller_env()) {
-  elements <- cohort_elements(shapes, call)
+homologise_share <- function(shapes, many, given, progress) {
+  elements <- cohort_elements(shapes)
   ids <- names(elements)
   share <- with_seed(many$seed, sort(sample(length(ids), min(many$template_from, length(ids)))))
   some <- if (inherits(shapes, "shape_batch")) shapes[ids[share]] else elements[share]
-  base <- homologise_all(some, given, progress, call)
+  base <- homologise_all(some, given, progress)
   settings <- given$settings
   tasks <- slide_tasks(elements, base$template, given, many$dir)
   arguments <- list(plan = slide_plan(base$template, settings), template = base$template,
@@ -48,12 +48,12 @@ homologise_share <- function(shapes, many, given, progress, call = rlang::caller
 
 #' The shapes of a list or batch by id, those in files as they are
 #' @noRd
-cohort_elements <- function(shapes, call) {
+cohort_elements <- function(shapes) {
   if (inherits(shapes, "shape_batch")) {
     shapes <- renewed_batch(shapes)
     return(Filter(Negate(is.null), plain_list(shapes)))
   }
-  check_shapes(shapes, call)
+  check_shapes(shapes)
 }
 
 #' What there is to slide: `shape`, and where the result goes

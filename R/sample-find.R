@@ -9,13 +9,11 @@
 #'   `template`, which all jobs of a worker have in common), `doubtful`, `picture` (path) and `key`;
 #'   or with `refusal`.
 #' @noRd
-with_finder <- function(jobs, dir, template, doubtful, scheme, found, placed = 0,
-                        call = rlang::caller_env()) {
-  doubtful <- check_number(doubtful, "doubtful", 0, 1, call = call)
+with_finder <- function(jobs, dir, template, doubtful, scheme, found, placed = 0) {
+  doubtful <- check_number(doubtful, "doubtful", 0, 1)
   if (!is.null(found) && !(is.logical(found) && length(found) == 1 && !is.na(found))) {
     crestline_abort(sprintf("`found` is %s.", describe_value(found)), "Give TRUE, FALSE or NULL.",
-                    stage = "arguments",
-                    call = call)
+                    stage = "arguments")
   }
   bare <- vapply(jobs, function(job) {
     # Whether a job has no landmarks, and none that only could not be read

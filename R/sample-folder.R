@@ -62,12 +62,12 @@ batch_in_order <- function(results, scheme, waiting) {
 
 #' The index of a folder, or of files by their paths
 #' @noRd
-results_index <- function(x, call = rlang::caller_env()) {
+results_index <- function(x) {
   if (length(x) == 1 && is.character(x) && !is.na(x) && dir.exists(x)) {
     index <- folder_index(normalizePath(x))
     if (nrow(index)) return(index)
   }
-  files <- result_paths(x, call)
+  files <- result_paths(x)
   do.call(rbind, lapply(files, function(file) cbind(index_row(file), path = file)))
 }
 
@@ -124,9 +124,9 @@ waiting_in <- function(x, there) {
 
 #' Paths of results: those of a folder, or as given
 #' @noRd
-result_paths <- function(x, call = rlang::caller_env()) {
+result_paths <- function(x) {
   if (!is.character(x) || !length(x) || anyNA(x)) {
-    refuse_argument("x", x, "Give the path of a folder of results, or of .shape files.", call)
+    refuse_argument("x", x, "Give the path of a folder of results, or of .shape files.")
   }
   folder <- length(x) == 1 && dir.exists(x)
   files <- if (folder) list.files(x, "[.]shape$", full.names = TRUE) else x
@@ -135,7 +135,7 @@ result_paths <- function(x, call = rlang::caller_env()) {
   crestline_abort(if (folder) sprintf("`x`: the folder %s has no results.", x) else
                     sprintf("`x`: there is no folder or file %s.", shorten(gone, 3)),
                   "Give the `dir` of fit_shapes(), or paths of its .shape files.",
-                  stage = "batch", call = call)
+                  stage = "batch")
 }
 
 #' The id that a file's name is of, as far as it says
@@ -161,7 +161,7 @@ newest_results <- function(index) {
 
 #' The scheme of all results; NULL where files of a former version do not name it
 #' @noRd
-common_scheme <- function(index, call = rlang::caller_env()) {
+common_scheme <- function(index) {
   known <- unique(index$scheme_key[nzchar(index$scheme_key)])
   if (length(known) > 1) {
     count <- table(factor(index$scheme_key, known))
@@ -169,7 +169,7 @@ common_scheme <- function(index, call = rlang::caller_env()) {
     crestline_abort(
       sprintf("the results are of different schemes: %s.",
               shorten(sprintf("%s (%s)", named, vapply(count, amount, "", "specimen")))),
-      "Give the paths of the files of one scheme.", stage = "batch", call = call
+      "Give the paths of the files of one scheme.", stage = "batch"
     )
   }
   if (length(known) && all(nzchar(index$scheme_key))) {

@@ -61,25 +61,25 @@ frechet_mean <- function(mesh, points, weights = NULL, rings = 3) {
   cbind(surface_points(mesh, at), variance = total[best])
 }
 
-check_mean_points <- function(points, call = rlang::caller_env()) {
+check_mean_points <- function(points) {
   if (!is.matrix(points) || !is.numeric(points) || ncol(points) != 3 || !nrow(points) ||
       !all(is.finite(points))) {
     crestline_abort(sprintf("`points` is %s.", describe_value(points)),
                     "Give a k x 3 matrix of finite numbers.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   points
 }
 
 #' Weights that sum to 1
 #' @noRd
-check_weights <- function(weights, k, call = rlang::caller_env()) {
+check_weights <- function(weights, k) {
   if (is.null(weights)) weights <- rep(1, k)
   if (!is.numeric(weights) || length(weights) != k || !all(is.finite(weights)) ||
       any(weights < 0) || !any(weights > 0)) {
     crestline_abort(sprintf("`weights` is %s.", describe_value(weights)),
                     sprintf("Give %s of at least 0, not all 0.", amount(k, "number")),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   weights / sum(weights)
 }

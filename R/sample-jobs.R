@@ -7,16 +7,16 @@
 #'   `specimen`); `wanting`, why there are no landmarks, as far as that is known; `refusal`, a
 #'   condition, where the landmarks cannot be had.
 #' @noRd
-batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
+batch_jobs <- function(x, landmarks, reading) {
   if (inherits(x, "specimen")) x <- list(x)
-  if (is.character(x) && length(x)) return(file_jobs(x, landmarks, reading, call))
+  if (is.character(x) && length(x)) return(file_jobs(x, landmarks, reading))
   if (!is.list(x) || !length(x)) {
     crestline_abort(sprintf("`x` is %s.", describe_value(x)),
                     "Give paths of meshes, or a list of specimens.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
-  for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()", call)
-  refuse_for_specimens(landmarks, reading, call)
+  for (one in x) check_class(one, "specimen", "x", "specimen() or read_specimen()")
+  refuse_for_specimens(landmarks, reading)
   ids <- specimen_ids(x)
   stats::setNames(Map(function(one, id) {
     one$id <- id
@@ -26,12 +26,12 @@ batch_jobs <- function(x, landmarks, reading, call = rlang::caller_env()) {
 
 #' Specimens have their landmarks, and are read already
 #' @noRd
-refuse_for_specimens <- function(landmarks, reading, call) {
+refuse_for_specimens <- function(landmarks, reading) {
   if (is.null(landmarks) && !length(reading)) return(invisible())
   crestline_abort(sprintf("`%s` goes with mesh files, but `x` holds specimens.",
                           if (is.null(landmarks)) "reading" else "landmarks"),
                   "Give the specimens their landmarks first, or give the paths of the meshes.",
-                  stage = "arguments", call = call)
+                  stage = "arguments")
 }
 
 #' Ids of specimens; of those that share one, the names of the list where these are each another,
@@ -46,12 +46,12 @@ specimen_ids <- function(x) {
 }
 
 #' @noRd
-file_jobs <- function(files, landmarks, reading, call, ids = NULL) {
+file_jobs <- function(files, landmarks, reading, ids = NULL) {
   none <- !vapply(files, is_path, NA)
   if (any(none)) {
     crestline_abort(sprintf("`x` has no path at place %s.", shorten(which(none))),
                     "Give paths of meshes.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   # Arguments of reading, each for the function that takes it
   takes <- reading_arguments()
@@ -65,16 +65,15 @@ file_jobs <- function(files, landmarks, reading, call, ids = NULL) {
                       sprintf("`reading` has arguments that reading does not take: %s.",
                               shorten(strange))
                     },
-                    sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments",
-                    call = call)
+                    sprintf("Give a list of %s.", shorten(unlist(takes), 20)), stage = "arguments")
   }
   reading <- lapply(takes, function(names) reading[names(reading) %in% names])
-  files <- mesh_files(files, call)
+  files <- mesh_files(files)
   if (is.null(ids)) {
-    refuse_twice(files, landmarks, call)
+    refuse_twice(files, landmarks)
     ids <- file_ids(files)
   }
-  readings <- reading_by_id(reading, ids, call)
+  readings <- reading_by_id(reading, ids)
   own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else
     given_landmarks(landmarks, ids, reading$landmarks)
   wanting <- c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)]
@@ -88,7 +87,7 @@ file_jobs <- function(files, landmarks, reading, call, ids = NULL) {
 
 #' The meshes of a folder or of a pattern, or files as they are; files of landmarks are refused
 #' @noRd
-mesh_files <- function(files, call) {
+mesh_files <- function(files) {
   known <- sprintf("[.](%s)([.]gz)?$", paste(names(mesh_readers()), collapse = "|"))
   folder <- dir.exists(files)
   files <- unlist(Map(function(file, folder) {
@@ -101,31 +100,31 @@ mesh_files <- function(files, call) {
   if (!length(files)) {
     crestline_abort("the folder of `x` has no mesh files.",
                     sprintf("Give the folder of the meshes, or their paths: %s.", one),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   marks <- sprintf("[.](%s|json)$", paste(names(landmark_formats()), collapse = "|"))
   wrong <- files[grepl(marks, files, ignore.case = TRUE)]
   if (length(wrong)) {
     crestline_abort(sprintf("`x` has landmark files: %s.", shorten(basename(wrong))),
-                    sprintf("Give the meshes only: %s.", one), stage = "arguments", call = call)
+                    sprintf("Give the meshes only: %s.", one), stage = "arguments")
   }
   files
 }
 
 #' Arguments of reading for each specimen: `rescale` may name the specimens that it is for
 #' @noRd
-reading_by_id <- function(reading, ids, call) {
+reading_by_id <- function(reading, ids) {
   factor <- reading$specimen$rescale
   if (is.null(names(factor))) {
-    if (!is.null(factor)) check_number(factor, "reading$rescale", 0, open = TRUE, call = call)
+    if (!is.null(factor)) check_number(factor, "reading$rescale", 0, open = TRUE)
     return(rep(list(reading), length(ids)))
   }
   strange <- setdiff(names(factor), ids)
   if (length(strange)) {
     crestline_abort(sprintf("`reading$rescale` names %s, which is no specimen.", shorten(strange)),
-                    members_there(ids, strange[1]), stage = "arguments", call = call)
+                    members_there(ids, strange[1]), stage = "arguments")
   }
-  factor <- vapply(factor, check_number, 0, "reading$rescale", 0, open = TRUE, call = call)
+  factor <- vapply(factor, check_number, 0, "reading$rescale", 0, open = TRUE)
   lapply(ids, function(id) {
     reading$specimen$rescale <- if (id %in% names(factor)) factor[[id]]
     reading

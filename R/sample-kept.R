@@ -12,17 +12,16 @@ known_layouts <- c(kept_layout, "crestline-result 2")
 
 #' The folder for results, made where it is not there
 #' @noRd
-results_folder <- function(dir, call = rlang::caller_env()) {
+results_folder <- function(dir) {
   if (!is_path(dir)) {
     crestline_abort(sprintf("`dir` is %s.", describe_value(dir)), "Give the path of one folder.",
-                    stage = "arguments",
-                    call = call)
+                    stage = "arguments")
   }
   dir.create(dir, recursive = TRUE, showWarnings = FALSE)
   if (!dir.exists(dir)) {
     crestline_abort(sprintf("the folder %s cannot be made.", dir),
                     "Choose another, or check who may write there.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   normalizePath(dir)
 }

@@ -11,9 +11,9 @@ measures_columns <- c("file", "size", "time", "key", "scheme", "version", "packe
 #' result is opened only where these do not know it
 #' @noRd
 #' @exportS3Method
-measures_of.shape_batch <- function(x, name, call) {
+measures_of.shape_batch <- function(x, name) {
   x <- renewed_batch(x)
-  if (!length(x)) return(each_shape(x, to_grade, name, call))
+  if (!length(x)) return(each_shape(x, to_grade, name))
   elements <- plain_list(x)
   kept <- which(vapply(elements, inherits, NA, "kept_shape"))
   measures <- vector("list", length(elements))

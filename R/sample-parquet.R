@@ -45,8 +45,7 @@ write_parquet <- function(x, file, what = c("points", "status"), form = c("long"
   check_given()
   what <- check_choice(what, c("points", "status"), "what")
   form <- check_choice(form, c("long", "wide"), "form")
-  if (!is_path(file)) refuse_argument("file", file, "Give the path of one file.",
-                                      rlang::current_env())
+  if (!is_path(file)) refuse_argument("file", file, "Give the path of one file.")
   need_parquet()
   if (inherits(x, "shape_sample")) validate(x)
   if (!inherits(x, "shape_batch")) x <- named_shapes(x)
@@ -105,7 +104,7 @@ status_rows <- function(x, form) {
 #' What is known of specimens, a row each
 #' @param ids Of the specimens of the file.
 #' @noRd
-check_covariates <- function(specimens, columns, ids, call = rlang::caller_env()) {
+check_covariates <- function(specimens, columns, ids) {
   if (is.null(specimens)) return(NULL)
   problem <- if (!is.data.frame(specimens) || !"id" %in% names(specimens)) {
     "has no column `id`"
@@ -117,7 +116,7 @@ check_covariates <- function(specimens, columns, ids, call = rlang::caller_env()
     sprintf("has none of %s", shorten(ids))
   }
   if (is.null(problem)) return(specimens)
-  refuse_argument("specimens", specimens, "Give a data frame with a row for each specimen.", call,
+  refuse_argument("specimens", specimens, "Give a data frame with a row for each specimen.",
                   sprintf("a table that %s", problem))
 }
 

@@ -12,8 +12,8 @@ new_shape_batch <- function(shapes, failed = list(), scheme = NULL, read = chara
   structure(shapes, failed = failed, scheme = scheme, read = read, class = "shape_batch")
 }
 
-validate_shape_batch <- function(x, call = rlang::caller_env()) {
-  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "batch", call = call)
+validate_shape_batch <- function(x) {
+  fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "batch")
   elements <- unclass(x)
   ids <- names(elements)
   if (is.null(ids) && length(elements) || anyNA(ids) || any(!nzchar(ids))) {
@@ -203,23 +203,22 @@ print.kept_shape <- function(x, ...) {
 
 #' The place of one specimen, by id or number, or an error with near ids
 #' @noRd
-batch_place <- function(x, i, call = rlang::caller_env()) {
+batch_place <- function(x, i) {
   ids <- names(x)
   one <- length(i) == 1 && !is.na(i)
   if (one && is.character(i) && i %in% ids) return(match(i, ids))
   if (one && is.numeric(i) && i %in% seq_along(ids)) return(as.integer(i))
-  refuse_place(i, ids, call)
+  refuse_place(i, ids)
 }
 
-refuse_place <- function(i, ids, call) {
+refuse_place <- function(i, ids) {
   words <- is.character(i) && length(i) && !all(i %in% ids)
   wrong <- if (words) shorten(paste0("\"", setdiff(i, ids), "\"")) else describe_value(i)
   near <- if (words && length(ids)) {
     sprintf("Near ids: %s.",
             shorten(ids[order(utils::adist(setdiff(i, ids)[1], ids, ignore.case = TRUE))]))
   } else sprintf("It has %s: names(x).", amount(length(ids), "specimen"))
-  crestline_abort(sprintf("the batch has no specimen %s.", wrong), near, stage = "batch",
-                  call = call)
+  crestline_abort(sprintf("the batch has no specimen %s.", wrong), near, stage = "batch")
 }
 
 #' @export
@@ -245,10 +244,10 @@ refuse_place <- function(i, ids, call) {
   ids <- names(x)
   if (is.factor(i)) i <- as.character(i)
   index <- is.character(i) || is.numeric(i) || is.logical(i)
-  if (!index || anyNA(i)) refuse_place(i, ids, rlang::caller_env())
+  if (!index || anyNA(i)) refuse_place(i, ids)
   at <- suppressWarnings(stats::setNames(seq_along(ids), ids)[i])
   if (anyNA(at)) {
-    refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids, rlang::caller_env())
+    refuse_place(if (is.numeric(i)) i[i > length(ids)] else i, ids)
   }
   shapes <- unclass(x)[at]
   validate_shape_batch(new_shape_batch(

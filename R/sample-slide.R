@@ -2,14 +2,14 @@
 
 #' @param given Arguments of [homologise()], checked.
 #' @noRd
-homologise_all <- function(shapes, given, progress, call = rlang::caller_env()) {
+homologise_all <- function(shapes, given, progress) {
   specimens <- given$specimens
   if (is.null(specimens)) specimens <- specimens_in_files(shapes)
-  shapes <- check_shapes(shapes, call)
+  shapes <- check_shapes(shapes)
   warn_cut_scales(shapes, "homologise")
   warn_curve_tables(shapes)
   shapes <- with_red(shapes, given$red, given$limits)
-  template <- first_template(shapes, given$template, given$rounds, call)
+  template <- first_template(shapes, given$template, given$rounds)
   tick <- progress_ticks(progress, 3 * length(shapes), "the sample")
   states <- lapply(shapes, slide_state, given$settings)
   found <- mean_curves(states, template, given$settings, given$tolerance, given$rounds)
@@ -142,11 +142,11 @@ plan_workers <- function() {
   if (there) future::nbrOfWorkers() else 1
 }
 
-check_shapes <- function(shapes, call = rlang::caller_env()) {
+check_shapes <- function(shapes) {
   if (inherits(shapes, "shape_batch")) shapes <- measured(shapes)
   if (inherits(shapes, "shape")) shapes <- list(shapes)
   fail <- function(problem, remedy) crestline_abort(
-    problem, remedy, stage = "homologise", call = call
+    problem, remedy, stage = "homologise"
   )
   if (!is.list(shapes) || !length(shapes)) {
     fail(sprintf("`shapes` is %s.", describe_value(shapes)), "Give a list of shapes.")
@@ -156,13 +156,13 @@ check_shapes <- function(shapes, call = rlang::caller_env()) {
     fail(sprintf("element %d of `shapes` is %s.", wrong[1], describe_value(shapes[[wrong[1]]])),
          "Give shapes only, as fit_shape() returns them: leave out what failed.")
   }
-  for (shape in shapes) check_class(shape, "shape", "shapes", "fit_shape()", call)
+  for (shape in shapes) check_class(shape, "shape", "shapes", "fit_shape()")
   ids <- vapply(shapes, `[[`, "", "id")
   if (anyDuplicated(ids)) {
     fail(sprintf("two shapes have the id \"%s\".", ids[anyDuplicated(ids)]),
          "Give every specimen an `id` of its own.")
   }
-  for (shape in shapes) check_same_scheme(shape, shapes[[1]], call)
+  for (shape in shapes) check_same_scheme(shape, shapes[[1]])
   shapes <- stats::setNames(shapes, ids)
   tell_twins(shapes, "homologise")
   shapes
@@ -191,23 +191,23 @@ specimens_in_files <- function(x) {
 
 #' @param specimens As in [homologise()].
 #' @noRd
-specimen_of <- function(shape, specimens, call = rlang::caller_env()) {
+specimen_of <- function(shape, specimens) {
   nameless <- is.list(specimens) && is.null(names(specimens))
   if (nameless && all(vapply(specimens, inherits, NA, "specimen"))) {
     names(specimens) <- vapply(specimens, `[[`, "", "id")
   }
   specimen <- if (is.null(specimens)) shape$specimen else
     if (is.function(specimens)) specimens(shape$id) else specimens[[shape$id]]
-  kept_specimen(shape, specimen, call)
+  kept_specimen(shape, specimen)
 }
 
 #' A list of specimens by id, a function of the id, or NULL
 #' @noRd
-check_specimens <- function(specimens, call = rlang::caller_env()) {
+check_specimens <- function(specimens) {
   if (is.null(specimens) || is.function(specimens)) return(invisible())
-  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()", call)
+  specimens <- check_list(specimens, "specimen", "specimens", "specimen() or read_specimen()")
   if (is.null(names(specimens))) {
-    refuse_argument("specimens", NULL, "Name each by its id.", call, "a list without names")
+    refuse_argument("specimens", NULL, "Name each by its id.", "a list without names")
   }
 }
 
@@ -215,17 +215,17 @@ has_pairs <- function(scheme) any(scheme$pairs$level != "surface")
 
 #' The template to begin with: the given one, or the first of the shapes with the most points
 #' @noRd
-first_template <- function(shapes, template, rounds, call = rlang::caller_env()) {
+first_template <- function(shapes, template, rounds) {
   if (inherits(template, "shape_sample")) template <- validate(template)$template
   if (!is.null(template)) {
-    check_class(template, "shape", "template", "symmetrise() or homologise()", call)
-    check_same_scheme(shapes[[1]], template, call)
+    check_class(template, "shape", "template", "symmetrise() or homologise()")
+    check_same_scheme(shapes[[1]], template)
     return(template)
   }
   if (rounds == 0) {
     crestline_abort("there is no `template`, and `rounds` is 0.",
                     "Give the template of the old sample, or let it be found.",
-                    stage = "homologise", call = call)
+                    stage = "homologise")
   }
   first <- shapes[[which.max(vapply(shapes, function(shape) sum(!is.na(shape$points$x)), 0L))]]
   if (has_pairs(first$scheme)) symmetrise(first) else

@@ -7,9 +7,9 @@
 #'   keep it, all the same one, to be measured again.
 #' @param placed Number of other specimens of the batch with landmarks of their own.
 #' @noRd
-fit_jobs <- function(jobs, run, chunk, progress, placed = 0, call = rlang::caller_env()) {
+fit_jobs <- function(jobs, run, chunk, progress, placed = 0) {
   jobs <- with_finder(with_plain(jobs), run$dir, run$template, run$doubtful, run$scheme, run$found,
-                      placed, call)
+                      placed)
   jobs <- jobs_of_part(jobs, run)
   plain <- lapply(jobs, `[[`, "plain")
   jobs <- lapply(jobs, function(job) job[names(job) != "plain"])
@@ -62,12 +62,12 @@ jobs_of_part <- function(jobs, run) {
 
 #' Which part of all specimens is to be measured
 #' @noRd
-check_part <- function(part, call = rlang::caller_env()) {
+check_part <- function(part) {
   if (is.null(part)) return(NULL)
   right <- is.numeric(part) && length(part) == 2 && all(is.finite(part)) &&
     all(part == round(part)) && part[1] >= 1 && part[1] <= part[2]
   if (!right) {
-    refuse_argument("part", part, "Give the number of the part and of all: part = c(3, 8).", call)
+    refuse_argument("part", part, "Give the number of the part and of all: part = c(3, 8).")
   }
   as.numeric(part)
 }

@@ -42,7 +42,7 @@ twins_among <- function(x) {
 
 #' A mesh file that is named twice, with the same landmarks
 #' @noRd
-refuse_twice <- function(files, landmarks, call) {
+refuse_twice <- function(files, landmarks) {
   paths <- normalizePath(files, winslash = "/", mustWork = FALSE)
   if (!is.null(landmarks)) {
     if (!is.character(landmarks) || length(landmarks) != length(files)) return(invisible())
@@ -53,5 +53,5 @@ refuse_twice <- function(files, landmarks, call) {
   crestline_abort(sprintf("`x` names a file twice: %s.", shorten(basename(twice))),
                   paste("Name each once, unique(x). A scan that was digitised twice needs a",
                         "landmark file for each time, see `landmarks`."),
-                  stage = "arguments", call = call)
+                  stage = "arguments")
 }

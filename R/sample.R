@@ -58,14 +58,14 @@ summary.shape_sample <- function(object, ...) {
 
 #' The rules of a sample
 #' @noRd
-validate_shape_sample <- function(x, call = rlang::caller_env()) {
+validate_shape_sample <- function(x) {
   refuse <- function(wrong, problem, remedy = "Make a sample with homologise().") {
-    if (wrong) crestline_abort(problem, remedy, stage = "sample", call = call)
+    if (wrong) crestline_abort(problem, remedy, stage = "sample")
   }
   refuse(is.null(attr(x, "template")) && "shapes" %in% names(x),
          "the sample was made by an older version.", "Make it again with homologise().")
   shapes <- x$shapes
-  check_class(x$template, "shape", "template", "symmetrise() or homologise()", call)
+  check_class(x$template, "shape", "template", "symmetrise() or homologise()")
   refuse(!all(vapply(shapes, inherits, NA, "shape")), "some of its members are no shapes.")
   named <- function(shape) is.character(unclass(shape)$id) && length(shape$id) == 1
   refuse(!all(vapply(shapes, named, NA)), "some of its shapes have no id.")
@@ -78,13 +78,13 @@ validate_shape_sample <- function(x, call = rlang::caller_env()) {
          "Give every specimen an `id` of its own.")
   bare <- vapply(shapes, function(shape) is.null(shape$specimen), NA)
   refuse(!all(bare), "its shapes keep their specimens.")
-  for (shape in shapes) check_same_scheme(shape, x$template, call)
+  for (shape in shapes) check_same_scheme(shape, x$template)
   refuse(!is.null(x$convergence) && !is.data.frame(x$convergence), "its convergence is no table.")
   x
 }
 
 #' @exportS3Method
-validate.shape_sample <- function(x) validate_shape_sample(x, call = NULL)
+validate.shape_sample <- function(x) validate_shape_sample(x)
 
 #' The specimens of a sample
 #'
@@ -152,8 +152,7 @@ NULL
   if (!name %in% sample_fields) {
     refuse_member(sprintf("a sample has no field `%s`.", name),
                   sprintf("Fields are %s; specimens are x[[\"id\"]].",
-                          paste(sample_fields, collapse = ", ")),
-                  rlang::caller_env())
+                          paste(sample_fields, collapse = ", ")))
   }
   sample_field(x, name)
 }
@@ -165,7 +164,7 @@ sample_field <- function(x, name) if (name == "shapes") as.list(x) else attr(x, 
 `$<-.shape_sample` <- function(x, name, value) {
   if (!name %in% setdiff(sample_fields, "missing")) {
     refuse_member(sprintf("`%s` of a sample cannot be set.", name),
-                  "Make a sample with homologise().", rlang::caller_env())
+                  "Make a sample with homologise().")
   }
   fields <- lapply(stats::setNames(nm = setdiff(sample_fields, "missing")),
                    function(field) sample_field(x, field))
@@ -177,8 +176,7 @@ sample_field <- function(x, name) if (name == "shapes") as.list(x) else attr(x, 
 #' @export
 `[<-.shape_sample` <- function(x, i, ..., value) {
   refuse_member("specimens of a sample cannot be replaced: it would not be homologous.",
-                "Slide it against the template, homologise(rounds = 0, template = ), and c() both.",
-                rlang::caller_env())
+                "Slide it against the template, homologise(rounds = 0, template = ), and c() both.")
 }
 
 #' @rdname shape_sample
@@ -219,8 +217,7 @@ c.shape_sample <- function(...) {
     refuse_member(sprintf("%s in more than one of the samples: %s.",
                           if (length(twice) == 1) "a specimen is" else "specimens are",
                           shorten(twice)),
-                  "Drop them from one, sample[-i], or rename: names(sample) <- ...",
-                  rlang::caller_env())
+                  "Drop them from one, sample[-i], or rename: names(sample) <- ...")
   }
   warn_cut_scales(shapes, "sample")
   rounds <- Filter(Negate(is.null), lapply(samples, sample_field, "convergence"))
@@ -232,10 +229,10 @@ c.shape_sample <- function(...) {
 
 #' Whether the points of two samples are homologous: of one scheme, one template, one way of sliding
 #' @noRd
-check_joinable <- function(a, b, call = rlang::caller_env()) {
+check_joinable <- function(a, b) {
   remedy <- paste("Slide the one's shapes against the other's template:",
                   "homologise(shapes, rounds = 0, template = sample$template).")
-  fail <- function(problem) crestline_abort(problem, remedy, stage = "sample", call = call)
+  fail <- function(problem) crestline_abort(problem, remedy, stage = "sample")
   schemes <- c(a$template$scheme$name, b$template$scheme$name)
   if (!identical(scheme_hash(a$template$scheme), scheme_hash(b$template$scheme))) {
     alike <- schemes[1] == schemes[2]

@@ -10,8 +10,8 @@
 #' @param scheme A `curve_scheme`.
 #' @return 3 x 3 rotation.
 #' @noRd
-posed_view <- function(view, xyz, scheme = face_scheme(), call = rlang::caller_env()) {
-  rotation <- view_rotation(view, call)
+posed_view <- function(view, xyz, scheme = face_scheme()) {
+  rotation <- view_rotation(view)
   if (is.matrix(view)) rotation else rotation %*% own_pose(xyz, scheme)
 }
 

@@ -23,7 +23,7 @@ new_settings <- function(class, check, change = list(), preset = list(), former 
   settings <- mget(fields, frame)
   settings[names(preset)] <- preset
   settings[given] <- mget(given, frame)
-  settings <- changed_settings(settings, change, former, noun, frame)
+  settings <- changed_settings(settings, change, former, noun)
   structure(if (length(given) || length(change)) check(settings) else settings, class = class)
 }
 
@@ -31,10 +31,8 @@ new_settings <- function(class, check, change = list(), preset = list(), former 
 #'
 #' @param settings List of all settings.
 #' @param change,former,noun As in [new_settings()].
-#' @param call The call to blame.
 #' @noRd
-changed_settings <- function(settings, change, former = character(), noun = "setting",
-                             call = rlang::caller_env()) {
+changed_settings <- function(settings, change, former = character(), noun = "setting") {
   for (old in intersect(names(change), names(former))) {
     inform_former(paste(old, "="), paste(former[[old]], "="))
     names(change)[names(change) == old] <- former[[old]]
@@ -58,7 +56,7 @@ changed_settings <- function(settings, change, former = character(), noun = "set
       paste0(scheme_column_words,
              sprintf("%ss are: %s.", tools::toTitleCase(noun),
                      paste(names(settings), collapse = ", "))),
-      stage = "arguments", call = call
+      stage = "arguments"
     )
   }
   settings[names(change)] <- change
@@ -70,8 +68,8 @@ changed_settings <- function(settings, change, former = character(), noun = "set
 #' @param ... The dots of the function that asks.
 #' @param maker Name of the function that makes the settings, which is their class.
 #' @noRd
-settings_with_former <- function(settings, maker, ..., call = rlang::caller_env()) {
-  check_dots(..., known = names(settings), call = call)
+settings_with_former <- function(settings, maker, ...) {
+  check_dots(..., known = names(settings))
   with_former(list(settings = settings), list(settings = names(settings)), list(...))$settings
 }
 

@@ -39,7 +39,7 @@ patch_mesh <- function(x, specimen, patch, columns = NULL, rows = NULL, block = 
   measuring <- measuring_with_former(measuring, ...)
   patch <- check_text(patch, "patch")
   if (!is.null(block) && !is.atomic(block)) {
-    refuse_argument("block", block, "Give a block's name.", rlang::current_env())
+    refuse_argument("block", block, "Give a block's name.")
   }
   check_class(x, "shape", "x", "fit_shape()")
   check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")

@@ -2,14 +2,13 @@
 
 #' Names that are all foreign, and lengths in another unit, would give a shape of nothing
 #' @noRd
-check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::caller_env()) {
+check_fits_scheme <- function(specimen, scheme, unit = NULL) {
   wanted <- scheme$landmarks$landmark
   if (!NROW(specimen$landmarks)) {
     crestline_abort("it has no landmarks.",
                     paste("On a face find them: find_landmarks(). Else place them by hand,",
                           "place_landmarks(), or read them: read_specimen(file, landmarks)."),
-                    stage = "landmarks", id = specimen$id, class = "crestline_landmark_error",
-                    call = call)
+                    stage = "landmarks", id = specimen$id, class = "crestline_landmark_error")
   }
   if (!any(wanted %in% rownames(specimen$landmarks))) {
     near <- attr(unused_names(specimen$landmarks, scheme), "near")
@@ -20,10 +19,10 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
       paste("Rename them: rownames(specimen$landmarks) <- ...; or find_landmarks(), or",
             "place_landmarks()."),
       stage = "landmarks",
-      id = specimen$id, class = "crestline_landmark_error", call = call
+      id = specimen$id, class = "crestline_landmark_error"
     )
   }
-  check_scale(specimen, scheme, unit, call)
+  check_scale(specimen, scheme, unit)
   size <- specimen_size(specimen)
   radius <- max(scheme$curves$radius, 0, na.rm = TRUE)
   if (radius > size / 2) {
@@ -32,7 +31,7 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
                             radius, size),
                     paste0("Is the mesh in another unit? For a scan in metres and a scheme in mm ",
                            "give `unit = 1000`."),
-                    stage = "curvature", id = specimen$id, call = call)
+                    stage = "curvature", id = specimen$id)
   }
 }
 
@@ -44,7 +43,7 @@ check_fits_scheme <- function(specimen, scheme, unit = NULL, call = rlang::calle
 #'   child of a year has 0.7 of an adult's face. Centimetres are 10, inches 25.4.
 #' @param units Factors between units.
 #' @noRd
-check_scale <- function(specimen, scheme, unit = NULL, call = rlang::caller_env(), apart = 2.5,
+check_scale <- function(specimen, scheme, unit = NULL, apart = 2.5,
                         units = c(10, 25.4, 100, 1000)) {
   scale <- landmark_scale(specimen$landmarks, typical_landmarks(scheme))
   if (is.na(scale) || (scale >= 1 / apart && scale <= apart)) return(invisible())
@@ -56,7 +55,7 @@ check_scale <- function(specimen, scheme, unit = NULL, call = rlang::caller_env(
             scale,
             scheme$name),
     unit_remedy(specimen$id, asked * c(unit, specimen$match$unit, 1)[1]),
-    stage = "landmarks", id = specimen$id, call = call,
+    stage = "landmarks", id = specimen$id,
     class = c("crestline_unit_error", "crestline_landmark_error")
   )
 }

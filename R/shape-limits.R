@@ -91,14 +91,14 @@ check_limits <- function(limits) {
 grades <- c("green", "amber", "red")
 small_is_bad <- c("confidence", "contrast", "cut", "border", "spike")
 
-check_limit <- function(x, name, falling, call = rlang::caller_env()) {
+check_limit <- function(x, name, falling) {
   ordered <- is.numeric(x) && length(x) == 2 && !anyNA(x) &&
     (if (falling) x[1] >= x[2] else x[1] <= x[2])
   if (!ordered) {
     crestline_abort(sprintf("`%s` is %s.", name, describe_value(x)),
                     sprintf("Give two numbers, c(amber, red), the second %s.",
                             if (falling) "no greater" else "no smaller"),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   as.numeric(x)
 }

@@ -44,7 +44,7 @@ shape_unit <- function(shape) c(as.numeric(shape$provenance$scheme$unit), NA)[1]
 
 #' Co-ordinates in two units are not one sample
 #' @noRd
-check_same_unit <- function(shape, other, call = rlang::caller_env()) {
+check_same_unit <- function(shape, other) {
   unit <- c(shape_unit(shape), shape_unit(other))
   if (anyNA(unit) || isTRUE(all.equal(unit[1], unit[2]))) return(invisible())
   odd <- if (unit[1] == 1) 2 else 1
@@ -52,7 +52,7 @@ check_same_unit <- function(shape, other, call = rlang::caller_env()) {
     sprintf("it was measured with `unit = %.4g` and %s with `unit = %.4g`: two units.", unit[1],
             other$id, unit[2]),
     unit_remedy(c(shape$id, other$id)[odd], unit[odd] / unit[-odd]),
-    stage = "unit", id = shape$id, class = "crestline_unit_error", call = call
+    stage = "unit", id = shape$id, class = "crestline_unit_error"
   )
 }
 

@@ -117,10 +117,10 @@ quality <- function(x, limits = quality_limits(), others = NULL) {
   check_given()
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   if (inherits(x, "shape_sample")) validate(x)
-  shapes <- measures_of(x, "x", rlang::current_env())
+  shapes <- measures_of(x, "x")
   measured <- Filter(Negate(is.null), shapes)
   other <- if (!is.null(others)) {
-    Filter(Negate(is.null), measures_of(others, "others", rlang::current_env()))
+    Filter(Negate(is.null), measures_of(others, "others"))
   }
   scores <- sample_scores(measured, other, limits)
   said <- lapply(measured, `[[`, "said")
@@ -213,21 +213,21 @@ has_found <- function(shape) any(shape$placing$state == "found")
 #' @param x As of [named_shapes()].
 #' @param f Function of a shape and its name.
 #' @noRd
-each_shape <- function(x, f, name = "x", call = rlang::caller_env()) {
+each_shape <- function(x, f, name = "x") {
   batch <- inherits(x, "shape_batch") && length(x)
-  if (!batch) x <- named_shapes(x, name, call)
+  if (!batch) x <- named_shapes(x, name)
   lapply(stats::setNames(nm = names(x)), function(one) {
     shape <- x[[one]]
-    if (!is.null(shape)) f(check_class(shape, "shape", name, "fit_shape()", call), one)
+    if (!is.null(shape)) f(check_class(shape, "shape", name, "fit_shape()"), one)
   })
 }
 
 #' What grading takes of each shape, by name; NULL for those that failed
 #' @noRd
-measures_of <- function(x, name, call) UseMethod("measures_of")
+measures_of <- function(x, name) UseMethod("measures_of")
 
 #' @exportS3Method
-measures_of.default <- function(x, name, call) each_shape(x, to_grade, name, call)
+measures_of.default <- function(x, name) each_shape(x, to_grade, name)
 
 #' What grading takes of a shape
 #' @return List: `parts` (as of [part_measures()], or packed), `scheme`, `said` (its warnings),
@@ -261,11 +261,11 @@ unpacked_parts <- function(one) if (is.raw(one$parts)) unpack_measures(one$parts
 
 #' A list of shapes by name of specimen; every name once
 #' @noRd
-named_shapes <- function(x, name = "x", call = rlang::caller_env()) {
+named_shapes <- function(x, name = "x") {
   if (inherits(x, c("shape_batch", "shape_sample"))) x <- as.list(x)
   if (inherits(x, "shape")) x <- list(x)
-  if (!is.list(x) || length(x) == 0) check_class(x, "shape", name, "fit_shape()", call)
-  for (shape in Filter(Negate(is.null), x)) check_class(shape, "shape", name, "fit_shape()", call)
+  if (!is.list(x) || length(x) == 0) check_class(x, "shape", name, "fit_shape()")
+  for (shape in Filter(Negate(is.null), x)) check_class(shape, "shape", name, "fit_shape()")
   given <- if (is.null(names(x))) character(length(x)) else names(x)
   own <- vapply(x, function(shape) if (is.null(shape)) NA_character_ else shape$id, "")
   own <- ifelse(is.na(own), paste("specimen", seq_along(x)), own)

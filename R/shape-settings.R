@@ -57,9 +57,9 @@ column_settings <- function(settings) {
 
 #' Settings with what a call gives of their columns in the former form
 #' @noRd
-measuring_with_former <- function(measuring, ..., call = rlang::caller_env()) {
-  check_class(measuring, "shape_settings", "measuring", "shape_settings()", call)
+measuring_with_former <- function(measuring, ...) {
+  check_class(measuring, "shape_settings", "measuring", "shape_settings()")
   fields <- c("column_angle", "column_angles", "column_reach")
-  check_dots(..., known = fields, call = call)
+  check_dots(..., known = fields)
   with_former(list(measuring = measuring), list(measuring = fields), list(...))$measuring
 }

@@ -81,17 +81,17 @@ graded_curves <- function(shape, options) {
   }, curves, names(curves), grade_colours[grade]), use.names = FALSE)
 }
 
-check_scalars <- function(values, n, call = rlang::caller_env()) {
+check_scalars <- function(values, n) {
   named <- is.list(values) && !is.data.frame(values) && length(values) == length(names(values)) &&
     all(grepl("^[A-Za-z][A-Za-z0-9_]*$", names(values)))
   if (length(values) && !named) {
-    refuse_argument("values", values, "Give a list with names of letters and digits.", call)
+    refuse_argument("values", values, "Give a list with names of letters and digits.")
   }
   for (name in names(values)) {
     one <- values[[name]]
     if (!is.numeric(one) || length(one) != n || any(!is.finite(one))) {
       remedy <- sprintf("Give %d finite numbers as %s: one a surface point.", n, name)
-      refuse_argument("values", one, remedy, call)
+      refuse_argument("values", one, remedy)
     }
   }
   values
@@ -99,12 +99,12 @@ check_scalars <- function(values, n, call = rlang::caller_env()) {
 
 #' The path of a folder that is there or was made
 #' @noRd
-made_folder <- function(dir, call = rlang::caller_env()) {
-  check_text(dir, "dir", call = call)
+made_folder <- function(dir) {
+  check_text(dir, "dir")
   if (!nzchar(dir) || nchar(dir, "bytes") > 4000 ||
       !dir.exists(dir) && !suppressWarnings(dir.create(dir, recursive = TRUE))) {
     crestline_abort("`dir` is no folder and cannot be made.",
-                    "Check its path, and the right to write there.", stage = "writing", call = call)
+                    "Check its path, and the right to write there.", stage = "writing")
   }
   dir
 }

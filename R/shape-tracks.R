@@ -68,9 +68,9 @@ learn_tracks <- function(shapes, fewest = 5, least = 0.1, places = 19) {
 
 #' The one scheme of some shapes, in its own unit
 #' @noRd
-learning_scheme <- function(shapes, call = rlang::caller_env()) {
+learning_scheme <- function(shapes) {
   refuse <- function(problem, remedy, id = NULL) {
-    crestline_abort(problem, remedy, stage = "learning", id = id, call = call)
+    crestline_abort(problem, remedy, stage = "learning", id = id)
   }
   schemes <- lapply(shapes, function(shape) {
     scheme_in_unit(shape$scheme, 1 / c(shape$provenance$scheme$unit, 1)[1], NULL)

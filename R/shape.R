@@ -79,11 +79,11 @@ shape_key <- function(x) {
 #' Refuse a shape that was not measured on a specimen's mesh, or that was changed since
 #'
 #' @noRd
-check_shape_on <- function(shape, specimen, call = rlang::caller_env()) {
+check_shape_on <- function(shape, specimen) {
   if (is.null(shape_key(shape)) && all(is.na(shape$points$face))) {
     crestline_abort("its points lie on no mesh.",
                     "Give a shape that fit_shape() measured, not a template or a mean.",
-                    stage = "shape", id = shape$id, class = "crestline_wrong_mesh", call = call)
+                    stage = "shape", id = shape$id, class = "crestline_wrong_mesh")
   }
   name <- paste("the shape", shape$id)
   check_same_mesh(shape, specimen, name)

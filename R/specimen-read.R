@@ -41,8 +41,7 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   if (!is.null(names)) {
     whole <- function(x) is.character(x) && !anyNA(x) && all(nzchar(x)) && !anyDuplicated(x)
     if (!whole(names) || !whole(names(names)) || is.object(names)) {
-      refuse_argument("names", names, "Give new names by the old ones, each once: c(prn = \"pn\").",
-                      rlang::current_env())
+      refuse_argument("names", names, "Give new names by the old ones, each once: c(prn = \"pn\").")
     }
   }
   check_dots(..., known = names(formals(specimen))[-(1:3)])

@@ -141,10 +141,10 @@ no_warnings <- function() {
   data.frame(stage = character(), class = character(), problem = character(), remedy = character())
 }
 
-check_id <- function(id, name = "id", call = NULL) {
+check_id <- function(id, name = "id") {
   if (is.null(id)) return("unnamed")
   if (!is.atomic(id) || length(id) != 1 || is.na(id) || !nzchar(as.character(id))) {
-    refuse_argument(name, id, "Give one string.", call)
+    refuse_argument(name, id, "Give one string.")
   }
   as.character(id)
 }

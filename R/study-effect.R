@@ -27,7 +27,7 @@ no_places <- function() {
 
 #' The places of an effect on a template, with directions
 #' @noRd
-effect_places <- function(places, template, call = rlang::caller_env()) {
+effect_places <- function(places, template) {
   wanted <- names(no_places())
   lacking <- if (is.data.frame(places)) setdiff(wanted, names(places)) else wanted
   numbers <- if (!length(lacking)) data.matrix(places[wanted[-1]])
@@ -36,7 +36,7 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
     crestline_abort("`places` does not say where, how wide and how strong.",
                     paste0("Give a data frame as face_effect() does: part, x, y, z, radius (above ",
                            "0), share."),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   at <- surface_points(template$mesh, numbers[, c("x", "y", "z")])
   if (!all(c("dx", "dy", "dz") %in% names(places))) {
@@ -51,7 +51,7 @@ effect_places <- function(places, template, call = rlang::caller_env()) {
 
 #' @return Named numeric, one for each part.
 #' @noRd
-effect_by_part <- function(effect, parts, call = rlang::caller_env()) {
+effect_by_part <- function(effect, parts) {
   named <- !is.null(names(effect))
   ok <- is.numeric(effect) && all(is.finite(effect)) &&
     (if (named) all(names(effect) %in% parts) else length(effect) == 1)
@@ -60,7 +60,7 @@ effect_by_part <- function(effect, parts, call = rlang::caller_env()) {
     crestline_abort(sprintf("`effect` is %s, with %s in `places`.", describe_value(effect), there),
                     paste0("Give one number, or numbers with names of parts; and `places` where ",
                            "the template is your own."),
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   if (!named) return(stats::setNames(rep(effect, length(parts)), parts))
   found <- stats::setNames(numeric(length(parts)), parts)

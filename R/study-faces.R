@@ -223,22 +223,22 @@ humface_specimen <- function() {
   specimen(found$humface, read_landmarks(file), id = "humface")
 }
 
-check_variation <- function(variation, call = rlang::caller_env()) {
+check_variation <- function(variation) {
   ok <- is.data.frame(variation) && all(c("range", "sd") %in% names(variation)) &&
     all(variation$range > 0) && all(variation$sd >= 0)
   if (!isTRUE(ok)) {
     crestline_abort("`variation` has no ranges above 0 with standard deviations.",
                     "Give data.frame(range = , sd = ), in the unit of the template.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   variation
 }
 
-check_groups <- function(groups, call = rlang::caller_env()) {
+check_groups <- function(groups) {
   if (!is.character(groups) || length(groups) != 2 || anyNA(groups) || groups[1] == groups[2]) {
     crestline_abort(sprintf("`groups` is %s.", describe_value(groups)),
                     "Give the names of two groups.",
-                    stage = "arguments", call = call)
+                    stage = "arguments")
   }
   groups
 }

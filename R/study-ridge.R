@@ -67,10 +67,10 @@ simulate_ridge <- function(a, b, spacing = 0.05, noise = 0, seed = NULL, jitter 
 
 #' Between 1e-3, four million vertices, and a quarter of the side
 #' @noRd
-check_spacing <- function(spacing, call = rlang::caller_env()) {
-  spacing <- check_number(spacing, "spacing", lower = 1e-3, upper = 0.5, call = call)
+check_spacing <- function(spacing) {
+  spacing <- check_number(spacing, "spacing", lower = 1e-3, upper = 0.5)
   if (spacing == 0.5) {
-    check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE, call = call)
+    check_number(spacing, "spacing", lower = 0, upper = 0.5, open = TRUE)
   }
   spacing
 }

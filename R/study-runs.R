@@ -88,7 +88,7 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
   if (curves > largest) {
     crestline_abort(sprintf("the study would have %s curves.", format(curves, big.mark = ",")),
                     "Give fewer values or a smaller `n`, or a greater `largest`.",
-                    stage = "arguments", call = rlang::current_env())
+                    stage = "arguments")
   }
   cells <- do.call(expand.grid, grid)[8:1]
   tasks <- study_tasks(cells, n, block, methods, constant, dir)
@@ -111,8 +111,8 @@ ridge_study <- function(settings = ridge_settings(), n = 20, a = c(0, 0.25, 0.5)
 #'
 #' @param largest As in [ridge_study()].
 #' @noRd
-check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
-  largest <- check_number(largest, "largest", 9, call = call)
+check_study_grid <- function(grid, largest) {
+  largest <- check_number(largest, "largest", 9)
   finest <- 2 / (sqrt(largest) - 1)
   range <- list(passes = c(1, 1e3), correlation = c(0, 1e3), radius = c(0, 2),
                 spacing = c(finest, 0.5),
@@ -122,12 +122,12 @@ check_study_grid <- function(grid, largest, call = rlang::caller_env()) {
     if (!is.numeric(grid[[name]]) || !length(grid[[name]]) || !is.null(dim(grid[[name]]))) {
       crestline_abort(sprintf("`%s` is %s.", name, describe_value(grid[[name]])),
                       "Give one number or several.",
-                      stage = "arguments", call = call)
+                      stage = "arguments")
     }
     grid[[name]] <- vapply(as.vector(grid[[name]]), function(value) {
-      value <- check_number(value, name, range[[name]][1], range[[name]][2], call = call)
-      if (name %in% open && value == 0) check_number(value, name, 0, open = TRUE, call = call)
-      if (name == "passes") check_count(value, name, call = call) else value
+      value <- check_number(value, name, range[[name]][1], range[[name]][2])
+      if (name %in% open && value == 0) check_number(value, name, 0, open = TRUE)
+      if (name == "passes") check_count(value, name) else value
     }, 0)
   }
   if (is.null(grid$passes)) grid["passes"] <- NA_real_

@@ -38,8 +38,8 @@ true_effect <- function(x, at = NULL) {
   structure(step, dimnames = list(rownames(at), c("x", "y", "z")))
 }
 
-template_points <- function(x, at, call = rlang::caller_env()) {
-  check_class(x, "simulated_faces", "x", "simulate_faces()", call = call)
+template_points <- function(x, at) {
+  check_class(x, "simulated_faces", "x", "simulate_faces()")
   if (is.null(at)) return(x$template$landmarks)
-  point_matrix(at, call, "at")
+  point_matrix(at, "at")
 }

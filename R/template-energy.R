@@ -74,15 +74,15 @@ bending_energy <- function(template, nugget = 0, level = "curves", tolerance = 1
 #'
 #' Repeats of a place that a scheme defines more than once are NA.
 #' @noRd
-energy_points <- function(x, level, name = "template", call = rlang::caller_env()) {
+energy_points <- function(x, level, name = "template") {
   if (inherits(x, "shape")) {
-    check_class(x, "shape", name, "fit_shape()", call)
+    check_class(x, "shape", name, "fit_shape()")
     level <- check_choice(level, c("landmarks", "curves", "surface"), "level")
     place <- x$scheme$points$place[x$scheme$points$level == level]
     return(replace(unname(coords(x, level)), duplicated(place), NA))
   }
   if (!is.matrix(x) || !is.numeric(x) || ncol(x) != 3) {
-    refuse_argument(name, x, "Give a k x 3 matrix, or a shape.", call)
+    refuse_argument(name, x, "Give a k x 3 matrix, or a shape.")
   }
   unname(x)
 }

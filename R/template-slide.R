@@ -96,25 +96,24 @@ settings_of_sample <- function(sample) {
   do.call(slide_settings, kept[names(kept) %in% names(slide_settings())])
 }
 
-check_same_scheme <- function(shape, template, call = rlang::caller_env()) {
+check_same_scheme <- function(shape, template) {
   if (!identical(shape$scheme$points, template$scheme$points)) {
     crestline_abort(sprintf("its scheme, %s, is not that of %s, %s.", shape$scheme$name,
                             template$id, template$scheme$name),
-                    "Measure all specimens by one scheme.", stage = "slide", id = shape$id,
-                    call = call)
+                    "Measure all specimens by one scheme.", stage = "slide", id = shape$id)
   }
-  check_same_unit(shape, template, call)
+  check_same_unit(shape, template)
 }
 
-kept_specimen <- function(shape, specimen, call = rlang::caller_env()) {
+kept_specimen <- function(shape, specimen) {
   if (inherits(specimen, "specimen")) {
-    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()", call)
+    check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
     return(specimen_of_shape(shape, specimen))
   }
   problem <- if (is.null(specimen)) "the shape does not keep its specimen." else
     sprintf("`specimen` is %s.", describe_value(specimen))
   crestline_abort(problem, "Give the `specimen` that it was measured on.", stage = "slide",
-                  id = shape$id, call = call)
+                  id = shape$id)
 }
 
 #' A specimen after a check that it is the shape's own

@@ -31,8 +31,11 @@ test_that("check_class() names the maker", {
                          c("not of class \"thing\"", "thing()"))
 })
 
-test_that("errors of the checkers blame the caller", {
-  asked <- function(k) check_number(k, "k")
+test_that("an error names the function that the user called, however deep it arose", {
+  inner <- function(k) check_number(k, "k")
+  asked <- function(k) inner(k)
+  environment(inner) <- list2env(list(), parent = asNamespace("crestline"))
+  environment(asked) <- list2env(list(inner = inner), parent = asNamespace("crestline"))
   error <- expect_crestline_error(asked("a"))
   expect_identical(as.character(error$call[[1]]), "asked")
 })

@@ -46,3 +46,9 @@ test_that("no files call each other round in a circle, but for those that are li
   expect_equal(vapply(new, paste, "", collapse = " <-> "), character())
   expect_true(all(lengths(found) <= 5))
 })
+
+test_that("no function is handed the call that an error names: conditions.R finds it", {
+  functions <- Filter(function(one) is_function(one$value), graph())
+  takes_call <- vapply(functions, function(one) "call" %in% names(one$value[[2]]), NA)
+  expect_equal(names(functions)[takes_call], "crestline_abort")
+})
