@@ -10,7 +10,9 @@
 #' @param x A `shape_sample`, as [homologise()] returns it, an `aligned`, as [align()] returns it,
 #'   or a k x 3 x n (or k x 2 x n) array, in any unit.
 #' @param file Path of the file, ending in `.txt`.
-#' @param level Level of a `shape_sample`, as in [align()].
+#' @param level Level of a `shape_sample`, as in [align()]. For an array: "curves" if its points are
+#'   those of curves, named "curve 1", "curve 2" and so on. Only neighbours of curves are joined by
+#'   lines.
 #' @param group Group of each specimen, as in [compare_groups()], or `NULL`.
 #' @return `write_morphologika()`: the path of the file. `write_morphoj()`: the paths of the table
 #'   and, with groups, of the table of classifiers (`_classifiers` before the ending). Both
@@ -22,7 +24,7 @@
 #' @examples
 #' arcs <- array(rnorm(30), c(5, 3, 2), list(paste("arc", 1:5), NULL, c("a", "b")))
 #' file <- tempfile(fileext = ".txt")
-#' write_morphologika(arcs, file, group = c("x", "y"))
+#' write_morphologika(arcs, file, "curves", group = c("x", "y"))
 #' cat(readLines(file), sep = "\n")
 #' unlink(file)
 #' @export
@@ -38,7 +40,9 @@ write_morphologika <- function(x, file, level = "landmarks", group = NULL) {
              block("dimensions", dim(of$coords)[2]), block("names", of$id),
              if (!is.null(of$group)) c(block("labels", "group"),
                                        block("labelvalues", of$group)),
-             block("rawpoints", points), block("wireframe", curve_links(dimnames(of$coords)[[1]])))
+             block("rawpoints", points), block("wireframe", if (identical(of$level, "curves")) {
+               curve_links(dimnames(of$coords)[[1]])
+             }))
   write_content(charToRaw(enc2utf8(paste0(paste(lines, collapse = "\n"), "\n"))), file)
   invisible(file)
 }
@@ -61,7 +65,7 @@ write_morphoj <- function(x, file, level = "landmarks", group = NULL) {
   invisible(c(file, beside))
 }
 
-#' Co-ordinates, ids and groups of a sample, as other programs can read them
+#' Co-ordinates, ids, groups and level of a sample, as other programs can read them
 #' @noRd
 exchanged <- function(x, level, group) {
   coords <- if (inherits(x, "shape_sample")) as.array(x, level) else
@@ -81,7 +85,8 @@ exchanged <- function(x, level, group) {
     }
     group <- without_breaks(as.character(by_specimen(group, id, "group", fail)))
   }
-  list(coords = coords, id = without_breaks(id), group = group)
+  list(coords = coords, id = without_breaks(id), group = group,
+       level = if (inherits(x, "aligned")) x$level else level)
 }
 
 #' Words as they stand in one field of one line

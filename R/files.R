@@ -148,3 +148,17 @@ bytes_hash <- function(bytes) {
   }
   rlang::hash_file(file)
 }
+
+#' A name as a file's name, of its own for each
+#'
+#' It is the name itself, by which [fit_shapes()] finds the table of a scan, but for signs that a
+#' disk does not take or that lead out of the folder: these are as in addresses.
+#' @noRd
+file_word <- function(name) {
+  letters <- strsplit(enc2utf8(name), "")[[1]]
+  odd <- grepl("[%<>:\"/\\\\|?*\001-\037]", letters)
+  ends <- unique(c(1, length(letters)))
+  odd[ends] <- odd[ends] | letters[ends] %in% c(".", " ")
+  letters[which(odd)] <- sprintf("%%%02X", vapply(letters[which(odd)], utf8ToInt, 0L))
+  paste(letters, collapse = "")
+}

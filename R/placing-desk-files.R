@@ -12,20 +12,6 @@ desk_paths <- function(dir, observer, id) {
        table = file.path(own, paste0(file_word(id), ".csv")))
 }
 
-#' A name as a file's name, of its own for each
-#'
-#' It is the name itself, by which [fit_shapes()] finds the table of a scan, but for signs that a
-#' disk does not take or that lead out of the folder: these are as in addresses.
-#' @noRd
-file_word <- function(name) {
-  letters <- strsplit(enc2utf8(name), "")[[1]]
-  odd <- grepl("[%<>:\"/\\\\|?*\001-\037]", letters)
-  ends <- unique(c(1, length(letters)))
-  odd[ends] <- odd[ends] | letters[ends] %in% c(".", " ")
-  letters[which(odd)] <- sprintf("%%%02X", vapply(letters[which(odd)], utf8ToInt, 0L))
-  paste(letters, collapse = "")
-}
-
 #' Numbers as text that reads back to the same
 #' @noRd
 exact_text <- function(x) ifelse(is.na(x), NA_character_, sprintf("%.17g", x))

@@ -7,7 +7,7 @@ test_that("Morphologika's blocks have names, groups, points and the lines of cur
   x <- two_arcs()
   file <- tempfile(fileext = ".txt")
   on.exit(unlink(file))
-  expect_identical(write_morphologika(x, file, group = c("u", "v", "u")), file)
+  expect_identical(write_morphologika(x, file, "curves", c("u", "v", "u")), file)
   lines <- readLines(file)
   block <- function(name) {
     from <- match(sprintf("[%s]", name), lines)
@@ -25,6 +25,17 @@ test_that("Morphologika's blocks have names, groups, points and the lines of cur
   expect_equal(as.numeric(strsplit(points[8], " ")[[1]]), unname(x[2, , 2]))
   skip_if_not_installed("geomorph")
   expect_equal(unname(geomorph::read.morphologika(file)$coords), unname(x), ignore_attr = TRUE)
+})
+
+test_that("only curves have lines: landmarks that are named by numbers have none", {
+  x <- two_arcs()
+  rownames(x) <- paste("LM", 1:4)
+  file <- tempfile(fileext = ".txt")
+  on.exit(unlink(file))
+  for (one in list(x, suppressWarnings(align(x, "landmarks")))) {
+    expect_false("[wireframe]" %in% readLines(write_morphologika(one, file)))
+  }
+  expect_true("[wireframe]" %in% readLines(write_morphologika(x, file, "curves")))
 })
 
 test_that("MorphoJ's table has a row a specimen, and groups a table of their own", {
