@@ -71,6 +71,7 @@ exchanged <- function(x, level, group) {
   coords <- if (inherits(x, "shape_sample")) as.array(x, level) else
     if (inherits(x, "aligned")) as.array(x) else x
   check_array(coords, "x")
+  if (is.array(x)) level <- check_choice(level, sample_levels, "level")
   id <- dimnames(coords)[[3]]
   if (is.null(id)) id <- paste0("s", seq_len(dim(coords)[3]))
   missing <- which(is.na(coords), arr.ind = TRUE)

@@ -55,7 +55,7 @@ principal_pair <- function(x, k2) {
 }
 
 # Koenderink and van Doorn (1992), their figure of the scale: from cup to cap in steps of 1/4.
-shape_scale <- function(palette = "paper") {
+shape_scale <- function(palette = "safe") {
   data.frame(
     category = c("spherical cup", "trough", "rut", "saddle rut", "saddle", "saddle ridge", "ridge",
                  "dome", "spherical cap"),
@@ -77,12 +77,12 @@ shape_palettes <- list(
 #' A palette of the shape index: a name, or colours
 #' @noRd
 check_shape_palette <- function(palette) {
-  if (is.null(palette)) palette <- getOption("crestline.palette", "paper")
+  if (is.null(palette)) palette <- getOption("crestline.palette", "safe")
   if (is.character(palette) && length(palette) == 1) {
     return(check_choice(palette, names(shape_palettes), "palette"))
   }
   if (length(palette) < 2) {
-    refuse_argument("palette", palette, "Give \"paper\", \"safe\", or two colours or more.")
+    refuse_argument("palette", palette, "Give \"safe\", \"paper\", or two colours or more.")
   }
   check_colour(palette, "palette")
 }
@@ -90,16 +90,16 @@ check_shape_palette <- function(palette) {
 #' Names and colours of shapes
 #'
 #' Koenderink and van Doorn divide the shape index into nine named categories, centred at -1, -0.75,
-#' ..., 1. Each is 1/4 wide; the two at the ends are half as wide. Their colours are: cup green,
-#' trough cyan, rut blue, saddle rut pale blue, saddle white, saddle ridge pale yellow, ridge
-#' yellow, dome orange, cap red. They are those of the paper. The palette "safe" goes from dark blue
-#' over white to dark brown. Any two of its nine colours can be told apart by eyes without red or
-#' green cones.
+#' ..., 1. Each is 1/4 wide; the two at the ends are half as wide. Their colours are those of the
+#' palette "safe": valleys are blue, darker towards the cup, saddles are white, and ridges are
+#' yellow, darker towards the cap. Any two of the nine can be told apart by eyes without red or
+#' green cones. The palette "paper" has the colours of the paper: cup green, trough cyan, rut blue,
+#' saddle rut pale blue, saddle white, saddle ridge pale yellow, ridge yellow, dome orange, cap red.
 #'
 #' @param index Numeric vector of shape indices, in \[-1, 1\] or NA.
 #' @param missing Colour for an index that is NA.
-#' @param palette "paper", "safe", or two or more colours from cup to cap, evenly spaced. NULL: that
-#'   of `options(crestline.palette = )`, "paper" if it is not set.
+#' @param palette "safe", "paper", or two or more colours from cup to cap, evenly spaced. NULL: that
+#'   of `options(crestline.palette = )`, "safe" if it is not set.
 #' @return `shape_category()`: a factor with nine levels, from "spherical cup" to "spherical cap",
 #'   one value for each index. A value on a limit belongs to the category above it.
 #'   `shape_colours()`: colours `#RRGGBB`, one for each index. The centre of a category has its

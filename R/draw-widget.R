@@ -10,6 +10,7 @@
 #'   scene only (quadric edge collapse), and the page says so.
 #' @param balls Greatest number of points of a layer that are drawn as balls. More points are round
 #'   dots.
+#' @param points Greatest number of points of the specimens of an alignment, see [plot.aligned()].
 #' @param zoom As in [rgl::par3d()]: smaller values show the object larger.
 #' @param alpha Opacity of the surface, 0 to 1.
 #' @return A list of these settings.
@@ -18,10 +19,10 @@
 #' @examples
 #' str(widget_settings(zoom = 0.6))
 #' @export
-widget_settings <- function(size = c(900, 700), triangles = 50000, balls = 200, zoom = 0.75,
-                            alpha = 1) {
+widget_settings <- function(size = c(900, 700), triangles = 50000, balls = 200, points = 50000,
+                            zoom = 0.75, alpha = 1) {
   list(size = check_size(size), triangles = check_count(triangles, "triangles"),
-       balls = check_count(balls, "balls", lower = 0),
+       balls = check_count(balls, "balls", lower = 0), points = check_count(points, "points"),
        zoom = check_number(zoom, "zoom", 0, open = TRUE),
        alpha = check_number(alpha, "alpha", 0, 1))
 }

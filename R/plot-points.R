@@ -67,14 +67,41 @@ configurations_scene <- function(shapes, level, colour, view, legend, title, ...
   scene <- configuration_scene(shapes, view, list(...))
   colour <- rep_len(colour, length(shapes))
   for (i in seq_along(shapes)) {
-    in_layer(scene, names(shapes)[i])
-    xyz <- with_depth(shapes[[i]])
-    rows <- curve_rows(rownames(xyz), level)
-    for (own in rows) draw_lines(scene, xyz[own, , drop = FALSE], colour[i], 2)
-    draw_points(scene, xyz, colour[i], if (length(rows)) 0.5 else 1,
-                name = if (!is.null(rownames(xyz))) paste0(rownames(xyz), ", ", names(shapes)[i]))
+    add_configuration(in_layer(scene, names(shapes)[i]), shapes[[i]], level, colour[i])
   }
   if (legend) draw_key(scene, stats::setNames(colour, names(shapes)))
+  draw_title(scene, title)
+}
+
+#' One configuration in the layer of a scene, named by both
+#' @noRd
+add_configuration <- function(scene, xyz, level, colour, width = 2) {
+  xyz <- with_depth(xyz)
+  rows <- curve_rows(rownames(xyz), level)
+  for (own in rows) draw_lines(scene, xyz[own, , drop = FALSE], colour, width)
+  draw_points(scene, xyz, colour, if (length(rows)) 0.5 else 1,
+              name = if (!is.null(rownames(xyz))) paste0(rownames(xyz), ", ", scene$drawn$layer))
+}
+
+#' An alignment as such a scene: all specimens as dots, the mean and the farthest by name
+#'
+#' @param far Numbers of the farthest specimens; `words`: what the legend says of them.
+#' @noRd
+alignment_scene <- function(x, far, words, colour, view, legend, title) {
+  shapes <- lapply(as.list(x), with_depth)
+  scene <- configuration_scene(shapes, view, list())
+  most <- max(1, scene$drawn$settings$points %/% nrow(x$mean))
+  some <- unique(round(seq(1, length(x), length.out = min(most, length(x)))))
+  if (length(some) < length(x)) {
+    add_to(scene, "notes", sprintf("Shown are %d of the %d specimens, and the farthest.",
+                                   length(some), length(x)))
+  }
+  draw_points(in_layer(scene, "specimens"), unname(do.call(rbind, shapes[some])), "grey60", 0.35)
+  add_configuration(in_layer(scene, "mean"), x$mean, x$level, "black")
+  for (i in seq_along(far)) {
+    add_configuration(in_layer(scene, names(x)[far[i]]), shapes[[far[i]]], x$level, colour[i], 1.5)
+  }
+  if (legend) draw_key(scene, stats::setNames(c("black", colour), c("mean", words)))
   draw_title(scene, title)
 }
 
@@ -90,35 +117,43 @@ configurations_scene <- function(shapes, level, colour, view, legend, title, ...
 #' @param legend Whether to draw the legend: ids and Procrustes distances from the mean (without
 #'   unit; with `scale = FALSE` in the unit of the meshes).
 #' @param main Title. `NULL`: the number of specimens and the level.
+#' @param engine "widget" for a scene that turns in the browser, "picture" for base graphics. See
+#'   [draw_surface()]. "rgl" draws as "picture".
 #' @param ... For a `shape_sample`: arguments of [align()]. Otherwise ignored.
 #' @return Invisibly: data frame of the named specimens, the farthest first, with the columns of
-#'   `as.data.frame()` (see [align()]).
+#'   `as.data.frame()` (see [align()]). With `engine = "widget"` the scene. Of many specimens the
+#'   scene shows some as dots, see `points` of [widget_settings()], and the page says so.
 #' @section Errors: of class `crestline_error`: `x` is not an `aligned`, or `most` is not a number
 #'   of specimens.
 #' @template glossary
 #' @seealso [align()]
 #' @examples
 #' shapes <- array(rep(c(0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), 10), c(4, 3, 10))
-#' plot(align(shapes + rnorm(120, sd = 0.05)))
+#' plot(align(shapes + rnorm(120, sd = 0.05)), engine = "picture")
 #' @export
 plot.aligned <- function(x, most = 3, colour = grDevices::hcl.colors(most, "Dark 3"),
-                         view = "front", legend = TRUE, main = NULL, ...) {
+                         view = "front", legend = TRUE, main = NULL, engine = drawing_engine(),
+                         ...) {
   check_method_dots(...)
   validate(x)
+  engine <- check_engine(engine)
   most <- min(check_count(most, "most"), length(x))
   colour <- rep_len(check_colour(colour, "colour"), most)
   check_flags(legend)
   main <- check_text(main, "main", null = TRUE)
   table <- as.data.frame(x)
   far <- order(table$distance, decreasing = TRUE)[seq_len(most)]
-  shapes <- lapply(seq_len(dim(x$coords)[3]), function(i) {
-    matrix(x$coords[, , i], nrow(x$mean), dimnames = dimnames(x$mean))
-  })
-  seen <- seen_configurations(c(shapes, list(x$mean)), posed_view(view, x$mean))
+  words <- sprintf("%s (%.3g)", table$id[far], table$distance[far])
+  title <- sprintf("%s over their mean (%s), the farthest named", amount(length(x), "specimen"),
+                   x$level)
+  if (!is.null(main)) title <- main
+  view <- posed_view(view, x$mean)
+  if (engine == "widget") return(alignment_scene(x, far, words, colour, view, legend, title))
+  seen <- seen_configurations(c(unname(as.list(x)), list(x$mean)), view)
   old <- configuration_window(seen)
   on.exit(graphics::par(old))
   rows <- curve_rows(rownames(x$mean), x$level)
-  for (xy in seen[seq_along(shapes)]) {
+  for (xy in seen[seq_along(x)]) {
     graphics::points(xy[, 1:2], pch = 16, cex = 0.35, col = "#80808080")
   }
   draw_configuration(seen[[length(seen)]], rows, "black", if (length(rows)) 0.3 else 0.7, 1.2)
@@ -126,13 +161,10 @@ plot.aligned <- function(x, most = 3, colour = grDevices::hcl.colors(most, "Dark
     draw_configuration(seen[[far[i]]], rows, colour[i], 0.55, 1)
   }
   if (legend) {
-    words <- sprintf("%s (%.3g)", table$id[far], table$distance[far])
     graphics::legend("bottomleft", c("mean", words), pch = 16, col = c("black", colour), bty = "n",
                      cex = 0.8)
   }
-  title <- sprintf("%s over their mean (%s), the farthest named", amount(length(x), "specimen"),
-                   x$level)
-  graphics::title(if (is.null(main)) title else main, font.main = 1, cex.main = 0.9)
+  graphics::title(title, font.main = 1, cex.main = 0.9)
   invisible(table[far, ])
 }
 
@@ -140,7 +172,7 @@ plot.aligned <- function(x, most = 3, colour = grDevices::hcl.colors(most, "Dark
 #' @export
 plot.shape_sample <- function(x, level = "curves", most = 3,
                               colour = grDevices::hcl.colors(most, "Dark 3"), view = "front",
-                              legend = TRUE, main = NULL, ...) {
+                              legend = TRUE, main = NULL, engine = drawing_engine(), ...) {
   check_class(x, "shape_sample", "x", "homologise()")
-  plot.aligned(align(x, level, ...), most, colour, view, legend, main)
+  plot.aligned(align(x, level, ...), most, colour, view, legend, main, engine)
 }

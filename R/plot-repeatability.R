@@ -5,15 +5,19 @@
 #' Draws two panels. The left panel has the error of each part, in the unit of the mesh. The
 #' standard deviation between specimens is behind it (grey), and the intra-class correlation beside
 #' it. The right panel has the mean points, coloured by their error. For one specimen only the error
-#' is drawn.
+#' is drawn. With `engine = "widget"` the mean points turn in the browser, and the left panel is not
+#' drawn.
 #'
 #' @param x A `repeatability`, as [repeatability()] returns it.
 #' @param view Direction of view of the right panel, as in [draw_surface()].
 #' @param most Greatest number of parts in the left panel; those of the greatest error are shown.
 #' @param palette Colours from no error to the greatest.
 #' @param size Diameter of the points, as `cex` of [graphics::par()].
-#' @param ... Passed to [graphics::plot.default()] of the left panel.
-#' @return `x`, invisibly.
+#' @param engine "picture" for base graphics, "widget" for a scene of the mean points. See
+#'   [draw_surface()]. "rgl" draws as "picture".
+#' @param ... Passed to [graphics::plot.default()] of the left panel, or with "widget" to
+#'   [widget_settings()].
+#' @return `x`, invisibly; with the engine "widget" the scene.
 #' @template glossary
 #' @seealso [repeatability()]
 #' @examples
@@ -26,8 +30,9 @@
 #' @export
 plot.repeatability <- function(x, view = "front", most = 40,
                                palette = grDevices::hcl.colors(64, "YlOrRd", rev = TRUE)[10:64],
-                               size = 0.9, ...) {
+                               size = 0.9, engine = "picture", ...) {
   check_most(most)
+  if (check_engine(engine) == "widget") return(repeatability_scene(x, view, palette, size, ...))
   old <- graphics::par("mar", "mgp", "las")
   on.exit({
     graphics::layout(1)
@@ -51,6 +56,20 @@ plot.repeatability <- function(x, view = "front", most = 40,
   colour_bar(palette, c(0, 0.5, 1), signif(c(0, 0.5, 1) * max(x$points$error), 2),
              title = "unit of the meshes")
   invisible(x)
+}
+
+#' The mean points as a scene, coloured by error
+#' @noRd
+repeatability_scene <- function(x, view, palette, size, ...) {
+  at <- as.matrix(x$points[c("x", "y", "z")])
+  rownames(at) <- x$points$point
+  scene <- configuration_scene(list(at), posed_view(view, at), list(...))
+  for (own in split(seq_len(nrow(at)), factor(x$points$part, unique(x$points$part)))) {
+    draw_lines(scene, at[own, , drop = FALSE], "grey70", 2)
+  }
+  draw_points(scene, at, error_colours(x$points$error, x, palette), size,
+              name = sprintf("%s: %.3g", x$points$point, x$points$error))
+  map_legend(scene, palette, c(0, max(x$points$error)), "unit of the meshes")
 }
 
 #' Error by part as dots, specimens' standard deviation as a bar behind

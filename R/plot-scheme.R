@@ -10,7 +10,7 @@
 #' @param surface Quantity that the colours of the surface show, as `colour` of [plot.specimen()].
 #' @param ... Arguments of [plot.specimen()], such as `view`, `engine` and `legend`, and of
 #'   [draw_surface()].
-#' @return The scene of [draw_surface()], invisibly.
+#' @return The scene of [draw_surface()]; invisibly, if it is not a widget.
 #' @section Errors: of class `crestline_wrong_mesh`: the suggestions belong to another mesh.
 #' @template glossary
 #' @examples
@@ -31,7 +31,7 @@ plot.suggested_landmarks <- function(x, mesh, surface = "shape index", ...) {
     own <- as.data.frame(x)[x$kind == kind, ]
     scene <- draw_points(scene, own, colour[[kind]], halo = "white", labels = own$landmark)
   }
-  invisible(scene)
+  shown(scene)
 }
 
 #' Plot the rows of a scheme that was checked
@@ -43,8 +43,11 @@ plot.suggested_landmarks <- function(x, mesh, surface = "shape index", ...) {
 #' @param parts Names of the curves and patches that are drawn. NULL: all.
 #' @param columns Number of pictures in a row. NULL: as many as rows, about.
 #' @param margin As of [picture_settings()].
-#' @param ... Arguments of [draw_surface()] for the engine "picture", such as `view`.
-#' @return `x`, invisibly.
+#' @param engine "picture": a picture of every part. "widget": one scene that turns in the browser,
+#'   with a tick for every part, in the colour of its grade. See [draw_surface()]. "rgl" draws as
+#'   "picture".
+#' @param ... Arguments of [draw_surface()], such as `view`.
+#' @return `x`, invisibly; with the engine "widget" the scene.
 #' @section Errors: of class `crestline_error`: there is no part of a name.
 #' @template glossary
 #' @examples
@@ -56,11 +59,14 @@ plot.suggested_landmarks <- function(x, mesh, surface = "shape index", ...) {
 #' plot(checked, parts = checked$part[1:4])
 #' }
 #' @export
-plot.scheme_check <- function(x, parts = NULL, columns = NULL, margin = 0.3, ...) {
+plot.scheme_check <- function(x, parts = NULL, columns = NULL, margin = 0.3, engine = "picture",
+                              ...) {
   check_class(x, "scheme_check", "x", "check_scheme()")
+  engine <- check_engine(engine)
   if (is.null(parts)) parts <- unique(x$part)
   parts <- check_choices(parts, unique(x$part), "parts")
   rows <- which(x$part %in% parts)
+  if (engine == "widget") return(scheme_scene(x[rows, ], attr(x, "shape"), ...))
   if (is.null(columns)) columns <- ceiling(sqrt(length(rows)))
   columns <- check_count(columns, "columns")
   old <- graphics::par(mfrow = c(ceiling(length(rows) / columns), columns),
@@ -68,6 +74,24 @@ plot.scheme_check <- function(x, parts = NULL, columns = NULL, margin = 0.3, ...
   on.exit(graphics::par(old))
   for (i in rows) draw_scheme_row(x[i, ], attr(x, "shape"), margin, ...)
   invisible(x)
+}
+
+#' All rows as one scene, each a layer
+#' @noRd
+scheme_scene <- function(rows, shape, ..., view = "front") {
+  marks <- shape$specimen$landmarks
+  scene <- draw_surface(shape$specimen, "#E3CDB8", posed_view(view, marks), "widget", ...)
+  draw_landmarks(scene, marks, FALSE)
+  for (i in seq_len(nrow(rows))) {
+    in_layer(scene, rows$part[i])
+    colour <- grade_colours[[as.character(rows$grade[i])]]
+    path <- if (rows$level[i] == "curves") shape$paths[[rows$part[i]]]
+    if (!is.null(path)) draw_lines(scene, path, colour, 3, name = rows$part[i])
+    own <- shape$points[shape$points$level == rows$level[i] & shape$points$part == rows$part[i] &
+                          !is.na(shape$points$x), ]
+    if (nrow(own)) draw_points(scene, own, colour, 0.5, name = paste(own$part, own$point))
+  }
+  draw_key(scene, grade_colours[names(grade_colours) %in% rows$grade])
 }
 
 #' One row of a scheme: the surface about it, and what was found

@@ -2,6 +2,7 @@
 # display, and how far colours are apart for three kinds of vision.
 #   Rscript bench/pages.R time FOLDER     a face's page in headless Chromium (needs chromote)
 #   Rscript bench/pages.R engines         every example of pictures, with "widget" and "picture"
+#   Rscript bench/pages.R vignettes [NAME ...]   every vignette of pictures, likewise (needs pandoc)
 #   Rscript bench/pages.R colours         least CIE 1976 distance of any two colours
 suppressPackageStartupMessages(library(crestline))
 options(rgl.useNULL = TRUE)
@@ -67,6 +68,35 @@ run_examples <- function() {
   }
 }
 
+# The vignettes that draw, rendered in R processes without a display, all pictures by one engine.
+render_vignettes <- function(names, engines = c("widget", "picture")) {
+  stopifnot(!nzchar(Sys.getenv("DISPLAY")), !nzchar(Sys.which("Xvfb")))
+  files <- list.files("vignettes", "[.]Rmd$", full.names = TRUE)
+  if (length(names)) files <- file.path("vignettes", paste0(names, ".Rmd"))
+  for (file in files) for (engine in engines) {
+    lines <- readLines(file, encoding = "UTF-8")
+    if (!any(grepl("engine = \"|plot\\(|write_page\\(|draw_surface\\(", lines))) next
+    folder <- tempfile("vignette")
+    dir.create(folder)
+    file.copy(list.files("vignettes", full.names = TRUE), folder)
+    lines <- gsub("engine = \"(picture|rgl)\"", sprintf("engine = \"%s\"", engine), lines)
+    writeLines(enc2utf8(lines), file.path(folder, basename(file)), useBytes = TRUE)
+    code <- sprintf(paste("options(crestline.engine = '%s'); setwd('%s');",
+                          "rmarkdown::render('%s', quiet = TRUE)"), engine, folder, basename(file))
+    said <- suppressWarnings(system2(file.path(R.home("bin"), "Rscript"),
+                                     c("-e", shQuote(code)), stdout = TRUE, stderr = TRUE))
+    made <- file.path(folder, sub("Rmd$", "html", basename(file)))
+    html <- if (file.exists(made)) paste(readLines(made, warn = FALSE), collapse = "\n") else ""
+    count <- function(pattern) lengths(regmatches(html, gregexpr(pattern, html)))
+    cat(sprintf("%-8s %-22s %s, %d scenes, %d pictures%s\n", engine, basename(file),
+                if (is.null(attr(said, "status"))) "ok" else "FAILED",
+                count("class=\"crestline-scene\""), count("<img "),
+                if (any(grepl("X11|unable to open", said))) ", asks for X11" else ""))
+    if (!is.null(attr(said, "status"))) cat(utils::tail(said, 6), sep = "\n")
+    unlink(folder, recursive = TRUE)
+  }
+}
+
 # As in tests/testthat/test-plot-grades.R.
 least_difference <- function(colours) {
   vision <- list(
@@ -87,15 +117,15 @@ least_difference <- function(colours) {
 
 print_colours <- function() {
   ours <- asNamespace("crestline")
-  sets <- list("shape index, paper" = ours$shape_palettes$paper,
-               "shape index, safe" = ours$shape_palettes$safe, "kinds of curve" = ours$kind_colours,
+  sets <- list("shape index" = ours$shape_scale(ours$check_shape_palette(NULL))$colour,
+               "shape index, paper" = ours$shape_palettes$paper, "kinds of curve" = ours$kind_colours,
                grades = ours$grade_colours, "states of landmarks" = ours$review_colours()$state,
-               "two groups" = c("#2F7FD1", "#E0553F"))
+               "two groups" = eval(formals(ours$plot.group_comparison)$colour))
   print(round(t(vapply(sets, least_difference, numeric(3)))))
 }
 
 arguments <- commandArgs(trailingOnly = TRUE)
 switch(c(arguments, "")[1],
        time = measure_time(c(arguments[-1], tempfile())[1]),
-       engines = run_examples(), colours = print_colours(),
-       stop("say time, engines or colours"))
+       engines = run_examples(), vignettes = render_vignettes(arguments[-1]), colours = print_colours(),
+       stop("say time, engines, vignettes or colours"))

@@ -106,6 +106,10 @@ test_that("of one specimen there is the error alone: that among observers", {
   expect_output(print(alone), "10 measurements of 1 specimen")
   expect_gt(sum(drawn_pixels(plot(alone), 600, 400)[, 1:300, 1] -
                 drawn_pixels(plot(alone), 600, 400)[, 1:300, 3] > 0.3), 50)
+  turning <- plot(alone, engine = "widget")
+  expect_equal(unname(turning$drawn$points[[1]]$xyz), as.matrix(alone$points[c("x", "y", "z")]),
+               ignore_attr = TRUE)
+  expect_length(turning$drawn$lines, 2)
   # The frame is the one of the specimen: as they lie.
   expect_equal(repeatability(coords, rep("only", 10))$parts$error, alone$parts$error)
   observer <- rep(1:5, 2)

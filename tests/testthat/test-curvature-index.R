@@ -43,18 +43,19 @@ test_that("categories are a quarter wide, half of that at the ends", {
 
 test_that("colours are the categories' own at their centres", {
   expect_equal(shape_colours(c(-1, -0.5, 0, 0.5, 1)),
-               c("#00C800", "#3C50FF", "#FFFFFF", "#FFE600", "#E60000"))
+               c("#00153F", "#3E7BFF", "#FFFFFF", "#E8B400", "#4A1F00"))
   expect_equal(shape_colours(c(NA, 0), missing = "#123456"), c("#123456", "#FFFFFF"))
-  expect_equal(shape_colours(0.125), "#FFFBD3")
+  expect_equal(shape_colours(0.125), "#FFF6C5")
 })
 
 test_that("other palettes are a name, colours, or the option's", {
-  expect_equal(shape_colours(c(-1, 0, 1), palette = "safe"), c("#00153F", "#FFFFFF", "#4A1F00"))
+  expect_equal(shape_colours(c(-1, -0.5, 0, 0.5, 1), palette = "paper"),
+               c("#00C800", "#3C50FF", "#FFFFFF", "#FFE600", "#E60000"))
   expect_equal(shape_colours(c(-1, 0, 1), palette = c("black", "white")),
                c("#000000", "#7F7F7F", "#FFFFFF"))
-  old <- options(crestline.palette = "safe")
+  old <- options(crestline.palette = "paper")
   on.exit(options(old))
-  expect_equal(shape_colours(-1), "#00153F")
+  expect_equal(shape_colours(-1), "#00C800")
   expect_crestline_error(shape_colours(0, palette = "loud"), c("`palette`", "safe"))
   expect_crestline_error(shape_colours(0, palette = 1), "`palette`")
 })

@@ -58,7 +58,8 @@ test_that("kinds, grades and states stay apart for eyes without red or green con
   # Black and white are 100 apart in lightness.
   expect_equal(unname(least_difference(c("black", "white"))), rep(100, 3), tolerance = 1e-3)
   for (colours in list(kind_colours, grade_colours, unlist(review_colours()$state),
-                       shape_scale("safe")$colour)) {
+                       shape_scale(check_shape_palette(NULL))$colour,
+                       eval(formals(plot.group_comparison)$colour))) {
     expect_gt(min(least_difference(colours)), 25)
   }
 })
