@@ -227,12 +227,18 @@ drawn_points <- function(review) {
   scan <- if (length(lines)) drawing_scan(review)
   stats::setNames(lapply(names(lines), function(name) {
     at <- spaced_points(scan, lines[[name]]$path, curve_row(review, name)$n)
-    own <- review$log[review$log$part == name, ]
-    last <- utils::tail(own, 1)
-    how <- paste0("drawn by hand", if (lines[[name]]$snapped) ", snapped",
-                  if (nrow(last)) sprintf(" (%s%s)", if (nzchar(last$by)) paste0(last$by, ", ")
-                                          else "", last$time))
     structure(unname(columns_of(at, c("x", "y", "z"))), dimnames = list(NULL, c("x", "y", "z")),
-              closed = is_closed(lines[[name]]$path), drawn = how)
+              closed = is_closed(lines[[name]]$path),
+              drawn = drawn_words(name, lines[[name]]$snapped, review$log))
   }), names(lines))
+}
+
+#' How a curve was drawn, with observer and time of the last step
+#' @param steps As of [no_steps()].
+#' @noRd
+drawn_words <- function(name, snapped, steps) {
+  last <- utils::tail(steps[steps$part == name & steps$level == "curves", ], 1)
+  paste0("drawn by hand", if (snapped) ", snapped", if (nrow(last)) {
+    sprintf(" (%s%s)", if (nzchar(last$by)) paste0(last$by, ", ") else "", last$time)
+  })
 }

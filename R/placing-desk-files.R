@@ -36,9 +36,8 @@ keep_review <- function(review, dir) {
                  landmarks = marks, curves = curves, steps = review$log)
   put_file(jsonlite::toJSON(record, auto_unbox = TRUE, dataframe = "rows", na = "null",
                             pretty = TRUE), paths$record)
-  there <- specimen$landmarks[!is.na(specimen$landmarks[, 1]), , drop = FALSE]
   part <- paste0(paths$table, ".part.csv")
-  write_landmarks(there, part, curves = drawn_points(review))
+  write_landmarks(located_landmarks(specimen), part, curves = drawn_points(review))
   put_in_place(part, paths$table)
   invisible(paths$record)
 }
@@ -112,6 +111,12 @@ check_record <- function(record, review, path) {
   }
 }
 
+#' The landmarks of a specimen that are somewhere
+#' @noRd
+located_landmarks <- function(specimen) {
+  specimen$landmarks[!is.na(specimen$landmarks[, 1]), , drop = FALSE]
+}
+
 #' A review that goes on where its record ended
 #' @noRd
 resumed_review <- function(review, path) {
@@ -119,7 +124,11 @@ resumed_review <- function(review, path) {
   record <- read_record(path)
   check_record(record, review, path)
   marks <- record$landmarks
-  for (i in which(!is.na(marks$x))) {
+  touched <- marks$landmark %in% record$steps$part[record$steps$level == "landmarks"]
+  # What nobody has touched is where the specimen has it now, if it has it: it may be found anew
+  there <- marks$landmark %in% rownames(located_landmarks(review$specimen))
+  laid <- touched | !there
+  for (i in which(laid & !is.na(marks$x))) {
     point <- surface_points(review$specimen$mesh, as.matrix(marks[i, c("x", "y", "z")]))
     at <- unlist(marks[i, c("x", "y", "z")])
     point[c("x", "y", "z")] <- as.list(at)
@@ -127,10 +136,10 @@ resumed_review <- function(review, path) {
       review$specimen <- move_landmark(review$specimen, marks$landmark[i], point)
     }
   }
-  gone <- marks$landmark[is.na(marks$x) & marks$state == "absent"]
+  gone <- marks$landmark[touched & is.na(marks$x) & marks$state == "absent"]
   for (name in gone) review$specimen <- move_landmark(review$specimen, name, NULL)
   # What was still missing then may have been found since
-  told <- marks$state != "missing" | !marks$landmark %in% names(review$state)
+  told <- laid & (marks$state != "missing" | !marks$landmark %in% names(review$state))
   review$state[marks$landmark[told]] <- marks$state[told]
   review$about <- with_new_marks(review$about, marks$landmark)
   if (!is.null(review$fitting)) review$fitting <- at_landmarks(review$fitting, review$specimen)
@@ -186,4 +195,53 @@ desk_records <- function(dir, observer = NULL) {
   records <- lapply(files, read_record)
   if (is.null(observer)) return(records)
   Filter(function(record) record$observer %in% observer, records)
+}
+
+#' The curves of a record, whose points are in the table beside it
+#'
+#' @param table As of [desk_paths()].
+#' @return As of [drawn_points()].
+#' @noRd
+recorded_curves <- function(record, table) {
+  names <- vapply(record$curves, `[[`, "", "curve")
+  found <- if (length(names) && file.exists(table)) attr(read_landmarks(table), "curves")
+  # A line of one point only is no curve yet
+  whole <- vapply(record$curves, function(line) nrow(line$knots) > 1, NA)
+  if (length(names) && !file.exists(table) || !all(names[whole] %in% names(found))) {
+    crestline_abort(sprintf("the table of its curves is not there, or not whole: %s.", table),
+                    "Put it back, or open the specimen with digitise() and make a step.",
+                    stage = "desk", id = record$specimen, class = "crestline_desk_error",
+                    call = NULL)
+  }
+  for (line in record$curves[names %in% names(found)]) {
+    attr(found[[line$curve]], "drawn") <- drawn_words(line$curve, line$snapped, record$steps)
+  }
+  found
+}
+
+#' The record beside a table of a desk; "" if there is none
+#' @noRd
+record_beside <- function(table) {
+  name <- sub("[.]csv$", ".json", basename(table))
+  path <- file.path(dirname(table), "records", name)
+  if (grepl("[.]csv$", table) && file.exists(path)) path else ""
+}
+
+#' A specimen with the curves that were drawn on it at a desk, if its landmarks are a table of one
+#'
+#' @param table Path of the file of its landmarks.
+#' @noRd
+with_desk_curves <- function(specimen, table) {
+  path <- record_beside(table)
+  if (!nzchar(path)) return(specimen)
+  record <- read_record(path)
+  curves <- recorded_curves(record, table)
+  if (!length(curves)) return(specimen)
+  if (identical(record$mesh, specimen_key(specimen))) return(with_fields(specimen, drawn = curves))
+  crestline_warn(
+    sprintf("its curves drawn by hand are left out: they are of another mesh (%s).", path),
+    "Measure the mesh on which they were drawn, without `rescale`.", stage = "desk",
+    id = specimen$id, class = "crestline_desk_warning"
+  )
+  specimen
 }

@@ -5,7 +5,9 @@
 #' Opens the page of [place_landmarks()] for one specimen after the other. You place the landmarks
 #' of a scheme by clicks, and draw its curves by clicks along them. Every step is written to the
 #' folder `dir` at once, with the observer's name and the time. After a closed window the same call
-#' goes on where it ended. A second observer with another name begins without sight of the first.
+#' goes on where it ended: what the observer did is as it was left, and landmarks that nobody has
+#' touched are those of the specimen now. A second observer with another name begins without sight
+#' of the first.
 #'
 #' * *Landmarks*: choose one in the list, and click on the surface. Drag its ball to move it.
 #' * *Curves*: choose one in the list, and click along it. The line runs over the surface from point
@@ -33,11 +35,14 @@
 #' @details The page runs on this computer only. Its address has a random token. R answers only
 #'   requests with this token, and none from pages of another site. The folder has a folder for each
 #'   observer, with a table for each specimen (`id.csv`, see [write_landmarks()]) and the records
-#'   (JSON: states, points of lines, steps).
+#'   (JSON: states, points of lines, steps). [fit_shapes()] takes an observer's folder as its
+#'   `landmarks`, and measures the curves as they were drawn: `fit_shapes(files, landmarks =
+#'   "desk/AB")`.
 #' @return Object of class `digitised`, a list:
 #'   * `marks`: data frame with a row for each point: `specimen`, `observer`, `level` ("landmarks",
 #'     "curves"), `part`, `point`, `x`, `y`, `z` (NA: not placed), `state` ("found", "predicted",
-#'     "given", "placed", "absent", "missing"; of curves "drawn", "snapped");
+#'     "given", "placed", "absent", "missing"; of curves "drawn", "snapped"), `action` and `time`
+#'     (the last step of the part, as in `steps`; NA: nobody has touched it);
 #'   * `steps`: data frame with a row for each step: `specimen`, `observer`, `part`, `level`,
 #'     `action` ("placed", "moved", "confirmed", "absent", "point set", "point moved", "point
 #'     removed", "snapped", "erased"), `time` (UTC);

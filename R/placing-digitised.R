@@ -63,7 +63,8 @@ digitised_from <- function(desk) {
     row <- match(names(review$state), rownames(at))
     digitised_marks(review$specimen$id, review$observer, names(review$state),
                     unname(review$state), at[row, , drop = FALSE], drawn_points(review),
-                    vapply(review$drawn, `[[`, NA, "snapped"))
+                    vapply(review$drawn, `[[`, NA, "snapped")) |>
+      with_last_steps(review$log)
   }))
   steps <- do.call(rbind, lapply(reviews, function(review) {
     steps_of(review$specimen$id, review$observer, review$log)
@@ -93,6 +94,15 @@ digitised_marks <- function(specimen, observer, landmarks, state, at, curves, sn
                    lines))
 }
 
+#' The rows of one specimen with what was done last to each part, and when
+#' @param steps As of [no_steps()].
+#' @noRd
+with_last_steps <- function(marks, steps) {
+  last <- steps[!duplicated(steps[c("level", "part")], fromLast = TRUE), ]
+  row <- match(paste(marks$level, marks$part), paste(last$level, last$part))
+  cbind(marks, last[row, c("action", "time")], row.names = NULL)
+}
+
 steps_of <- function(specimen, observer, steps) {
   data.frame(specimen = rep(specimen, nrow(steps)), observer = rep(observer, nrow(steps)),
              steps[c("part", "level", "action", "time")])
@@ -100,18 +110,12 @@ steps_of <- function(specimen, observer, steps) {
 
 record_marks <- function(record, dir) {
   marks <- record$landmarks
-  table <- desk_paths(dir, record$observer, record$specimen)$table
-  if (length(record$curves) && !file.exists(table)) {
-    crestline_abort(sprintf("the table of its curves is not there: %s.", table),
-                    "Put it back, or open the specimen with digitise() and make a step.",
-                    stage = "desk", id = record$specimen, class = "crestline_desk_error",
-                    call = NULL)
-  }
-  curves <- if (length(record$curves)) attr(read_landmarks(table), "curves")
+  curves <- recorded_curves(record, desk_paths(dir, record$observer, record$specimen)$table)
   snapped <- stats::setNames(vapply(record$curves, `[[`, NA, "snapped"),
                              vapply(record$curves, `[[`, "", "curve"))
   digitised_marks(record$specimen, record$observer, marks$landmark, marks$state,
-                  as.matrix(marks[c("x", "y", "z")]), curves, snapped)
+                  as.matrix(marks[c("x", "y", "z")]), curves, snapped) |>
+    with_last_steps(record$steps)
 }
 
 record_steps <- function(record) steps_of(record$specimen, record$observer, record$steps)

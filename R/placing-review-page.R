@@ -267,13 +267,19 @@ chosen_html <- function(review) {
   row <- match(name, review$about$landmark)
   tags$div(tags$p(class = "name", tags$b(name), review$about$name[row]),
            tags$p(class = "where", review$about$where[row]),
-           side_line(review, name, "landmarks"), tags$p(left), said, mirrored,
+           side_line(review, name, "landmarks"), record_line(review, name, "landmarks"),
+           tags$p(left), said, mirrored,
            curves_at(review, name))
 }
 
 side_line <- function(review, name, level) {
   words <- side_words(review, name, level)
   if (length(words)) shiny::tags$p(class = "side", words)
+}
+
+record_line <- function(review, name, level) {
+  words <- record_words(review, name, level)
+  if (length(words)) shiny::tags$p(class = "record", words)
 }
 
 #' The curve that is drawn now
@@ -285,7 +291,7 @@ chosen_curve <- function(review) {
   tags$div(
     tags$p(class = "name", tags$b(review$pen), row$kind),
     tags$p(class = "where", sprintf("from %s to %s", row$from, row$to)),
-    side_line(review, review$pen, "curves"),
+    side_line(review, review$pen, "curves"), record_line(review, review$pen, "curves"),
     tags$p(if (is.null(line)) "Click along it: the line follows the surface." else
       line_words(review$pen, line))
   )

@@ -203,8 +203,8 @@ job_specimen <- function(job) {
     return(do.call(read_specimen, c(list(job$mesh, at, job$id), job$reading$specimen)))
   }
   points <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
-  from_files(do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen)),
-             job$mesh, at)
+  one <- do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen))
+  with_desk_curves(from_files(one, job$mesh, at), at)
 }
 
 #' What the answers of a job depend on: its content, not the names of its files
@@ -219,10 +219,12 @@ job_content <- function(job, scheme, settings) {
   tryCatch({
     mesh <- if (is.null(job$specimen)) rlang::hash_file(job$mesh) else job$specimen$key
     input <- if (is.null(job$specimen)) {
-      list(if (is.character(job$landmarks)) rlang::hash_file(job$landmarks) else job$landmarks,
-           file_format(job), job$reading)
+      at <- job$landmarks
+      c(list(if (is.character(at)) rlang::hash_file(at) else at, file_format(job), job$reading),
+        desk_record_hash(at))
     } else {
-      c(unclass(job$specimen)[c("landmarks", "placing", "match")], job$specimen$mesh["material"])
+      c(unclass(job$specimen)[c("landmarks", "placing", "match")], job$specimen$mesh["material"],
+        if (length(job$specimen$drawn)) list(job$specimen$drawn))
     }
     about <- list(mesh, input, unclass(scheme), settings, job$finder$key, answers_version)
     way <- list(unclass(scheme), settings, job$finder$key, job$reading)
@@ -230,6 +232,13 @@ job_content <- function(job, scheme, settings) {
   }, error = function(e) {
     list(mesh = NA_character_, key = NA_character_, setting = NA_character_, words = words)
   })
+}
+
+#' A hash of the record beside a table of a desk; NULL if there is none
+#' @noRd
+desk_record_hash <- function(landmarks) {
+  path <- if (is.character(landmarks)) record_beside(landmarks) else ""
+  if (nzchar(path)) rlang::hash_file(path)
 }
 
 #' How a job is measured, in words

@@ -1,5 +1,6 @@
 # The desk in a browser, with real clicks: three specimens, two curves drawn and snapped, the window
-# closed and resumed, a second observer, and the array for geomorph; at two widths.
+# closed and resumed, a second observer, the records measured by fit_shapes(), and the array for
+# geomorph (kept as array-WIDTH.rds); at two widths.
 #   Rscript bench/desk.R [folder for screenshots] [width ...]
 # Needs the packages shiny and chromote and a Chromium or Chrome (CHROMOTE_CHROME names it); no
 # display, no graphics card.
@@ -65,6 +66,15 @@ place <- function(page, mesh, at, name) {
   until(function() state(page, "landmark", name) == "placed" && !busy(page), name)
 }
 
+# A button that has the focus, and Enter.
+press_focused <- function(page, id) {
+  look(page, sprintf("document.getElementById('%s').focus()", id))
+  page$Input$dispatchKeyEvent(type = "keyDown", key = "Enter", code = "Enter", text = "\r",
+                              windowsVirtualKeyCode = 13, timeout_ = 120)
+  page$Input$dispatchKeyEvent(type = "keyUp", key = "Enter", code = "Enter",
+                              windowsVirtualKeyCode = 13, timeout_ = 120)
+}
+
 # Three clicks beside the line between the lips, then the key of "Snap".
 draw <- function(page, mesh, from, to, name, snap = TRUE) {
   choose(page, "curve", name)
@@ -89,6 +99,15 @@ specimen_by_hand <- function(page, number, off = 0, curves = TRUE) {
   at <- sweep(goal, 2, stretch[[number]], `*`)
   for (name in marks) place(page, mesh, at[name, ] + off * c(1, 0, 0), name)
   if (curves) for (name in names(lips)) draw(page, mesh, at[lips[[name]], ], at["st", ], name)
+}
+
+# geomorph's own alignment of the array, as a share of ours; NA without geomorph.
+superimposed <- function(array) {
+  if (!requireNamespace("geomorph", quietly = TRUE)) return(NA)
+  theirs <- geomorph::gpagen(array, print.progress = FALSE)$coords
+  ours <- as.array(align(array))
+  max(abs(as.matrix(stats::dist(t(apply(theirs, 3, as.vector)))) /
+            as.matrix(stats::dist(t(apply(ours, 3, as.vector)))) - 1), na.rm = TRUE)
 }
 
 session <- function(width, port) {
@@ -127,7 +146,7 @@ session <- function(width, port) {
   until(function() !busy(page) && grepl("moved", look(
     page, "document.querySelector('[data-landmark=ls]').title"
   )), "the drag")
-  key(page, "u")
+  press_focused(page, "undo")
   until(function() !busy(page) && grepl("placed", look(
     page, "document.querySelector('[data-landmark=ls]').title"
   )), "undone")
@@ -165,8 +184,18 @@ session <- function(width, port) {
     drawn <- coords(shape, "curves")
     rows <- startsWith(rownames(drawn), paste0(name, " "))
     path <- as.matrix(as.data.frame(ridge$paths[[name]])[c("x", "y", "z")])
-    max(apply(drawn[rows, ], 1, function(at) min(sqrt(colSums((t(path) - at)^2)))))
+    # To the line, not to its places, which are up to 2.4 mm apart
+    line <- apply(path, 2, function(v) stats::approx(seq_along(v), v, n = 50 * length(v))$y)
+    max(apply(drawn[rows, ], 1, function(at) min(sqrt(colSums((t(line) - at)^2)))))
   }, 0)
+  # The records alone, from files to shapes: curves are those that were drawn
+  scans <- file.path(folder, paste0("scans-", width))
+  dir.create(scans, showWarnings = FALSE)
+  files <- file.path(scans, paste0(names(meshes), ".ply"))
+  for (i in seq_along(files)) write_mesh(meshes[[i]], files[i])
+  measured <- fit_shapes(files, landmarks = file.path(dir, "AB"), found = FALSE)
+  taken <- measured$one$status[match(names(lips), measured$one$status$part), "reason"]
+  saveRDS(array[marks, , ], file.path(folder, sprintf("array-%d.rds", width)))
   print(both)
   data.frame(
     width = width, minutes = minutes, resumed = resumed, kept = kept,
@@ -174,7 +203,9 @@ session <- function(width, port) {
     blind = blind, placed = sum(!is.na(array[marks, 1, ])),
     array = paste(dim(array), collapse = " x "),
     off_goal = max(abs(array[marks, , "one"] - goal[marks, ])),
-    off_ridge = max(off), said = own$reason[1],
+    off_ridge = max(off), said = own$reason[1], from_files = taken[1],
+    same_as_files = max(abs(coords(measured$one, "curves") - coords(shape, "curves")), na.rm = TRUE),
+    gpagen = superimposed(array[marks, , ]),
     observers_apart = mean(sqrt(rowSums((geomorph[, , "one AB"] - geomorph[, , "one CD"])^2))),
     error = max(agreed$parts$error)
   )

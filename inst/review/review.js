@@ -117,6 +117,8 @@
   function send(name, value) { Shiny.setInputValue(name, value, { priority: "event" }); }
 
   document.addEventListener("click", function (event) {
+    // After a click of the mouse keys are those of the page again
+    if (event.detail > 0 && event.target.closest("#buttons button, #turn button")) document.activeElement.blur();
     var row = event.target.closest("[data-landmark], [data-curve]");
     if (!row) return;
     if (row.hasAttribute("data-landmark")) send("select", row.getAttribute("data-landmark"));
@@ -128,6 +130,8 @@
   document.addEventListener("keydown", function (event) {
     var field = event.target.closest("input, select, textarea"), id = keys[event.key.length > 1 ? event.key : event.key.toLowerCase()];
     if (field || event.altKey) return;
+    // A button that has the focus is pressed by Enter itself, and by no other button beside it
+    if (event.key === "Enter" && event.target.closest("button, a, summary")) return;
     if (event.ctrlKey || event.metaKey) id = { z: "undo", y: "redo" }[event.key.toLowerCase()];
     else if (event.key === "ArrowDown" || event.key === "ArrowUp") {
       if (!document.getElementById("redo")) return;

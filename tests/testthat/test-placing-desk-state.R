@@ -82,13 +82,44 @@ test_that("fit_shapes() finds the tables of a desk by the names of the scans", {
                     ridge_settings(error = FALSE), review_settings())
   for (i in 1:2) {
     for (name in c("a", "b", "c", "d")) desk <- place_at(desk, name)
-    if (i == 1) desk <- turn_to(desk, 1)
+    if (i == 1) desk <- turn_to(draw_at(desk, "bottom", c(0, -0.35, 1)), 1)
   }
   # Both scans are the same.
-  expect_warning(shapes <- fit_shapes(files, quad_scheme(), found = FALSE,
-                                      landmarks = file.path(dir, "desk", file_word("A B"))),
-                 class = "crestline_twin")
+  folder <- file.path(dir, "desk", file_word("A B"))
+  fit <- function(dir = NULL) {
+    suppressWarnings(fit_shapes(files, quad_scheme(), dir, found = FALSE, landmarks = folder))
+  }
+  shapes <- fit(file.path(dir, "out"))
   expect_identical(nrow(failures(shapes)), 0L)
+  # The curve that was drawn is measured as it was drawn, as from the desk itself
+  own <- digitised_from(desk)$specimens[[1]]
+  direct <- fit_shape(own, quad_scheme(), progress = FALSE)
+  expect_match(status_of(shapes[[1]], "bottom")$reason, "drawn by hand (A B", fixed = TRUE)
+  expect_equal(shapes[[1]]$points$x, direct$points$x, tolerance = 1e-12)
+  expect_false(any(grepl("by hand", status_of(shapes[[2]], "bottom")$reason)))
+  # A later step is measured anew, not taken from the former results
+  desk <- on_current(turn_to(desk, -1), erase_curve)
+  expect_false(any(grepl("by hand", status_of(fit(file.path(dir, "out"))[[1]], "bottom")$reason)))
+  record <- file.path(folder, "records", "a b.json")
+  on_current(desk, undo_review)
+  writeLines(sub("\"mesh\": \"[^\"]*\"", "\"mesh\": \"other\"", readLines(record)), record)
+  other <- fit()
+  expect_match(paste(other[[1]]$warnings, collapse = " "), "drawn by hand are left out")
+})
+
+test_that("specimens whose drawn curves differ are measured anew", {
+  skip_without_futures()
+  dir <- tempfile("out")
+  on.exit(unlink(dir, recursive = TRUE))
+  desk <- two_balls()
+  for (name in c("a", "b", "c", "d")) desk <- place_at(desk, name)
+  reason <- function(desk) {
+    shapes <- fit_shapes(digitised_from(desk)$specimens, quad_scheme(), dir)
+    status_of(shapes[[1]], "bottom")$reason
+  }
+  plain <- reason(desk)
+  expect_match(reason(draw_at(desk, "bottom", c(0, -0.35, 1))), "drawn by hand")
+  expect_identical(reason(desk), plain)
 })
 
 test_that("a record of another observer or specimen, in a file of the same name, is refused", {
@@ -107,6 +138,24 @@ test_that("landmarks that were missing on the desk and have been found since are
   expect_identical(again$state, c(a = "placed", b = "given", c = "given", d = "given"))
   expect_false(anyNA(again$specimen$landmarks))
   unlink(dir, recursive = TRUE)
+})
+
+test_that("found landmarks of a record give way to those that are found now, touched ones stay", {
+  dir <- tempfile("desk")
+  on.exit(unlink(dir, recursive = TRUE))
+  place_at(two_balls(dir, blank = FALSE), "a")
+  moved <- quad_specimen()
+  moved$landmarks["b", ] <- moved$landmarks["b", ] + c(0, 3, 0)
+  again <- current_review(desk_from(desk_sources(list(one = moved)), quad_scheme(), dir, "AB",
+                                    FALSE, ridge_settings(error = FALSE), review_settings()))
+  expect_identical(again$specimen$landmarks["b", ], moved$landmarks["b", ])
+  expect_identical(again$state, c(a = "placed", b = "given", c = "given", d = "given"))
+  record <- read_record(file.path(dir, "AB", "records", "one.json"))$landmarks
+  expect_equal(unname(again$specimen$landmarks["a", ]), unlist(record[1, c("x", "y", "z")]),
+               ignore_attr = TRUE)
+  # Without any landmark of its own the specimen gets those of the record
+  bare <- current_review(two_balls(dir))
+  expect_false(anyNA(bare$specimen$landmarks))
 })
 
 test_that("a step that cannot be written is said", {
@@ -157,6 +206,10 @@ test_that("two observers make a table, an array for geomorph and repeatability()
   expect_equal(unname(array[c("a", "b", "c", "d"), , "one AB"]), unname(quad_corners()),
                tolerance = 1e-3)
   expect_equal(nrow(as.data.frame(both)), 44)
+  expect_setequal(both$marks$action, c("placed", "point set"))
+  step <- both$steps[both$steps$specimen == "two" & both$steps$part == "c", ]
+  expect_identical(both$marks$time[both$marks$specimen == "two" & both$marks$part == "c"],
+                   step$time)
   expect_equal(table(both$steps$action)[["placed"]], 16)
   who <- unique(both$marks[c("specimen", "observer")])
   of <- function(column) stats::setNames(who[[column]], paste(who$specimen, who$observer))
