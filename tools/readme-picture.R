@@ -25,7 +25,7 @@ upright_view <- function(landmarks, round) {
 draw_readme <- function(file, radius = 7) {
   face <- read_face()
   shape <- fit_shape(face, face_scheme(), progress = FALSE)
-  grDevices::jpeg(file, width = 1100, height = 520, res = 80, quality = 85, type = "cairo")
+  grDevices::jpeg(file, width = 902, height = 426, res = 66, quality = 60, type = "cairo")
   on.exit(grDevices::dev.off())
   graphics::layout(t(1:3), widths = c(1, 1, 1.24))
   view <- function(round) upright_view(face$landmarks, round)
@@ -44,7 +44,7 @@ draw_lines_of_readme <- function(file) {
   utils::data("humface", package = "Rvcg", envir = data)
   face <- find_landmarks(data$humface, id = "humface")
   shape <- fit_shape(face, face_scheme(), progress = FALSE)
-  grDevices::jpeg(file, width = 560, height = 430, res = 66, quality = 75, type = "cairo")
+  grDevices::jpeg(file, width = 476, height = 366, res = 56, quality = 60, type = "cairo")
   on.exit(grDevices::dev.off())
   plot(shape, face, engine = "picture", view = t(face$match$rotation))
 }
