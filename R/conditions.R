@@ -12,8 +12,9 @@
 #' @noRd
 crestline_abort <- function(problem, remedy, stage, id = NULL, class = NULL,
                             call = called_function()) {
+  where <- if (is.null(id)) stage else sprintf("specimen %s, %s", id, stage)
   rlang::abort(
-    condition_text(problem, remedy, stage, id), class = c(class, "crestline_error"),
+    c(paste0(where, ": ", problem), i = remedy), class = c(class, "crestline_error"),
     id = id, stage = stage, problem = problem, remedy = remedy, call = call
   )
 }
@@ -29,8 +30,9 @@ called_function <- function() {
 #' Warn with the same parts as [crestline_abort()]
 #' @noRd
 crestline_warn <- function(problem, remedy, stage, id = NULL, class = NULL) {
+  where <- if (is.null(id)) stage else sprintf("specimen %s, %s", id, stage)
   rlang::warn(
-    condition_text(problem, remedy, stage, id), class = c(class, "crestline_warning"),
+    c(paste0(where, ": ", problem), i = remedy), class = c(class, "crestline_warning"),
     id = id, stage = stage, problem = problem, remedy = remedy
   )
 }
@@ -45,11 +47,6 @@ inform_former <- function(former, today) {
   rlang::inform(sprintf("`%s` is deprecated. Write `%s`.", former, today),
                 class = c("crestline_deprecated", "crestline_message"), .frequency = "once",
                 .frequency_id = paste("crestline:", former))
-}
-
-condition_text <- function(problem, remedy, stage, id) {
-  where <- if (is.null(id)) stage else paste0("specimen ", id, ", ", stage)
-  c(paste0(where, ": ", problem), i = remedy)
 }
 
 #' What could not be done, as a value

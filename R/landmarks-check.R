@@ -124,7 +124,7 @@ fitting_change <- function(landmarks, mesh, tolerance, factors = c(10, 100, 1000
     # Median distance from the nearest centre of a triangle after each change, as a share of the
     # spread
     moved <- lapply(kind$change, function(change) given %*% change)
-    centre <- face_centres(mesh)
+    centre <- Reduce(`+`, face_corners(mesh)) / 3
     at <- do.call(rbind, moved)
     away <- matrix(row_lengths(at - centre[nearest_centres(centre, at, 1), , drop = FALSE]),
                    nrow(given))

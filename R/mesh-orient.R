@@ -95,5 +95,3 @@ face_normals <- function(mesh) cpp_face_normals(mesh$vb, mesh$it)
 # 4 x n unit normals of the vertices, area-weighted means of their faces' (as Rvcg's, in double
 # precision); 0 where all faces are without area.
 vertex_normals <- function(mesh) cpp_vertex_normals(mesh$vb, mesh$it)
-
-face_centres <- function(mesh) Reduce(`+`, face_corners(mesh)) / 3

@@ -1,12 +1,11 @@
 # Curves given in (s, d) about a path, walked through the triangles of the mesh.
 
-#' A line about a path walked from triangle to triangle, or a failure
+#' A line about an open path walked from triangle to triangle, or a failure
 #'
 #' @param scan As of [walkable()].
 #' @param coordinates,path,s,alpha As in [lift()].
 #' @noRd
 walked_line <- function(scan, coordinates, path, s, alpha) {
-  if (is_closed(path)) return(walked_loop(scan, coordinates, s, alpha))
   at <- columns_of(path)
   ends <- path_ends(scan, at[c(1, nrow(at)), ], c(end_name(at[1, ]), end_name(at[nrow(at), ])))
   if (failed(ends)) return(ends)
@@ -26,14 +25,13 @@ walked_line <- function(scan, coordinates, path, s, alpha) {
   towards <- tangent + ((alpha[2] - alpha[1]) / (s[2] - s[1])) * across / sqrt(sum(across^2))
   walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1],
                            coordinates$vertex, level, towards)
-  if (walked$end != "arrived") return(not_walked(walked$end, scan))
+  if (walked$end != "arrived") return(not_walked(walked$end))
   path_through(rbind(ends$exact[1, ], walked$points, ends$exact[2, ]), scan, lifted = TRUE)
 }
 
-not_walked <- function(end, scan) {
+not_walked <- function(end) {
   no_result(sprintf("the line cannot be walked over the mesh (it ends: %s).", end),
-            "Give a smaller `width`, or use the plane cut.", "lift", scan$id,
-            "crestline_path_error")
+            "Give a smaller `width`, or use the plane cut.", "lift", class = "crestline_path_error")
 }
 
 #' A line about a closed path walked once round, or a failure
@@ -53,7 +51,7 @@ walked_loop <- function(scan, coordinates, s, alpha, tries = c(0, 0.31, 0.62, 0.
   faces <- which(known[1, ] & known[2, ] & known[3, ])
   positive <- colSums(matrix(level[scan$it[, faces]] >= 0, 3))
   crossed <- faces[positive %in% 1:2]
-  if (!length(crossed)) return(not_walked("nowhere near the path", scan))
+  if (!length(crossed)) return(not_walked("nowhere near the path"))
   corners <- scan$it[, crossed, drop = FALSE]
   off <- matrix(abs(level[corners]), 3)
   for (at in tries * length) {
@@ -69,5 +67,5 @@ walked_loop <- function(scan, coordinates, s, alpha, tries = c(0, 0.31, 0.62, 0.
     path <- closed_path(walked$points, scan, lifted = TRUE)
     if (attr(path, "length") > least * length) return(path)
   }
-  not_walked(walked$end, scan)
+  not_walked(walked$end)
 }

@@ -333,6 +333,9 @@ judge_curve <- function(job, fit) {
     return(list(se = NA_real_, determined = NA, reason = NA_character_,
                 beside = c(NA_real_, NA_real_)))
   }
+  # Distances of the ends from their ridge, NA where curvature is not trusted
+  beside <- if (is.null(fit$beside)) c(NA_real_, NA_real_) else
+    ifelse(c(job$trust[1] > 0, job$trust[2] < 1), NA_real_, fit$beside)
   se <- if (is.null(fit$line$se)) NA_real_ else
     stats::median(fit$line$se[-c(1, length(fit$line$se))])
   limit <- job$settings$undetermined * job$radius
@@ -358,14 +361,7 @@ judge_curve <- function(job, fit) {
     NA_character_
   }
   list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
-       reason = reason, beside = trusted_ends(fit$beside, job))
-}
-
-#' Distances of the ends from their ridge, NA where curvature is not trusted
-#' @noRd
-trusted_ends <- function(beside, job) {
-  if (is.null(beside)) return(c(NA_real_, NA_real_))
-  ifelse(c(job$trust[1] > 0, job$trust[2] < 1), NA_real_, beside)
+       reason = reason, beside = beside)
 }
 
 warn_undetermined <- function(curve) {

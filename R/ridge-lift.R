@@ -58,7 +58,11 @@ lift <- function(specimen, coordinates, path, s, alpha) {
 #' @param scan As of [walkable()].
 #' @noRd
 lifted_line <- function(scan, coordinates, path, s, alpha) {
-  walked <- walked_line(scan, coordinates, path, s, alpha)
+  walked <- if (is_closed(path)) {
+    walked_loop(scan, coordinates, s, alpha)
+  } else {
+    walked_line(scan, coordinates, path, s, alpha)
+  }
   # Other failures are of the ends, which no path can join.
   if (!failed(walked) || walked$stage != "lift") return(walked)
   if (!is_closed(path)) {

@@ -91,36 +91,28 @@ highest_line <- function(surface, scale, radius, settings, kernel = 0) {
 #' @noRd
 ridge_problem <- function(surface, scale, radius, settings, kernel = 0) {
   grid <- settings$grid
-  places <- if (goes_round(surface)) closed_places(grid, radius) else open_places(grid, radius)
-  u <- places$u
+  round <- goes_round(surface)
+  # The line in equal parts; of one that goes round all places but the seam are inner ones
+  inner <- grid - 2
+  if (round) {
+    parts <- inner
+    u <- c(0, (seq_len(inner) - 0.5) / parts, 1)
+    ahead <- diag(inner)[, c(seq_len(inner)[-1], 1)]
+    second <- (ahead + t(ahead) - 2 * diag(inner)) * parts^2 / radius
+  } else {
+    parts <- grid - 1
+    u <- seq(0, 1, length.out = grid)
+    second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * parts^2 / radius
+  }
   profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
   at_ends <- margin_design(surface$margins$across, c(0, 0)) * profile[c(1, grid), ]
   lambda <- switch(settings$lambda_scale, feature = settings$lambda / (scale * radius),
                    grid = settings$lambda * radius^2 / (scale * (grid - 1)^3))
-  list(u = u, lambda = lambda, roughness = places$roughness,
+  list(u = u, lambda = lambda, roughness = crossprod(second) / parts,
        across = surface$margins$across, width = surface$width,
        limit = settings$bound * surface$width, kernel = kernel / surface$width,
-       interior = profile[-c(1, grid), ], weight = places$weight / scale,
-       ends = sum(at_ends) / (places$end_share * scale), closed = goes_round(surface))
-}
-
-#' The places of a line between two ends: `u` of all, and of the inner ones their `roughness` (its
-#' matrix) and `weight`; `end_share`, the inverse of the weight of an end
-#' @noRd
-open_places <- function(grid, radius) {
-  second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * (grid - 1)^2 / radius
-  list(u = seq(0, 1, length.out = grid), roughness = crossprod(second) / (grid - 1),
-       weight = rep(1 / (grid - 1), grid - 2), end_share = 2 * (grid - 1))
-}
-
-#' The same of a line that goes round: all but the seam are inner places
-#' @noRd
-closed_places <- function(grid, radius) {
-  g <- grid - 2
-  ahead <- diag(g)[, c(seq_len(g)[-1], 1)]
-  second <- (ahead + t(ahead) - 2 * diag(g)) * g^2 / radius
-  list(u = c(0, (seq_len(g) - 0.5) / g, 1), roughness = crossprod(second) / g,
-       weight = rep(1 / g, g), end_share = Inf)
+       interior = profile[-c(1, grid), ], weight = rep(1 / parts, inner) / scale,
+       ends = if (round) 0 else sum(at_ends) / (2 * parts * scale), closed = round)
 }
 
 #' Whether a surface has no ends along

@@ -26,9 +26,11 @@ fit_passes <- function(scan, path, job) {
   job$mix <- min(1, job$kernel / (settings$mix * job$radius))
   if (job$mix > 0) window <- ridge_window(scan, path, job, job$mix)
   pass <- function(window, edge) {
-    made <- one_pass(scan, window, job, edge)
-    if (!failed(made)) made$beside <- beside
-    made
+    window <- window_line(window, job, edge)
+    if (failed(window) || is.null(window$line)) return(window)
+    window <- with_curve(scan, window)
+    window$beside <- beside
+    window
   }
   fit <- pass(window, edge)
   next_pass <- function(fit) {
@@ -45,20 +47,20 @@ fit_passes <- function(scan, path, job) {
   if (second$share > 0) second else fit
 }
 
-#' A window with its line under the kernel, on the mesh
+#' A window with its line under the kernel; as it is where it has no surface
 #'
 #' @param job With `kernel`, its half width, in the unit of the mesh.
 #' @param edge Whether the line of a pass before ran along the edge of its window: neither kernel
 #'   nor passes widen the window, and what ran along its edge once is in doubt.
 #' @noRd
-one_pass <- function(scan, window, job, edge) {
+window_line <- function(window, job, edge) {
   if (is.null(window$surface)) return(window)
   if (is.null(window$line) || job$kernel > 0) {
     window$line <- highest_line(window$surface, window$scale, job$radius, job$settings, job$kernel)
   }
   if (failed(window$line)) return(window$line)
   window$line$at_bound <- edge || window$line$at_bound
-  with_curve(scan, window)
+  window
 }
 
 #' The curve of a pass as the path of the next one

@@ -24,7 +24,7 @@ shape_checks <- function(shape, scan, fits, faults, ends = 0.05, crumpled = 30, 
   bend <- cpp_face_bend(mesh$vb, mesh$normals, mesh$it)
   spiky <- list(vb = mesh$vb, it = mesh$it[, bend > crumpled, drop = FALSE])
   damage <- list(border = t(scan$vb[1:3, border_vertices(scan$it, scan$twin), drop = FALSE]),
-                 spike = face_centres(spiky))
+                 spike = Reduce(`+`, face_corners(spiky)) / 3)
   checks <- data.frame(part = status$part, level = status$level, missing = missing_share(shape),
                        determined = NA,
                        cut = NA_real_, guessed = NA, bridged = NA_real_, faults = NA_integer_,

@@ -4,8 +4,11 @@
 #   Rscript tools/architecture.R        (from the package's root; the package must be installed)
 #
 # Static, from the parsed sources: functions, longest function, internal functions with a single
-# caller, the longest chain of calls below fit_shape(), the longest chain of functions that hand an
-# argument on under its own name.
+# caller, the longest chain of calls below fit_shape(), and the longest chain of functions that hand
+# an argument on under its own name, each to the next: in all, and among what fit_shape() calls. A
+# constant that a function uses is no call. Of the internal functions with a single caller a part
+# could not be folded into it: it is called at several places, calls itself, is called by a bench or
+# tool too, or the two together are longer than the 40 lines that a function may have.
 # Dynamic, from one fit_shape() of Rvcg's face: calls, files entered, argument checks.
 source("tests/testthat/helper-layers.R")
 
@@ -55,26 +58,55 @@ handed_on <- function(defined) {
   do.call(rbind, each)
 }
 
-chain <- handed_on(defined)
-longest <- vapply(unique(chain$name), function(name) {
-  own <- chain[chain$name == name, ]
-  1 + max(vapply(unique(own$from), depth_below, 0, own))
-}, 0)
-callers <- table(factor(calls$to, unique(names(defined))))
+# By how many functions each argument is handed on, the most first; and that chain's functions.
+traffic <- function(chain) {
+  most <- vapply(unique(chain$name), function(name) {
+    own <- chain[chain$name == name, ]
+    max(vapply(unique(own$from), depth_below, 0, own))
+  }, 0)
+  sort(most, decreasing = TRUE)[1:5]
+}
+
 functions <- Filter(function(one) is_function(one$value), defined)
-internal <- setdiff(names(functions), c(exports, methods))
+function_calls <- calls[calls$from %in% names(functions) & calls$to %in% names(functions), ]
+chain <- handed_on(defined)
+below <- "fit_shape"
+repeat {
+  more <- setdiff(function_calls$to[function_calls$from %in% below], below)
+  if (!length(more)) break
+  below <- c(below, more)
+}
+
+# Of internal functions with a single caller: which could be a paragraph of it.
 lines <- vapply(functions, function(one) one$lines, 0)
+callers <- table(factor(calls$to, unique(names(defined))))
+internal <- setdiff(names(functions), c(exports, methods))
+single <- internal[callers[internal] == 1]
+caller <- calls$from[match(single, calls$to)]
+elsewhere <- unique(unlist(lapply(
+  list.files(c("inst", "bench", "tools", "exec", "tests"), "[.]R$|^crestline$", recursive = TRUE,
+             full.names = TRUE),
+  function(file) all.names(parse(file))
+)))
+places <- mapply(function(f, g) sum(all.names(defined[[g]]$value) == f), single, caller)
+recursive <- vapply(single, function(f) f %in% all.names(functions[[f]]$value), NA)
+# Of the two signatures, pairs of braces and empty lines three lines go.
+together <- lines[single] + lines[caller] - 3
+foldable <- places == 1 & !recursive & !single %in% elsewhere & !is.na(together) & together <= 40
 
 cat(sprintf("functions and values %d in %d files, %d lines of R\n", length(defined),
             length(unique(vapply(defined, `[[`, "", "file"))),
             sum(vapply(list.files("R", full.names = TRUE), function(f) length(readLines(f)), 0L))))
 cat(sprintf("longest function: %s, %d lines\n", names(which.max(lines)), max(lines)))
-cat(sprintf("internal functions with a single caller: %.0f %%\n",
-            100 * mean(callers[internal] == 1)))
-cat(sprintf("depth below fit_shape(): %d\n", depth_below("fit_shape", calls)))
-longest <- sort(longest, decreasing = TRUE)
-cat("argument handed on through most functions:",
-    paste0(names(longest)[1:5], " ", longest[1:5], collapse = ", "), "\n")
+cat(sprintf("internal functions with a single caller: %.0f %% of %d; those that could be folded: %.0f %%\n",
+            100 * mean(callers[internal] == 1), length(internal),
+            100 * sum(foldable) / length(internal)))
+cat(sprintf("depth below fit_shape(): %d; with constants %d\n",
+            depth_below("fit_shape", function_calls), depth_below("fit_shape", calls)))
+said <- function(most) paste0(names(most), " ", most, collapse = ", ")
+cat("an argument is handed on by the most functions:", said(traffic(chain)), "\n")
+cat("the same among the functions below fit_shape():",
+    said(traffic(chain[chain$from %in% below & chain$to %in% below, ])), "\n")
 
 options(rgl.useNULL = TRUE)
 space <- asNamespace("crestline")

@@ -8,8 +8,8 @@ words_of <- function(call, frame) {
     NULL
   }, crestline_error = identity, crestline_warning = identity)
   if (is.null(said)) return("nothing")
-  text <- c(paste0(condition_text(said$problem, said$remedy, said$stage, said$id)[[1]]),
-            paste("->", said$remedy))
+  where <- if (is.null(said$id)) said$stage else sprintf("specimen %s, %s", said$id, said$stage)
+  text <- c(paste0(where, ": ", said$problem), paste("->", said$remedy))
   gsub(normalizePath(tempdir(), "/"), "<folder>", gsub(getwd(), "<here>", text, fixed = TRUE),
        fixed = TRUE)
 }
