@@ -69,7 +69,7 @@ curvature <- function(mesh, radius, order = "adaptive",
   check_radius(radius, whole)
   n <- ncol(mesh$vb)
   targets <- vertex_indices(vertices, n)
-  out <- curvature_at(mesh, targets, settings, threads)
+  out <- curvature_at(mesh_graph(mesh), targets, settings, threads)
   if (length(targets) > 0 && all(is.na(out$k1))) abort_radius(out$neighbours, radius)
   if (!is.null(vertices)) out <- fill_curvature(empty_curvature(n, "not asked for"), out, targets)
   new_curvature(out, radius, order, of)
@@ -117,16 +117,17 @@ validate.curvature <- function(x) validate_curvature(x)
 
 #' Curvature at some vertices, in wider balls where the radius holds too few points
 #'
+#' @param graph As of [mesh_graph()].
 #' @param vertices Indices.
 #' @param settings As of [fit_settings()].
 #' @return List as [curvature()]'s with entries for these vertices only.
 #' @noRd
-curvature_at <- function(mesh, vertices, settings, threads) {
+curvature_at <- function(graph, vertices, settings, threads) {
   out <- empty_curvature(length(vertices))
   radius <- settings$radius
   todo <- seq_along(vertices)
   while (length(todo) > 0 && settings$radius <= settings$widen * radius) {
-    found <- cpp_curvature(mesh$vb, mesh$it, vertices[todo], settings, threads)
+    found <- cpp_curvature(graph, vertices[todo], settings, threads)
     fitted <- !is.na(found$k1)
     found$order[!fitted] <- NA_integer_
     out <- fill_curvature(out, found, todo)
@@ -149,6 +150,7 @@ curvature_at <- function(mesh, vertices, settings, threads) {
 #' @noRd
 curvature_source <- function(mesh, settings, threads) {
   force(threads)
+  passed <- list(passed = passed_mesh(mesh, NULL))
   row <- integer(ncol(mesh$vb))
   # All numbers of a vertex in a row, with room for more, so that little is copied when some come.
   known <- matrix(NA_real_, 0, 12)
@@ -156,7 +158,7 @@ curvature_source <- function(mesh, settings, threads) {
   function(vertices) {
     new <- unique(vertices[which(row[vertices] == 0)])
     if (length(new)) {
-      found <- curvature_at(mesh, new, settings, threads)
+      found <- curvature_at(mesh_graph(passed), new, settings, threads)
       if (all(is.na(found$k1)) && all(is.na(known[, 1]))) {
         abort_radius(found$neighbours, settings$radius)
       }

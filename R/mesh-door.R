@@ -72,6 +72,18 @@ refuse_no_vertices <- function(id) {
               "Read or export it again.", id)
 }
 
+#' The mesh with the neighbours and normals of its vertices, as searches about vertices take it
+#'
+#' It is made when it is first asked for, and kept with what is known of the mesh.
+#' @param mesh A `mesh3d`, or a list with `passed`, as of [passed_mesh()].
+#' @return External pointer.
+#' @noRd
+mesh_graph <- function(mesh) {
+  known <- if (is.environment(mesh[["passed"]])) mesh[["passed"]] else passed_mesh(mesh, NULL)
+  if (is.null(known$graph)) known$graph <- cpp_mesh_graph(known$vb, known$it)
+  known$graph
+}
+
 #' Faces as an integer matrix with a column each
 #'
 #' @param corners Number of rows.

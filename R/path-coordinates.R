@@ -44,20 +44,13 @@ path_coordinates <- function(specimen, path, width, margin = width) {
 near_path <- function(scan, path, width, margin) {
   clear <- without_stubs(path)
   track <- t(columns_of(clear, c("x", "y", "z")))
-  box <- apply(track, 1, range) + c(-1, 1) * (width + margin)
-  near <- cpp_vertices_in_box(scan$vb, box[1, ], box[2, ])
-  found <- cpp_path_coordinates(scan$vb[1:3, near, drop = FALSE], track, path_normals(scan, clear),
-                                is_closed(path))
-  kept <- abs(found$d) <= width + margin & found$s >= -margin & found$s <= attr(path, "length") +
-    margin
-  member <- logical(ncol(scan$vb))
-  member[near[kept]] <- TRUE
-  joined <- cpp_joined_to(scan$it, member, as.vector(scan$it[, path$face]))[near]
-  inside <- found$s >= 0 & found$s <= attr(path, "length") & abs(found$d) <= width
-  columns <- list(vertex = near, s = found$s, d = found$d, inside = inside, tx = found$tangent[, 1],
-                  ty = found$tangent[, 2], tz = found$tangent[, 3])
-  new_path_coordinates(lapply(columns, `[`, joined), attr(path, "length"), width, scan,
-                       if (is_closed(path)) TRUE)
+  length <- attr(path, "length")
+  found <- cpp_near_path(mesh_graph(scan), track, path_normals(scan, clear), is_closed(path), path$face,
+                         width, margin, length)
+  inside <- found$s >= 0 & found$s <= length & abs(found$d) <= width
+  columns <- list(vertex = found$vertex, s = found$s, d = found$d, inside = inside,
+                  tx = found$tangent[, 1], ty = found$tangent[, 2], tz = found$tangent[, 3])
+  new_path_coordinates(columns, length, width, scan, if (is_closed(path)) TRUE)
 }
 
 #' @param columns List of the columns that [path_coordinates()] says.

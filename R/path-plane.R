@@ -59,7 +59,7 @@ cut_path <- function(ends, angle, side, reach, ...) {
 
 #' A mesh as walks need it, from a specimen (kept) or a mesh (worked out)
 #'
-#' @return List: `vb`, `it` (as kernels take them), `normals` (NULL where the mesh has none),
+#' @return List: `passed` (as of [passed_mesh()]), its `vb` and `it` (as kernels take them), `normals` (NULL where the mesh has none),
 #'   `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`, and `search`, the constants of
 #'   searches for paths. It serves as a mesh too.
 #' @noRd
@@ -68,7 +68,7 @@ walkable <- function(specimen) {
   known <- passed_mesh(whole, NULL)
   geometry <- if (inherits(specimen, "specimen")) specimen$geometry else
     mesh_topology(whole)[c("twin", "piece")]
-  list(vb = known$vb, it = known$it, normals = whole$normals, twin = geometry$twin,
+  list(passed = known, vb = known$vb, it = known$it, normals = whole$normals, twin = geometry$twin,
        piece = geometry$piece, key = known$key, diagonal = known$diagonal,
        id = if (inherits(specimen, "specimen")) specimen$id, search = path_settings())
 }

@@ -43,7 +43,7 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
     rows <- rows[thinned$rows]
   }
   covariance <- function(other, smooth) cpp_curvature_covariance(
-    scan$vb, scan$it, window$coordinates$vertex[rows],
+    mesh_graph(scan), window$coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), margins, target,
     window$coordinates$vertex[fitted], sigma, other, smooth,
     kernel_settings(radius, settings$order)

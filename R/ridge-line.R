@@ -172,12 +172,16 @@ ascent_factor <- function(problem, bend) {
 }
 
 #' Longest of the halved steps with which the criterion rises, within the bounds
+#'
+#' The rise of the last steps is lost in rounding. They are taken all the same, so that the line is
+#' as exact as its equations and not as the criterion's value.
+#' @param rounding Share of the value by which it may fall.
 #' @noRd
-rise <- function(problem, alpha, value, step, small) {
+rise <- function(problem, alpha, value, step, small, rounding = 1e-13) {
   while (max(abs(step)) > small) {
     trial <- pmin(pmax(alpha + step, -problem$limit), problem$limit)
     next_value <- ridge_criterion(problem, trial)
-    if (next_value > value) return(list(alpha = trial, value = next_value))
+    if (next_value > value - rounding * abs(value)) return(list(alpha = trial, value = next_value))
     step <- step / 2
   }
   list(alpha = alpha, value = value)

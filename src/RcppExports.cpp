@@ -10,29 +10,39 @@ Rcpp::Rostream<true>&  Rcpp::Rcout = Rcpp::Rcpp_cout_get();
 Rcpp::Rostream<false>& Rcpp::Rcerr = Rcpp::Rcpp_cerr_get();
 #endif
 
-// cpp_curvature
-List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, List settings, int threads);
-RcppExport SEXP _crestline_cpp_curvature(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
+// cpp_mesh_graph
+SEXP cpp_mesh_graph(NumericMatrix vb, IntegerMatrix it);
+RcppExport SEXP _crestline_cpp_mesh_graph(SEXP vbSEXP, SEXP itSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
     Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
     Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_mesh_graph(vb, it));
+    return rcpp_result_gen;
+END_RCPP
+}
+// cpp_curvature
+List cpp_curvature(SEXP graph, IntegerVector targets, List settings, int threads);
+RcppExport SEXP _crestline_cpp_curvature(SEXP graphSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< SEXP >::type graph(graphSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
     Rcpp::traits::input_parameter< int >::type threads(threadsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature(vb, it, targets, settings, threads));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature(graph, targets, settings, threads));
     return rcpp_result_gen;
 END_RCPP
 }
 // cpp_curvature_covariance
-List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions, List margins, IntegerVector target, IntegerVector vertex, NumericVector sigma, double other, NumericVector smooth, List settings);
-RcppExport SEXP _crestline_cpp_curvature_covariance(SEXP vbSEXP, SEXP itSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP marginsSEXP, SEXP targetSEXP, SEXP vertexSEXP, SEXP sigmaSEXP, SEXP otherSEXP, SEXP smoothSEXP, SEXP settingsSEXP) {
+List cpp_curvature_covariance(SEXP graph, IntegerVector targets, NumericMatrix directions, List margins, IntegerVector target, IntegerVector vertex, NumericVector sigma, double other, NumericVector smooth, List settings);
+RcppExport SEXP _crestline_cpp_curvature_covariance(SEXP graphSEXP, SEXP targetsSEXP, SEXP directionsSEXP, SEXP marginsSEXP, SEXP targetSEXP, SEXP vertexSEXP, SEXP sigmaSEXP, SEXP otherSEXP, SEXP smoothSEXP, SEXP settingsSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
-    Rcpp::traits::input_parameter< NumericMatrix >::type vb(vbSEXP);
-    Rcpp::traits::input_parameter< IntegerMatrix >::type it(itSEXP);
+    Rcpp::traits::input_parameter< SEXP >::type graph(graphSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type targets(targetsSEXP);
     Rcpp::traits::input_parameter< NumericMatrix >::type directions(directionsSEXP);
     Rcpp::traits::input_parameter< List >::type margins(marginsSEXP);
@@ -42,7 +52,7 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< double >::type other(otherSEXP);
     Rcpp::traits::input_parameter< NumericVector >::type smooth(smoothSEXP);
     Rcpp::traits::input_parameter< List >::type settings(settingsSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_curvature_covariance(vb, it, targets, directions, margins, target, vertex, sigma, other, smooth, settings));
+    rcpp_result_gen = Rcpp::wrap(cpp_curvature_covariance(graph, targets, directions, margins, target, vertex, sigma, other, smooth, settings));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -460,6 +470,24 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_near_path
+List cpp_near_path(SEXP graph, NumericMatrix path, NumericMatrix normals, bool closed, IntegerVector faces, double width, double margin, double length);
+RcppExport SEXP _crestline_cpp_near_path(SEXP graphSEXP, SEXP pathSEXP, SEXP normalsSEXP, SEXP closedSEXP, SEXP facesSEXP, SEXP widthSEXP, SEXP marginSEXP, SEXP lengthSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< SEXP >::type graph(graphSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type path(pathSEXP);
+    Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
+    Rcpp::traits::input_parameter< bool >::type closed(closedSEXP);
+    Rcpp::traits::input_parameter< IntegerVector >::type faces(facesSEXP);
+    Rcpp::traits::input_parameter< double >::type width(widthSEXP);
+    Rcpp::traits::input_parameter< double >::type margin(marginSEXP);
+    Rcpp::traits::input_parameter< double >::type length(lengthSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_near_path(graph, path, normals, closed, faces, width, margin, length));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_joined_to
 LogicalVector cpp_joined_to(IntegerMatrix it, LogicalVector member, IntegerVector seeds);
 RcppExport SEXP _crestline_cpp_joined_to(SEXP itSEXP, SEXP memberSEXP, SEXP seedsSEXP) {
@@ -804,8 +832,9 @@ END_RCPP
 }
 
 static const R_CallMethodDef CallEntries[] = {
-    {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 5},
-    {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 11},
+    {"_crestline_cpp_mesh_graph", (DL_FUNC) &_crestline_cpp_mesh_graph, 2},
+    {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 4},
+    {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 10},
     {"_crestline_cpp_spline_design", (DL_FUNC) &_crestline_cpp_spline_design, 4},
     {"_crestline_cpp_mesh_key", (DL_FUNC) &_crestline_cpp_mesh_key, 2},
     {"_crestline_cpp_mesh_faults", (DL_FUNC) &_crestline_cpp_mesh_faults, 2},
@@ -835,6 +864,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_half_area_radius", (DL_FUNC) &_crestline_cpp_half_area_radius, 5},
     {"_crestline_cpp_vertices_in_box", (DL_FUNC) &_crestline_cpp_vertices_in_box, 3},
     {"_crestline_cpp_path_coordinates", (DL_FUNC) &_crestline_cpp_path_coordinates, 4},
+    {"_crestline_cpp_near_path", (DL_FUNC) &_crestline_cpp_near_path, 8},
     {"_crestline_cpp_joined_to", (DL_FUNC) &_crestline_cpp_joined_to, 3},
     {"_crestline_cpp_tensor_moments", (DL_FUNC) &_crestline_cpp_tensor_moments, 3},
     {"_crestline_cpp_render_mesh", (DL_FUNC) &_crestline_cpp_render_mesh, 6},

@@ -13,8 +13,6 @@
 #include <omp.h>
 #endif
 
-#include "mesh_normals.h"
-
 namespace crestline {
 
 namespace {
@@ -40,18 +38,18 @@ bool is_unit(const double* normal) {
 
 // The targets of a cell, each fitted and handed on.
 template <class Use>
-void fit_cell(const ConnectedBalls& balls, int cell, const Triangulation& mesh,
-              const std::vector<int>& targets, const std::vector<double>& normals,
-              const FitSettings& settings, ConnectedBalls::Workspace& space, FitBuffer& buffer,
-              Patience& patience, int thread, Use&& use) {
+void fit_cell(const ConnectedBalls& balls, int cell, const MeshGraph& mesh,
+              const std::vector<int>& targets, const FitSettings& settings,
+              ConnectedBalls::Workspace& space, FitBuffer& buffer, Patience& patience, int thread,
+              Use&& use) {
   balls.visit_cell(cell, space, [&](int t, const ConnectedBalls::Workspace& w) {
     if (patience.over(thread)) return false;
     std::size_t v = targets[t];
     LocalFit fit;
     fit.neighbours = static_cast<int>(w.selected.size());
-    if (is_unit(&normals[3 * v]))
-      fit = fit_surface(mesh.vb + 3 * v, &normals[3 * v], w.x.data(), w.y.data(), w.z.data(),
-                        w.selected.data(), fit.neighbours, settings, buffer);
+    if (is_unit(&mesh.normals[3 * v]))
+      fit = fit_surface(corner(mesh.mesh, targets[t]), &mesh.normals[3 * v], w.x.data(), w.y.data(),
+                        w.z.data(), w.selected.data(), fit.neighbours, settings, buffer);
     use(t, fit, w);
     return true;
   });
@@ -59,7 +57,7 @@ void fit_cell(const ConnectedBalls& balls, int cell, const Triangulation& mesh,
 
 }  // namespace
 
-Curvature curvature(const Triangulation& mesh, const std::vector<int>& targets,
+Curvature curvature(const MeshGraph& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between) {
   std::size_t count = targets.size();
@@ -69,9 +67,7 @@ Curvature curvature(const Triangulation& mesh, const std::vector<int>& targets,
   out.order.assign(count, 0);
   out.neighbours.assign(count, 0);
   if (targets.empty()) return out;
-  VertexGraph graph = vertex_graph(mesh);
-  std::vector<double> normals = vertex_normals(mesh);
-  ConnectedBalls balls(mesh.vb, mesh.n, graph, settings.radius, targets);
+  ConnectedBalls balls(mesh, settings.radius, targets);
   int cells = balls.cells();
   Patience patience(between);
   std::vector<ConnectedBalls::Workspace> spaces(threads, balls.workspace());
@@ -86,8 +82,8 @@ Curvature curvature(const Triangulation& mesh, const std::vector<int>& targets,
 #pragma omp for schedule(dynamic) nowait
     for (int cell = 0; cell < cells; ++cell) {
       if (patience.over(thread)) continue;
-      fit_cell(balls, cell, mesh, targets, normals, settings, spaces[thread], buffers[thread],
-               patience, thread, [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace&) {
+      fit_cell(balls, cell, mesh, targets, settings, spaces[thread], buffers[thread], patience,
+               thread, [&](int t, const LocalFit& fit, const ConnectedBalls::Workspace&) {
                  store(fit, t, out);
                });
     }
@@ -104,9 +100,9 @@ using Entry = std::pair<int, double>;
 // How the functions respond to the height of each vertex that any of them depends on.
 struct Responses {
   std::vector<int> vertex;
-  std::vector<std::vector<Entry>> by_function;  // of each such vertex, what is not 0
-  std::vector<double> own;                      // sum of squares of the curvatures' own responses
-  int unfitted = 0;                             // number of targets without a fit
+  std::vector<std::size_t> start;  // entries of each such vertex: what is not 0
+  std::vector<Entry> entry;
+  std::vector<double> own;         // sum of squares of the curvatures' own responses
 };
 
 // Gathers the responses of the functions, one curvature after the other.
@@ -126,29 +122,24 @@ class Responder {
       if (value != 0) row_.push_back({static_cast<int>(g), value});
     }
     for (int i = 0; i < fit.neighbours; ++i) {
-      int v = w.candidate[w.selected[i]];
-      if (column_[v] < 0) {
-        column_[v] = static_cast<int>(out_.vertex.size());
-        out_.vertex.push_back(v);
-        out_.own.push_back(0);
-        total_.resize(out_.vertex.size() * height_, 0.0);
-      }
-      double* sum = &total_[height_ * column_[v]];
+      std::size_t c = column_of(w.candidate[w.selected[i]]);
+      double* sum = &total_[height_ * c];
       double slope = derivative_[i];
       for (const Entry& entry : row_) sum[entry.first] += slope * entry.second;
-      out_.own[column_[v]] += slope * slope;
+      out_.own[c] += slope * slope;
     }
   }
 
-  Responses finish(int unfitted) {
-    out_.unfitted = unfitted;
-    out_.by_function.resize(out_.vertex.size());
-    for (std::size_t c = 0; c < out_.vertex.size(); ++c)
+  Responses finish() {
+    out_.start.push_back(0);
+    for (std::size_t c = 0; c < out_.vertex.size(); ++c) {
       for (std::size_t g = 0; g < height_; ++g) {
         double value = total_[height_ * c + g];
-        if (value != 0) out_.by_function[c].push_back({static_cast<int>(g), value});
+        if (value != 0) out_.entry.push_back({static_cast<int>(g), value});
       }
-    return out_;
+      out_.start.push_back(out_.entry.size());
+    }
+    return std::move(out_);
   }
 
  private:
@@ -158,28 +149,36 @@ class Responder {
   std::vector<double> derivative_, total_;
   std::vector<Entry> row_;
   Responses out_;
+
+  std::size_t column_of(int vertex) {
+    if (column_[vertex] < 0) {
+      column_[vertex] = static_cast<int>(out_.vertex.size());
+      out_.vertex.push_back(vertex);
+      out_.own.push_back(0);
+      total_.resize(out_.vertex.size() * height_, 0.0);
+    }
+    return column_[vertex];
+  }
 };
 
 // Where a ball has too few points it is widened, as the curvature itself is.
-Responses responses(const Triangulation& mesh, const std::vector<int>& targets, const double* directions,
+Responses responses(const MeshGraph& mesh, const std::vector<int>& targets, const double* directions,
                     const double* design, int functions, const FitSettings& settings,
                     const std::function<void()>& between) {
-  VertexGraph graph = vertex_graph(mesh);
-  std::vector<double> normals = vertex_normals(mesh);
   FitBuffer buffer;
   Patience patience(between);
-  Responder responder(mesh.n, directions, design, functions);
+  Responder responder(mesh.mesh.n, directions, design, functions);
   std::vector<int> open(targets.size()), places, unfitted;
   std::iota(open.begin(), open.end(), 0);
   FitSettings ball = settings;
   for (; !open.empty() && ball.radius <= settings.widen * settings.radius; ball.radius *= settings.growth) {
     places.clear();
     for (int t : open) places.push_back(targets[t]);
-    ConnectedBalls balls(mesh.vb, mesh.n, graph, ball.radius, places);
+    ConnectedBalls balls(mesh, ball.radius, places);
     ConnectedBalls::Workspace space = balls.workspace();
     unfitted.clear();
     for (int cell = 0; cell < balls.cells(); ++cell) {
-      fit_cell(balls, cell, mesh, places, normals, ball, space, buffer, patience, 0,
+      fit_cell(balls, cell, mesh, places, ball, space, buffer, patience, 0,
                [&](int i, const LocalFit& fit, const ConnectedBalls::Workspace& w) {
                  if (fit.ok) responder.add(open[i], fit, w, ball, buffer);
                  else unfitted.push_back(open[i]);
@@ -188,7 +187,7 @@ Responses responses(const Triangulation& mesh, const std::vector<int>& targets, 
     }
     open = unfitted;
   }
-  return responder.finish(static_cast<int>(open.size()));
+  return responder.finish();
 }
 
 // Calls use(j) for every place j (from 0, one of n, itself among them) within `reach` of each i in turn: by a grid
@@ -222,36 +221,36 @@ void visit_near(const std::vector<double>& xyz, double reach, const std::functio
 
 }  // namespace
 
-CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::vector<int>& targets,
+CurvatureCovariance curvature_covariance(const MeshGraph& mesh, const std::vector<int>& targets,
                                          const double* directions, const double* design,
                                          int functions, const HeightNoise& noise,
                                          const FitSettings& settings,
                                          const std::function<void()>& between) {
   Responses r = responses(mesh, targets, directions, design, functions, settings, between);
   std::size_t size = functions;
-  CurvatureCovariance out{std::vector<double>(size * size, 0.0), 0.0, r.unfitted};
+  CurvatureCovariance out{std::vector<double>(size * size, 0.0), 0.0};
   for (std::size_t c = 0; c < r.vertex.size(); ++c) {
     double variance = noise.sigma[r.vertex[c]] * noise.sigma[r.vertex[c]];
     out.trace += variance * r.own[c];
-    const std::vector<Entry>& row = r.by_function[c];
-    for (std::size_t p = 0; p < row.size(); ++p) {
-      double* column = &out.matrix[size * row[p].first];
-      double slope = variance * row[p].second;
-      for (std::size_t q = p; q < row.size(); ++q) column[row[q].first] += slope * row[q].second;
+    for (std::size_t p = r.start[c]; p < r.start[c + 1]; ++p) {
+      double* column = &out.matrix[size * r.entry[p].first];
+      double slope = variance * r.entry[p].second;
+      for (std::size_t q = p; q < r.start[c + 1]; ++q) column[r.entry[q].first] += slope * r.entry[q].second;
     }
   }
   for (std::size_t p = 0; p < size; ++p)
     for (std::size_t q = 0; q < p; ++q) out.matrix[size * p + q] = out.matrix[size * q + p];
   if (noise.smooth == 0 || noise.range == 0) return out;
   std::vector<double> xyz;
-  for (int v : r.vertex) xyz.insert(xyz.end(), mesh.vb + 3 * v, mesh.vb + 3 * v + 3);
+  for (int v : r.vertex) xyz.insert(xyz.end(), corner(mesh.mesh, v), corner(mesh.mesh, v) + 3);
   std::vector<double> sum(size);
   double variance = noise.smooth * noise.smooth, scale = -1 / (2 * noise.range * noise.range);
   int last = -1;
   auto add = [&](int i) {
     if (i < 0) return;
-    for (const Entry& p : r.by_function[i])
-      for (std::size_t g = 0; g < size; ++g) out.matrix[size * p.first + g] += p.second * sum[g];
+    for (std::size_t p = r.start[i]; p < r.start[i + 1]; ++p)
+      for (std::size_t g = 0; g < size; ++g)
+        out.matrix[size * r.entry[p].first + g] += r.entry[p].second * sum[g];
   };
   visit_near(xyz, 4 * noise.range, between,
              [&](int i) {
@@ -261,7 +260,8 @@ CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::v
              },
              [&](int, int j, double square) {
                double weight = variance * std::exp(scale * square);
-               for (const Entry& q : r.by_function[j]) sum[q.first] += weight * q.second;
+               for (std::size_t q = r.start[j]; q < r.start[j + 1]; ++q)
+                 sum[r.entry[q].first] += weight * r.entry[q].second;
              });
   add(last);
   return out;

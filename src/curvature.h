@@ -5,7 +5,6 @@
 
 #include "curvature_fit.h"
 #include "mesh_neighbours.h"
-#include "mesh_view.h"
 
 namespace crestline {
 
@@ -14,8 +13,8 @@ struct Curvature {  // one entry (or three) a target; NaN where there is no fit
   std::vector<int> order, neighbours;
 };
 
-// The mesh has three rows. `between` is called on the calling thread every tenth of a second: it may throw to interrupt.
-Curvature curvature(const Triangulation& mesh, const std::vector<int>& targets,
+// `between` is called on the calling thread every tenth of a second: it may throw to interrupt.
+Curvature curvature(const MeshGraph& mesh, const std::vector<int>& targets,
                     const FitSettings& settings, int threads,
                     const std::function<void()>& between);
 
@@ -29,13 +28,12 @@ struct HeightNoise {
 struct CurvatureCovariance {
   std::vector<double> matrix;  // of the functions, square
   double trace;                // sum of the variances of the curvatures themselves, of the independent errors alone
-  int unfitted;                // targets that have no fit in a ball of settings.widen times the radius
 };
 
 // Covariance of linear functions X' k of the normal curvatures k at the targets, when the vertices have errors:
 // curvatures of near targets share vertices. directions: 3 x targets, the tangent directions of the normal
 // curvatures; design: functions x targets, column major, mostly zeros.
-CurvatureCovariance curvature_covariance(const Triangulation& mesh, const std::vector<int>& targets,
+CurvatureCovariance curvature_covariance(const MeshGraph& mesh, const std::vector<int>& targets,
                                          const double* directions, const double* design,
                                          int functions, const HeightNoise& noise,
                                          const FitSettings& settings,

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-// On x86 Linux the sums are compiled twice and the processor picks (not under a sanitizer, whose
-// start-up cannot be called by the resolver).
+// On x86 Linux the sums are compiled several times and the processor picks (not under a sanitizer,
+// whose start-up cannot be called by the resolver).
 #if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
-#define CRESTLINE_CLONES __attribute__((target_clones("avx2", "default")))
+#define CRESTLINE_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
 #else
 #define CRESTLINE_CLONES
 #endif
@@ -37,35 +37,41 @@ struct Moments {
   double zz;
 };
 
-// Sums of x[j] * y0[j], ..., x[j] * y3[j]: four at once keep the adders busy.
-CRESTLINE_INLINE void add_four(const double* x, const double* y0, const double* y1,
-                               const double* y2, const double* y3, int n, double* s0, double* s1,
-                               double* s2, double* s3) {
+// Adds the sums over j of x[j] y[k][j] to s[k], k = 0 ... count - 1, up to four at once: that keeps the adders busy.
+template <int count>
+CRESTLINE_INLINE void add_products(const double* x, const double (*y)[kBlock], int n, double* s) {
   double a = 0, b = 0, c = 0, d = 0;
 #pragma omp simd reduction(+ : a, b, c, d)
   for (int j = 0; j < n; ++j) {
-    a += x[j] * y0[j];
-    b += x[j] * y1[j];
-    c += x[j] * y2[j];
-    d += x[j] * y3[j];
+    a += x[j] * y[0][j];
+    if (count > 1) b += x[j] * y[1][j];
+    if (count > 2) c += x[j] * y[2][j];
+    if (count > 3) d += x[j] * y[3][j];
   }
-  *s0 += a;
-  *s1 += b;
-  *s2 += c;
-  *s3 += d;
+  s[0] += a;
+  if (count > 1) s[1] += b;
+  if (count > 2) s[2] += c;
+  if (count > 3) s[3] += d;
+}
+
+CRESTLINE_INLINE void add_row(const double* x, const double (*y)[kBlock], int n, int count, double* s) {
+  int k = 0;
+  for (; k + 4 <= count; k += 4) add_products<4>(x, y + k, n, s + k);
+  if (count - k == 3) add_products<3>(x, y + k, n, s + k);
+  if (count - k == 2) add_products<2>(x, y + k, n, s + k);
+  if (count - k == 1) add_products<1>(x, y + k, n, s + k);
 }
 
 // Moments up to x^a y^b with a + b <= 2 order, and with z up to a + b <= order.
 CRESTLINE_CLONES
 void sum_moments(const double* x, const double* y, const double* z, int n, int order, Moments& m) {
-  double px[kDegrees][kBlock], py[12][kBlock], zy[8][kBlock];
+  double px[kDegrees][kBlock], py[kDegrees][kBlock], zy[5][kBlock];
   for (int a = 0; a < kDegrees; ++a)
     for (int b = 0; b < kDegrees; ++b) m.xy[a][b] = 0;
   for (int a = 0; a < 5; ++a)
     for (int b = 0; b < 5; ++b) m.xyz[a][b] = 0;
   m.zz = 0;
   int top = 2 * order;
-  double spare;
   for (int begin = 0; begin < n; begin += kBlock) {
     int size = std::min(kBlock, n - begin);
     for (int j = 0; j < size; ++j) px[0][j] = py[0][j] = 1;
@@ -78,28 +84,8 @@ void sum_moments(const double* x, const double* y, const double* z, int n, int o
     for (int b = 0; b <= order; ++b)
 #pragma omp simd
       for (int j = 0; j < size; ++j) zy[b][j] = py[b][j] * z[begin + j];
-    for (int a = 0; a <= top; ++a)
-      for (int b = 0; b <= top - a; b += 4) {
-        int last = top - a;
-        double* s[4];
-        const double* q[4];
-        for (int k = 0; k < 4; ++k) {
-          s[k] = b + k <= last ? &m.xy[a][b + k] : &spare;
-          q[k] = py[std::min(b + k, last)];
-        }
-        add_four(px[a], q[0], q[1], q[2], q[3], size, s[0], s[1], s[2], s[3]);
-      }
-    for (int a = 0; a <= order; ++a)
-      for (int b = 0; b <= order - a; b += 4) {
-        int last = order - a;
-        double* s[4];
-        const double* q[4];
-        for (int k = 0; k < 4; ++k) {
-          s[k] = b + k <= last ? &m.xyz[a][b + k] : &spare;
-          q[k] = zy[std::min(b + k, last)];
-        }
-        add_four(px[a], q[0], q[1], q[2], q[3], size, s[0], s[1], s[2], s[3]);
-      }
+    for (int a = 0; a <= top; ++a) add_row(px[a], py, size, top - a + 1, m.xy[a]);
+    for (int a = 0; a <= order; ++a) add_row(px[a], zy, size, order - a + 1, m.xyz[a]);
     double zz = 0;
 #pragma omp simd reduction(+ : zz)
     for (int j = 0; j < size; ++j) zz += z[begin + j] * z[begin + j];

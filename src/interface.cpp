@@ -81,11 +81,7 @@ crestline::Triangulation triangulation(const NumericMatrix& vb, const IntegerMat
   return {vb.begin(), vb.nrow(), vb.ncol(), it.begin(), nullptr, it.ncol(), 1};
 }
 
-// The part of a mesh that the balls about the targets reach.
-crestline::Crop crop(const NumericMatrix& vb, const IntegerMatrix& it, const IntegerVector& targets,
-                     double radius) {
-  return crestline::crop_mesh(triangulation(vb, it), from_zero(targets), radius);
-}
+using GraphPointer = XPtr<crestline::MeshGraph>;
 
 // (face, w1, w2, w3), the face counted from 1.
 crestline::SurfacePoint surface_point(const NumericVector& p) {
@@ -200,13 +196,18 @@ NumericMatrix as_rows(const std::vector<double>& x) {
 
 }  // namespace
 
+// The graph of a mesh, which keeps the arrays that it points into.
 // [[Rcpp::export]]
-List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, List settings,
-                   int threads) {
-  crestline::FitSettings fit = fit_settings(settings);
-  crestline::Crop near = crop(vb, it, targets, fit.radius);
-  crestline::Curvature c = crestline::curvature(view_of(near), near.local, fit, threads,
-                                                [] { checkUserInterrupt(); });
+SEXP cpp_mesh_graph(NumericMatrix vb, IntegerMatrix it) {
+  return GraphPointer(new crestline::MeshGraph(crestline::mesh_graph(triangulation(vb, it))), true, R_NilValue,
+                      List::create(vb, it));
+}
+
+// graph: as of cpp_mesh_graph().
+// [[Rcpp::export]]
+List cpp_curvature(SEXP graph, IntegerVector targets, List settings, int threads) {
+  crestline::Curvature c = crestline::curvature(*GraphPointer(graph).checked_get(), from_zero(targets),
+                                                fit_settings(settings), threads, [] { checkUserInterrupt(); });
   return List::create(_["k1"] = c.k1, _["k2"] = c.k2, _["direction1"] = as_rows(c.direction1),
                       _["direction2"] = as_rows(c.direction2), _["normal"] = as_rows(c.normal),
                       _["order"] = c.order, _["sigma"] = c.sigma, _["neighbours"] = c.neighbours);
@@ -215,29 +216,19 @@ List cpp_curvature(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, Li
 // along, across: two margins of a tensor product, rows x functions each; target: of each of their rows, from 1;
 // sigma: of each vertex named, `other` of the rest; smooth: standard deviation and range of the correlated part.
 // [[Rcpp::export]]
-List cpp_curvature_covariance(NumericMatrix vb, IntegerMatrix it, IntegerVector targets, NumericMatrix directions,
-                              List margins, IntegerVector target, IntegerVector vertex, NumericVector sigma,
-                              double other, NumericVector smooth, List settings) {
-  crestline::FitSettings fit = fit_settings(settings);
-  std::vector<double> known(vb.ncol(), other);
+List cpp_curvature_covariance(SEXP graph, IntegerVector targets, NumericMatrix directions, List margins,
+                              IntegerVector target, IntegerVector vertex, NumericVector sigma, double other,
+                              NumericVector smooth, List settings) {
+  const crestline::MeshGraph& mesh = *GraphPointer(graph).checked_get();
+  std::vector<double> known(mesh.mesh.n, other);
   for (int i = 0; i < vertex.size(); ++i) known[vertex[i] - 1] = sigma[i];
   NumericMatrix along = margins["along"], across = margins["across"];
   int size = along.ncol() * across.ncol();
   std::vector<double> design = crestline::summed_tensor(along.begin(), along.ncol(), across.begin(), across.ncol(),
                                                         from_zero(target), targets.size());
-  auto covariance = [&](double widen) {
-    crestline::Crop near = crop(vb, it, targets, widen * fit.radius);
-    std::vector<double> near_sigma;
-    for (int v : near.vertex) near_sigma.push_back(known[v]);
-    fit.widen = widen;
-    return crestline::curvature_covariance(view_of(near), near.local, directions.begin(), design.data(), size,
-                                           {near_sigma.data(), smooth[0], smooth[1]}, fit,
-                                           [] { checkUserInterrupt(); });
-  };
-  // Wider balls, and the larger part of the mesh that they need, are rare.
-  double widen = fit.widen;
-  crestline::CurvatureCovariance c = covariance(1);
-  if (c.unfitted > 0 && widen > 1) c = covariance(widen);
+  crestline::CurvatureCovariance c = crestline::curvature_covariance(
+      mesh, from_zero(targets), directions.begin(), design.data(), size, {known.data(), smooth[0], smooth[1]},
+      fit_settings(settings), [] { checkUserInterrupt(); });
   return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
 }
 
@@ -530,6 +521,17 @@ List cpp_path_coordinates(NumericMatrix points, NumericMatrix path, NumericMatri
       crestline::path_coordinates(points.begin(), points.ncol(), path.begin(), normals.begin(), path.ncol(),
                                   closed, [] { checkUserInterrupt(); });
   return List::create(_["s"] = c.s, _["d"] = c.d, _["tangent"] = as_rows(c.tangent));
+}
+
+// faces: of the path, from 1; rows of the result ascend by vertex.
+// [[Rcpp::export]]
+List cpp_near_path(SEXP graph, NumericMatrix path, NumericMatrix normals, bool closed, IntegerVector faces,
+                   double width, double margin, double length) {
+  crestline::NearPath near = crestline::near_path(*GraphPointer(graph).checked_get(), path.begin(), normals.begin(),
+                                                  path.ncol(), closed, from_zero(faces), {width, margin, length},
+                                                  [] { checkUserInterrupt(); });
+  return List::create(_["vertex"] = from_one(near.vertex), _["s"] = near.at.s, _["d"] = near.at.d,
+                      _["tangent"] = as_rows(near.at.tangent));
 }
 
 // [[Rcpp::export]]

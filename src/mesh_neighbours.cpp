@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
+#include <utility>
+
+#include "mesh_normals.h"
 
 namespace crestline {
 
 namespace {
 
-constexpr int kReach = 2;            // cells are half a radius wide, so a ball reaches two cells on
-constexpr std::uint64_t kAxis = 21;  // bits of a cell's index along one axis
+constexpr int kAxis = 21;  // bits of a cell's index along one axis
 
 double squared(const double* p, const double* q) {
   double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
@@ -41,138 +43,122 @@ VertexGraph vertex_graph(const Triangulation& mesh) {
   return g;
 }
 
-ConnectedBalls::ConnectedBalls(const double* xyz, int n, const VertexGraph& graph, double radius,
-                               const std::vector<int>& targets)
-    : xyz_(xyz), graph_(graph), radius_(radius), targets_(targets), cell_size_(radius / 2) {
-  double high[3];
+MeshGraph mesh_graph(const Triangulation& mesh) { return {mesh, vertex_graph(mesh), vertex_normals(mesh)}; }
+
+ConnectedBalls::ConnectedBalls(const MeshGraph& mesh, double radius, const std::vector<int>& targets)
+    : mesh_(mesh), radius_(radius), targets_(targets) {
+  double low[3], cell_size = radius / 2;
   for (int a = 0; a < 3; ++a) {
-    origin_[a] = INFINITY;
-    high[a] = -INFINITY;
+    low[a] = INFINITY;
+    double high = -INFINITY;
     for (int t : targets) {
-      origin_[a] = std::min(origin_[a], xyz[3 * t + a]);
-      high[a] = std::max(high[a], xyz[3 * t + a]);
+      low[a] = std::min(low[a], at(t)[a]);
+      high = std::max(high, at(t)[a]);
     }
-    origin_[a] -= 2 * radius;
-    high[a] += 2 * radius;
-    cell_size_ = std::max(cell_size_, (high[a] - origin_[a]) / ((1 << kAxis) - 2 * kReach - 2));
-  }
-  std::vector<std::pair<std::uint64_t, int>> gridded;
-  for (int v = 0; v < n; ++v) {
-    const double* p = xyz + 3 * static_cast<std::size_t>(v);
-    bool near = true;
-    for (int a = 0; a < 3; ++a) near = near && p[a] >= origin_[a] && p[a] <= high[a];
-    if (!near) continue;
-    int c[3];
-    cell_of(p, c);
-    gridded.push_back({key(c[0], c[1], c[2]), v});
-  }
-  std::sort(gridded.begin(), gridded.end());
-  key_.reserve(gridded.size());
-  vertex_.reserve(gridded.size());
-  for (const auto& g : gridded) {
-    key_.push_back(g.first);
-    vertex_.push_back(g.second);
+    cell_size = std::max(cell_size, (high - low[a]) / ((1 << kAxis) - 2));
   }
   std::vector<std::pair<std::uint64_t, int>> order(targets.size());
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    int c[3];
-    cell_of(xyz + 3 * static_cast<std::size_t>(targets[t]), c);
-    order[t] = {key(c[0], c[1], c[2]), static_cast<int>(t)};
+    std::uint64_t key = 0;
+    for (int a = 2; a >= 0; --a)
+      key = (key << kAxis) | static_cast<std::uint64_t>((at(targets[t])[a] - low[a]) / cell_size);
+    order[t] = {key, static_cast<int>(t)};
   }
   std::sort(order.begin(), order.end());
-  cell_start_.push_back(0);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && order[i].first != order[i - 1].first) cell_start_.push_back(static_cast<int>(i));
+    if (i == 0 || order[i].first != order[i - 1].first) cell_start_.push_back(static_cast<int>(i));
     cell_target_.push_back(order[i].second);
   }
-  if (!order.empty()) cell_start_.push_back(static_cast<int>(order.size()));
-}
-
-void ConnectedBalls::cell_of(const double* p, int* index) const {
-  for (int a = 0; a < 3; ++a)
-    index[a] = kReach + static_cast<int>(std::floor((p[a] - origin_[a]) / cell_size_));
-}
-
-std::uint64_t ConnectedBalls::key(int ix, int iy, int iz) const {
-  return (static_cast<std::uint64_t>(iz) << (2 * kAxis)) |
-         (static_cast<std::uint64_t>(iy) << kAxis) | static_cast<std::uint64_t>(ix);
+  cell_start_.push_back(static_cast<int>(order.size()));
 }
 
 ConnectedBalls::Workspace ConnectedBalls::workspace() const {
   Workspace w;
-  w.local.assign(graph_.start.size() - 1, -1);
+  w.place.assign(mesh_.mesh.n, kUnseen);
   return w;
 }
 
-// Candidates of a cell with their distances from the centre of its targets; returns rho.
-double ConnectedBalls::gather(int cell, Workspace& w) const {
+// About the middle of the box of a cell's targets.
+ConnectedBalls::Ball ConnectedBalls::ball_of(int cell) const {
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (int i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i)
     for (int a = 0; a < 3; ++a) {
-      double value = xyz_[3 * static_cast<std::size_t>(targets_[cell_target_[i]]) + a];
+      double value = at(targets_[cell_target_[i]])[a];
       low[a] = std::min(low[a], value);
       high[a] = std::max(high[a], value);
     }
-  double centre[3], rho2 = 0;
-  for (int a = 0; a < 3; ++a) centre[a] = (low[a] + high[a]) / 2;
+  Ball ball;
+  for (int a = 0; a < 3; ++a) ball.centre[a] = (low[a] + high[a]) / 2;
+  double rho2 = 0;
   for (int i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i)
-    rho2 = std::max(
-        rho2, squared(xyz_ + 3 * static_cast<std::size_t>(targets_[cell_target_[i]]), centre));
-  double rho = std::sqrt(rho2), reach = (radius_ + rho) * (radius_ + rho);
-  w.candidate.clear();
-  w.x.clear();
-  w.y.clear();
-  w.z.clear();
-  w.square.clear();
-  int c[3];
-  cell_of(xyz_ + 3 * static_cast<std::size_t>(targets_[cell_target_[cell_start_[cell]]]), c);
-  for (int dz = -kReach; dz <= kReach; ++dz)
-    for (int dy = -kReach; dy <= kReach; ++dy) {
-      auto from =
-          std::lower_bound(key_.begin(), key_.end(), key(c[0] - kReach, c[1] + dy, c[2] + dz));
-      std::uint64_t last = key(c[0] + kReach, c[1] + dy, c[2] + dz);
-      for (std::size_t i = from - key_.begin(); i < key_.size() && key_[i] <= last; ++i) {
-        const double* p = xyz_ + 3 * static_cast<std::size_t>(vertex_[i]);
-        double d2 = squared(p, centre);
-        if (d2 > reach) continue;
-        w.local[vertex_[i]] = static_cast<int>(w.candidate.size());
-        w.candidate.push_back(vertex_[i]);
-        w.x.push_back(p[0]);
-        w.y.push_back(p[1]);
-        w.z.push_back(p[2]);
-        w.square.push_back(d2);
-      }
-    }
-  w.inside.assign(w.candidate.size(), 0);
-  w.reached_mark.assign(w.candidate.size(), 0);
-  return rho;
+    rho2 = std::max(rho2, squared(at(targets_[cell_target_[i]]), ball.centre));
+  ball.rho = std::sqrt(rho2);
+  return ball;
 }
 
-// From a target over its core component outwards: w.reached is in every ball of the component's
-// targets that it is near enough to, w.rest has to be searched for.
-void ConnectedBalls::flood(int seed, double rho, Workspace& w) const {
-  double core = std::max(radius_ - rho, 0.0) * std::max(radius_ - rho, 0.0);
-  std::fill(w.reached_mark.begin(), w.reached_mark.end(), 0);
-  w.reached.assign(1, seed);
-  w.reached_mark[seed] = 1;
-  for (std::size_t i = 0; i < w.reached.size(); ++i) {
-    int k = w.reached[i], v = w.candidate[k];
-    bool k_in_core = w.square[k] <= core;
-    for (int e = graph_.start[v]; e < graph_.start[v + 1]; ++e) {
-      int j = w.local[graph_.neighbour[e]];
-      if (j < 0 || w.reached_mark[j]) continue;
-      if (!k_in_core) {
-        double gain = w.square[j] - w.square[k];
-        double dx = w.x[j] - w.x[k], dy = w.y[j] - w.y[k], dz = w.z[j] - w.z[k];
-        if (gain <= 0 || gain * gain <= 4 * rho * rho * (dx * dx + dy * dy + dz * dz)) continue;
+void ConnectedBalls::append(int vertex, double square, Workspace& w) const {
+  const double* p = at(vertex);
+  w.place[vertex] = static_cast<int>(w.candidate.size());
+  w.candidate.push_back(vertex);
+  w.x.push_back(p[0]);
+  w.y.push_back(p[1]);
+  w.z.push_back(p[2]);
+  w.square.push_back(square);
+}
+
+// From a target over its core component outwards: those reached are in every ball of the component's
+// targets that they are near enough to, the rest has to be searched for.
+void ConnectedBalls::flood(int seed, const Ball& ball, Workspace& w) const {
+  double core = std::max(radius_ - ball.rho, 0.0) * std::max(radius_ - ball.rho, 0.0);
+  double reach = (radius_ + ball.rho) * (radius_ + ball.rho), four_rho2 = 4 * ball.rho * ball.rho;
+  for (auto* list : {&w.x, &w.y, &w.z, &w.square}) list->clear();
+  w.candidate.clear();
+  w.pending.clear();
+  append(seed, squared(at(seed), ball.centre), w);
+  w.touched.assign(1, seed);
+  const VertexGraph& graph = mesh_.graph;
+  for (std::size_t k = 0; k < w.candidate.size(); ++k) {
+    int from = w.candidate[k];
+    double square = w.square[k];
+    const double* p = at(from);
+    for (int e = graph.start[from]; e < graph.start[from + 1]; ++e) {
+      int v = graph.neighbour[e], mark = w.place[v];
+      if (mark >= 0 || mark == kOutside) continue;
+      double own = squared(at(v), ball.centre);
+      if (mark == kUnseen) {
+        w.touched.push_back(v);
+        w.place[v] = own > reach ? kOutside : kPending;
+        if (own > reach) continue;
+        if (square > core) w.pending.push_back(v);
       }
-      w.reached_mark[j] = 1;
-      w.reached.push_back(j);
+      if (square > core) {
+        double gain = own - square;
+        if (gain <= 0 || gain * gain <= four_rho2 * squared(at(v), p)) continue;
+      }
+      append(v, own, w);
     }
   }
-  w.rest.clear();
-  for (std::size_t c = 0; c < w.candidate.size(); ++c)
-    if (!w.reached_mark[c]) w.rest.push_back(static_cast<int>(c));
+  w.reached = w.candidate.size();
+  add_rest(ball, w);
+}
+
+// The candidates that were not reached: those that were met, and those beyond them.
+void ConnectedBalls::add_rest(const Ball& ball, Workspace& w) const {
+  double reach = (radius_ + ball.rho) * (radius_ + ball.rho);
+  for (int v : w.pending)
+    if (w.place[v] == kPending) append(v, 0, w);
+  const VertexGraph& graph = mesh_.graph;
+  for (std::size_t k = w.reached; k < w.candidate.size(); ++k) {
+    int from = w.candidate[k];
+    for (int e = graph.start[from]; e < graph.start[from + 1]; ++e) {
+      int v = graph.neighbour[e];
+      if (w.place[v] != kUnseen) continue;
+      w.touched.push_back(v);
+      if (squared(at(v), ball.centre) > reach) w.place[v] = kOutside;
+      else append(v, 0, w);
+    }
+  }
+  w.inside.assign(w.candidate.size(), 0);
 }
 
 // The neighbours of one target: reached candidates within its ball, then those of the rest that
@@ -183,9 +169,11 @@ void ConnectedBalls::select(int target, Workspace& w) const {
     double dx = w.x[c] - tx, dy = w.y[c] - ty, dz = w.z[c] - tz;
     return dx * dx + dy * dy + dz * dz;
   };
-  w.selected.resize(w.candidate.size());
+  const VertexGraph& graph = mesh_.graph;
+  const int reached = static_cast<int>(w.reached), all = static_cast<int>(w.candidate.size());
+  w.selected.resize(all);
   int count = 0;
-  for (int c : w.reached) {
+  for (int c = 0; c < reached; ++c) {
     w.selected[count] = c;
     count += distance2(c) <= r2;
   }
@@ -195,12 +183,12 @@ void ConnectedBalls::select(int target, Workspace& w) const {
     w.selected[count++] = c;
     w.stack.push_back(c);
   };
-  for (int c : w.rest) {
+  for (int c = reached; c < all; ++c) {
     if (distance2(c) > r2) continue;
     int v = w.candidate[c];
-    for (int e = graph_.start[v]; e < graph_.start[v + 1]; ++e) {
-      int j = w.local[graph_.neighbour[e]];
-      if (j < 0 || !w.reached_mark[j] || distance2(j) > r2) continue;
+    for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) {
+      int j = w.place[graph.neighbour[e]];
+      if (j < 0 || j >= reached || distance2(j) > r2) continue;
       add(c);
       break;
     }
@@ -209,9 +197,9 @@ void ConnectedBalls::select(int target, Workspace& w) const {
   while (!w.stack.empty()) {
     int v = w.candidate[w.stack.back()];
     w.stack.pop_back();
-    for (int e = graph_.start[v]; e < graph_.start[v + 1]; ++e) {
-      int j = w.local[graph_.neighbour[e]];
-      if (j >= 0 && !w.reached_mark[j] && !w.inside[j] && distance2(j) <= r2) add(j);
+    for (int e = graph.start[v]; e < graph.start[v + 1]; ++e) {
+      int j = w.place[graph.neighbour[e]];
+      if (j >= reached && !w.inside[j] && distance2(j) <= r2) add(j);
     }
   }
   for (int i = first_found; i < count; ++i) w.inside[w.selected[i]] = 0;

@@ -1,6 +1,6 @@
 // The vertices within a ball of each target vertex that are connected to it inside that ball.
 #pragma once
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "mesh_view.h"
@@ -10,32 +10,42 @@ namespace crestline {
 // Neighbours of each vertex over mesh edges, in one array.
 struct VertexGraph {
   std::vector<int> start;      // n + 1
-  // neighbours of v: neighbour[start[v]] ... neighbour[start[v + 1] - 1]
+  // neighbours of v, ascending: neighbour[start[v]] ... neighbour[start[v + 1] - 1]
   std::vector<int> neighbour;
 };
 
 VertexGraph vertex_graph(const Triangulation& mesh);
 
-// Connected balls by a uniform grid. What holds for all targets of a grid cell is found once a
-// cell: with C the centre of its targets and rho their largest distance from it, every vertex
-// within r - rho of C is in all their balls, and a vertex j reached over an edge from a reached
-// vertex k is in a ball only together with k where |p_j - C|^2 - |p_k - C|^2 > 2 rho |p_j - p_k|.
-// What is left is searched for each target.
+// A mesh with what all searches about its vertices share. The mesh's own arrays stay where they are.
+struct MeshGraph {
+  Triangulation mesh;
+  VertexGraph graph;
+  std::vector<double> normals;  // of the vertices, 3 x n, as of vertex_normals()
+};
+
+MeshGraph mesh_graph(const Triangulation& mesh);
+
+// Connected balls, for the targets of a cell of a grid at once: with C the centre of its targets and rho their largest
+// distance from it, every vertex within r - rho of C is in all their balls, and a vertex j reached over an edge from a
+// reached vertex k is in a ball only together with k where |p_j - C|^2 - |p_k - C|^2 > 2 rho |p_j - p_k|. What is left
+// is searched for each target.
 class ConnectedBalls {
  public:
-  // xyz: 3 x n; targets: vertices whose balls are wanted.
-  ConnectedBalls(const double* xyz, int n, const VertexGraph& graph, double radius,
-                 const std::vector<int>& targets);
+  // targets: vertices whose balls are wanted.
+  ConnectedBalls(const MeshGraph& mesh, double radius, const std::vector<int>& targets);
 
   int cells() const { return static_cast<int>(cell_start_.size()) - 1; }
 
   // One thread's memory.
   struct Workspace {
-    std::vector<int> local;              // n: place among the candidates, -1 if none
-    std::vector<int> candidate;          // vertices that may be in a ball of this cell
-    std::vector<double> x, y, z, square; // their co-ordinates; squared distance from C
-    std::vector<char> reached_mark, inside, done;
-    std::vector<int> reached, rest, stack, selected;  // places among the candidates
+    std::vector<int> place;       // n: place among the candidates, or one of the marks below
+    std::vector<int> touched;     // vertices whose place is to be cleared
+    std::vector<int> candidate;   // vertices that may be in a ball of this cell, those reached first
+    std::vector<double> x, y, z;  // their co-ordinates
+    std::vector<double> square;   // of those reached, the squared distance from C
+    std::size_t reached;          // how many are in every ball that they are near enough to
+    std::vector<char> inside, done;
+    std::vector<int> pending, stack, selected;  // selected: places among the candidates
   };
   Workspace workspace() const;
 
@@ -44,40 +54,41 @@ class ConnectedBalls {
   // visit() gives false.
   template <class Visit>
   void visit_cell(int cell, Workspace& w, Visit&& visit) const {
-    double rho = gather(cell, w);
+    Ball ball = ball_of(cell);
     int first = cell_start_[cell], end = cell_start_[cell + 1];
     w.done.assign(end - first, 0);
     bool going = true;
     for (int i = first; i < end && going; ++i) {
       if (w.done[i - first]) continue;
-      flood(w.local[targets_[cell_target_[i]]], rho, w);
+      flood(targets_[cell_target_[i]], ball, w);
       for (int j = i; j < end && going; ++j) {
-        int at = w.local[targets_[cell_target_[j]]];
-        if (!w.reached_mark[at] || w.done[j - first]) continue;
+        int at = w.place[targets_[cell_target_[j]]];
+        if (w.done[j - first] || at < 0 || at >= static_cast<int>(w.reached)) continue;
         select(at, w);
         going = visit(cell_target_[j], w);
         w.done[j - first] = 1;
       }
+      for (int v : w.touched) w.place[v] = kUnseen;
     }
-    for (int v : w.candidate) w.local[v] = -1;
   }
 
  private:
-  const double* xyz_;
-  const VertexGraph& graph_;
+  static constexpr int kUnseen = -1, kPending = -2, kOutside = -3;
+  struct Ball {
+    double centre[3], rho;
+  };
+
+  const MeshGraph& mesh_;
   double radius_;
   const std::vector<int>& targets_;
-  double origin_[3];
-  double cell_size_;
-  std::vector<std::uint64_t> key_;  // of each gridded vertex, ascending
-  std::vector<int> vertex_;         // in the order of key_
-  std::vector<int> cell_start_;     // targets of each cell that has any
+  std::vector<int> cell_start_;  // targets of each cell that has any
   std::vector<int> cell_target_;
 
-  std::uint64_t key(int ix, int iy, int iz) const;
-  void cell_of(const double* p, int* index) const;
-  double gather(int cell, Workspace& w) const;
-  void flood(int seed, double rho, Workspace& w) const;
+  const double* at(int vertex) const { return corner(mesh_.mesh, vertex); }
+  Ball ball_of(int cell) const;
+  void flood(int seed, const Ball& ball, Workspace& w) const;
+  void add_rest(const Ball& ball, Workspace& w) const;
+  void append(int vertex, double square, Workspace& w) const;
   void select(int target, Workspace& w) const;
 };
 

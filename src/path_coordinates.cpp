@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "geometry.h"
 
@@ -96,6 +97,35 @@ Nearest nearest_place(const Polyline& line, Vec p, int guess) {
   return best;
 }
 
+struct Place {
+  double s, d;
+  Vec tangent;
+};
+
+// guess: the run to begin with; changed to that of the place.
+Place place_beside(const Polyline& line, const double* normals, Vec p, int& guess) {
+  Nearest best = nearest_place(line, p, guess);
+  int segment = best.segment, count = line.segments();
+  guess = segment / kRun;
+  double length = line.start[segment + 1] - line.start[segment];
+  Vec tangent = line.tangent[segment];
+  if (best.along == 0 && (segment > 0 || line.closed))
+    tangent = unit(tangent + line.tangent[(segment + count - 1) % count]);
+  if (best.along == length && (segment + 1 < count || line.closed))
+    tangent = unit(tangent + line.tangent[(segment + 1) % count]);
+  double share = std::min(std::max(best.along / length, 0.0), 1.0);
+  Vec normal = (1 - share) * at(normals, segment) + share * at(normals, segment + 1);
+  Vec foot = line.node[segment] + best.along * line.tangent[segment];
+  double side = dot(p - foot, cross(normal, tangent)), distance = std::sqrt(best.square);
+  return {line.start[segment] + best.along, side < 0 ? -distance : distance, tangent};
+}
+
+void add(const Place& place, PathCoordinates& out) {
+  out.s.push_back(place.s);
+  out.d.push_back(place.d);
+  out.tangent.insert(out.tangent.end(), {place.tangent.x, place.tangent.y, place.tangent.z});
+}
+
 }  // namespace
 
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
@@ -104,32 +134,54 @@ PathCoordinates path_coordinates(const double* points, int n, const double* path
   Patience patience(between);
   Polyline line = make_polyline(path, k, closed);
   PathCoordinates out;
-  out.s.resize(n);
-  out.d.resize(n);
-  out.tangent.resize(3 * static_cast<std::size_t>(n));
   int guess = 0;
   for (int i = 0; i < n; ++i) {
     if (patience.over()) patience.finish();
-    Vec p = at(points, i);
-    Nearest best = nearest_place(line, p, guess);
-    guess = best.segment / kRun;
-    int segment = best.segment;
-    double length = line.start[segment + 1] - line.start[segment];
-    Vec tangent = line.tangent[segment];
-    int count = line.segments();
-    if (best.along == 0 && (segment > 0 || closed))
-      tangent = unit(tangent + line.tangent[(segment + count - 1) % count]);
-    if (best.along == length && (segment + 1 < count || closed))
-      tangent = unit(tangent + line.tangent[(segment + 1) % count]);
-    double share = std::min(std::max(best.along / length, 0.0), 1.0);
-    Vec normal = (1 - share) * at(normals, segment) + share * at(normals, segment + 1);
-    Vec foot = line.node[segment] + best.along * line.tangent[segment];
-    double side = dot(p - foot, cross(normal, tangent));
-    out.s[i] = line.start[segment] + best.along;
-    out.d[i] = side < 0 ? -std::sqrt(best.square) : std::sqrt(best.square);
-    out.tangent[3 * i] = tangent.x;
-    out.tangent[3 * i + 1] = tangent.y;
-    out.tangent[3 * i + 2] = tangent.z;
+    add(place_beside(line, normals, at(points, i), guess), out);
+  }
+  return out;
+}
+
+NearPath near_path(const MeshGraph& graph, const double* path, const double* normals, int k, bool closed,
+                   const std::vector<int>& faces, const PathWindow& window,
+                   const std::function<void()>& between) {
+  const Triangulation& mesh = graph.mesh;
+  Polyline line = make_polyline(path, k, closed);
+  double reach = window.width + window.margin, low[3], high[3];
+  for (int a = 0; a < 3; ++a) {
+    low[a] = INFINITY;
+    high[a] = -INFINITY;
+    for (int i = 0; i < k; ++i) {
+      low[a] = std::min(low[a], path[3 * i + a] - reach);
+      high[a] = std::max(high[a], path[3 * i + a] + reach);
+    }
+  }
+  std::vector<char> seen(mesh.n, 0);
+  std::vector<std::pair<int, Place>> found;
+  Patience patience(between);
+  int guess = 0;
+  auto look = [&](int v) {
+    if (seen[v]) return;
+    seen[v] = 1;
+    const double* p = corner(mesh, v);
+    for (int a = 0; a < 3; ++a)
+      if (p[a] < low[a] || p[a] > high[a]) return;
+    Place place = place_beside(line, normals, {p[0], p[1], p[2]}, guess);
+    if (std::fabs(place.d) <= reach && place.s >= -window.margin && place.s <= window.length + window.margin)
+      found.push_back({v, place});
+  };
+  for (int f : faces)
+    for (int c = 0; c < 3; ++c) look(vertex_at(mesh, 3 * f + c));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (patience.over()) patience.finish();
+    int v = found[i].first;
+    for (int e = graph.graph.start[v]; e < graph.graph.start[v + 1]; ++e) look(graph.graph.neighbour[e]);
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  NearPath out;
+  for (const auto& one : found) {
+    out.vertex.push_back(one.first);
+    add(one.second, out.at);
   }
   return out;
 }

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesh_view.h"
+#include "mesh_neighbours.h"
 
 namespace crestline {
 
@@ -19,6 +19,22 @@ struct PathCoordinates {       // one entry (tangent: three) a point
 PathCoordinates path_coordinates(const double* points, int n, const double* path,
                                  const double* normals, int k, bool closed,
                                  const std::function<void()>& between);
+
+struct PathWindow {
+  double width, margin;  // the window reaches so far to both sides; the margin lies round it
+  double length;         // of the path
+};
+
+struct NearPath {
+  std::vector<int> vertex;  // ascending
+  PathCoordinates at;
+};
+
+// Vertices in the window and its margin that are joined over edges between such to the path, which runs through
+// `faces`. The others as of path_coordinates().
+NearPath near_path(const MeshGraph& graph, const double* path, const double* normals, int k, bool closed,
+                   const std::vector<int>& faces, const PathWindow& window,
+                   const std::function<void()>& between);
 
 // Vertices that `member` marks and that are joined over edges between members to those in `seeds`.
 std::vector<char> joined_to(const Triangulation& mesh, const std::vector<char>& member,

@@ -12,7 +12,8 @@ fitted_window <- function(settings = ridge_settings(), radius = 4) {
 curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, settings, smooth = 0,
                                range = 0) {
   margins <- list(along = t(jacobian), across = matrix(1, ncol(jacobian)))
-  diag(cpp_curvature_covariance(vb, it, targets, directions, margins, seq_along(targets),
+  diag(cpp_curvature_covariance(cpp_mesh_graph(vb, it), targets, directions, margins,
+                                seq_along(targets),
                                 seq_along(sigma), sigma, 0, c(smooth, range), settings)$matrix)
 }
 
@@ -104,7 +105,7 @@ test_that("the noise factor compares with what the strengths' whole covariance g
   sigma <- rep(stats::median(window$strengths$sigma, na.rm = TRUE), ncol(bent$mesh$vb))
   known <- !is.na(window$strengths$sigma)
   sigma[window$coordinates$vertex[known]] <- window$strengths$sigma[known]
-  all <- cpp_curvature_covariance(scan$vb, scan$it, window$coordinates$vertex[rows],
+  all <- cpp_curvature_covariance(mesh_graph(scan), window$coordinates$vertex[rows],
                                   t(window$strengths$direction[rows, ]),
                                   list(along = diag(length(rows)),
                                        across = matrix(1, length(rows))),
