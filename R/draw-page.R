@@ -6,17 +6,35 @@
 #' @param ... Its sections.
 #' @param lead What stands below the title.
 #' @param provenance As of `provenance_of()`; NULL: no such block.
+#' @param class Of its body: "patient" for pages that print on A4.
 #' @noRd
-page_document <- function(title, ..., lead = NULL, provenance = NULL) {
+page_document <- function(title, ..., lead = NULL, provenance = NULL, class = "page") {
   tags <- htmltools::tags
-  tags$div(
-    class = "page",
+  styles <- c("quality.css", if (class == "patient") "patient.css")
+  tags$body(
+    class = class,
     tags$head(tags$title(title),
               tags$meta(name = "viewport", content = "width=device-width, initial-scale=1"),
-              tags$style(htmltools::HTML(report_text("quality.css")))),
-    tags$header(tags$h1(title), if (!is.null(lead)) tags$div(class = "sum", lead)), ...,
+              tags$style(htmltools::HTML(vapply(styles, report_text, "")))),
+    tags$header(tags$h1(title), lead), ...,
     if (!is.null(provenance)) provenance_block(provenance)
   )
+}
+
+#' Names and texts as a list of definitions
+#' @noRd
+fact_list <- function(facts) {
+  tags <- htmltools::tags
+  tags$dl(class = "facts", lapply(names(facts), function(name) {
+    tags$div(tags$dt(name), tags$dd(facts[[name]]))
+  }))
+}
+
+#' A table of a page from its rows
+#' @noRd
+page_table <- function(head, rows, class = NULL) {
+  tags <- htmltools::tags
+  tags$div(class = "scroll", tags$table(class = class, tags$thead(head), tags$tbody(rows)))
 }
 
 #' A section of a page
@@ -51,7 +69,7 @@ column_table <- function(table, meanings = NULL, digits = 3) {
     tags$th(class = class, title = own[[name]], name)
   }, names(table), class)))
   htmltools::tagList(
-    tags$div(class = "scroll", tags$table(class = "overview", tags$thead(head), tags$tbody(rows))),
+    page_table(head, rows, "overview"),
     if (length(own)) tags$dl(class = "meanings", unname(Map(function(name, text) {
       tags$div(tags$dt(name), tags$dd(text))
     }, names(own), own)))

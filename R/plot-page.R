@@ -83,7 +83,7 @@ write_page <- function(x, file, curves = list(), table = curve_table(curves),
     if (!is.null(caption)) htmltools::tags$p(caption),
     if (NROW(table)) page_section(paste0("Curves", if (inherits(curves, "shape")) " of the shape"),
                                   column_table(table, curve_meanings(unit))),
-    lead = page_lead(curves, x), provenance = of
+    lead = htmltools::tags$div(class = "sum", page_lead(curves, x)), provenance = of
   )
   save_page(page, file, selfcontained)
   invisible(file)

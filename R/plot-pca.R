@@ -180,9 +180,10 @@ write_pca_page <- function(x, file, component = seq_len(min(3, length(x$sdev))),
   tags <- htmltools::tags
   page <- page_document(
     title, tags$div(class = "blocks", blocks),
-    lead = tags$p(sprintf(paste("%d specimens, %d points (%s). The sliders move the mean by -%g to",
-                                "%g standard deviations of a component."),
-                          nrow(x$x), nrow(x$mean), x$level, sd, sd)),
+    lead = tags$div(class = "sum", tags$p(sprintf(
+      paste("%d specimens, %d points (%s). The sliders move the mean by -%g to %g standard",
+            "deviations of a component."), nrow(x$x), nrow(x$mean), x$level, sd, sd
+    ))),
     provenance = x$provenance
   )
   save_page(page, file, selfcontained)

@@ -4,17 +4,16 @@
 page_of.assessment <- function(x, file, title) {
   if (is.null(title)) title <- paste(x$id, "against the norms of its age and sex")
   tags <- htmltools::tags
-  page <- tags$body(
-    class = "patient",
-    tags$header(tags$h1(title), assessment_facts(x),
-                tags$p(class = "warn", "No diagnosis. What is rare in the norm's sample is not",
-                       "therefore ill; see the limits below.")),
-    assessment_verdicts(x), assessment_maps(x), assessment_findings(x),
+  page <- page_document(
+    title, assessment_verdicts(x), assessment_maps(x), assessment_findings(x),
     assessment_charts(x), assessment_values(x), assessment_unknown(x), assessment_limits(x),
     tags$section(tags$h2("Where this came from"), assessment_norm(x$norms)),
-    provenance_block(x$provenance)
+    lead = list(assessment_facts(x),
+                tags$p(class = "warn", "No diagnosis. What is rare in the norm's sample is not",
+                       "therefore ill; see the limits below.")),
+    provenance = x$provenance, class = "patient"
   )
-  write_report(page, title, file, c("quality.css", "patient.css"))
+  save_page(page, file, TRUE)
 }
 
 assessment_facts <- function(x) {

@@ -30,9 +30,7 @@ report_overview <- function(counts) {
   })
   head <- tags$tr(tags$th("specimen"), lapply(c("red", "amber", "green"), tags$th, class = "n"),
                   tags$th())
-  tags$section(tags$h2("Specimens"), tags$div(
-    class = "scroll", tags$table(class = "overview", tags$thead(head), tags$tbody(rows))
-  ))
+  tags$section(tags$h2("Specimens"), page_table(head, rows, "overview"))
 }
 
 #' The place of the matrix of specimens by parts, which the script fills; nothing for one specimen

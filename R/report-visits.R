@@ -4,15 +4,14 @@
 page_of.visit_comparison <- function(x, file, title) {
   if (is.null(title)) title <- paste(x$ids[2], "compared with", x$ids[1])
   tags <- htmltools::tags
-  page <- tags$body(
-    class = "patient",
-    tags$header(tags$h1(title), visit_facts(x),
+  page <- page_document(
+    title, visit_maps(x), visit_parts(x), visit_measurements(x), visit_limits(x),
+    lead = list(visit_facts(x),
                 tags$p(class = "warn", "No diagnosis. A change that is real need not matter, and",
                        "one that is smaller than the errors of both scans is not seen.")),
-    visit_maps(x), visit_parts(x), visit_measurements(x), visit_limits(x),
-    provenance_block(x$provenance)
+    provenance = x$provenance, class = "patient"
   )
-  write_report(page, title, file, c("quality.css", "patient.css"))
+  save_page(page, file, TRUE)
 }
 
 visit_facts <- function(x) {

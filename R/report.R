@@ -57,13 +57,13 @@ quality_report <- function(x, file, specimens = NULL, limits = quality_limits(),
   said <- sprintf("%s, %s: %d green, %d amber, %d red.", amount(nrow(counts), "specimen"),
                   amount(nrow(table), "part"), share("green"), share("amber"), share("red"))
   bar <- report_bar(share("green"), share("amber"), share("red"))
-  page <- tags$body(
-    tags$header(tags$h1(title), tags$div(class = "sum", bar, tags$p(said))),
-    report_overview(counts), report_matrix(counts), report_figures(figures), report_parts(table),
-    report_limits(limits), provenance_block(shapes_provenance(shapes)), report_data(table),
-    tags$script(htmltools::HTML(report_text("quality.js")))
+  page <- page_document(
+    title, report_overview(counts), report_matrix(counts), report_figures(figures),
+    report_parts(table), report_limits(limits), provenance_block(shapes_provenance(shapes)),
+    report_data(table), tags$script(htmltools::HTML(report_text("quality.js"))),
+    lead = tags$div(class = "sum", bar, tags$p(said))
   )
-  write_report(page, title, file)
+  save_page(page, file, TRUE)
   invisible(file)
 }
 
@@ -103,16 +103,4 @@ grade_picture <- function(shape, graded, specimen, size, resolution = 120) {
 png_address <- function(file) {
   bytes <- readBin(file, "raw", file.size(file))
   paste0("data:image/png;base64,", gsub("\n", "", jsonlite::base64_enc(bytes), fixed = TRUE))
-}
-
-#' @param styles Names of style sheets of the package.
-#' @noRd
-write_report <- function(page, title, file, styles = "quality.css") {
-  lines <- c(
-    "<!DOCTYPE html>", "<html lang=\"en\">", "<head>", "<meta charset=\"utf-8\">",
-    "<meta name=\"viewport\" content=\"width=device-width\">",
-    as.character(htmltools::tags$title(title)),
-    "<style>", vapply(styles, report_text, ""), "</style>", "</head>", as.character(page), "</html>"
-  )
-  write_html(lines, file)
 }
