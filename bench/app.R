@@ -1,10 +1,15 @@
 # The app in a browser, with real clicks: a folder of eight faces, one damaged, from files to a
 # comparison and exported pages; then its code in a fresh R, whose numbers must be the same.
-#   CRESTLINE_SHARED=... Rscript bench/app.R [folder]
+#   CRESTLINE_SHARED=... Rscript bench/app.R [folder] [desk] [find] [390]
+# desk: the desk in between. find: the faces come without landmarks, and "Find" is pressed. 390: the
+# width of a phone.
 # Needs the packages shiny and chromote and a Chromium or Chrome (CHROMOTE_CHROME names it); no
 # display, no graphics card.
 suppressMessages(library(crestline))
-folder <- c(commandArgs(TRUE), tempfile("app"))[1]
+arguments <- commandArgs(TRUE)
+folder <- c(arguments, tempfile("app"))[1]
+finds <- "find" %in% arguments
+size <- if ("390" %in% arguments) c(390, 844) else c(1400, 900)
 dir.create(folder, showWarnings = FALSE, recursive = TRUE)
 source("bench/browser.R")
 shared <- Sys.getenv("CRESTLINE_SHARED")
@@ -18,7 +23,7 @@ files <- list.files(file.path(shared, "simpop"), "[.]ply$", full.names = TRUE)[1
 marks <- read.csv(file.path(shared, "simpop", "landmarks.csv"))
 name <- intersect(c("id", "specimen", "face"), names(marks))[1]
 invisible(file.copy(files, scans))
-for (file in files) {
+if (!finds) for (file in files) {
   id <- sub("[.]ply$", "", basename(file))
   own <- marks[marks[[name]] == id, ]
   write_landmarks(as.matrix(data.frame(own[c("x", "y", "z")], row.names = own$landmark)),
@@ -32,7 +37,7 @@ write.csv(data.frame(id = ids, group = rep(c("a", "b"), 4)), table, row.names = 
 
 served <- serve(sprintf("result <- crestline_app('%s', port = 8271, launch.browser = FALSE)",
                         normalizePath(scans)), 8271)
-page <- open_page(served, c(1400, 900), "!!document.getElementById('said')")
+page <- open_page(served, size, "!!document.getElementById('said')")
 begun <- Sys.time()
 text <- function(id) look(page, sprintf("document.getElementById('%s').textContent", id))
 write_into <- function(id, value) {
@@ -50,7 +55,8 @@ step <- function(id, done, seconds = 900) {
   data.frame(step = id, seconds = took)
 }
 steps <- step("step_folder", "The scans of a folder: done")
-steps <- rbind(steps, step("step_beside", "beside the scans: done"))
+steps <- rbind(steps, if (finds) step("step_find", "found by machine .*: done") else
+  step("step_beside", "beside the scans: done"))
 press(page, "#step_measure")
 bars <- 0
 until(function() {
@@ -62,7 +68,7 @@ cat(text("said"), "\n")
 shoot(page, "app-measured.png")
 
 # The desk, from the app: one landmark kept on the first face, and back
-if ("desk" %in% commandArgs(TRUE)) {
+if ("desk" %in% arguments) {
   press(page, "#desk")
   until(function() look(page, "!!Shiny.shinyapp.$inputValues['ready']"), "the desk", 300)
   Sys.sleep(2)
@@ -89,6 +95,7 @@ for (one in list(c("step_groups", "from a table: done"), c("step_compare", "comp
 }
 shoot(page, "app-done.png")
 minutes <- as.numeric(difftime(Sys.time(), begun, units = "mins"))
+wide <- look(page, "document.documentElement.scrollWidth")
 result <- finish(page, served)
 print(steps)
 
@@ -104,7 +111,7 @@ writeLines(c(readLines(code), sprintf("saveRDS(list(compared = compared, sample 
 status <- system2(file.path(R.home("bin"), "Rscript"), code, stdout = FALSE, stderr = FALSE)
 fresh <- readRDS(again)
 print(data.frame(
-  minutes = minutes, bars_seen = bars > 0, measured = length(result$values$sample),
+  minutes = minutes, width = size[1], scroll_width = wide, found = finds, bars_seen = bars > 0, measured = length(result$values$sample),
   files = paste(files, collapse = " "), fresh_status = status,
   same_points = identical(as.array(fresh$sample), as.array(result$values$sample)),
   same_tests = identical(fresh$compared$tests, result$values$compared$tests)
