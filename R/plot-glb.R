@@ -20,7 +20,8 @@
 #' @param sides Number of sides of a tube.
 #' @param component Numbers of the components. NULL: the first three.
 #' @param sd Standard deviations that a morph target of weight 1 stands for.
-#' @param unit Metres in a unit of the mesh: 0.001 for mm.
+#' @param unit Metres in a unit of the mesh: 0.001 for mm. Shapes of a sample that was aligned with
+#'   `scale = TRUE` have centroid size 1: `0.001 * mean(aligned$size)` for scans in mm.
 #' @return The path of the file, invisibly.
 #' @section Errors: of class `crestline_error`: the file has another ending, its folder does not
 #'   exist, there is no surface or no such component.
