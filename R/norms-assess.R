@@ -13,6 +13,10 @@
 #' surroundings would have there, with its standard deviation. The *asymmetry scan* compares the
 #' asymmetry of the face with that of the norm, not with zero, since the mean face is not symmetric.
 #'
+#' Deviations along the surface (`tangential`, `d2`) are correspondence as much as anatomy: points
+#' of patches can be placed only so well along it. They are given for each point, and no verdict
+#' uses them.
+#'
 #' Six families have a verdict each: size, measurements, components, map, scan, asymmetry. Their p
 #' come from faces that were held out when the norm was made, and are corrected by Holm's method.
 #'
@@ -42,7 +46,9 @@
 #'     norm), `distance` (along the normal from what is expected at this age and sex, in the unit
 #'     of the mesh), `z_map`, `se_scan`, `se_norm`, `z_scan` (the radius that gives most),
 #'     `z_asymmetry` (NA on the other side), `healed` (distance along the normal that healing took
-#'     away, in the unit of the mesh), `healed_sd`, `assessed`;
+#'     away, in the unit of the mesh), `healed_sd`, `tangential` (distance along the surface from
+#'     what is expected, in the unit of the mesh), `d2` (the same squared, against what varies
+#'     there: 95 % of faces are below 6, with a large norm), `p_tangential`, `assessed`;
 #'   * `verdicts`: data frame with a row for each family: `family`, `statistic`, `p`, `p_holm`,
 #'     `verdict` ("real", "not distinguishable", "not assessable"), `where`;
 #'   * `findings`: data frame with a row for each disc that was healed: `point`, `radius`, `z`,
@@ -212,6 +218,8 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
     asymmetry[norms$points$side] <- other$z[cbind(seq_len(nrow(other$z)),
                                                   max.col(abs(other$z), "first"))]
   }
+  tangential <- tangential_parts(norms$points, matrix(patient$y, 1), patient$expected,
+                                 patient$excess * as.vector(patient$expected$sd)^2)
   lost <- patient$missing
   found <- data.frame(
     point = norms$points$point, stats::setNames(as.data.frame(patient$xyz), c("x", "y", "z")),
@@ -221,9 +229,11 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
     z_scan = healed$scan$z[cbind(seq_along(best), best)], z_asymmetry = asymmetry,
     healed = row_products(took, field$normal) / patient$scale,
     healed_sd = sqrt(variance_along(field$normal, healed$variance * patient$spread^2)) /
-      patient$scale, assessed = !lost
+      patient$scale, tangential = as.vector(tangential$off) / patient$scale,
+    d2 = as.vector(tangential$d2), p_tangential = as.vector(tangential$p), assessed = !lost
   )
-  columns <- c("distance", "z_map", "se_scan", "se_norm", "z_scan", "z_asymmetry")
+  columns <- c("distance", "z_map", "se_scan", "se_norm", "z_scan", "z_asymmetry", "tangential",
+               "d2", "p_tangential")
   found[lost, columns] <- NA
   rownames(found) <- NULL
   found
@@ -307,6 +317,8 @@ print.assessment <- function(x, most = 6, ...) {
     cat("  errors of the scan: ", x$errors, if (x$errors == "estimated") {
       sprintf(" from its roughness, %.2g of the norm's", x$rough)
     }, "\n", sep = "")
+    cat(sprintf("  along the surface %.2g %% of points are beyond their 95 %% (not judged)\n",
+                100 * mean(x$points$p_tangential < 0.05, na.rm = TRUE)))
     lost <- c(sum(!x$points$assessed), sum(!is.na(x$values$reason)))
     if (any(lost > 0)) {
       cat(sprintf("  not assessed, as points are missing: %s, %s\n",

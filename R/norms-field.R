@@ -118,9 +118,9 @@ pose_directions <- function(field) {
 #'
 #' @param extra Variance added to each point (3k): large where a point is left out.
 #' @param free Variance of pose and scale.
-#' @return List: `solve_kernel` (a function), `kernel_diagonal` (of the kernel's inverse), `basis`
-#'   (3k x (K + 7)), `inner` (the inverse of its matrix), `solved` (the kernel's inverse times the
-#'   basis).
+#' @return List: `solve_kernel` (a function), `root` (Cholesky's, of the kernel for x),
+#'   `kernel_diagonal` (of the kernel's inverse), `basis` (3k x (K + 7)), `inner` (the inverse of
+#'   its matrix), `solved` (the kernel's inverse times the basis).
 #' @noRd
 invert_field <- function(field, extra = 0, free = 1e6) {
   k <- nrow(field$points)
@@ -140,14 +140,18 @@ invert_field <- function(field, extra = 0, free = 1e6) {
   basis <- cbind(field$vectors, pose_directions(field))
   solved <- solve_kernel(basis)
   inner <- diag(c(1 / field$values, rep(1 / free, 7)), ncol(basis)) + crossprod(basis, solved)
-  list(solve_kernel = solve_kernel, kernel_diagonal = diagonal, basis = basis, solved = solved,
-       inner = chol2inv(chol(inner)))
+  list(solve_kernel = solve_kernel, root = roots[[1]], kernel_diagonal = diagonal, basis = basis,
+       solved = solved, inner = chol2inv(chol(inner)))
 }
 
 apply_inverse <- function(inverse, x) {
   x <- as.matrix(x)
   y <- inverse$solve_kernel(x)
   y - inverse$solved %*% (inverse$inner %*% crossprod(inverse$solved, x))
+}
+
+inverse_diagonal <- function(inverse) {
+  inverse$kernel_diagonal - rowSums((inverse$solved %*% inverse$inner) * inverse$solved)
 }
 
 #' Weights of the scan: a column for each centre
@@ -192,4 +196,17 @@ scan_statistics <- function(field, u, radii, scale, inverse) {
 field_deviations <- function(field, y, age, group) {
   expected <- expected_columns(field$columns, age, group)
   (y - expected$mean) / expected$sd / sqrt(1 + expected$h)
+}
+
+#' What is expected at points that are left out, given all others
+#'
+#' @param out 3k, which co-ordinates are left out.
+#' @param extra The variance that leaves them out.
+#' @return List: `fit` (3k: u itself outside), `variance` (3k: of u given the others, 0 outside).
+#' @noRd
+given_the_rest <- function(field, u, out, extra = 1e5) {
+  inverse <- invert_field(field, ifelse(out, extra, 0))
+  solved <- as.vector(apply_inverse(inverse, u))
+  variance <- pmax(1 / inverse_diagonal(inverse) - extra, 0)
+  list(fit = ifelse(out, u - extra * solved, u), variance = ifelse(out, variance, 0))
 }

@@ -87,11 +87,15 @@ print.norm_settings <- function(x, ...) {
 #'
 #' @section Privacy:
 #' With `share = TRUE` a norm is refused that would tell too much of its people: more components
-#' than a fiftieth of the faces; an age at which one person decides more than a tenth of the mean; a
-#' norm whose components fit its members better than strangers (ratio of residuals below 0.95, or
-#' area under the curve of membership above 0.60, both by held-out faces). Counts below 5 are
-#' merged. This is no formal (differential) privacy. Two norms whose samples differ by one person
-#' give that person's face by subtraction: publish rarely, and never "all but one".
+#' than a fiftieth of the faces; a person who decides more than a fifth of the mean at his or her
+#' age; a norm whose components fit its members better than strangers (ratio of residuals below
+#' 0.95, or area under the curve of membership above 0.60, both by held-out faces). The error names
+#' the faces to leave out, or the number of components that keeps the rule. Ages at which one person
+#' decides more than a tenth of the mean are cut from the norm's range, which is said. Counts below
+#' 5 are merged.
+#'
+#' This is no formal (differential) privacy. Two norms whose samples differ by one person give that
+#' person's face by subtraction: publish rarely, and never "all but one".
 #'
 #' @param sample A `shape_sample`, as of [homologise()], whose scheme has patches. At least 20 faces
 #'   of each sex.
@@ -107,7 +111,8 @@ print.norm_settings <- function(x, ...) {
 #' @template progress
 #' @return Object of class `shape_norms`, a list:
 #'   * `points`: data frame of the reference: `point`, `x`, `y`, `z` (in the unit of the meshes),
-#'     normal `nx`, `ny`, `nz`, `partner`, `se_norm` (standard error of the sample's points);
+#'     normal `nx`, `ny`, `nz`, `partner`, `se_norm` (standard error of the sample's points),
+#'     `r_xy`, `r_xz`, `r_yz` (correlations of a point's standardised co-ordinates);
 #'   * `counts`: data frame with the number of faces by sex and year of age; `ages`: range of ages
 #'     by sex; `n`;
 #'   * `table`: data frame of size, measurements and components: `name`, `transform` ("log" or "as
@@ -115,7 +120,8 @@ print.norm_settings <- function(x, ...) {
 #'     z, NA for none);
 #'   * `values`, `surface`, `asymmetry`: the fitted splines and fields;
 #'   * `limits`: quantiles of held-out faces (`levels`), by family;
-#'   * `privacy`: `ratio`, `auc`, `least` (smallest effective number at the ages of the sample);
+#'   * `privacy`: `ratio`, `auc`, `least` (smallest effective number at the ages of the sample, with
+#'     `share` at those that are kept);
 #'   * `about`, `scheme`, `settings`.
 #' @section Errors: of class `crestline_error`: too few faces, a formula of another form, a column
 #'   that is missing, or (with `share`) a rule of privacy that is not kept; the error gives the
@@ -156,6 +162,7 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   plan <- norm_plan(settings, people)
   if (share) check_shared_components(plan, length(people$age))
   parts <- fit_parts(made, seq_along(people$age), plan)
+  if (share) check_lone(parts, people, names(sample))
   scales <- lapply(parts[c("surface", "asymmetry")], function(field) {
     if (!is.null(field)) scan_weights(field, plan$radii)$scale
   })
@@ -167,8 +174,10 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   if (length(templates) == 1) norms$scheme$template <- templates[[1]]
   norms$about <- c(about, made_with())
   norms$table$se_norm <- c(value_errors(sample, norms), rep(0, plan$components))
-  if (share) check_shared(norms)
-  if (share) norms$counts <- merged_counts(norms$counts)
+  if (!share) return(norms)
+  norms <- keep_shared_ages(norms, people)
+  check_shared(norms, privacy_figures(held$privacy))
+  norms$counts <- merged_counts(norms$counts)
   norms
 }
 

@@ -22,7 +22,7 @@ tail_p <- function(value, quantiles) {
 #'
 #' @param data,plan As in [fit_parts()]; `scales` as in [hold_out()].
 #' @return List: `z` (n x m), `map` (n), `surface`, `asymmetry`: lists `t` (by radius n x k),
-#'   `rough` (n); `privacy`: data frame `member`, `stranger` of root mean square residuals by fold.
+#'   `rough` (n), `u`; `privacy`: of [membership()].
 #' @noRd
 cross_validated <- function(data, plan, scales, progress) {
   # Which fold each face is held out in: alike in ages and sexes
@@ -62,27 +62,39 @@ put_rows <- function(x, part, rows) {
 }
 
 #' Residuals of the projection on the components: of as many members as strangers
+#'
+#' @param shares Shares of the components that are tried, all first: what fewer would tell.
+#' @return Data frame: `components`, `member`, `stranger` (root mean squares).
 #' @noRd
-membership <- function(field, data, members, strangers) {
+membership <- function(field, data, members, strangers, shares = c(1, 0.75, 0.5, 0.25)) {
   members <- members[round(seq(1, length(members), length.out = length(strangers)))]
-  residual <- function(rows) {
+  counts <- unique(ceiling(shares * ncol(field$vectors)))
+  residuals <- function(rows) {
     expected <- expected_columns(field$columns, data$people$age[rows], data$people$group[rows])
     u <- (data$y[rows, , drop = FALSE] - expected$mean) / expected$sd
-    left <- (u - tcrossprod(u %*% field$vectors, field$vectors)) * expected$sd
-    sqrt(rowSums(left^2) * 3 / ncol(left))
+    lapply(counts, function(count) {
+      own <- field$vectors[, seq_len(count), drop = FALSE]
+      left <- (u - tcrossprod(u %*% own, own)) * expected$sd
+      sqrt(rowSums(left^2) * 3 / ncol(left))
+    })
   }
-  data.frame(member = residual(members), stranger = residual(strangers))
+  data.frame(components = rep(counts, each = length(strangers)),
+             member = unlist(residuals(members)), stranger = unlist(residuals(strangers)))
 }
 
-#' How well the file tells a member from a stranger
-#' @return List: `ratio` of the root mean squares, `auc`.
+#' How well files of some numbers of components tell a member from a stranger
+#' @return Data frame: `components` (most first), `ratio` of the root mean squares, `auc`.
 #' @noRd
 privacy_figures <- function(residuals) {
-  n <- nrow(residuals)
-  rank <- rank(c(residuals$member, residuals$stranger))
-  auc <- (sum(rank[n + seq_len(n)]) - n * (n + 1) / 2) / n^2
-  list(ratio = signif(sqrt(mean(residuals$member^2) / mean(residuals$stranger^2)), 4),
-       auc = signif(auc, 4))
+  each <- lapply(split(residuals, -residuals$components), function(own) {
+    n <- nrow(own)
+    rank <- rank(c(own$member, own$stranger))
+    auc <- (sum(rank[n + seq_len(n)]) - n * (n + 1) / 2) / n^2
+    data.frame(components = own$components[1],
+               ratio = signif(sqrt(mean(own$member^2) / mean(own$stranger^2)), 4),
+               auc = signif(auc, 4))
+  })
+  do.call(rbind, unname(each))
 }
 
 #' The scan's scales and limit by held-out statistics

@@ -39,7 +39,7 @@ field_scores <- function(field, y, age, group) {
 #' @param scales List `surface`, `asymmetry` of scales of [scan_weights()].
 #' @return List: `z` (n x m: of log size, measurements, scores), `map` (n: largest |z| along the
 #'   normals), `surface`, `asymmetry`: lists of `t` (list by radius of n x k), `rough` (n: median
-#'   squared residual from what the neighbours make expected).
+#'   squared residual from what the neighbours make expected); of `surface` also `u` (n x 3k).
 #' @noRd
 hold_out <- function(parts, data, rows, radii, scales) {
   age <- data$people$age[rows]
@@ -50,17 +50,18 @@ hold_out <- function(parts, data, rows, radii, scales) {
   along <- normal_part(y, parts$surface$points, parts$surface$normal)
   map <- predicted_z(along, expected_columns(parts$surface$along, age, group))
   list(z = z, map = apply(abs(map), 1, max),
-       surface = hold_out_field(parts$surface, y, age, group, radii, scales$surface),
+       surface = hold_out_field(parts$surface, y, age, group, radii, scales$surface, keep = TRUE),
        asymmetry = if (!is.null(parts$asymmetry)) {
          hold_out_field(parts$asymmetry, data$off[rows, , drop = FALSE], age, group, radii,
                         scales$asymmetry)
        })
 }
 
-hold_out_field <- function(field, y, age, group, radii, scale) {
+hold_out_field <- function(field, y, age, group, radii, scale, keep = FALSE) {
   inverse <- invert_field(field)
   u <- t(field_deviations(field, y, age, group))
-  list(t = scan_statistics(field, u, radii, scale, inverse), rough = roughness(inverse, u)$median)
+  list(t = scan_statistics(field, u, radii, scale, inverse), rough = roughness(inverse, u)$median,
+       u = if (keep) t(u))
 }
 
 #' How far points are from what all others make expected, over what the norm expects
@@ -73,8 +74,4 @@ roughness <- function(inverse, u) {
   k <- nrow(inverse$basis) / 3
   own <- inverse_diagonal(inverse)
   list(median = apply(solved^2 / own, 2, stats::median), variance = 1 / own)
-}
-
-inverse_diagonal <- function(inverse) {
-  inverse$kernel_diagonal - rowSums((inverse$solved %*% inverse$inner) * inverse$solved)
 }

@@ -69,19 +69,6 @@ standardised_face <- function(field, y, age, sex) {
   list(u = u, y = as.vector(expected$mean) + u * spread, expected = expected, spread = spread)
 }
 
-#' What is expected at points that are left out, given all others
-#'
-#' @param out 3k, which co-ordinates are left out.
-#' @param extra The variance that leaves them out.
-#' @return List: `fit` (3k: u itself outside), `variance` (3k: of u given the others, 0 outside).
-#' @noRd
-given_the_rest <- function(field, u, out, extra = 1e5) {
-  inverse <- invert_field(field, ifelse(out, extra, 0))
-  solved <- as.vector(apply_inverse(inverse, u))
-  variance <- pmax(1 / inverse_diagonal(inverse) - extra, 0)
-  list(fit = ifelse(out, u - extra * solved, u), variance = ifelse(out, variance, 0))
-}
-
 #' Variance of u that this scan has beyond the norm's own
 #'
 #' By the standard errors of its points where at least half have one; else by how rough it is: the
@@ -101,8 +88,7 @@ excess_variance <- function(field, found, se, se_norm) {
 
 #' The scan of one face: every centre and radius
 #'
-#' @return List: `z` (k x radii), `largest`, `p`, `at` (row), `radius`, `spread` (of its statistic
-#'   among held-out faces, over what the field makes expected).
+#' @return List: `z` (k x radii), `largest`, `p`, `at` (row), `radius`.
 #' @noRd
 scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$points))) {
   t <- lapply(field$weights, function(w) crossprod(found$u, w))
@@ -113,39 +99,6 @@ scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$poi
   free <- z
   free[but, ] <- 0
   best <- arrayInd(which.max(abs(free)), dim(z))
-  spread <- t[[best[2]]][best[1]] / z[best]
   list(z = z, largest = abs(free[best]), at = best[1], radius = field$scan$radii[best[2]],
-       spread = spread, p = tail_p(abs(free[best]), field$scan$quantiles))
-}
-
-#' The face healed: discs where the scan finds something are made up from the rest
-#'
-#' What the rest leaves open is widened where held-out faces vary more than the field says.
-#'
-#' @param alpha Level of the scan.
-#' @param reach Radius of the disc as a multiple of the scan's.
-#' @param most Most discs.
-#' @return List: `found` (data frame `at`, `radius`, `z`), `out` (k), `u` (3k, healed), `variance`
-#'   (3k), `scan` (the first), `finished` (whether the rest has no more).
-#' @noRd
-heal_face <- function(field, found, age, sex, missing, alpha, reach = 1.5, most = 5) {
-  out <- missing
-  spread <- rep(1, length(out))
-  healed <- list(u = found$u, variance = 0 * found$u)
-  first <- scan <- scanned_face(field, found, age, sex, out)
-  hits <- data.frame(at = integer(), radius = numeric(), z = numeric())
-  while (scan$p <= alpha && nrow(hits) < most) {
-    centre <- field$points[scan$at, ]
-    disc <- row_lengths(sweep(field$points, 2, centre)) <= reach * scan$radius
-    # Less than half of the face says nothing about the rest.
-    if (mean(out | disc) > 0.5) break
-    out <- out | disc
-    spread[disc] <- pmax(spread[disc], scan$spread)
-    hits <- rbind(hits, data.frame(at = scan$at, radius = scan$radius,
-                                   z = scan$z[scan$at, match(scan$radius, field$scan$radii)]))
-    made <- given_the_rest(field, found$u, rep(out, 3))
-    healed <- list(u = made$fit, variance = made$variance * rep(spread, 3)^2)
-    scan <- scanned_face(field, utils::modifyList(found, list(u = made$fit)), age, sex, out)
-  }
-  c(list(found = hits, out = out & !missing, scan = first, finished = scan$p > alpha), healed)
+       p = tail_p(abs(free[best]), field$scan$quantiles))
 }

@@ -44,9 +44,11 @@ read_norm_header <- function(dir) {
     refuse_norm(file, "it is no norm of crestline", "Give the folder of a norm.")
   }
   version <- header$version
-  if (!is.numeric(version) || length(version) != 1 || version > norm_version()) {
-    refuse_norm(file, sprintf("it is of version %s, this crestline reads up to %d",
-                              describe_value(version), norm_version()), "Update crestline.")
+  if (!is.numeric(version) || length(version) != 1 || version != norm_version()) {
+    old <- is.numeric(version) && isTRUE(version < norm_version())
+    refuse_norm(file, sprintf("it is of version %s, this crestline reads %d",
+                              describe_value(version), norm_version()),
+                if (old) "Fit and write it again." else "Update crestline.")
   }
   # The checksum is of the text without its own line.
   plain <- sub(",\n  \"checksum\": \"[0-9a-f]*\"", "", text)
@@ -91,7 +93,7 @@ norms_from_tables <- function(header, tables) {
          values = own$values, kernel = own$kernel, ranges = own$ranges,
          scan = list(radii = own$radii, s = unname(as.matrix(tables[[paste0("scan-", name)]])),
                      by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
-         rough = own$rough)
+         rough = own$rough, healing = if (name == "surface") tables$healing)
   }
   measurements <- tables$measurements
   table <- tables$table
@@ -139,6 +141,14 @@ check_norm_numbers <- function(norms) {
         refuse_norm(paste0("mean-", name, ".csv"), "it has numbers that are not finite")
       }
     }
+  }
+  healing <- norms$surface$healing[c("at", "radius", "base", "peak")]
+  if (!all(is.finite(unlist(healing)), healing$at %in% seq_len(nrow(norms$points)))) {
+    refuse_norm("healing.csv", "it has numbers that are not finite, or no points of this norm")
+  }
+  r <- norms$points[c("r_xy", "r_xz", "r_yz")]
+  if (!all(is.finite(unlist(r)), 1 - rowSums(r^2) + 2 * r[[1]] * r[[2]] * r[[3]] > 0)) {
+    refuse_norm("reference.csv", "its correlations of co-ordinates are none")
   }
   for (name in c("surface", "asymmetry")) {
     field <- norms[[name]]

@@ -8,13 +8,15 @@
 #' All scans of a person are laid on each other by least squares, without scaling. The standard
 #' error of a curve or surface point is that along the normal; that of a landmark is the root mean
 #' square of its three co-ordinates. With fewer than `pool` degrees of freedom all points of a curve
-#' or patch get their root mean square. The correlation of surface points at distance d is fitted as
-#' \eqn{share \exp(-d^2 / (2 range^2))}; the rest of the variance is independent.
+#' or patch get their root mean square. The correlation of a co-ordinate at two surface points at
+#' distance d is fitted as \eqn{share \exp(-d^2 / (2 range^2))}; the rest of the variance is
+#' independent. It is fitted to products of errors along the normals, over the cosine between these.
 #'
 #' @param shapes Two or more shapes of one scheme: a list of `shape`s, or a `shape_sample`.
 #' @param specimen A name for each shape: the person. `NULL`: all are of one person.
 #' @param pool Degrees of freedom (shapes less persons) from which on every point has a standard
 #'   error of its own.
+#' @param settings [repeat_settings()].
 #' @return Object of class `visit_errors`, a list:
 #'   * `points`: data frame with a row for each point of the scheme: `level`, `part`, `point`, `se`
 #'     (of one scan, in the unit of the mesh; NA where a point was never measured twice);
@@ -34,8 +36,9 @@
 #' visit_errors(both, rep(names(cohort$sample), 2))
 #' }
 #' @export
-visit_errors <- function(shapes, specimen = NULL, pool = 30) {
+visit_errors <- function(shapes, specimen = NULL, pool = 30, settings = repeat_settings()) {
   check_given()
+  check_class(settings, "repeat_settings", "settings", "repeat_settings()")
   if (inherits(shapes, "shape_sample")) shapes <- shapes$shapes
   shapes <- check_list(shapes, "shape", "shapes", "fit_shape() or homologise()")
   for (shape in shapes) check_same_scheme(shape, shapes[[1]])
@@ -48,7 +51,7 @@ visit_errors <- function(shapes, specimen = NULL, pool = 30) {
                     stage = "visits")
   }
   persons <- Filter(function(own) length(own) > 1, split(seq_along(shapes), specimen))
-  each <- lapply(persons, function(own) repeat_deviations(unname(shapes[own])))
+  each <- lapply(persons, function(own) repeat_deviations(unname(shapes[own]), settings$rounds))
   along <- do.call(rbind, lapply(each, `[[`, "along"))
   df <- colSums(!is.na(along)) - Reduce(`+`, lapply(each, `[[`, "seen"))
   variance <- colSums(along^2, na.rm = TRUE) / ifelse(df > 0, df, NA)
@@ -61,12 +64,51 @@ visit_errors <- function(shapes, specimen = NULL, pool = 30) {
   }
   se <- sqrt(variance)
   surface <- points$level == "surface"
-  together <- error_correlation(along[, surface], se[surface],
-                                point_columns(shapes[[persons[[1]][1]]])[surface, ], df[surface])
+  first <- shapes[[persons[[1]][1]]]
+  together <- error_correlation(along[, surface], se[surface], df[surface],
+                                point_columns(first)[surface, ], row_normals(first)[surface, ],
+                                settings)
   structure(c(list(points = data.frame(points, se = se, row.names = NULL)), together,
               list(counts = c(persons = length(persons), shapes = length(unlist(persons)),
                               df = most), hash = scheme_hash(shapes[[1]]$scheme))),
             class = "visit_errors")
+}
+
+#' Settings of errors from repeated scans
+#'
+#' @param rounds How often the scans of a person are laid on their mean.
+#' @param bins,reach The correlation is fitted to its means in so many bins of distance, up to this
+#'   share of the greatest distance between points. Points farther apart tell nothing of a range.
+#' @param least Share of the variance that goes together below which none is said. A share of 0.02
+#'   makes the standard error of the mean of 20 points a sixth larger.
+#' @param fewest Number of surface points, seen in all scans, from which on a correlation is fitted.
+#' @param ... Nothing: an unknown name is an error.
+#' @return A list of these settings, of class `repeat_settings`.
+#' @section Errors: of class `crestline_error`: a value is out of its range.
+#' @template glossary
+#' @template experimental
+#' @seealso [visit_errors()]
+#' @examples
+#' repeat_settings(bins = 10)
+#' @export
+repeat_settings <- function(rounds = 3L, bins = 15L, reach = 0.25, least = 0.02, fewest = 10L,
+                            ...) {
+  new_settings("repeat_settings", check_repeat_settings, list(...))
+}
+
+check_repeat_settings <- function(settings) {
+  settings$rounds <- check_count(settings$rounds, "rounds")
+  settings$bins <- check_count(settings$bins, "bins", lower = 2)
+  settings$reach <- check_number(settings$reach, "reach", 0, 1, open = TRUE)
+  settings$least <- check_number(settings$least, "least", 0, 1)
+  settings$fewest <- check_count(settings$fewest, "fewest", lower = 3)
+  settings
+}
+
+#' @export
+print.repeat_settings <- function(x, ...) {
+  check_method_dots(...)
+  print_settings(x, "<repeat_settings> of visit_errors()")
 }
 
 #' Deviations of a person's scans from their mean: along the normals, of landmarks their lengths
@@ -74,7 +116,7 @@ visit_errors <- function(shapes, specimen = NULL, pool = 30) {
 #'
 #' @return List: `along` (scans x points), `seen` (1 for each point with any).
 #' @noRd
-repeat_deviations <- function(shapes, rounds = 3) {
+repeat_deviations <- function(shapes, rounds) {
   first <- point_columns(shapes[[1]])
   each <- lapply(shapes, point_columns)
   mean <- first
@@ -98,33 +140,36 @@ repeat_deviations <- function(shapes, rounds = 3) {
 
 #' Share and range of the correlation of errors by products of standardised deviations
 #'
-#' @param along Deviations, scans x points.
-#' @param bins Number of bins of distance, up to a quarter of the extent.
+#' @param along Deviations along the normals, scans x points.
+#' @param se,df,xyz,normal Of the points.
+#' @param settings [repeat_settings()].
+#' @param ranges Ranges that are tried, as shares of the greatest distance.
 #' @return List: `range`, `share`.
 #' @noRd
-error_correlation <- function(along, se, xyz, df, bins = 15) {
+error_correlation <- function(along, se, df, xyz, normal, settings, ranges = 2^seq(-7, -1, 0.125)) {
   none <- list(range = 0, share = 0)
   whole <- which(colSums(is.na(along)) == 0 & is.finite(se) & se > 0)
-  if (length(whole) < 10) return(none)
+  if (length(whole) < settings$fewest) return(none)
   e <- along[, whole] / rep(se[whole], each = nrow(along))
   distance <- as.matrix(stats::dist(xyz[whole, ]))
   upper <- upper.tri(distance)
-  product <- (crossprod(e) / df[whole][1])[upper]
   d <- distance[upper]
-  near <- d < max(d) / 4
-  bin <- cut(d[near], seq(0, max(d) / 4, length.out = bins + 1))
+  near <- d < max(d) * settings$reach
+  bin <- cut(d[near], seq(0, max(d) * settings$reach, length.out = settings$bins + 1))
   mean_of <- function(x) as.vector(tapply(x[near], bin, mean))
   at <- mean_of(d)
-  value <- mean_of(product)
+  value <- mean_of((crossprod(e) / df[whole][1])[upper])
+  cosine <- mean_of(tcrossprod(normal[whole, ])[upper])
   weight <- as.vector(table(bin))
   ok <- weight > 0
-  found <- lapply(max(d) * 2^seq(-7, -1, 0.125), function(range) {
-    x <- exp(-at[ok]^2 / (2 * range^2))
-    share <- min(1, max(0, sum(weight[ok] * x * value[ok]) / sum(weight[ok] * x^2)))
+  found <- lapply(max(d) * ranges, function(range) {
+    x <- cosine[ok] * exp(-at[ok]^2 / (2 * range^2))
+    share <- sum(weight[ok] * x * value[ok]) / sum(weight[ok] * x^2)
+    share <- if (is.finite(share)) min(1, max(0, share)) else 0
     list(range = range, share = share, left = sum(weight[ok] * (value[ok] - share * x)^2))
   })
   best <- found[[which.min(vapply(found, `[[`, 0, "left"))]]
-  if (best$share < 0.02) none else best[c("range", "share")]
+  if (best$share < settings$least) none else best[c("range", "share")]
 }
 
 #' A shape with the errors of repeated scans in place of its own

@@ -17,10 +17,12 @@
 #' that it is not in the errors. Points of curves that are not on the surface grow as the nearest
 #' surface point.
 #'
-#' The smallest detectable change is \eqn{1.96 \sqrt{se_1^2 + se_2^2}}. The family-wise limit over
-#' all surface points is the 95 % quantile of the largest standardised error. For independent errors
-#' it has a closed form; otherwise errors are drawn whose correlation at distance d is
-#' \eqn{share \exp(-d^2 / (2 range^2))}.
+#' The smallest detectable change of a point is \eqn{1.96 \sqrt{se_1^2 + se_2^2}}, less what laying
+#' the visits on each other takes up. Errors of a co-ordinate at distance d have the correlation
+#' \eqn{share \exp(-d^2 / (2 range^2))}; along the normals it is smaller where these turn. Means of
+#' curves and patches have the standard error that follows. The family-wise limit over all surface
+#' points is the 95 % quantile of the largest standardised error. For independent errors it has a
+#' closed form; otherwise errors are drawn.
 #'
 #' @param before,after Shapes of one scheme, slid against one template ([slide()]).
 #' @param error A number: standard error of a co-ordinate of a point at one visit, in the unit of
@@ -90,13 +92,15 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
     known$grown$points[c("x", "y", "z")] <- point_columns(before) + growth$move
   }
   fit <- lay_visit(known$grown, known$after, used, is.null(unchanged), known$error, settings)
-  points <- changed_points(known, fit$laid, growth$se)
-  limit <- visit_limit(points[points$level == "surface", ], known$settings)
-  points$called <- points$level == "surface" & !is.na(points$score) & abs(points$score) > limit
-  structure(list(points = points, parts = changed_parts(points, known$settings),
+  covariance <- change_covariance(known, fit$weight)
+  points <- changed_points(known, fit$laid, diag(covariance), growth$se)
+  assessed <- points$level == "surface" & !is.na(points$score)
+  limit <- visit_limit(covariance[assessed, assessed, drop = FALSE], known$settings)
+  points$called <- assessed & abs(points$score) > limit
+  structure(list(points = points, parts = changed_parts(points, covariance, known$settings),
                  measurements = changed_measurements(known, table, growth), limit = limit,
-                 weights = fit$weights, converged = fit$converged, ids = c(before$id, after$id),
-                 alpha = 1 - settings$level, robust = is.null(unchanged), growth = growth$words,
+                 weights = fit$weight[surface], converged = fit$converged,
+                 ids = c(before$id, after$id), alpha = 1 - settings$level, robust = is.null(unchanged), growth = growth$words,
                  unit = length_unit(scheme_hash(scheme)),
                  triangles = model_triangles(scheme, FALSE),
                  front = own_pose(coords(before, "landmarks"), scheme),
@@ -169,7 +173,7 @@ print.visit_settings <- function(x, ...) {
 #'
 #' @param used Rows of the points that the registration may use.
 #' @param robust Whether points that moved more than others lose their weight.
-#' @return List: `laid` (matrix of all points), `weights` (of the surface points), `converged`.
+#' @return List: `laid` (matrix of all points), `weight` (of each, NA where not used), `converged`.
 #' @noRd
 lay_visit <- function(before, after, used, robust, error, settings) {
   a <- point_columns(before)
@@ -206,9 +210,8 @@ lay_visit <- function(before, after, used, robust, error, settings) {
                    "Give more `rounds`, or `unchanged` patches.", stage = "visits", id = after$id,
                    class = "crestline_not_converged")
   }
-  all <- rep(NA_real_, nrow(a))
-  all[used] <- weight
-  list(laid = move(b), weights = all[before$points$level == "surface"], converged = converged)
+  list(laid = move(b), weight = replace(rep(NA_real_, nrow(a)), used, weight),
+       converged = converged)
 }
 
 #' Standard errors of the change of points, NA where one of the visits has none
@@ -222,44 +225,96 @@ visit_error <- function(before, after, error) {
   sqrt(own(before)^2 + own(after)^2)
 }
 
+#' Covariance of the errors of change along the normals, curve and surface points
+#'
+#' Errors of a co-ordinate go together at two points as `together_at()` says; along two normals by
+#' their product less. The registration takes up what is rigid in them: of errors e, weights W and
+#' the derivatives J of a rigid motion, e - J (J'WJ)^-1 J'We is left.
+#'
+#' @param known As in [changed_points()].
+#' @param weight Of each point in the registration, NA where it is not used.
+#' @return Matrix, NA for points without errors.
+#' @noRd
+change_covariance <- function(known, weight) {
+  own <- which(known$before$points$level != "landmarks")
+  xyz <- point_columns(known$before)[own, ]
+  normal <- row_normals(known$before)[own, ]
+  se <- visit_error(known$before, known$after, known$error)[own]
+  there <- which(!is.na(se) & !is.na(xyz[, 1]))
+  empty <- matrix(NA_real_, length(own), length(own))
+  if (!length(there)) return(empty)
+  normal <- normal[there, , drop = FALSE]
+  xyz <- xyz[there, , drop = FALSE]
+  errors <- together_at(xyz, known$settings) * outer(se[there], se[there])
+  along <- errors * tcrossprod(normal)
+  w <- weight[own][there]
+  w[is.na(w)] <- 0
+  if (sum(w > 0) >= 3) along <- along - taken_up(xyz, normal, errors, w)
+  empty[there, there] <- along
+  empty
+}
+
+#' What a rigid registration takes of the covariance along the normals
+#' @param errors Covariance of a co-ordinate, k x k; `w` weights.
+#' @noRd
+taken_up <- function(xyz, normal, errors, w) {
+  x <- sweep(xyz, 2, colSums(xyz * w) / sum(w))
+  one <- rep(1, nrow(x))
+  zero <- 0 * one
+  # How each co-ordinate moves with three shifts and three turns
+  move <- list(cbind(one, zero, zero, zero, x[, 3], -x[, 2]),
+               cbind(zero, one, zero, -x[, 3], zero, x[, 1]),
+               cbind(zero, zero, one, x[, 2], -x[, 1], zero))
+  inner <- solve(Reduce(`+`, lapply(move, function(j) crossprod(j, j * w))))
+  spread <- lapply(move, function(j) errors %*% (j * w))
+  motion <- inner %*% Reduce(`+`, Map(function(j, s) crossprod(j * w, s), move, spread)) %*% inner
+  along <- Reduce(`+`, lapply(1:3, function(d) normal[, d] * move[[d]]))
+  both <- Reduce(`+`, lapply(1:3, function(d) normal[, d] * spread[[d]])) %*% inner
+  cross <- tcrossprod(both, along)
+  cross + t(cross) - along %*% motion %*% t(along)
+}
+
 #' Change of the points along the normals of the first visit
 #'
-#' @param known List: `before`, `after`, `grown` (the first visit at the second age), `error`.
+#' @param known List: `before`, `after`, `grown` (the first visit at the second age), `error`,
+#'   `settings`.
+#' @param variance Of the errors of the scans, of curve and surface points.
 #' @param se_growth Standard error of the growth along the normals by row, or NULL.
 #' @noRd
-changed_points <- function(known, laid, se_growth = NULL) {
+changed_points <- function(known, laid, variance, se_growth = NULL) {
   points <- known$before$points
   normal <- row_normals(known$before)
   at <- point_columns(known$grown)
   change <- row_products(laid - at, normal)
   if (is.null(se_growth)) se_growth <- numeric(nrow(points))
-  se <- sqrt(visit_error(known$before, known$after, known$error)^2 + se_growth^2)
   found <- data.frame(points[c("level", "part", "point", "x", "y", "z")],
                       growth = row_products(at - point_columns(known$before), normal),
-                      se_growth = se_growth, change = change, se = se, detectable = 1.96 * se,
-                      score = change / se)
+                      se_growth = se_growth, change = change)
   found <- found[found$level != "landmarks", ]
+  found$se <- sqrt(variance + found$se_growth^2)
+  found$detectable <- 1.96 * found$se
+  found$score <- found$change / found$se
   rownames(found) <- NULL
   found
 }
 
 #' The family-wise limit of scores: the quantile of the largest of many errors
+#' @param covariance Of the surface points that are assessed.
 #' @noRd
-visit_limit <- function(points, settings) {
-  known <- points[!is.na(points$score), c("x", "y", "z")]
-  k <- nrow(known)
+visit_limit <- function(covariance, settings) {
+  k <- nrow(covariance)
   if (!k) return(NA_real_)
   if (settings$range == 0 || settings$share == 0) {
     return(stats::qnorm((1 + settings$level^(1 / k)) / 2))
   }
-  root <- chol(together_at(known, settings) + diag(1e-6, k))
+  root <- chol(stats::cov2cor(covariance) + diag(1e-6, k))
   largest <- with_seed(settings$seed, vapply(seq_len(settings$draws), function(i) {
     max(abs(crossprod(root, stats::rnorm(k))))
   }, 0))
   stats::quantile(largest, settings$level, names = FALSE)
 }
 
-#' Correlation of errors between points
+#' Correlation of the errors of a co-ordinate between points
 #' @param settings List: `range`, `share`.
 #' @noRd
 together_at <- function(xyz, settings) {
@@ -267,23 +322,23 @@ together_at <- function(xyz, settings) {
   if (settings$range == 0) return(diag(n))
   together <- settings$share * exp(-as.matrix(stats::dist(xyz))^2 / (2 * settings$range^2))
   diag(together) <- 1
-  together
+  unname(together)
 }
 
 #' Mean change of curves and patches, with correlated errors of its points
+#' @param covariance Of [change_covariance()].
 #' @noRd
-changed_parts <- function(points, settings) {
+changed_parts <- function(points, covariance, settings) {
   key <- paste(points$level, points$part)
-  each <- lapply(split(points, factor(key, unique(key))), function(own) {
-    known <- own[!is.na(own$score), ]
-    n <- nrow(known)
-    together <- together_at(known[c("x", "y", "z")], settings)
-    scan <- sqrt(pmax(0, known$se^2 - known$se_growth^2))
+  each <- lapply(split(seq_along(key), factor(key, unique(key))), function(rows) {
+    known <- rows[!is.na(points$score[rows])]
     # Growth is wrong alike at all points of a part.
-    se <- if (n) sqrt(sum(outer(scan, scan) * together) / n^2 + mean(known$se_growth)^2) else NA
-    change <- if (n) mean(known$change) else NA_real_
-    data.frame(level = own$level[1], part = own$part[1], change = change, se = se,
-               detectable = 1.96 * se, p = 2 * stats::pnorm(-abs(change / se)))
+    se <- if (length(known)) {
+      sqrt(max(0, mean(covariance[known, known])) + mean(points$se_growth[known])^2)
+    } else NA
+    change <- if (length(known)) mean(points$change[known]) else NA_real_
+    data.frame(level = points$level[rows[1]], part = points$part[rows[1]], change = change,
+               se = se, detectable = 1.96 * se, p = 2 * stats::pnorm(-abs(change / se)))
   })
   parts <- do.call(rbind, unname(each))
   parts$p_holm <- stats::p.adjust(parts$p, "holm")

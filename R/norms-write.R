@@ -22,6 +22,8 @@
 #'   `asymmetry` and `asymmetry-along`;
 #' * `basis-*.csv`: the bases in which leverages are computed;
 #' * `components-*.csv`: mean spread and loadings of co-ordinates (all x first), in 0.0001;
+#' * `healing.csv`: by centre and radius how much more faces vary in a disc than the field makes
+#'   expected;
 #' * `scan-*.csv`: the spread of the scan's statistic by point and radius.
 #'
 #' @param norms A `shape_norms`, as of [fit_norms()].
@@ -82,7 +84,7 @@ check_norm_folder <- function(dir) {
   if (!dir.exists(dir) && !suppressWarnings(dir.create(dir, recursive = TRUE))) {
     fail(sprintf("`dir`: %s cannot be made.", dir), "Check the path and the right to write there.")
   }
-  known <- paste0("^(reference|triangles|counts|ages|table|measurements)[.]csv$|",
+  known <- paste0("^(reference|triangles|counts|ages|table|measurements|healing)[.]csv$|",
                   "^(mean|spread|basis|components|scan)-[a-z-]+[.]csv$|^norms[.]json$")
   found <- list.files(dir, all.files = TRUE, no.. = TRUE)
   strange <- found[!grepl(known, found)]
@@ -121,7 +123,7 @@ norm_tables <- function(norms) {
   triangles <- as.data.frame(t(norms$triangles))
   names(triangles) <- c("v1", "v2", "v3")
   tables <- list(reference = norms$points, triangles = triangles, counts = norms$counts,
-                 ages = norms$ages, table = norms$table)
+                 ages = norms$ages, table = norms$table, healing = norms$surface$healing)
   if (NROW(norms$measurements)) tables$measurements <- norms$measurements
   sets <- norm_sets(norms)
   centre <- as.vector(as.matrix(norms$points[c("x", "y", "z")]))
@@ -197,4 +199,4 @@ norm_header <- function(norms) {
        settings = norms$settings)
 }
 
-norm_version <- function() 1L
+norm_version <- function() 2L

@@ -2,16 +2,20 @@
 # the healed face, errors of the scan, privacy, speed.
 #
 #   Rscript bench/norms.R fit N SEED [SYMMETRIC]  one norm of N faces: time, memory, privacy, file;
-#                                                 kept as norms-N-SEED.rds in $CRESTLINE_NORMS
+#                                                 kept as norms-N-SEED.rds in $CRESTLINE_NORMS;
+#                                                 SYMMETRIC: share of the variance (0.85)
+#   Rscript bench/norms.R z N SEED FACES          z of new faces alone: no scan is fitted
+#   Rscript bench/norms.R file N SEED             a kept norm written, read and used
 #   Rscript bench/norms.R look N SEED PART [FACES]  a kept norm by FACES new faces; PART:
 #                                                 calibration, worse, own, lesions, healed, time
 #   Rscript bench/norms.R pool N                  the figures of all kept looks at norms of N faces,
 #                                                 mean over norms by number of faces, and range
 #
-#   Rscript bench/norms.R visits FACES SEED       two visits of FACES people: 0.15 mm independent
-#                                                 and 0.15 mm of range 8 mm at each visit
-#   Rscript bench/norms.R lone 200 SEED           a norm of 200 with one man beyond all others,
-#                                                 to be refused
+#   Rscript bench/norms.R visits FACES SEED [CASE]  two visits of FACES people: 0.15 mm independent
+#                                                 and 0.15 mm of range 8 mm at each visit; CASE:
+#                                                 height of the change, 0, 3 or 6 mm
+#   Rscript bench/norms.R lone N SEED             a norm of N with one man beyond all others, to be
+#                                                 shared: refused, until what the errors say is done
 #   Rscript bench/norms.R simpop 45 1             a norm of Morpho's 45 faces, if they are there
 #
 # Each row printed is `what value count`. Faces have the fields, errors and ages of
@@ -40,8 +44,8 @@ keep <- function(what, value, count = NA) {
 }
 
 if (mode == "fit") {
-  share <- if (length(arguments) > 3) as.numeric(arguments[4]) else 0.5
-  settings <- cohort_settings(symmetric = share)
+  settings <- cohort_settings()
+  if (length(arguments) > 3) settings$symmetric <- as.numeric(arguments[4])
   cohort <- simulate_cohort(n, seed = seed, settings = settings)
   gc(reset = TRUE)
   time <- system.time(norms <- fit_norms(cohort$sample, ~ s(age, by = sex), cohort$data,
@@ -50,12 +54,22 @@ if (mode == "fit") {
   say("fit, MB at most above what was there", sum(gc()[, 6]))
   say("privacy: ratio, auc, least effective", unlist(norms$privacy))
   saveRDS(list(norms = norms, settings = settings), kept_file(seed))
+  saveRDS(rows, kept_file(paste0(seed, "-fit")))
+}
+
+if (mode == "file") {
+  norms <- readRDS(kept_file(seed))$norms
   dir <- tempfile("norms")
   write_norms(norms, dir)
   say("file, KB", sum(file.size(list.files(dir, full.names = TRUE))) / 1024)
   time <- system.time(read <- read_norms(dir))
   say("reading, seconds elapsed, user", time[c(3, 1)])
-  saveRDS(rows, kept_file(paste0(seed, "-fit")))
+  patient <- simulate_cohort(1, data = data.frame(age = 20, sex = "male"), seed = 1)$sample[[1]]
+  z <- lapply(list(norms, read), function(one) assess(patient, one, 20, "male"))
+  say("largest difference of z after reading", max(
+    abs(z[[1]]$values$z - z[[2]]$values$z),
+    abs(z[[1]]$points$z_map - z[[2]]$points$z_map), abs(z[[1]]$points$z_scan - z[[2]]$points$z_scan)
+  ))
 }
 
 # New faces: data as fit_parts() has it, from a seed of their own.
@@ -107,7 +121,9 @@ looked_at <- function(norms, data, noise) {
     list(plain = own("scan_maps")(t, field$scan, age, group),
          widened = own("scan_maps")(t, field$scan, age, group, extra))
   }
+  columns <- own("expected_columns")(norms$surface$columns, age, group)
   list(z = z, se_norm = se_norm, map = apply(abs(map), 1, max), map_at = max.col(abs(map)),
+       p_tangential = own("tangential_parts")(norms$points, data$y, columns)$p,
        surface = scan("surface", data$y), asymmetry = scan("asymmetry", data$off))
 }
 
@@ -116,13 +132,17 @@ beyond <- function(maps, norms, name, kept = TRUE) {
   mean((apply(maps$largest, 1, max) > limit_of(norms[[name]]$scan$quantiles))[kept])
 }
 
-calibration <- function(norms, settings, faces) {
-  data <- new_faces(norms, settings, faces, 1000 + seed, ages = c(3, 40))
-  effective <- own("effective_faces")(norms, data$people$age, data$people$group)
-  range <- norms$ages[match(data$people$group, norms$ages$sex), ]
-  kept <- effective >= 10 & data$people$age >= range$from & data$people$age <= range$to
-  say("refused by effective number or age", mean(!kept), faces)
-  found <- looked_at(norms, data, settings$noise)
+# Which faces assess() does not refuse for their age.
+assessable <- function(parts, ages, people) {
+  effective <- own("effective_faces")(parts, people$age, people$group)
+  range <- ages[match(people$group, ages$sex), ]
+  kept <- effective >= 10 & people$age >= range$from & people$age <= range$to
+  say("refused by effective number or age", mean(!kept), length(kept))
+  kept
+}
+
+# z by kind, band of age and sex; tails of the measurements.
+calibrated_z <- function(found, data, kept) {
   kind <- ifelse(colnames(found$z) == "size", "size",
                  ifelse(grepl("^component ", colnames(found$z)), "components", "measurements"))
   band <- cut(data$people$age, c(3, 8, 13, 18, 40), include.lowest = TRUE)
@@ -141,6 +161,16 @@ calibration <- function(norms, settings, faces) {
   keep("tail", tails, sum(kept))
   say("tails of measurements, least, median, largest", stats::quantile(tails, c(0, 0.5, 1)),
       sum(kept))
+  say("tails within 0.02-0.03", mean(tails >= 0.02 & tails <= 0.03))
+}
+
+calibration <- function(norms, settings, faces) {
+  data <- new_faces(norms, settings, faces, 1000 + seed, ages = c(3, 40))
+  kept <- assessable(norms, norms$ages, data$people)
+  band <- cut(data$people$age, c(3, 8, 13, 18, 40), include.lowest = TRUE)
+  found <- looked_at(norms, data, settings$noise)
+  calibrated_z(found, data, kept)
+  say("along the surface: p above 0.05", mean(found$p_tangential[kept, ] > 0.05), sum(kept))
   limit <- if (norms$n < 200) NA else limit_of(norms$limits$map)
   say("family-wise: marginal map", mean(found$map[kept] > limit), sum(kept))
   say("family-wise: scan", beyond(found$surface$plain, norms, "surface", kept), sum(kept))
@@ -177,6 +207,50 @@ worse_scans <- function(norms, settings, faces) {
     say(sprintf("noise %g: measurements within 1.96, plain, widened", noise),
         c(mean(abs(found$z[, measured]) <= 1.96), mean(abs(wide) <= 1.96)), faces)
   }
+}
+
+# A norm of values alone, and z of new faces: what `calibration` says of z, without any scan.
+only_z <- function(faces) {
+  settings <- cohort_settings()
+  cohort <- simulate_cohort(n, seed = seed, settings = settings)
+  scheme <- cohort$sample$template$scheme
+  table <- face_measurements()
+  made <- own("norm_data")(cohort$sample, own("measurement_plan")(table, scheme), 1e-3, NULL)
+  made$off <- NULL
+  made$people <- own("norm_people")(~ s(age, by = sex), cohort$data, names(cohort$sample))
+  made$table <- table
+  made <- own("transformed_values")(made)
+  plan <- own("norm_plan")(norm_settings(), made$people)
+  parts <- own("fit_parts")(made, seq_len(n), plan)
+  scores <- function(y, people) {
+    own("field_scores")(parts$surface, y, people$age, people$group)
+  }
+  z_of <- function(fit, values, people) {
+    own("predicted_z")(values, own("expected_columns")(fit, people$age, people$group))
+  }
+  # Held out are mean and spread of the values; the components are those of all faces.
+  all <- cbind(made$values, scores(made$y, made$people))
+  fold <- integer(n)
+  fold[order(made$people$group, made$people$age)] <- rep_len(seq_len(plan$folds), n)
+  held <- lapply(seq_len(plan$folds), function(one) {
+    rows <- fold == one
+    fit <- own("smooth_columns")(all[!rows, ], made$people$age[!rows], made$people$group[!rows],
+                                 plan$size_values)
+    z_of(fit, all[rows, ], list(age = made$people$age[rows], group = made$people$group[rows]))
+  })
+  skew <- own("skew_table")(do.call(rbind, held))
+  transform <- c(made$transform, rep("as is", plan$components))
+  ages <- lapply(split(made$people$age, made$people$group), range)
+  ages <- data.frame(sex = names(ages), from = vapply(ages, `[`, 0, 1),
+                     to = vapply(ages, `[`, 0, 2))
+  data <- new_faces(list(points = made$points, measurements = made$table, ages = ages,
+                         table = data.frame(transform = transform)),
+                    settings, faces, 1000 + seed, ages = c(3, 40))
+  kept <- assessable(parts, ages, data$people)
+  values <- cbind(data$values, scores(data$y, data$people))
+  z <- own("straightened")(z_of(parts$values, values, data$people), skew)
+  calibrated_z(list(z = z), data, kept)
+  saveRDS(rows, kept_file(paste0(seed, "-z")))
 }
 
 # z of the same faces without noise, within 1.96 of their own standard errors.
@@ -276,9 +350,10 @@ timed <- function(norms, settings, faces) {
 }
 
 # Errors of two visits are those of `visit_settings(range = 8, share = 0.5)`.
-visits <- function(faces) {
+visits <- function(faces, only) {
   people <- data.frame(age = rep(25, faces), sex = "female")
   for (case in list(c(0, 15), c(3, 30), c(6, 45))) {
+    if (length(only) && case[1] != only) next
     lesion <- data.frame(height = case[1], radius = case[2], visit = 2)
     made <- lapply(list(c(0.15, 0), c(0.15, 8)), function(noise) {
       simulate_cohort(faces, data = people, lesions = lesion, visits = 2, seed = 100 + seed,
@@ -334,7 +409,9 @@ visit_row <- function(made, clean, i) {
     found = if (is.na(at)) NA else surface$called[at])
 }
 
-if (mode == "visits") visits(n)
+if (mode == "visits") visits(n, as.numeric(arguments[-(1:3)]))
+
+if (mode == "z") only_z(as.integer(arguments[4]))
 
 if (mode == "lone") {
   cohort <- simulate_cohort(n, ages = c(3, 25), seed = seed)
@@ -344,12 +421,23 @@ if (mode == "lone") {
   sample <- own("new_shape_sample")(shapes, cohort$sample$template,
                                     provenance = cohort$sample$provenance)
   data <- rbind(cohort$data, data.frame(id = "lone", age = 39, sex = "male", size = NA))
-  settings <- norm_settings(components = n %/% 50, folds = 2)
-  cat(tryCatch({
-    fit_norms(sample, ~ s(age, by = sex), data, share = TRUE, settings = settings,
-              progress = FALSE)
-    "NOT refused"
-  }, crestline_privacy = conditionMessage), "\n")
+  # What the errors say is done until nothing is refused.
+  settings <- norm_settings()
+  for (round in 1:5) {
+    refused <- tryCatch({
+      shared <- fit_norms(sample, ~ s(age, by = sex), data, share = TRUE, settings = settings,
+                          progress = FALSE)
+      NULL
+    }, crestline_privacy = conditionMessage)
+    if (is.null(refused)) break
+    cat("refused:", refused, "\n")
+    out <- names(sample)[vapply(names(sample), grepl, NA, x = refused, fixed = TRUE)]
+    fewer <- regmatches(refused, regexpr("components = [0-9]+", refused))
+    if (length(out)) sample <- sample[setdiff(names(sample), out)]
+    if (length(fewer)) settings$components <- as.integer(sub(".* ", "", fewer))
+    if (!length(out) && !length(fewer)) break
+  }
+  if (is.null(refused)) print(shared)
 }
 
 # Ages are invented: this shows that the machinery runs on measured, slid shapes, no more. Faces of

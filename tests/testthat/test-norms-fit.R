@@ -64,6 +64,9 @@ test_that("skew values are made normal", {
   skew <- skew_table(cbind(z, with_seed(2, stats::rnorm(2000))))
   expect_false(is.na(skew$skew_1[1]))
   expect_true(is.na(skew$skew_1[2]))
+  # A skewness of 0.2 alone puts 0.031 beyond 1.96 above.
+  mild <- with_seed(3, as.vector(scale(stats::rgamma(2000, 100))))
+  expect_false(is.na(skew_table(cbind(mild))$skew_1))
   straight <- straightened(cbind(z, 0), skew)[, 1]
   expect_equal(c(mean(straight > 1.96), mean(straight < -1.96)), c(0.025, 0.025), tolerance = 0.5)
   expect_lt(mean(z < -1.96), 0.005)
@@ -78,14 +81,42 @@ test_that("rules of privacy are kept", {
   expect_crestline_error(share(settings = small_settings()), c("3 components", "at most 1"))
   few <- small_settings()
   few$components <- 1L
-  expect_crestline_error(share(settings = few), c("lone person", "least 10"))
+  expect_crestline_error(share(settings = few), c("lone person", "least 5", "person "))
   counts <- data.frame(sex = "f", from = 3:8, to = 4:9, n = c(6, 1, 2, 3, 7, 2))
   merged <- merged_counts(counts)
   expect_true(all(merged$n >= 5) && sum(merged$n) == 21)
   expect_equal(merged$to[-nrow(merged)], merged$from[-1])
-  figures <- privacy_figures(data.frame(member = c(1, 2, 3), stranger = c(4, 5, 6)))
-  expect_equal(figures$auc, 1)
-  expect_equal(figures$ratio, sqrt(14 / 77), tolerance = 1e-3)
+  figures <- privacy_figures(data.frame(components = rep(c(8, 2), c(3, 2)), member = 1:5,
+                                        stranger = c(4, 5, 6, 3, 6)))
+  expect_equal(figures$components, c(8, 2))
+  expect_equal(figures$auc, c(1, 0.5))
+  expect_equal(figures$ratio, sqrt(c(14 / 77, 41 / 45)), tolerance = 1e-3)
+})
+
+test_that("what is refused for privacy says what helps", {
+  norms <- small_norms()
+  norms$privacy <- list(ratio = 0.94, auc = 0.58, least = 12)
+  fewer <- data.frame(components = c(20, 15, 10), ratio = c(0.94, 0.96, 0.97),
+                      auc = c(0.58, 0.57, 0.55))
+  expect_crestline_error(check_shared(norms, fewer), c("0.940", "components = 15", "0.960"))
+  expect_crestline_error(check_shared(norms, fewer[1, ]), "do not help")
+  norms$privacy$ratio <- 0.96
+  expect_message(check_shared(norms), "0.960")
+  norms$privacy$least <- 9
+  expect_crestline_error(check_shared(norms), c("9 faces", "share = TRUE"))
+})
+
+test_that("ages of a shared norm are cut where few faces are effective", {
+  norms <- small_norms()
+  people <- list(age = c(5, 6, 9, 10, 12, 15), group = factor(rep("female", 6)))
+  effective <- effective_faces(norms, people$age, people$group)
+  least <- sort(effective)[3] - 1e-6
+  own <- norms$ages$sex == "female"
+  expect_message(cut <- keep_shared_ages(norms, people, least), "Ages of female cut")
+  kept <- range(people$age[effective >= least])
+  expect_equal(unlist(cut$ages[own, c("from", "to")]), kept, ignore_attr = TRUE)
+  expect_equal(cut$ages[!own, ], norms$ages[!own, ])
+  expect_equal(cut$privacy$least, sort(effective)[3], tolerance = 1e-3)
 })
 
 test_that("what cannot be a norm is refused by name", {

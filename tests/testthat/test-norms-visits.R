@@ -14,8 +14,8 @@ test_that("a change is found where it is, and its size is right", {
   at <- which(paste(own$part, own$point) == "mid 4 3")
   expect_equal(own$change[at], 4, tolerance = 0.1)
   expect_true(own$called[at])
-  expect_equal(own$se[at], sqrt(2) * 0.1)
-  expect_equal(own$detectable[at], 1.96 * sqrt(2) * 0.1)
+  expect_equal(own$se[at], sqrt(2) * 0.1, tolerance = 0.1)
+  expect_equal(own$detectable, 1.96 * own$se)
   far <- as.matrix(stats::dist(own[c("x", "y", "z")]))[at, ] > 22
   expect_lt(max(abs(own$change[far])), 0.6)
   expect_true(found$converged)
@@ -65,25 +65,54 @@ test_that("without a change points are called as often as the level says", {
 })
 
 test_that("the limit is that of the largest of many errors", {
-  points <- data.frame(x = 1:40 * 100, y = 0, z = 0, score = 0)
-  free <- visit_limit(points, visit_settings())
+  points <- cbind(1:40 * 100, 0, 0)
+  limit <- function(settings) visit_limit(0.04 * together_at(points, settings), settings)
+  free <- limit(visit_settings())
   expect_equal(free, stats::qnorm((1 + 0.95^(1 / 40)) / 2))
   # Far apart, drawn errors are independent; close together, they are one.
-  drawn <- visit_limit(points, visit_settings(range = 1, draws = 4000))
-  expect_equal(drawn, free, tolerance = 0.04)
-  one <- visit_limit(points, visit_settings(range = 1e6, draws = 4000))
-  expect_equal(one, 1.96, tolerance = 0.05)
+  expect_equal(limit(visit_settings(range = 1, draws = 4000)), free, tolerance = 0.04)
+  expect_equal(limit(visit_settings(range = 1e6, draws = 4000)), 1.96, tolerance = 0.05)
   # A mean of errors that go together has their error.
-  own <- data.frame(level = "surface", part = "a", point = 1:4, x = 1:4, y = 0, z = 0, change = 1,
-                    se_growth = 0, se = 0.5, score = 2)
-  expect_equal(changed_parts(own, visit_settings())$se, 0.25)
-  expect_equal(changed_parts(own, visit_settings(range = 1e6))$se, 0.5, tolerance = 1e-6)
+  own <- data.frame(level = "surface", part = "a", point = 1:4, change = 1, se_growth = 0,
+                    score = 2)
+  part <- function(covariance) changed_parts(own, covariance, visit_settings())$se
+  expect_equal(part(diag(0.25, 4)), 0.25)
+  expect_equal(part(matrix(0.25, 4, 4)), 0.5)
+})
+
+test_that("errors of change are those of drawn errors after the registration", {
+  made <- two_visits(0)
+  settings <- visit_settings(range = 12, share = 0.6)
+  shape <- made$sample[[1]]
+  known <- list(before = shape, after = shape, grown = shape, error = NULL, settings = settings)
+  surface <- shape$points$level == "surface"
+  weight <- ifelse(surface, seq(0.5, 1, length.out = length(surface)), NA)
+  found <- change_covariance(known, weight)
+  own <- shape$points$level != "landmarks"
+  xyz <- point_columns(shape)[own, ]
+  normal <- row_normals(shape)[own, ]
+  at <- which(surface[own])
+  errors <- t(chol(together_at(xyz, settings) + diag(1e-9, nrow(xyz)))) * sqrt(2) * 0.1
+  change <- with_seed(1, vapply(1:3000, function(i) {
+    moved <- xyz + errors %*% matrix(stats::rnorm(length(xyz)), ncol = 3)
+    laid <- weighted_move(moved[at, ], xyz[at, ], weight[surface])(moved)
+    rowSums((laid - xyz) * normal)
+  }, numeric(nrow(xyz))))
+  expect_equal(sqrt(diag(found)), apply(change, 1, stats::sd), tolerance = 0.03)
+  expect_equal(sqrt(mean(found[at, at])), stats::sd(colMeans(change[at, ])), tolerance = 0.05)
+})
+
+test_that("without points in common there is no covariance", {
+  bare <- small_patient()
+  bare$points$se <- NA_real_
+  known <- list(before = bare, after = bare, error = NULL, settings = visit_settings())
+  expect_true(all(is.na(change_covariance(known, rep(NA, nrow(bare$points))))))
 })
 
 test_that("an error of growth is that of all points of a part alike", {
-  own <- data.frame(level = "surface", part = "a", point = 1:4, x = 1:4, y = 0, z = 0, change = 1,
-                    se_growth = 0.3, se = sqrt(0.5^2 + 0.3^2), score = 2)
-  expect_equal(changed_parts(own, visit_settings())$se, sqrt(0.25^2 + 0.3^2))
+  own <- data.frame(level = "surface", part = "a", point = 1:4, change = 1, se_growth = 0.3,
+                    score = 2)
+  expect_equal(changed_parts(own, diag(0.25, 4), visit_settings())$se, sqrt(0.25^2 + 0.3^2))
 })
 
 test_that("points without an error are not assessed, and said", {

@@ -52,8 +52,10 @@ test_that("damaged, foreign and newer folders are refused by name", {
   expect_crestline_error(read_norms(change("mean-surface.csv", "^1,", "2,")), "mean-surface.csv")
   expect_crestline_error(read_norms(change("norms.json", "\"n\": 120", "\"n\": 121")),
                          c("norms.json", "checksum"))
-  expect_crestline_error(read_norms(change("norms.json", "\"version\": 1", "\"version\": 9")),
+  expect_crestline_error(read_norms(change("norms.json", "\"version\": 2", "\"version\": 9")),
                          c("version 9", "Update"))
+  expect_crestline_error(read_norms(change("norms.json", "\"version\": 2", "\"version\": 1")),
+                         c("version 1", "Fit and write"))
   expect_crestline_error(read_norms(change("norms.json", "crestline-norms", "other")), "no norm")
   dir <- written()
   unlink(file.path(dir, "scan-surface.csv"))
@@ -75,6 +77,12 @@ test_that("numbers that no norm has are refused though the checksums fit", {
   norms <- small_norms()
   norms$surface$sd[4] <- 0
   expect_crestline_error(read_norms(written(norms)), "not above 0")
+  norms <- small_norms()
+  norms$surface$healing$at[1] <- 99L
+  expect_crestline_error(read_norms(written(norms)), "healing.csv")
+  norms <- small_norms()
+  norms$points$r_xy[3] <- 1.2
+  expect_crestline_error(read_norms(written(norms)), c("reference.csv", "correlations"))
 })
 
 test_that("pictures of an assessment show its maps", {
