@@ -82,6 +82,7 @@ new_faces <- function(norms, settings, count, seed, lesions = NULL, ages = c(4, 
   xyz <- drawn$visits[[1]]
   plan <- own("measurement_plan")(norms$measurements, template$scheme)
   measured <- t(own("measure_places")(plan, xyz))
+  colnames(measured) <- names(plan)
   logs <- norms$table$transform[1 + seq_len(ncol(measured))] == "log"
   measured[, logs] <- log(measured[, logs])
   reference <- as.matrix(norms$points[c("x", "y", "z")])
