@@ -19,12 +19,6 @@ refuse_flat <- function(id) {
               "Look at the mesh: it may be a line, a single point, or damaged.", id)
 }
 
-# The topology is kept with the mesh as long as the faces stay as they are.
-with_topology <- function(mesh) {
-  if (is.null(mesh$topology)) mesh$topology <- mesh_topology(mesh)
-  mesh
-}
-
 keep_faces <- function(mesh, keep) {
   if (all(keep)) return(mesh)
   mesh$it <- mesh$it[, keep, drop = FALSE]

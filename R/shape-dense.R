@@ -219,10 +219,3 @@ lattice_triangles <- function(lattice, columns, factor) {
   proper <- it[1, ] != it[2, ] & it[2, ] != it[3, ] & it[3, ] != it[1, ]
   list(it = unname(it[, proper, drop = FALSE]), quad = quad[proper])
 }
-
-# Triangles whose normal lies against those at their corners.
-flipped_triangles <- function(xyz, it, normals) {
-  corner <- function(x, i) x[it[i, ], , drop = FALSE]
-  own <- cross_rows(corner(xyz, 2) - corner(xyz, 1), corner(xyz, 3) - corner(xyz, 1))
-  which(rowSums(own * (corner(normals, 1) + corner(normals, 2) + corner(normals, 3))) < 0)
-}
