@@ -61,7 +61,7 @@
 #'   `missing = "stop"`.
 #' @section Samples in files: [align()] reads the files once a round, and writes the aligned points
 #'   to the folder `dir` of [align_settings()]. Points are not estimated there: with missing points
-#'   give `missing = "drop"`. Doubts are told of sizes, twins and specimens far from the mean, not
+#'   give `missing = "drop"`. Warnings concern sizes, twins and specimens far from the mean, not
 #'   of single points.
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
 #'   Of class `crestline_sample_doubt`: a specimen or point exceeds one of the [sample_limits()].

@@ -53,7 +53,7 @@
 #' specimens the default found a difference in size in 0.06 of samples less, and one in components
 #' in 0.03 less. T2, mean shape and points lost next to nothing. No test that holds its level under
 #' unequal spread has the pooled test's power for a single variable. Decide before the p-values are
-#' seen. `print()` says where it matters.
+#' seen. `print()` names the tests for which it matters.
 #'
 #' **Few regroupings.** A p-value by permutation is at least 1 / (`n_perm` + 1), and with all
 #' regroupings at least 1 over their number. With five specimens in each of two groups there are 252

@@ -25,7 +25,7 @@
 #' @return Invisibly a list: `code` (lines, the whole analysis) and `values` (list by name of what
 #'   it made, such as `shapes`, `sample`, `compared`).
 #' @section Errors: of class `crestline_error`: an argument is wrong, or a package is not installed.
-#'   What goes wrong on the page is said there.
+#'   Errors appear on the page.
 #' @template glossary
 #' @seealso [digitise()], [fit_shapes()], [quality_report()], [homologise()], [compare_groups()];
 #'   [run_command()] for a shell

@@ -22,7 +22,7 @@
 #'
 #' A scan that is worse than those of the norm is judged on a wider scale: its additional variance
 #' is added. The variance comes from the `se` of the points if at least half of the surface points
-#' have one; otherwise from the roughness of the face (`errors` tells which).
+#' have one; otherwise from the roughness of the face (`errors` names it).
 #'
 #' @section What a norm must not be used for:
 #' The result is no diagnosis. "real" means that the face differs from the norm by more than chance,

@@ -86,13 +86,13 @@ print.norm_settings <- function(x, ...) {
 #' correspondence; on real faces they are lower.
 #'
 #' @section Privacy:
-#' With `share = TRUE` a norm is refused that would tell too much of its people: more components
+#' With `share = TRUE` a norm is refused that would reveal its people: more components
 #' than a fiftieth of the faces; a person who decides more than a fifth of the mean at his or her
 #' age; a norm whose components fit its members better than strangers (ratio of residuals below
 #' 0.95, or area under the curve of membership above 0.60, both by held-out faces). The error names
 #' the faces to leave out, or the number of components that keeps the rule. Ages at which one person
-#' decides more than a tenth of the mean are cut from the norm's range, which is said. Counts below
-#' 5 are merged.
+#' decides more than a tenth of the mean are cut from the norm's range, and this is
+#' reported. Counts below 5 are merged.
 #'
 #' This is no formal (differential) privacy. Two norms whose samples differ by one person give that
 #' person's face by subtraction: publish rarely, and never "all but one".

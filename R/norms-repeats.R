@@ -78,8 +78,8 @@ visit_errors <- function(shapes, specimen = NULL, pool = 30, settings = repeat_s
 #'
 #' @param rounds How often the scans of a person are laid on their mean.
 #' @param bins,reach The correlation is fitted to its means in so many bins of distance, up to this
-#'   share of the greatest distance between points. Points farther apart tell nothing of a range.
-#' @param least Share of the variance that goes together below which none is said. A share of 0.02
+#'   share of the greatest distance between points. Points farther apart do not determine a range.
+#' @param least Least shared part of the variance for which a range is given. A share of 0.02
 #'   makes the standard error of the mean of 20 points a sixth larger.
 #' @param fewest Number of surface points, seen in all scans, from which on a correlation is fitted.
 #' @param ... Nothing: an unknown name is an error.

@@ -13,7 +13,7 @@
 #' With `norms`, the growth that they expect between the two ages is subtracted: the first visit is
 #' moved to the second age as if size, measurements and every point kept their z, and the second
 #' visit is compared with that. The standard error of this growth by the norm is added. A person's
-#' own growth differs from that. A norm of people who were seen once cannot tell by how much, so
+#' own growth differs from that. A norm of people who were seen once does not show by how much, so
 #' that it is not in the errors. Points of curves that are not on the surface grow as the nearest
 #' surface point.
 #'

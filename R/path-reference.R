@@ -45,10 +45,10 @@
 #'
 #'   On faces the plane cut is the better choice: a faint feature loses to stronger ones beside it.
 #'   `competing` is the cost of the path as a share of that of the best other path. `optima` and
-#'   `angle` are absent. Of a closed path `competing` does not tell whether it is the right loop:
+#'   `angle` are absent. Of a closed path `competing` is no sign of the right loop:
 #'   the other path has to pass the same stops. On a skull it was 0.03 to 0.40 of right loops, and
-#'   0.16 of a wrong one. `determined` of [ridge_curve()] tells a wrong loop if it runs twice over,
-#'   closes in on itself, or is much longer than its stops are apart.
+#'   0.16 of a wrong one. `determined` of [ridge_curve()] is `FALSE` for a wrong loop if it runs
+#'   twice over, closes in on itself, or is much longer than its stops are apart.
 #' @section Errors: of class `crestline_path_error`: no plane cut joins the points; a closed path
 #'   has no `via`.
 #' @section Warnings: of class `crestline_rival_path`: another optimum is nearly as good; the

@@ -17,7 +17,7 @@
 #' * *Patches*: choose two curves and a number of rows, and press "Bound". The columns of the patch
 #'   join their points.
 #' * *Pairs*: "Pairs" proposes the left-right pairs. It takes the plane that mirrors most landmarks
-#'   onto each other. Names that end in L and R tell the sides; else the landmark that was placed
+#'   onto each other. Names that end in L and R give the sides; else the landmark that was placed
 #'   first is left.
 #' * "Undo" takes any step back. "Save" writes the folder. "Done" ends the page.
 #'
@@ -38,7 +38,7 @@
 #'   beginning. `fit_shape(built$specimen, built$scheme)` measures what the page showed, with
 #'   standard errors.
 #' @section Errors: of class `crestline_error`: an argument is wrong, or the package shiny is not
-#'   installed. What cannot be done on the page is said there.
+#'   installed. If a step fails, the page gives the reason.
 #' @template glossary
 #' @seealso [suggest_landmarks()], [check_scheme()], [write_scheme()], [review_landmarks()]
 #' @examplesIf interactive() && requireNamespace("shiny", quietly = TRUE)

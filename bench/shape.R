@@ -4,6 +4,12 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R [times = 5]
 #   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R refined (a process of its own, for its
 #   peak memory)
+#   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R raw [times = 5]
+#
+# "raw": from the file of the scan, without landmarks, to the model. Processor time (user and system)
+# and elapsed time of each step: `door` is read_specimen(), `scheme` face_scheme(), `find`
+# find_landmarks(), `fit` fit_shape() with standard errors and checks. A first round warms the
+# session; its scheme is the one that reads the tables.
 #
 # scan_a as read; the refined one has every triangle divided into four, twice (1,291,985 vertices).
 # The method's authors' own software takes over 460 s for the 40 curves of scan_a (measured once,
@@ -13,6 +19,39 @@ library(crestline)
 
 folder <- file.path(Sys.getenv("CRESTLINE_SHARED"), "scan_a")
 mode <- c(commandArgs(TRUE), "5")[1]
+
+# Seconds of each step from the file of a scan to its model.
+raw_steps <- function(threads) {
+  took <- function(code) {
+    time <- system.time(code)
+    c(processor = time[["user.self"]] + time[["sys.self"]], elapsed = time[["elapsed"]])
+  }
+  found <- scan <- scheme <- NULL
+  suppressWarnings(cbind(
+    door = took(scan <- read_specimen(file.path(folder, "surface.ply"), id = "scan_a")),
+    scheme = took(scheme <- face_scheme()),
+    find = took(found <- find_landmarks(scan, threads = threads)),
+    fit = took(fit_shape(found, scheme, threads = threads, progress = FALSE))
+  ))
+}
+
+if (mode == "raw") {
+  times <- as.integer(c(commandArgs(TRUE), "5")[2])
+  cat("first round of the session, one thread:\n")
+  print(round(raw_steps(1L), 3))
+  for (threads in 1:2) {
+    each <- replicate(times, raw_steps(threads))
+    each <- simplify2array(list(apply(each, 1:2, stats::median), apply(each, 1:2, min)))
+    dimnames(each)[[3]] <- c("median", "least")
+    cat(sprintf("%d thread%s, %d rounds:\n", threads, if (threads > 1) "s" else "", times))
+    for (kind in dimnames(each)[[3]]) {
+      cat(kind, "\n")
+      print(round(cbind(each[, , kind], all = rowSums(each[, , kind])), 3))
+    }
+  }
+  quit("no")
+}
+
 scheme <- face_scheme()
 scan <- suppressWarnings(read_specimen(file.path(folder, "surface.ply"),
                                        file.path(folder, "landmarks.csv"), id = "scan_a"))
