@@ -2,7 +2,8 @@
 # display, and how far colours are apart for three kinds of vision.
 #   Rscript bench/pages.R time FOLDER     a face's page in headless Chromium (needs chromote)
 #   Rscript bench/pages.R engines         every example of pictures, with "widget" and "picture"
-#   Rscript bench/pages.R vignettes [NAME ...]   every vignette of pictures, likewise (needs pandoc)
+#   Rscript bench/pages.R vignettes [widget|picture] [NAME ...]   every vignette of pictures, likewise
+#     (needs pandoc)
 #   Rscript bench/pages.R colours         least CIE 1976 distance of any two colours
 suppressPackageStartupMessages(library(crestline))
 options(rgl.useNULL = TRUE)
@@ -69,7 +70,10 @@ run_examples <- function() {
 }
 
 # The vignettes that draw, rendered in R processes without a display, all pictures by one engine.
-render_vignettes <- function(names, engines = c("widget", "picture")) {
+render_vignettes <- function(arguments) {
+  engines <- intersect(c("widget", "picture"), arguments)
+  if (!length(engines)) engines <- c("widget", "picture")
+  names <- setdiff(arguments, engines)
   stopifnot(!nzchar(Sys.getenv("DISPLAY")), !nzchar(Sys.which("Xvfb")))
   files <- list.files("vignettes", "[.]Rmd$", full.names = TRUE)
   if (length(names)) files <- file.path("vignettes", paste0(names, ".Rmd"))
@@ -110,5 +114,6 @@ print_colours <- function() {
 arguments <- commandArgs(trailingOnly = TRUE)
 switch(c(arguments, "")[1],
        time = measure_time(c(arguments[-1], tempfile())[1]),
-       engines = run_examples(), vignettes = render_vignettes(arguments[-1]), colours = print_colours(),
+       engines = run_examples(), vignettes = render_vignettes(arguments[-1]),
+       colours = print_colours(),
        stop("say time, engines, vignettes or colours"))
