@@ -174,7 +174,7 @@ scene_xml <- function(nodes) {
 check_scalars <- function(values, n) {
   named <- is.list(values) && !is.data.frame(values) && length(values) == length(names(values)) &&
     all(grepl("^[A-Za-z][A-Za-z0-9_]*$", names(values)))
-  if (length(values) && !named) {
+  if (!is.list(values) || length(values) && !named) {
     refuse_argument("values", values, "Give a list with names of letters and digits.")
   }
   for (name in names(values)) {

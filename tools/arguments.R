@@ -11,7 +11,10 @@ options(rgl.useNULL = TRUE)
 suppressPackageStartupMessages(library(crestline))
 arguments <- commandArgs(TRUE)
 script <- sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))
-source(file.path(dirname(script), "..", "tests", "testthat", "helper-arguments.R"))
+# As the tests have it: with what the package does not export.
+table <- new.env(parent = asNamespace("crestline"))
+sys.source(file.path(dirname(script), "..", "tests", "testthat", "helper-arguments.R"), table)
+for (name in c("argument_calls", "try_arguments", "leaks_of")) assign(name, table[[name]])
 
 # The child's work, on a file.
 if (identical(arguments[1], "--child")) {
