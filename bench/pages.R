@@ -1,7 +1,7 @@
 # Pages and pictures in a browser: how long until the first picture, which examples draw without a
 # display, and how far colours are apart for three kinds of vision.
 #   Rscript bench/pages.R time FOLDER     a face's page in headless Chromium (needs chromote)
-#   Rscript bench/pages.R engines         every example of pictures, with "widget" and "picture"
+#   Rscript bench/pages.R engines [NAME ...]   every example of pictures, with "widget" and "picture"
 #   Rscript bench/pages.R vignettes [widget|picture] [NAME ...]   every vignette of pictures, likewise
 #     (needs pandoc)
 #   Rscript bench/pages.R colours         least CIE 1976 distance of any two colours
@@ -47,12 +47,13 @@ measure_time <- function(folder) {
 }
 
 # The examples of all help pages that draw, in R processes without a display.
-run_examples <- function() {
+run_examples <- function(wanted) {
   stopifnot(!nzchar(Sys.getenv("DISPLAY")), !nzchar(Sys.which("Xvfb")))
   pages <- tools::Rd_db("crestline")
   draws <- c("draw_surface|plot[.]|write_page|write_pca_page|plot_curves|plot_shape_scale",
-             "write_picture|quality_report|write_glb|suggest_landmarks")
+             "write_picture|quality_report|write_glb|suggest_landmarks|write_slicer|shape_category")
   topics <- grep(paste(draws, collapse = "|"), names(pages), value = TRUE)
+  if (length(wanted)) topics <- intersect(topics, paste0(wanted, ".Rd"))
   for (engine in c("widget", "picture")) for (topic in topics) {
     code <- utils::capture.output(tools::Rd2ex(pages[[topic]], commentDontrun = TRUE))
     code <- gsub("engine = \"picture\"", sprintf("engine = \"%s\"", engine), code, fixed = TRUE)
@@ -114,6 +115,6 @@ print_colours <- function() {
 arguments <- commandArgs(trailingOnly = TRUE)
 switch(c(arguments, "")[1],
        time = measure_time(c(arguments[-1], tempfile())[1]),
-       engines = run_examples(), vignettes = render_vignettes(arguments[-1]),
+       engines = run_examples(arguments[-1]), vignettes = render_vignettes(arguments[-1]),
        colours = print_colours(),
        stop("say time, engines, vignettes or colours"))
