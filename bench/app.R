@@ -111,7 +111,8 @@ writeLines(c(readLines(code), sprintf("saveRDS(list(compared = compared, sample 
 status <- system2(file.path(R.home("bin"), "Rscript"), code, stdout = FALSE, stderr = FALSE)
 fresh <- readRDS(again)
 print(data.frame(
-  minutes = minutes, width = size[1], scroll_width = wide, found = finds, bars_seen = bars > 0, measured = length(result$values$sample),
+  minutes = minutes, width = size[1], scroll_width = wide, found = finds, bars_seen = bars > 0,
+  measured = length(result$values$sample),
   files = paste(files, collapse = " "), fresh_status = status,
   same_points = identical(as.array(fresh$sample), as.array(result$values$sample)),
   same_tests = identical(fresh$compared$tests, result$values$compared$tests)

@@ -204,7 +204,8 @@ session <- function(width, port) {
     array = paste(dim(array), collapse = " x "),
     off_goal = max(abs(array[marks, , "one"] - goal[marks, ])),
     off_ridge = max(off), said = own$reason[1], from_files = taken[1],
-    same_as_files = max(abs(coords(measured$one, "curves") - coords(shape, "curves")), na.rm = TRUE),
+    same_as_files = max(abs(coords(measured$one, "curves") - coords(shape, "curves")),
+                        na.rm = TRUE),
     gpagen = superimposed(array[marks, , ]),
     observers_apart = mean(sqrt(rowSums((geomorph[, , "one AB"] - geomorph[, , "one CD"])^2))),
     error = max(agreed$parts$error)

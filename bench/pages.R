@@ -1,9 +1,9 @@
 # Pages and pictures in a browser: how long until the first picture, which examples draw without a
 # display, and how far colours are apart for three kinds of vision.
 #   Rscript bench/pages.R time FOLDER     a face's page in headless Chromium (needs chromote)
-#   Rscript bench/pages.R engines [NAME ...]   every example of pictures, with "widget" and "picture"
-#   Rscript bench/pages.R vignettes [widget|picture] [NAME ...]   every vignette of pictures, likewise
-#     (needs pandoc)
+#   Rscript bench/pages.R engines [NAME ...]   every example of pictures, by "widget" and "picture"
+#   Rscript bench/pages.R vignettes [widget|picture] [NAME ...]   every vignette of pictures (needs
+#     pandoc)
 #   Rscript bench/pages.R colours         least CIE 1976 distance of any two colours
 suppressPackageStartupMessages(library(crestline))
 options(rgl.useNULL = TRUE)
@@ -106,7 +106,8 @@ print_colours <- function() {
   source("tests/testthat/helper-colours.R", local = TRUE)
   ours <- asNamespace("crestline")
   sets <- list("shape index" = ours$shape_scale(ours$check_shape_palette(NULL))$colour,
-               "shape index, paper" = ours$shape_palettes$paper, "kinds of curve" = ours$kind_colours,
+               "shape index, paper" = ours$shape_palettes$paper,
+               "kinds of curve" = ours$kind_colours,
                grades = ours$grade_colours, "states of landmarks" = ours$review_colours()$state,
                "two groups" = eval(formals(ours$plot.group_comparison)$colour))
   print(round(t(vapply(sets, least_difference, numeric(3)))))
